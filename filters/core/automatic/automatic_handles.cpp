@@ -1,5 +1,5 @@
-// Sorts the surface by coordinates, so that nothing depends on the order in which it is stored, and
-// hands it on; then looks at whether the bones are where they should be.
+// The surface is sorted by coordinates, so that nothing depends on its storage order, and passed to
+// the kernel of the method. Then the positions of the bones are checked.
 #include "automatic/automatic_handles.h"
 
 #include "surface/vertex_order.h"
@@ -19,13 +19,13 @@ const char* to_string(AutomaticMethod method)
 
 namespace
 {
-/// Vertices by coordinates, each place once, those that no triangle uses left out; triangles by
-/// vertices, the lowest first.
+/// Used vertices sorted by coordinates, without duplicates, and triangles sorted by vertices, the
+/// lowest vertex first.
 struct SortedSurface
 {
   Points points;
   Triangles triangles;
-  std::vector<Index> original; ///< the lowest id among the equal ones
+  std::vector<Index> original; ///< the lowest id of the equal vertices
 };
 
 SortedSurface sorted(PointsView points, TrianglesView triangles)
@@ -94,7 +94,7 @@ Status make_points(const SortedSurface& surface, const SpreadPointsOptions& opti
   return status;
 }
 
-/// How many joints are not within the shape, and how many bones leave it on their way.
+/// Count the joints that are outside the shape and the bones that leave it between their ends.
 void look_inside(
   const SkeletonBones& bones, const std::function<bool(const Vec3&)>& inside, Status& told)
 {

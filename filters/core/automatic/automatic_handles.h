@@ -8,39 +8,41 @@
 namespace bindpose
 {
 
-/// The order is the one vtkAutomaticHandles exposes.
+/// vtkAutomaticHandles exposes the same order.
 enum class AutomaticMethod
 {
-  skeleton, ///< bones along the shape's curve skeleton
+  skeleton, ///< bones along the curve skeleton of the shape
   points ///< points spread over the shape
 };
 
-/// "skeleton", "points".
+/// Return "skeleton" or "points".
 const char* to_string(AutomaticMethod method);
 
 struct AutomaticHandlesOptions
 {
   AutomaticMethod method = AutomaticMethod::skeleton;
-  CurveSkeletonOptions skeleton; ///< of method skeleton
-  SkeletonBonesOptions bones; ///< of method skeleton; its `inside` is set
-  SpreadPointsOptions points; ///< of method points
+  CurveSkeletonOptions skeleton; ///< for method skeleton
+  SkeletonBonesOptions bones; ///< for method skeleton; `inside` is overwritten
+  SpreadPointsOptions points; ///< for method points
 };
 
-/// Handles of a shape without a hand: bones along its curve skeleton (curve_skeleton.h,
-/// skeleton_bones.h), or points spread over it (spread_points.h), for surfaces as unclean as they
-/// come.
+/// Create handles of a shape automatically: bones along its curve skeleton (curve_skeleton.h,
+/// skeleton_bones.h), or points spread over it (spread_points.h). The surface may have any defects.
 ///
-/// The same shape gives the same handles, whatever the order of its vertices and triangles: they
-/// are sorted by their coordinates first.
+/// The same shape gives the same handles for any order of its vertices and triangles, because these
+/// are first sorted by their coordinates.
 ///
-/// Report: method, counts.handles, handles[].name, handles[].kind. Of skeleton what curve_skeleton
-/// reports, counts.skeleton_points, counts.joints, counts.junctions, counts.joints_outside (whose
-/// winding number by the closed surface is below 0.5; a warning says so),
-/// counts.bones_outside (that leave it on their way, at one of 15 places between their ends),
-/// counts.cut_cycles, counts.pruned_branches, counts.merged_branches. Of points counts.components,
-/// counts.served_components, counts.points_inside, distance, and handles[].vertex, the vertex of
-/// the input that each was chosen at.
-/// Errors and cost: theirs.
+/// Report:
+/// - method, counts.handles, handles[].name, handles[].kind
+/// - for method skeleton: the report of curve_skeleton, counts.skeleton_points, counts.joints,
+///   counts.junctions, counts.cut_cycles, counts.pruned_branches, counts.merged_branches
+/// - counts.joints_outside: joints with a winding number of the closed surface below 0.5; there is
+///   a warning if there are any
+/// - counts.bones_outside: bones that leave the closed surface at one of 15 points between their
+///   ends
+/// - for method points: counts.components, counts.served_components, counts.points_inside,
+///   distance, and handles[].vertex, the input vertex at which each point was chosen
+/// Errors and cost are those of the kernels above.
 Status automatic_handles(PointsView points, TrianglesView triangles,
   const AutomaticHandlesOptions& options, Handles& handles, ExecutionContext& context);
 

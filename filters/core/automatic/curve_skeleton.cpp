@@ -1,6 +1,7 @@
-// The helper contracts (mesher/skeleton_job.cpp) in a frame around the origin. Here the closed
-// surface that it needs is found, and its result checked and measured: how far each point of the
-// skeleton is from the surface, which component it is in, and where that has its centroid.
+// The helper contracts the surface (mesher/skeleton_job.cpp) in a frame around the origin. This
+// file computes the closed surface that the helper needs, and checks the result. It also computes
+// the distance of each point of the skeleton from the surface, its component, and the component's
+// centroid.
 #include "automatic/curve_skeleton.h"
 
 #include "base/number_text.h"
@@ -34,11 +35,11 @@ Status check_options(const CurveSkeletonOptions& options)
   return check_limits(options.time_limit, options.memory_limit);
 }
 
-/// Decimating a clean surface with more triangles than this per contracted one takes longer than a
-/// lattice.
+/// If a clean surface has more triangles than this per contracted triangle, decimating it takes
+/// longer than a lattice.
 constexpr Index dense = 10;
 
-/// A closed surface of what the given one encloses, without its hollows filled.
+/// Compute a closed surface of the volume that the given surface encloses. Hollows are not filled.
 Status close_surface(PointsView points, TrianglesView triangles,
   const CurveSkeletonOptions& options, TriangleMesh& solid, ExecutionContext& context)
 {
@@ -66,7 +67,7 @@ Status close_surface(PointsView points, TrianglesView triangles,
   status.report.set("surface", "lattice");
   ThickSolidOptions thick;
   thick.winding_threshold = options.winding_threshold;
-  // Parts of an unclean surface are meant to be one shape. A clean one keeps its gaps.
+  // The parts of an unclean surface are one shape. A clean surface keeps its gaps.
   thick.join_near_parts = !clean;
   thick.triangles = (clean ? 4 : 2) * options.triangles;
   const ProgressRange range(context, 0.6, 1.0);
@@ -78,14 +79,15 @@ Status close_surface(PointsView points, TrianglesView triangles,
   return status;
 }
 
-/// A solid component with what its mass needs.
+/// A component with a volume, and its center of mass.
 struct Solid
 {
   Triangles triangles;
   Vec3 centroid = Vec3::Zero();
 };
 
-/// The centroid of what closed triangles enclose: that of cones from a point of their own.
+/// Return the centroid of the volume that closed triangles enclose, from cones with their apex at
+/// one of the vertices.
 Vec3 centroid_of_mass(PointsView points, TrianglesView triangles)
 {
   const Vec3 apex = points.row(triangles(0, 0));
@@ -103,7 +105,7 @@ Vec3 centroid_of_mass(PointsView points, TrianglesView triangles)
   return volume != 0.0 ? Vec3(apex + moment / volume) : apex;
 }
 
-/// Components that enclose something, hollows left out.
+/// Return the components with a positive volume, without hollows.
 std::vector<Solid> solids_of(const TriangleMesh& surface)
 {
   const Components components =
@@ -131,7 +133,7 @@ std::vector<Solid> solids_of(const TriangleMesh& surface)
   return solids;
 }
 
-/// Components of the skeleton, numbered by their first points.
+/// Return the components of the skeleton, numbered by their first points.
 std::vector<Index> parts_of(const CurveSkeleton& skeleton, Index& count)
 {
   std::vector<std::vector<Index>> next(static_cast<std::size_t>(skeleton.points.rows()));
@@ -168,8 +170,8 @@ std::vector<Index> parts_of(const CurveSkeleton& skeleton, Index& count)
   return part;
 }
 
-/// radii, part_of and centroids: each part belongs to the solid that its widest point is nearest
-/// to.
+/// Compute radii, part_of and centroids. Each part of the skeleton belongs to the solid nearest to
+/// its widest point.
 void measure(const TriangleMesh& surface, CurveSkeleton& skeleton)
 {
   const double any = std::numeric_limits<double>::infinity();
@@ -204,7 +206,7 @@ void measure(const TriangleMesh& surface, CurveSkeleton& skeleton)
   }
 }
 
-/// Each pair of points once, none with itself.
+/// Remove duplicate segments and segments with two equal ends.
 Segments tidy(const Segments& segments)
 {
   std::set<std::array<Index, 2>> pairs;

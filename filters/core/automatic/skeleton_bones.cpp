@@ -1,6 +1,6 @@
-// A graph of places with neighbours. Cutting, pruning and contracting only ever remove vertices and
-// edges, so that what is left of a component is connected, and after the cuts a tree. Branches are
-// read off anew after each step: skeletons have some thousand points and a few dozen branches.
+// The skeleton is a graph of points. Cutting, pruning and contracting keep each component
+// connected, and after the cuts it is a tree. Branches are recomputed after each step: a skeleton
+// has some thousand points and a few dozen branches.
 #include "automatic/skeleton_bones.h"
 
 #include "base/number_text.h"
@@ -20,7 +20,7 @@ namespace
 {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// From joint to joint, all points between them included.
+/// A path from joint to joint, with all points between them.
 struct Branch
 {
   std::vector<Index> path;
@@ -70,7 +70,7 @@ public:
   Index degree(Index v) const { return static_cast<Index>(this->next_[v].size()); }
   bool joint(Index v) const { return this->alive(v) && (this->degree(v) != 2 || this->held(v)); }
 
-  /// Of the vertices that are joints (or, where none is, of all), the one nearest to the centroid.
+  /// Return the joint nearest to the centroid, or the nearest vertex if there is no joint.
   Index nearest_joint(Index part) const
   {
     Index best = -1;
@@ -95,7 +95,8 @@ public:
     return best;
   }
 
-  /// Keeps a tree of shortest ways from a held root where there are cycles. @return how many.
+  /// If the component has cycles, reduce it to a tree of shortest paths from a held root. @return
+  /// the number of cycles.
   Index cut_cycles(Index part)
   {
     Index vertices = 0;
@@ -181,7 +182,7 @@ public:
           before = at;
           at = on;
         }
-        // Each is met from both its ends.
+        // Each branch is found from both of its ends.
         if (branch.path.front() < branch.path.back())
         {
           all.push_back(std::move(branch));
@@ -191,7 +192,7 @@ public:
     return all;
   }
 
-  /// Removes a branch but for its junction, path.back() or path.front().
+  /// Remove a branch except its junction, which is path.back() or path.front().
   void prune(const Branch& branch)
   {
     const bool keep_front = this->degree(branch.path.front()) > 1;
@@ -205,7 +206,7 @@ public:
     }
   }
 
-  /// Removes what is outside of the shape at a branch's free ends, but for one piece.
+  /// Remove the points outside the shape at a branch's free ends, but keep at least one segment.
   void trim(const Branch& branch)
   {
     std::vector<Index> path = branch.path;
@@ -222,10 +223,10 @@ public:
     }
   }
 
-  /// Makes a branch between junctions one point in its middle.
+  /// Contract a branch between junctions to one point in its middle.
   void contract(const Branch& branch)
   {
-    // A root stays where it is.
+    // A root does not move.
     const Index a = this->held(branch.path.back()) ? branch.path.back() : branch.path.front();
     const Index b = a == branch.path.front() ? branch.path.back() : branch.path.front();
     const std::set<Index> others = this->next_[b];
@@ -257,7 +258,7 @@ public:
     this->radii_[a] = std::max(this->radii_[a], this->radii_[b]);
   }
 
-  /// Leaves one vertex of a component, its widest.
+  /// Remove all vertices of a component except the widest one.
   void collapse(Index part)
   {
     Index widest = -1;
@@ -296,15 +297,15 @@ private:
 
   std::vector<std::set<Index>> next_;
   std::vector<char> alive_;
-  std::vector<char> held_; ///< roots: joints, whatever their degree
+  std::vector<char> held_; ///< roots, which are joints even with degree 2
   std::vector<Vec3> places_;
   std::vector<double> radii_;
   const CurveSkeleton& skeleton_;
   const std::function<bool(const Vec3&)>& inside_;
 };
 
-/// Length of a branch in half thicknesses of where it begins: below 1 it does not get out of the
-/// ball there. Infinite for one that must stay.
+/// Return the length of a branch relative to half of the thickness at its start, or infinity if the
+/// branch must be kept. A branch with a value below 1 does not leave the ball there.
 double reach(const Graph& graph, const Branch& branch, bool& inner)
 {
   const Index a = branch.path.front();
@@ -317,7 +318,7 @@ double reach(const Graph& graph, const Branch& branch, bool& inner)
   {
     if (graph.degree(a) < least || graph.degree(b) < least)
     {
-      return infinite; // a root within a branch
+      return infinite; // a root inside a branch
     }
     thickness = std::max(graph.radius(a), graph.radius(b));
   }
@@ -328,7 +329,8 @@ double reach(const Graph& graph, const Branch& branch, bool& inner)
   return thickness > 0.0 ? branch.length / thickness : infinite;
 }
 
-/// Balls: components whose whole curve is within their thickness.
+/// Collapse components that are balls: their whole curve is at most `prune` times as long as half
+/// of their thickness.
 void collapse_balls(Graph& graph, Index parts, double prune)
 {
   std::vector<double> length(static_cast<std::size_t>(parts), 0.0);
@@ -351,7 +353,7 @@ void collapse_balls(Graph& graph, Index parts, double prune)
   }
 }
 
-/// Prunes and contracts what is short, then what is too much.
+/// Prune and contract short branches, then prune branches beyond maximum_bones.
 void simplify(Graph& graph, const SkeletonBonesOptions& options, SkeletonBones& result)
 {
   for (;;)
@@ -404,12 +406,12 @@ void simplify(Graph& graph, const SkeletonBonesOptions& options, SkeletonBones& 
   }
 }
 
-/// A piece of a branch that one bone stands for.
+/// A piece of a branch that is represented by one bone.
 struct Piece
 {
   std::vector<Index> path;
-  double need = 0.0; ///< to be split: above 1 a bound is not kept
-  std::size_t at = 0; ///< where in the path it would be
+  double need = 0.0; ///< a piece with a value above 1 violates a bound and must be split
+  std::size_t at = 0; ///< index in the path at which the piece would be split
 };
 
 Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, double longest)
@@ -421,7 +423,7 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   const double squared = chord.squaredNorm();
   double length = 0.0;
   std::vector<double> along{ 0.0 };
-  constexpr double slight = 0.25; // of the tolerance
+  constexpr double slight = 0.25; // fraction of the tolerance
   double farthest = slight * tolerance;
   for (std::size_t i = 1; i < piece.path.size(); ++i)
   {
@@ -431,7 +433,7 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
     const double t =
       squared > 0.0 ? std::min(std::max((p - head).dot(chord) / squared, 0.0), 1.0) : 0.0;
     const double distance = (p - head - t * chord).norm();
-    // A joint must be within the shape.
+    // A joint must be inside the shape.
     if (distance > farthest && graph.holds(p))
     {
       farthest = distance;
@@ -440,7 +442,7 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   }
   if (piece.path.size() < 3)
   {
-    return piece; // nothing to split at
+    return piece; // there is no point at which to split
   }
   if (piece.at > 0)
   {
@@ -467,8 +469,8 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   return piece;
 }
 
-/// A branch without what lies in the balls of its junctions: how the curve gets from limb to limb
-/// within the thickness is no bend.
+/// Return a branch without the points in the balls of its junctions. Within the thickness, the
+/// curve's turn from limb to limb is not a bend.
 std::vector<Index> outside_of_junctions(const Graph& graph, const std::vector<Index>& path)
 {
   std::vector<Index> kept{ path.front() };
@@ -513,7 +515,7 @@ std::vector<Piece> split(const Graph& graph, double tolerance, double longest, I
   return pieces;
 }
 
-/// Length times squared radius: an estimate of the volume around a piece.
+/// Return length times squared radius, an estimate of the volume around a piece.
 double volume_of(const Graph& graph, const Piece& piece)
 {
   double sum = 0.0;
@@ -567,7 +569,7 @@ public:
           last_bone > first_bone ? last_bone : static_cast<Index>(this->result_.handles.size());
       }
     }
-    for (Index h = 0; h < first_bone; ++h) // balls
+    for (Index h = 0; h < first_bone; ++h) // points
     {
       this->result_.handles[h].parent =
         this->nearest(this->result_.handles[h].head, first_bone, last_bone);
@@ -627,8 +629,8 @@ private:
     this->result_.junctions += this->at_[v].size() >= 3 ? 1 : 0;
   }
 
-  /// Create the bones of one component. The bone with the largest volume at the root is the trunk:
-  /// the parent of the others there.
+  /// Create the bones of one component. The bone with the largest volume at the root is the parent
+  /// of the other bones there.
   void grow(Index root, Index carrier)
   {
     std::vector<Index>& first = this->at_[root];
@@ -641,7 +643,7 @@ private:
     const auto trunk = static_cast<Index>(this->result_.handles.size());
     this->result_.roots.push_back(static_cast<Index>(this->joints_.size()));
     this->add_joint(root);
-    std::queue<std::pair<Index, Index>> open; // a joint, and the handle that leads to it
+    std::queue<std::pair<Index, Index>> open; // a joint and the handle whose tail it is
     open.push({ root, trunk });
     while (!open.empty())
     {
@@ -673,8 +675,8 @@ private:
   const Graph& graph_;
   const std::vector<Piece>& pieces_;
   SkeletonBones& result_;
-  std::vector<std::vector<Index>> at_; ///< pieces of a joint
-  std::vector<char> done_; ///< of pieces
+  std::vector<std::vector<Index>> at_; ///< pieces at each joint
+  std::vector<char> done_; ///< per piece
   std::vector<Vec3> joints_;
   Index bones_ = 0;
 };

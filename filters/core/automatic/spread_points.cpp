@@ -1,6 +1,7 @@
-// Keeps, for each vertex, the distance to the nearest chosen point of its component; the next point
-// is where that is largest. Along edges a new point only changes what is nearer to it than to all
-// others: Dijkstra's algorithm from there, which stops where it brings nothing.
+// For each vertex, the distance to the nearest chosen point of its component is stored. The next
+// point is the vertex with the largest distance. Along edges, a new point only changes vertices
+// that are nearer to it than to all other points. Dijkstra's algorithm from the new point stops at
+// vertices whose distance it does not reduce.
 #include "automatic/spread_points.h"
 
 #include "base/number_text.h"
@@ -109,7 +110,7 @@ public:
 private:
   void find_components()
   {
-    // Of all vertices, used or not, but those that are nowhere.
+    // Weld all finite vertices, used or not.
     std::vector<char> finite(static_cast<std::size_t>(this->points_.rows()));
     for (Index v = 0; v < this->points_.rows(); ++v)
     {
@@ -171,7 +172,8 @@ private:
     }
   }
 
-  /// Whose turn it is: one each for those that are not crumbs, then by area. Null: all are full.
+  /// Return the component of the next point: first one point for each component that is not tiny,
+  /// then by area. Return null if all are full.
   Component* next_component()
   {
     constexpr double crumb = 0.01;
@@ -196,7 +198,7 @@ private:
     return best;
   }
 
-  /// The vertex of a component farthest from its points, -1 when it has no other.
+  /// Return the vertex of a component farthest from its points, or -1 if all vertices are chosen.
   Index farthest(const Component& component) const
   {
     Vec3 centroid = Vec3::Zero();
@@ -229,11 +231,11 @@ private:
     return this->winding_.evaluate_at(p) >= this->options_.winding_threshold;
   }
 
-  /// Into the middle of the shape, but not on a place that is taken.
+  /// Move a point to the middle of the shape, unless another point is there.
   bool move_inside(const SurfaceProbe& probe, Index vertex, const std::vector<Vec3>& taken,
     Vec3& place, double& depth) const
   {
-    constexpr double near = 1e-5; // of the diagonal
+    constexpr double near = 1e-5; // in bounding-box diagonals
     const Vec3 from = place;
     Vec3 way = -this->normals_.row(vertex).transpose();
     if (!(way.norm() > 0.0))
@@ -244,13 +246,13 @@ private:
     const double step = near * this->diagonal_;
     if (!this->holds(from + step * way))
     {
-      way = -way; // inside out there
+      way = -way; // the surface is inside out there
       if (!this->holds(from + step * way))
       {
         return false;
       }
     }
-    // To where the inside ends.
+    // Find the end of the inside.
     const Vec3 origin = from + step * way;
     double end = this->diagonal_;
     double last = 0.0;
@@ -309,7 +311,7 @@ private:
     }
   }
 
-  /// Takes a new point into account. @return false when cancelled.
+  /// Update the distances for a new point. @return false when canceled.
   bool update(
     const Component& component, const Vec3& place, std::vector<std::pair<double, Index>> near)
   {

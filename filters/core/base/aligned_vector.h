@@ -8,7 +8,8 @@
 namespace bindpose
 {
 
-/// Memory that begins with a cache line, so that none of the widest registers reads from two.
+/// Allocates memory that begins at a cache line, so that the widest registers never read across two
+/// lines.
 template <typename T>
 struct LineAllocator
 {

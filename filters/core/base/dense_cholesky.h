@@ -6,15 +6,17 @@
 namespace bindpose
 {
 
-/// A = L L^T of a dense symmetric matrix, by LAPACK where it is there. Cost: n^3 / 6 multiply-adds.
+/// Factorization A = L L^T of a dense symmetric matrix, by LAPACK if the build has it.
+/// Cost: n^3 / 6 multiply-adds.
 class DenseCholesky
 {
 public:
-  /// Takes the lower triangle of A. False when A is not positive definite to round-off.
+  /// Factor A, of which the lower triangle is read. Return false if A is not positive definite to
+  /// round-off.
   bool factor(Eigen::MatrixXd a);
-  /// Estimate of 1 / (|A| |A^-1|) in the one-norm.
+  /// Return an estimate of 1 / (|A| |A^-1|) in the one-norm.
   double reciprocal_condition() const;
-  /// X becomes X L^-T.
+  /// Replace X by X L^-T.
   void solve_right(Eigen::MatrixXd& x) const;
 
 private:

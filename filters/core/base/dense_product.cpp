@@ -1,6 +1,6 @@
-// The usual blocked product: pieces of a and b are copied so that the innermost loop reads them
-// front to back, and its sums, a tile of c, stay in registers. Every sum runs over the inner index
-// in order, in blocks of a fixed size, whatever the size of a register and so of a tile.
+// A blocked product: pieces of a and b are copied so that the innermost loop reads them
+// sequentially, and its sums, a tile of c, stay in registers. Every sum runs over the inner index
+// in order, in blocks of a fixed size, for every size of registers and tiles.
 #include "base/dense_product.h"
 
 #include "base/packs.h"
@@ -13,20 +13,22 @@ namespace bindpose
 
 namespace
 {
-constexpr Index inner_block = 256; ///< with a tile's columns: 32 KiB at most, the first cache
-constexpr Index row_block = 192; ///< times inner_block: 384 KiB, the second cache
+constexpr Index inner_block = 256; ///< with the columns of a tile: at most 32 KiB, the first-level
+                                   ///< cache
+constexpr Index row_block = 192; ///< times inner_block: 384 KiB, the second-level cache
 
-/// Rows and columns of a tile: 24 registers of AVX-512, or 12 of 16.
+/// Rows and columns of a tile. Its sums use 24 registers of AVX-512, or 12 of 16 registers.
 template <int bytes>
 struct Tile
 {
   static constexpr Index lanes = PackOf<double, bytes>::lanes;
   static constexpr Index rows = bytes == 64 ? 12 : bytes == 32 ? 6 : 3;
-  static constexpr Index packs = bytes == 16 ? 4 : 2; ///< a row
+  static constexpr Index packs = bytes == 16 ? 4 : 2; ///< per row
   static constexpr Index cols = packs * lanes;
 };
 
-/// sums = a b for tile rows x inner packed column by column and inner x tile columns row by row.
+/// Compute sums = a b, for a (tile rows x inner, packed column by column) and b (inner x tile
+/// columns, row by row).
 template <int bytes>
 BINDPOSE_ALWAYS_INLINE void multiply_tile(
   const double* a, const double* b, Index inner, double* sums)
@@ -62,7 +64,7 @@ Index tiles_of(Index count, Index size)
   return (count + size - 1) / size;
 }
 
-/// Rows begin to end of a, columns first to first + inner, in tiles; zeros fill the last one.
+/// Copy rows begin to end of a, columns first to first + inner, in tiles; zeros pad the last tile.
 template <int bytes>
 BINDPOSE_ALWAYS_INLINE void pack_rows(
   const StridedMatrix& a, Index begin, Index end, Index first, Index inner, double* to)
@@ -81,7 +83,7 @@ BINDPOSE_ALWAYS_INLINE void pack_rows(
   }
 }
 
-/// A tile's columns of b from `left` on; zeros beside the last ones.
+/// Copy a tile's columns of b, beginning at `left`; zeros replace missing columns.
 template <int bytes>
 BINDPOSE_ALWAYS_INLINE void pack_columns(
   const StridedMatrix& b, Index left, Index first, Index inner, double* to)
@@ -170,7 +172,7 @@ void add_product(
 void add_dense_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
   const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> c)
 {
-  // Columns lie one after the other: it is the transposed product that goes row by row.
+  // The matrices are column-major, so the transposed product is computed, which is row-major.
   add_product({ b.data(), b.cols(), b.rows(), b.outerStride(), 1 },
     { a.data(), a.cols(), a.rows(), a.outerStride(), 1 }, c.data(), c.outerStride());
 }

@@ -6,7 +6,7 @@
 namespace bindpose
 {
 
-/// A dense matrix of doubles anywhere in memory: entry (i, j) is at data[i * row + j * column].
+/// A dense matrix of doubles in any layout: entry (i, j) is at data[i * row + j * column].
 struct StridedMatrix
 {
   const double* data;
@@ -14,21 +14,22 @@ struct StridedMatrix
   Index row, column;
 };
 
-/// c += a b, for c of #a.rows x #b.cols row by row, c_stride apart; columns of b must lie side by
-/// side (b.column = 1). With `lower` only entries (i, j) with j <= i are sure to be added to: for
-/// results known to be symmetric, in half the time.
+/// Add a b to c, a row-major matrix of #a.rows x #b.cols whose rows are c_stride apart. The rows of
+/// b must be contiguous (b.column = 1). With `lower`, only entries (i, j) with j <= i are
+/// guaranteed to be added; this halves the time if the result is known to be symmetric.
 ///
-/// Why not Eigen's or BLAS's: release builds of Eigen's know no more than SSE2, and BLAS's bits
-/// depend on the machine, its speed on whether it knows the processor. This is written for several
-/// sizes of registers, and has the same bits in each that has fused operations. One thread.
+/// Eigen and BLAS are not used for these reasons: release builds of Eigen use only SSE2, the bits
+/// of BLAS depend on the machine, and its speed depends on whether it supports the processor. This
+/// function is compiled for several register sizes and computes the same bits with each one that
+/// has fused operations. It runs on one thread.
 void add_product(
   const StridedMatrix& a, const StridedMatrix& b, double* c, Index c_stride, bool lower = false);
 
-/// C += A B.
+/// Add A B to C.
 void add_dense_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
   const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> c);
 
-/// A B.
+/// Return A B.
 Eigen::MatrixXd dense_product(
   const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b);
 

@@ -9,8 +9,9 @@
 namespace bindpose
 {
 
-/// Union-find with path halving over 0 … count - 1. The smaller id is the root, so that ids of sets
-/// follow those of their members, and nothing depends on the order of unions.
+/// Union-find with path halving over 0 … count - 1. The smaller id is the root. Therefore the roots
+/// of sets are ordered like their smallest members, and the result does not depend on the order of
+/// unions.
 template <typename Id>
 class DisjointSets
 {
@@ -18,7 +19,7 @@ public:
   DisjointSets() = default;
   explicit DisjointSets(std::size_t count) { this->reset(count); }
 
-  /// Each id by itself.
+  /// Put each id into a separate set.
   void reset(std::size_t count)
   {
     this->parent_.resize(count);

@@ -1,9 +1,9 @@
 #ifndef bindpose_base_exact_h
 #define bindpose_base_exact_h
 
-// Where double rounding would decide on which side a point lies: exact signs in the plane, and
-// numbers of twice the digits. All of it is plain double arithmetic (no fused operations, no long
-// double), so every machine gives the same bits.
+// Exact signs in the plane and numbers of doubled precision, for cases in which double rounding
+// would decide on which side a point is. All functions use plain double arithmetic (no fused
+// operations, no long double), so every machine computes the same bits.
 
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace bindpose
 {
 
-/// a + b = high + low, exactly.
+/// Compute a + b = high + low, exactly.
 inline void two_sum(double a, double b, double& high, double& low)
 {
   high = a + b;
@@ -19,7 +19,8 @@ inline void two_sum(double a, double b, double& high, double& low)
   low = (a - (high - of_b)) + (b - of_b);
 }
 
-/// a * b = high + low, exactly but for underflow (Dekker's splitting: no fused multiply-add).
+/// Compute a * b = high + low, exact except for underflow (Dekker's splitting, without fused
+/// multiply-add).
 inline void two_product(double a, double b, double& high, double& low)
 {
   constexpr double splitter = 134217729.0; // 2^27 + 1
@@ -71,7 +72,7 @@ inline DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b)
   return { high, low + (a.high * b.low + a.low * b.high) };
 }
 
-/// Square root of a number that is not negative.
+/// Return the square root of a number that is not negative.
 inline DoubleDouble sqrt(const DoubleDouble& a)
 {
   if (a.high <= 0.0)
@@ -84,8 +85,8 @@ inline DoubleDouble sqrt(const DoubleDouble& a)
   return { root, rest.value() / (2.0 * root) };
 }
 
-/// Sign of the sum of products, exact but for underflow: an expansion of doubles that do not
-/// overlap (Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997).
+/// Computes the sign of a sum of products, exact except for underflow. The sum is an expansion of
+/// doubles that do not overlap (Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997).
 template <int MaximumProducts>
 class ExactSum
 {
@@ -132,7 +133,8 @@ private:
   int count_ = 0;
 };
 
-/// +1 when a, b, c turn counter-clockwise, -1 clockwise, 0 on one line: exact.
+/// Return +1 if a, b, c turn counter-clockwise, -1 if clockwise, and 0 if they are collinear. The
+/// result is exact.
 inline int orientation_2d(double ax, double ay, double bx, double by, double cx, double cy)
 {
   const double left = (ax - cx) * (by - cy);

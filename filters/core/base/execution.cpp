@@ -56,7 +56,7 @@ void ExecutionContext::emit(double fraction_of_whole, bool force)
     return;
   }
   this->last_emit_ = now;
-  // A second try at something starts from its beginning; what a user sees never goes back.
+  // A repeated step starts from its beginning; the reported progress must not decrease.
   this->furthest_ = std::max(this->furthest_, fraction_of_whole);
   this->progress_(this->furthest_, this->phase_);
 }

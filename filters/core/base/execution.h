@@ -12,15 +12,17 @@
 namespace bindpose
 {
 
-/// How a kernel talks to whoever runs it: progress in named phases, cancel, number of threads,
-/// seconds per phase. A default-made context runs on all cores, silently and to the end.
+/// Interface between a kernel and its caller: progress in named phases, cancel, number of threads,
+/// and seconds per phase. A default-constructed context uses all cores and has no callbacks.
 class ExecutionContext
 {
 public:
-  /// fraction of the whole in [0, 1], never less than before, and the phase's name. Called on the
-  /// thread that made the context, at most every 50 ms and at every change of phase.
+  /// Receives the fraction of the whole in [0, 1], which never decreases, and the name of the
+  /// phase. It is called on the thread that created the context, at most every 50 ms and at every
+  /// change of phase.
   using ProgressCallback = std::function<void(double fraction, const std::string& phase)>;
-  /// True once the user wants to stop. Called from any thread: must be thread-safe and cheap.
+  /// Returns true if the user wants to stop. It is called on any thread, so it must be thread-safe
+  /// and cheap.
   using CancelCallback = std::function<bool()>;
 
   ExecutionContext() = default;
@@ -28,23 +30,25 @@ public:
   ExecutionContext(const ExecutionContext&) = delete;
   ExecutionContext& operator=(const ExecutionContext&) = delete;
 
-  /// Threads that a kernel may use; 0 (default): all cores. Results never depend on it.
+  /// Set the number of threads that a kernel may use; 0 (default): all cores. Results never depend
+  /// on it.
   void set_threads(int threads) { this->threads_ = threads; }
   int threads() const { return this->threads_; }
 
   void request_cancel() { this->cancelled_.store(true, std::memory_order_relaxed); }
-  /// Thread-safe. Once true it stays true. Kernels ask at least every 100 ms.
+  /// Report whether the work is canceled. Thread-safe. Once true, it stays true. Kernels call it at
+  /// least every 100 ms.
   bool cancelled() const;
 
-  /// Progress within the current phase, in [0, 1]. Cheap; ignored on any other thread than the
-  /// one that made the context, so that parallel bodies may call it freely.
+  /// Report progress within the current phase, in [0, 1]. It is cheap. Calls on threads other than
+  /// the one that created the context are ignored, so that parallel bodies may call it.
   void progress(double fraction_of_phase);
 
-  /// Seconds spent in each phase, summed over its runs, in order of first appearance: keys
-  /// "seconds.NAME" (see Report).
+  /// Return the seconds spent in each phase, summed over its runs, in order of first appearance.
+  /// The keys are "seconds.NAME" (see Report).
   const Report& seconds() const { return this->seconds_; }
   void add_seconds(const std::string& phase, double seconds);
-  /// Seconds since the context was made.
+  /// Return the seconds since the context was created.
   double elapsed_seconds() const;
 
 private:
@@ -57,18 +61,18 @@ private:
   mutable std::atomic<bool> cancelled_{ false };
   std::thread::id owner_ = std::this_thread::get_id();
   int threads_ = 0;
-  double begin_ = 0.0; // the current phase's part of the whole
+  double begin_ = 0.0; // range of the current phase within the whole
   double end_ = 1.0;
-  double furthest_ = 0.0; // that was told
+  double furthest_ = 0.0; // largest fraction reported so far
   std::string phase_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point last_emit_{};
   Report seconds_;
 };
 
-/// Scope of one phase: names what is being done, maps progress into [begin, end] of the enclosing
+/// Scope of one phase. It names the current work, maps progress into [begin, end] of the enclosing
 /// phase and adds its seconds to the context. The name is the key in the report
-/// ("factor" -> "seconds.factor"); progress bars show it as it is.
+/// ("factor" -> "seconds.factor"); progress bars show it unchanged.
 class Phase
 {
 public:
@@ -87,8 +91,8 @@ private:
   std::chrono::steady_clock::time_point start_;
 };
 
-/// Scope of a step of the current phase that has no name of its own: maps progress into
-/// [begin, end] of the enclosing phase or range, so that steps one after another never go back.
+/// Scope of an unnamed step of the current phase. It maps progress into [begin, end] of the
+/// enclosing phase or range, so that progress never decreases from one step to the next.
 class ProgressRange
 {
 public:

@@ -1,19 +1,20 @@
-// Multifrontal Cholesky factorisation in single precision.
+// Multifrontal Cholesky factorization in single precision.
 //
 // The supernodes are eliminated one after another, children before parents. Each one has a dense
-// front: the block of its own columns, which stays as part of the factor, and the update matrix of
-// the rows below, which is handed on to its parent. For each supernode
-//   1. its columns of the matrix and the columns of its children's update matrices are added up,
-//   2. the block is factored: spotrf on the square at the top, strsm on the rows below,
-//   3. the update matrix is formed: minus the product of those rows with themselves (ssyrk), plus
-//      what the children hand on.
-// Update matrices are on two stacks, those of even depth on one and those of odd depth on the
-// other: because supernodes are in postorder, the children's are on top of theirs when their parent
-// needs them, and the parent's goes on top of the other one.
+// front: the block of its own columns, which becomes part of the factor, and the update matrix of
+// the rows below, which is passed to its parent. For each supernode
+// 1. its columns of the matrix and the columns of its children's update matrices are added up,
+// 2. the block is factored: spotrf on the square at the top, strsm on the rows below,
+// 3. the update matrix is computed: minus the product of those rows with themselves (ssyrk), plus
+//    the remaining columns of the children's update matrices.
 //
-// Against CHOLMOD's own (left-looking, double) there are fewer and larger products and half the
-// bytes. The matrix is scaled to a unit diagonal, or single precision would lose the rows whose
-// entries are small.
+// There are two stacks of update matrices, one for even and one for odd depth. Supernodes are in
+// postorder. Therefore the children's matrices are on top of their stack when the parent needs
+// them, and the parent's matrix is pushed onto the other stack.
+//
+// Compared with CHOLMOD's own method (left-looking, double), there are fewer and larger products
+// and half the bytes. The matrix is scaled to a unit diagonal, because otherwise single precision
+// would lose the rows with small entries.
 #include "base/float_cholesky.h"
 
 #include "base/supernode_solve.h"
@@ -44,14 +45,15 @@ namespace bindpose
 
 namespace
 {
-/// What clones share.
+/// Data that clones share.
 struct Plan
 {
   std::shared_ptr<const Supernodes> nodes;
-  std::vector<int> parent; // supernode, -1: none
-  std::vector<int> position; // of each stored entry of the matrix among the factor's values
-  std::vector<unsigned char> depth; // of each supernode below its root, modulo 2: its stack
-  std::size_t stack_size[2] = { 0, 0 }; // floats
+  std::vector<int> parent; // parent supernode, -1: none
+  std::vector<int> position; // index of each stored entry of the matrix among the factor's values
+  // Depth of each supernode below its root, modulo 2. It is the index of its stack.
+  std::vector<unsigned char> depth;
+  std::size_t stack_size[2] = { 0, 0 }; // number of floats
   std::atomic<Index> factorisations{ 0 };
 
   int count() const { return static_cast<int>(this->parent.size()); }
@@ -68,7 +70,7 @@ struct Plan
   }
 };
 
-/// Rows of an update matrix that lie side by side in the parent's front as well.
+/// Consecutive rows of an update matrix that are also consecutive in the parent's front.
 struct Run
 {
   int from = 0;
@@ -84,7 +86,7 @@ struct FloatCholesky::Impl
   std::vector<float> stack[2];
   std::size_t top[2] = { 0, 0 };
   std::vector<int> waiting[2]; // the supernodes whose update matrices are on the stacks
-  std::vector<int> row_in_front; // of each row, within the front being assembled
+  std::vector<int> row_in_front; // index of each row in the front that is being assembled
   std::vector<Run> runs;
   Eigen::VectorXd scale; // 1 / sqrt(diagonal), by unknown
 
@@ -177,7 +179,8 @@ Status FloatCholesky::analyse(const SparseSolver& solver, const SparseMatrix& ma
     plan->depth[s] = plan->parent[s] < 0 ? 0 : !plan->depth[plan->parent[s]];
   }
   std::size_t top[2] = { 0, 0 };
-  std::vector<std::size_t> held(static_cast<std::size_t>(count), 0); // by the children
+  // Number of floats in the children's update matrices.
+  std::vector<std::size_t> held(static_cast<std::size_t>(count), 0);
   for (int s = 0; s < count; ++s)
   {
     const int mine = plan->depth[s];
@@ -225,7 +228,7 @@ Status FloatCholesky::analyse(const SparseSolver& solver, const SparseMatrix& ma
 }
 
 #ifdef BINDPOSE_HAS_CHOLMOD
-/// The scaled matrix into the blocks.
+/// Write the scaled matrix into the blocks.
 void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift)
 {
   const int n = this->plan->size();
@@ -233,7 +236,7 @@ void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift)
   for (int j = 0; j < n; ++j)
   {
     const double diagonal = matrix.coeff(j, j);
-    // A diagonal that is not positive fails at its pivot.
+    // A diagonal entry that is not positive fails at its pivot.
     this->scale[j] = diagonal > 0.0 ? 1.0 / std::sqrt(diagonal) : 1.0;
   }
   std::fill(this->values.begin(), this->values.end(), 0.0F);
@@ -252,8 +255,8 @@ void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift)
   }
 }
 
-/// Where the rows of a child's update matrix go. No run crosses from the columns of the block to
-/// the rows below.
+/// Find the rows of the front to which a child's update matrix is added. No run crosses from the
+/// columns of the block to the rows below.
 void FloatCholesky::Impl::find_runs(int child, int columns)
 {
   const int* row = this->plan->nodes->rows.data() + this->plan->nodes->first_row[child] +
@@ -271,8 +274,8 @@ void FloatCholesky::Impl::find_runs(int child, int columns)
   }
 }
 
-/// Eliminates one supernode.
-/// @return 0, or the number of the block's column whose pivot is not positive, from 1.
+/// Eliminate one supernode.
+/// @return 0, or the 1-based column of the block whose pivot is not positive.
 int FloatCholesky::Impl::eliminate(int s)
 {
   const Plan& shared = *this->plan;
@@ -293,8 +296,8 @@ int FloatCholesky::Impl::eliminate(int s)
 
   const float one = 1.0F;
   const float minus_one = -1.0F;
-  // The first columns of a child's update matrix belong to the block and are added now, the others
-  // when this supernode's own update matrix is there.
+  // The first columns of a child's update matrix belong to the block and are added now. The others
+  // are added after this supernode's own update matrix has been computed.
   const auto add_children = [&](bool now)
   {
     std::size_t at = end_of_children;
@@ -347,7 +350,7 @@ int FloatCholesky::Impl::eliminate(int s)
   }
   for (int j = 0; j < columns; ++j)
   {
-    // NaN passes LAPACK's test.
+    // LAPACK's test accepts NaN.
     const float pivot = block[static_cast<std::size_t>(j) * rows + j];
     if (!(pivot > 0.0F) || !std::isfinite(pivot))
     {
@@ -427,7 +430,7 @@ Status FloatCholesky::factor(const SparseMatrix&, double, const ExecutionContext
 }
 #endif
 
-/// #unknowns x columns, column by column.
+/// rhs and x are #unknowns x columns, column-major.
 void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
 {
   const std::vector<int>& order = this->plan->nodes->order;
@@ -452,7 +455,7 @@ void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
         size = std::max(size, value);
         finite = finite && std::isfinite(value);
       }
-      // Right-hand sides may be as small or large as they like.
+      // The scaling allows right-hand sides of any magnitude.
       factor[c] = size > 0.0 && finite ? size : 1.0;
       float* into = scaled.data() + c;
       for (std::size_t i = 0; i < n; ++i)

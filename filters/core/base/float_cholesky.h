@@ -9,47 +9,48 @@
 namespace bindpose
 {
 
-/// Sparse Cholesky factorisation in single precision on the analysis of a SparseSolver: half the
-/// memory and half the time of a factorisation in double precision by CHOLMOD. Its solutions are
-/// good to 1e-3 or better on meshes: it is meant to be a preconditioner of conjugate gradients.
+/// Sparse Cholesky factorization in single precision that reuses the analysis of a SparseSolver. It
+/// takes half the memory and half the time of a factorization in double precision by CHOLMOD. On
+/// meshes its solutions are accurate to 1e-3 or better. It is meant as a preconditioner for
+/// conjugate gradients.
 ///
 /// The matrix is scaled to a unit diagonal before it is rounded. As with SparseSolver, only the
-/// lower triangle is read, an object factors on one thread at a time, and clones share what was
-/// analysed. The bits do not depend on threads.
+/// lower triangle is read, an object factors on one thread at a time, and clones share the
+/// analysis. The bits do not depend on the number of threads.
 ///
 /// Duff and Reid 1983, The multifrontal solution of indefinite sparse symmetric linear equations.
 class FloatCholesky
 {
 public:
-  /// Nothing to factor yet.
+  /// Construct an object without an analysis.
   FloatCholesky();
   ~FloatCholesky();
   FloatCholesky(FloatCholesky&&) noexcept;
   FloatCholesky& operator=(FloatCholesky&&) noexcept;
 
-  /// Takes over the solver's analysis of this matrix. unavailable when the solver has no supernodes
-  /// (Eigen's backend) or when the build has no BLAS of its own (without CHOLMOD).
+  /// Reuse the analysis that the solver made of this matrix. The status is unavailable if the
+  /// solver has no supernodes (Eigen's backend, or a build without CHOLMOD).
   Status analyse(const SparseSolver& solver, const SparseMatrix& matrix);
-  /// An object with this one's analysis and no factorisation, for use on another thread.
+  /// Return an object with the same analysis and no factorization, for use on another thread.
   FloatCholesky clone() const;
-  /// False before analyse() and where it is unavailable.
+  /// Report whether analyse() succeeded.
   bool analysed() const;
 
-  /// Factors a matrix of the analysed pattern plus shift times its diagonal. invalid_input when
-  /// that is not positive definite in single precision: the message names the unknown at whose
-  /// pivot that showed. Looks at cancel between dense blocks.
+  /// Factor a matrix of the analyzed pattern plus shift times its diagonal. The status is
+  /// invalid_input if the sum is not positive definite in single precision; the message names the
+  /// unknown whose pivot failed. Cancel is checked between dense blocks.
   Status factor(const SparseMatrix& matrix, double shift, const ExecutionContext& context);
-  /// Solves approximately with the last factorisation; several threads may do so at once.
+  /// Solve approximately with the last factorization. Several threads may call it concurrently.
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
-  /// The same for many columns: several times faster a column.
+  /// Solve for many columns, several times faster per column.
   void solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& x) const;
 
-  /// Gives back what only factoring needs; the factor stays.
+  /// Free the memory that only factor() needs; the factor is kept.
   void release_workspace();
-  /// Bytes that this object's factor will take, and what factoring takes besides.
+  /// Return the bytes of this object's factor, and the additional bytes that factoring needs.
   double factor_bytes() const;
   double workspace_bytes() const;
-  /// How often this object and all its clones factored.
+  /// Return how often this object and all its clones factored.
   Index factorisations() const;
 
 private:

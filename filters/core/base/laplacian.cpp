@@ -158,7 +158,7 @@ SparseMatrix boundary_flux(PointsView points, TetsView tets)
     const Vec3 outwards = 0.5 * twice_area(facets[i].side);
     for (int c = 0; c < 4; ++c)
     {
-      // The gradient points from the facet opposite to the corner.
+      // The gradient of the corner's function points away from the facet opposite to the corner.
       const double third = outwards.dot(-twice_area(c)) / six_volumes / 3.0;
       for (const int end : corners)
       {

@@ -10,43 +10,47 @@ namespace bindpose
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// Cotangent weights of every element's edges, #F x 3: column k belongs to the edge opposite to
-/// corner k and holds (1/2) cot(angle at corner k). Sum over edges of c |e|^2 = 2 area. Degenerate
-/// triangles get zeros.
+/// Return the cotangent weights of every triangle's edges, #F x 3. Column k belongs to the edge
+/// opposite to corner k and contains (1/2) cot(angle at corner k). The sum over edges of c |e|^2 is
+/// 2 area. Degenerate triangles get zeros.
 Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> cotangent_weights(
   PointsView points, TrianglesView triangles);
 
-/// #T x 6: edges in the order 01, 02, 03, 12, 13, 23, each (1/6) l_opposite cot(theta_opposite),
-/// which is -volume grad_i . grad_j. Sum over edges of c |e|^2 = 3 volume. Degenerate tets get
-/// zeros.
+/// Return the cotangent weights of every tet's edges, #T x 6, in the order 01, 02, 03, 12, 13, 23.
+/// Each weight is (1/6) l_opposite cot(theta_opposite), which equals -volume grad_i . grad_j. The
+/// sum over edges of c |e|^2 is 3 volume. Degenerate tets get zeros.
 Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> cotangent_weights(
   PointsView points, TetsView tets);
 
 /// The six edges of a tet as corner pairs, in the order of cotangent_weights.
 constexpr int tet_edges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
 
-/// Positive semi-definite stiffness K (#V x #V): K_ij = -sum of cotangent weights of edge ij, rows
-/// sum to zero. This is minus the cotangent Laplacian.
-/// @param shares a factor for each element (how much of it is material), or empty: all 1.
+/// Return the positive semi-definite stiffness matrix K (#V x #V): K_ij is minus the sum of the
+/// cotangent weights of edge ij, and rows sum to zero. K is minus the cotangent Laplacian.
+/// @param shares one factor per element (the fraction of it that is material), or empty for 1
+///   everywhere
 SparseMatrix stiffness_matrix(
   PointsView points, TrianglesView triangles, const Eigen::VectorXd& shares = Eigen::VectorXd());
 SparseMatrix stiffness_matrix(
   PointsView points, TetsView tets, const Eigen::VectorXd& shares = Eigen::VectorXd());
 
-/// N (#V x #V): N_ij is the integral over the boundary of phi_i n . grad phi_j, what flows out.
-/// With it (K - N) u = 0 for every linear u, at the boundary as well. Zero for a closed surface; in
-/// a surface n lies in the triangle, normal to its open edge.
+/// Return N (#V x #V): N_ij is the integral of phi_i n . grad phi_j over the boundary, the outward
+/// flux. Then (K - N) u = 0 for every linear u, also at the boundary. N is zero for a closed
+/// surface. For an open surface, n lies in the plane of the triangle and is normal to its open
+/// edge.
 SparseMatrix boundary_flux(PointsView points, TrianglesView triangles);
 SparseMatrix boundary_flux(PointsView points, TetsView tets);
 
-/// Lumped mass, #V. Triangles: Voronoi areas, clamped in obtuse triangles (they sum to the area);
-/// tets: a quarter of each volume. A vertex that nothing uses gets 0.
+/// Return the lumped mass, #V. Triangles contribute their Voronoi areas, clamped in obtuse
+/// triangles (they sum to the area). Tets contribute a quarter of their volume to each vertex.
+/// Unused vertices get 0.
 Eigen::VectorXd lumped_mass(PointsView points, TrianglesView triangles);
 Eigen::VectorXd lumped_mass(
   PointsView points, TetsView tets, const Eigen::VectorXd& shares = Eigen::VectorXd());
 
-/// Q_k = K (M^-1 K)^(k-1), symmetric positive semi-definite: k = 1 Dirichlet, 2 biharmonic,
-/// 3 triharmonic energy is 1/2 w' Q_k w. Massless vertices are left out of M^-1 (their rows are 0).
+/// Return Q_k = K (M^-1 K)^(k-1), which is symmetric positive semi-definite. It defines the energy
+/// 1/2 w' Q_k w: Dirichlet for k = 1, biharmonic for k = 2 and triharmonic for k = 3. Massless
+/// vertices are omitted from M^-1 (their rows are 0).
 /// Jacobson et al. 2010, Mixed finite elements for variational surface modeling.
 SparseMatrix harmonic_energy(const SparseMatrix& stiffness, const Eigen::VectorXd& mass, int k);
 

@@ -9,12 +9,12 @@ namespace bindpose
 std::vector<double> line_cuts(double from, double to, const std::function<double(double)>& length,
   const std::function<int(double)>& pieces)
 {
-  // passed[i]: how many lengths fit between the start and at[i].
+  // passed[i] is the number of local lengths between the start and at[i].
   std::vector<double> passed{ 0.0 };
   std::vector<double> at{ from };
   while (at.back() < to)
   {
-    constexpr double part = 0.5; // of a length: it changes on the way
+    constexpr double part = 0.5; // step in local lengths, because they change along the line
     const double here = length(at.back());
     const double step = std::min(part * here, to - at.back());
     passed.push_back(passed.back() + step / here);

@@ -7,11 +7,11 @@
 namespace bindpose
 {
 
-/// Where a stretch of a line is cut into pieces that are equal when measured in local lengths: the
-/// parameters of the cuts between `from` < `to`, ascending.
-/// @param length the local length at a parameter, in the line's parameter, > 0
-/// @param pieces how many are wanted where this many local lengths fit into the stretch, >= 1
-/// Cost: two calls of `length` for each that fits.
+/// Return the parameters, ascending between `from` < `to`, that cut a stretch of a line into pieces
+/// of equal size, measured in local lengths.
+/// @param length local length at a parameter, in units of the parameter, > 0
+/// @param pieces number of pieces for a stretch that is this many local lengths long, >= 1
+/// Cost: two calls of `length` per local length.
 std::vector<double> line_cuts(double from, double to, const std::function<double(double)>& length,
   const std::function<int(double)>& pieces);
 

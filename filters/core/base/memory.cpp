@@ -1,6 +1,6 @@
-// Numbers of Linux: /proc/self/statm and status for the process, MemAvailable of /proc/meminfo for
-// the machine (free pages and caches that can be dropped), memory.max and memory.current of the
-// process's control group and of all groups around it.
+// On Linux, /proc/self/statm and status describe the process, and MemAvailable of /proc/meminfo
+// describes the machine (free pages and caches that can be dropped). memory.max and memory.current
+// describe the process's control group and all enclosing groups.
 #include "base/memory.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 #ifdef __linux__
-/// Pages of /proc/self/statm: address space, then resident.
+/// Sizes from /proc/self/statm, in bytes.
 struct Pages
 {
   double address_space = 0.0;
@@ -38,7 +38,7 @@ Pages own_pages()
   return pages;
 }
 
-/// Bytes of a line "KEY: NUMBER kB".
+/// Return the bytes of a line "KEY: NUMBER kB", or `otherwise` if there is no such line.
 double read_kibibytes(const char* path, const std::string& key, double otherwise)
 {
   std::ifstream file(path);
@@ -65,7 +65,7 @@ double address_space_leaves()
 
 double group_leaves()
 {
-  // Of the unified hierarchy: "0::/path".
+  // The line of the unified hierarchy is "0::/path".
   std::string group;
   std::ifstream file("/proc/self/cgroup");
   for (std::string line; std::getline(file, line);)
@@ -81,7 +81,7 @@ double group_leaves()
     const std::string folder = "/sys/fs/cgroup" + (group == "/" ? std::string() : group);
     double most = 0.0;
     double current = 0.0;
-    // "max" is no number: no limit.
+    // "max" is not a number and means no limit.
     if (std::ifstream(folder + "/memory.max") >> most &&
       std::ifstream(folder + "/memory.current") >> current)
     {

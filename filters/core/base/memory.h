@@ -11,27 +11,27 @@ namespace bindpose
 
 constexpr double mebibyte = 1024.0 * 1024.0;
 
-/// Bytes that this process holds in memory; 0 where that is not known (other systems than Linux).
+/// Return the resident memory of this process in bytes; 0 if unknown (on systems other than Linux).
 double resident_memory();
 
-/// Bytes that it held at most so far. Unlike getrusage()'s, not what its parent held when it was
-/// made.
+/// Return the peak resident memory of this process in bytes. Unlike the value of getrusage(), it
+/// excludes the memory that the parent had when it created this process.
 double peak_memory();
 
-/// Bytes that it could still take: the least of what the machine has available and of what the
-/// limits on the process's address space and on its control group leave. Infinite where none is
-/// known.
+/// Return the bytes that this process can still take. This is the minimum of the machine's
+/// available memory and of the unused parts of the limits on the process's address space and on its
+/// control group. Infinite if none of them is known.
 double available_memory();
 
-/// Whether a computation fits: asked before it takes its memory, so that it ends with a sentence
-/// and is not killed.
-/// @param what "the weights of 24 handles on 63000 vertices", the subject of the message.
-/// @param bytes that it will take besides what the process holds.
-/// @param limit MiB that the whole process may hold; 0: as much as is available.
+/// Check whether a computation fits into memory. Call it before the memory is allocated, so that
+/// the computation ends with a message instead of being killed.
+/// @param what subject of the message, such as "the weights of 24 handles on 63000 vertices"
+/// @param bytes memory that it takes in addition to the current memory of the process
+/// @param limit MiB that the whole process may use; 0: all available memory
 /// @return ok, or internal_error with both numbers.
 Status check_memory(const std::string& what, double bytes, Index limit);
 
-/// Bytes left under that limit.
+/// Return the bytes that are left under such a limit.
 double memory_left(Index limit);
 
 } // namespace bindpose

@@ -103,7 +103,7 @@ Status check_mesh(PointsView points, TetsView tets)
 
 double signed_volume(PointsView points, TrianglesView triangles)
 {
-  // About the box's centre: far from the origin the determinants would cancel.
+  // Relative to the center of the box, because the determinants would cancel far from the origin.
   const Vec3 c = triangles.rows() ? bounding_box(points, triangles).center() : Vec3::Zero();
   double six_volumes = 0.0;
   for (Index t = 0; t < triangles.rows(); ++t)

@@ -13,24 +13,24 @@
 namespace bindpose
 {
 
-/// Vertex and element ids. 64 bit, as vtkIdType is, so that connectivity is shared, not copied.
+/// Vertex and element ids. 64 bit like vtkIdType, so that connectivity is shared, not copied.
 using Index = std::int64_t;
 
 /// One position, direction or displacement.
 using Vec3 = Eigen::Vector3d;
 
-/// #V x 3 coordinates, x y z of a vertex side by side (the layout of vtkPoints).
+/// #V x 3 coordinates, row-major (the layout of vtkPoints).
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// #F x 3 vertex ids, counter-clockwise seen from outside.
 using Triangles = Eigen::Matrix<Index, Eigen::Dynamic, 3, Eigen::RowMajor>;
-/// #T x 4 vertex ids, positive volume (VTK's order: the fourth vertex lies on the side that the
-/// normal of the first three points to).
+/// #T x 4 vertex ids, positive volume (VTK's order: the normal of the first three vertices points
+/// to the fourth).
 using Tets = Eigen::Matrix<Index, Eigen::Dynamic, 4, Eigen::RowMajor>;
-/// #V x #handles, one row a vertex (the layout of a VTK array with #handles components).
+/// #V x #handles, one row per vertex (the layout of a VTK array with #handles components).
 using Weights = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Read-only view of a matrix in its own layout: of a matrix above or of an Eigen::Map of foreign
-/// memory, never a copy. Unlike Eigen::Ref it takes nothing else, so that functions can be
+/// memory. It never copies. Unlike Eigen::Ref it accepts no other types, so that functions can be
 /// overloaded for triangles and tets; evaluate an expression before you pass it.
 template <typename Matrix>
 class MatrixView : public Eigen::Map<const Matrix>
@@ -73,31 +73,33 @@ struct Box
   bool empty() const { return (this->lower.array() > this->upper.array()).any(); }
   Vec3 size() const { return this->empty() ? Vec3::Zero() : Vec3(this->upper - this->lower); }
   Vec3 center() const { return 0.5 * (this->lower + this->upper); }
-  /// Length of the diagonal, the unit in which Bindpose states lengths. 0 for an empty box.
+  /// Return the length of the diagonal, the unit in which Bindpose states lengths; 0 for an empty
+  /// box.
   double diagonal() const { return this->size().norm(); }
 };
 
 Box bounding_box(PointsView points);
-/// Only vertices that an element uses: a stray point must not stretch the box.
+/// Return the box of the vertices that a triangle uses, so that stray points do not stretch it.
 Box bounding_box(PointsView points, TrianglesView triangles);
 
-/// invalid_input, naming the first offender, when a used coordinate is not finite or a vertex id
-/// is out of range. An empty mesh is valid here; who needs triangles says so.
+/// Check that all used coordinates are finite and all vertex ids are in range; otherwise return
+/// invalid_input with the first violation. An empty mesh is valid; callers that need triangles
+/// check for them.
 Status check_mesh(PointsView points, TrianglesView triangles);
 Status check_mesh(PointsView points, TetsView tets);
 
-/// Signed volume by the divergence theorem: exact for closed, outward oriented surfaces.
+/// Return the signed volume by the divergence theorem, exact for closed, outward oriented surfaces.
 double signed_volume(PointsView points, TrianglesView triangles);
 double surface_area(PointsView points, TrianglesView triangles);
 
 double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-/// #T signed volumes.
+/// Return #T signed volumes.
 Eigen::VectorXd tet_volumes(PointsView points, TetsView tets);
 
-/// Facets that belong to one tet only, oriented outwards.
+/// Return the facets that belong to exactly one tet, oriented outwards.
 Triangles boundary_triangles(TetsView tets);
 
-/// A triangle mesh's edge with what its triangles say about it.
+/// An edge of a triangle mesh and its use by triangles.
 struct Edge
 {
   Index a = 0, b = 0; ///< vertex ids, a < b
@@ -105,10 +107,11 @@ struct Edge
   int net_direction = 0; ///< (#triangles that run a->b) - (#triangles that run b->a)
 };
 
-/// All edges, sorted by (a, b). Edges of a vertex with itself (degenerate triangles) are left out.
+/// Return all edges, sorted by (a, b). Edges from a vertex to itself (degenerate triangles) are
+/// omitted.
 std::vector<Edge> mesh_edges(TrianglesView triangles);
 
-/// What the edges tell of a surface.
+/// Numbers of edges of a surface, by their use.
 struct EdgeCounts
 {
   Index edges = 0;
@@ -124,7 +127,7 @@ EdgeCounts count_edges(TrianglesView triangles);
 struct Components
 {
   Index count = 0;
-  std::vector<Index> of_vertex; ///< #V component ids from 0, -1 for a vertex that nothing uses
+  std::vector<Index> of_vertex; ///< #V component ids from 0, -1 for an unused vertex
 };
 Components connected_components(Index vertex_count, TrianglesView triangles);
 Components connected_components(Index vertex_count, TetsView tets);

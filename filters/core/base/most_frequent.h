@@ -8,7 +8,8 @@
 namespace bindpose
 {
 
-/// The value that occurs most, the lowest of equals. Sorts them; there must be one.
+/// Return the most frequent value, the lowest of equally frequent ones. Sorts the range, which must
+/// not be empty.
 template <typename Iterator>
 typename std::iterator_traits<Iterator>::value_type most_frequent(Iterator begin, Iterator end)
 {

@@ -10,7 +10,7 @@ std::string short_number(double x, int digits)
 {
   std::ostringstream text;
   text.precision(digits);
-  text << (x == 0.0 ? 0.0 : x); // no -0
+  text << (x == 0.0 ? 0.0 : x); // print -0 as 0
   return text.str();
 }
 

@@ -6,9 +6,9 @@
 namespace bindpose
 {
 
-/// Few digits, as messages and legends show numbers: "0.5", "1.235e-07".
+/// Format a number with few digits, for messages and legends: "0.5", "1.235e-07".
 std::string short_number(double x, int digits = 4);
-/// As many digits as give the same double back.
+/// Format a number with enough digits to restore the same double.
 std::string exact_number(double x);
 
 } // namespace bindpose

@@ -7,9 +7,10 @@
 namespace bindpose
 {
 
-/// Numbers that one instruction takes. 32 bytes, 8 floats or 4 doubles, are a register of AVX2: for
-/// BINDPOSE_SIMD_CLONES. 64 bytes are one of AVX-512, and of no use on AVX2, where GCC keeps them
-/// in memory: for functions that are written for each width, see BINDPOSE_SIMD_WIDTHS.
+/// Numbers that one instruction processes. 32 bytes (8 floats or 4 doubles) are a register of AVX2,
+/// for use with BINDPOSE_SIMD_CLONES. 64 bytes are a register of AVX-512. They are useless on AVX2,
+/// where GCC keeps them in memory, so they are for functions that are compiled for each width
+/// (BINDPOSE_SIMD_WIDTHS).
 template <typename Scalar, int bytes = 32>
 struct PackOf
 {
@@ -42,8 +43,8 @@ BINDPOSE_ALWAYS_INLINE double sum_of(const PackOf<double>::Pack& p)
   return (p[0] + p[2]) + (p[1] + p[3]);
 }
 
-/// y_j += A x_j, j = 0, 1, 2, for `count` columns of A, in their order.
-/// @param x_stride from x_j to x_j+1; the y_j are #rows long.
+/// Add A x_j to y_j, j = 0, 1, 2, for `count` columns of A, in their order.
+/// @param x_stride distance from x_j to x_j+1; the y_j have #rows entries each
 template <Index count, int bytes = 32, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void add_columns(
   Index rows, const Scalar* a, const Scalar* x, Index x_stride, Scalar* y)

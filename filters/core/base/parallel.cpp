@@ -1,5 +1,5 @@
-// One TBB task per block. Which thread takes a block is left to TBB; what a block is, and the order
-// in which partial sums are added, is not.
+// There is one TBB task per block. TBB chooses the thread that runs a block. The blocks, and the
+// order in which partial sums are added, are fixed.
 #include "base/parallel.h"
 
 #include <tbb/info.h>
@@ -16,7 +16,7 @@ namespace bindpose
 
 int thread_count(int asked)
 {
-  // TBB would print a warning for more.
+  // TBB would print a warning for more threads.
   const int cores = tbb::info::default_concurrency();
   return asked > 0 ? std::min(asked, cores) : cores;
 }
@@ -52,7 +52,7 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
   }
   else
   {
-    // Isolated, so that who waits for the last block does not begin with something else.
+    // Isolated, so that a thread that waits for the last block does not start other tasks.
     const auto share = [&]
     {
       tbb::this_task_arena::isolate(
@@ -61,13 +61,13 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
     const int threads = thread_count(context.threads());
     if (threads == thread_count(0))
     {
-      // In the arena that is there: one of its own for each call would live until its workers have
-      // left, and on a busy machine they pile up.
+      // The existing arena is used. An arena per call would exist until its workers have left, and
+      // such arenas accumulate on a busy machine.
       share();
     }
     else
     {
-      thread_local std::map<int, tbb::task_arena> arenas; // kept for the same reason
+      thread_local std::map<int, tbb::task_arena> arenas; // kept between calls for the same reason
       arenas.try_emplace(threads, threads).first->second.execute(share);
     }
   }

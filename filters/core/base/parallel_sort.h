@@ -8,10 +8,10 @@
 namespace bindpose
 {
 
-/// Sorts on the context's threads: blocks, then pairs of blocks merged until one is left. The same
-/// result for any number of threads (it is stable). Looks at cancel before each block and merge;
-/// the reason why large kernels do not call std::sort.
-/// @return false when cancelled; the items are then in no particular order, all of them.
+/// Sort on the context's threads: sort blocks, then merge pairs of blocks until one is left. The
+/// sort is stable, so the result is the same for any number of threads. Cancel is checked before
+/// each block and merge; therefore large kernels call this function instead of std::sort.
+/// @return false if canceled; the items are then complete, in unspecified order.
 template <typename Items, typename Less>
 bool parallel_sort(ExecutionContext& context, Items& items, const Less& less)
 {

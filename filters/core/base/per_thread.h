@@ -9,13 +9,13 @@
 namespace bindpose
 {
 
-/// Lends working memory to parallel bodies: as many as run at the same time, made when they are
-/// first needed.
+/// Lends working memory to parallel bodies. There are as many objects as bodies that run
+/// concurrently; each one is created when it is first needed.
 template <typename T>
 class PerThread
 {
 public:
-  /// @param make () -> std::unique_ptr<T>.
+  /// @param make function () -> std::unique_ptr<T>
   template <typename Make, typename Use>
   void with(const Make& make, const Use& use)
   {
@@ -37,7 +37,7 @@ public:
     this->idle_.push_back(std::move(one));
   }
 
-  /// Calls see(const T&) for each of them, while no body runs.
+  /// Call see(const T&) for each object. No body may run meanwhile.
   template <typename See>
   void for_each(const See& see) const
   {

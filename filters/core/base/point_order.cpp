@@ -1,6 +1,5 @@
-// The points' box is cut into 16 or 32 cells along each axis, numbered so that the eight of a cube
-// of two come one after the other, and so on upwards (Morton's order); the points are counted into
-// them.
+// The box of the points is divided into 16 or 32 cells along each axis, numbered in Morton order. A
+// counting sort distributes the points to the cells.
 #include "base/point_order.h"
 
 #include <algorithm>
@@ -12,7 +11,7 @@ namespace bindpose
 
 std::vector<std::int32_t> order_by_place(const std::vector<Vec3>& points)
 {
-  // About where they are; those beyond count as at its sides.
+  // The box of a sample of the points. Points outside are assigned to the cells at its sides.
   Box box;
   constexpr std::size_t some = 16;
   for (std::size_t i = 0; i < points.size(); i += some)
@@ -25,7 +24,7 @@ std::vector<std::int32_t> order_by_place(const std::vector<Vec3>& points)
   constexpr std::size_t many = 16384;
   const int bits = points.size() < many ? 4 : 5;
   const double cells = std::ldexp(1.0, bits);
-  std::array<std::uint32_t, 32> spread{}; // bit i at 3 i
+  std::array<std::uint32_t, 32> spread{}; // bit i moved to bit 3 i
   for (std::uint32_t i = 0; i < spread.size(); ++i)
   {
     for (int bit = 0; bit < 5; ++bit)

@@ -9,9 +9,9 @@
 namespace bindpose
 {
 
-/// The places 0 … #points - 1 in an order in which those that follow each other lie near each
-/// other: what one point needs from memory is there for the next. Points that are not finite come
-/// somewhere. Cost: a few nanoseconds a point.
+/// Return the indices 0 … #points - 1 in a spatial order: consecutive points are near each other,
+/// so that data loaded for one point is in the cache for the next. Points that are not finite have
+/// unspecified positions. Cost: a few nanoseconds per point.
 std::vector<std::int32_t> order_by_place(const std::vector<Vec3>& points);
 
 } // namespace bindpose

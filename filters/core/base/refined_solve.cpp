@@ -1,5 +1,5 @@
-// Each column has steps and directions of its own. All columns that are not there yet are
-// multiplied and preconditioned together, which is several times faster a column than one by one.
+// Each column has its own steps and directions. All columns that have not converged are multiplied
+// and preconditioned together, which is several times faster per column than one by one.
 #include "base/refined_solve.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ double refined_solve(const FloatCholesky& factor,
   const auto squared_norm = [&](const auto& v) { return v.cwiseAbs2().dot(inverse_diagonal); };
   x = MatrixXd::Zero(rhs.rows(), rhs.cols());
   VectorXd size(rhs.cols());
-  std::vector<Index> open; // columns
+  std::vector<Index> open; // columns that have not converged
   for (Index j = 0; j < rhs.cols(); ++j)
   {
     size[j] = squared_norm(rhs.col(j));
@@ -29,7 +29,7 @@ double refined_solve(const FloatCholesky& factor,
     }
   }
   double worst = 0.0;
-  // Of the open columns, side by side.
+  // Residuals, preconditioned residuals and directions of the open columns, side by side.
   MatrixXd r = rhs(Eigen::all, open);
   MatrixXd z;
   MatrixXd p;
@@ -46,7 +46,7 @@ double refined_solve(const FloatCholesky& factor,
     last = now;
     const MatrixXd product = multiply(p);
     const VectorXd curvature = p.cwiseProduct(product).colwise().sum();
-    std::vector<Index> kept; // places among the open columns
+    std::vector<Index> kept; // indices among the open columns
     for (Index k = 0; k < static_cast<Index>(open.size()); ++k)
     {
       bool ends = !(curvature[k] > 0.0) || !std::isfinite(now[k]);

@@ -10,18 +10,19 @@ namespace bindpose
 
 struct RefinedSolveOptions
 {
-  /// |residual| / |right-hand side| that is wanted, in the norm of the inverse diagonal.
+  /// Target for |residual| / |right-hand side|, in the norm of the inverse diagonal.
   double accuracy = 1e-14;
-  /// Of conjugate gradients. One or two bring 1e-4; 5 to 12 the limit of double precision.
+  /// Largest number of steps of conjugate gradients. One or two steps reach 1e-4; 5 to 12 steps
+  /// reach the limit of double precision.
   int most_steps = 20;
-  const ExecutionContext* context = nullptr; ///< asked before each step whether to stop
+  const ExecutionContext* context = nullptr; ///< checked for cancel before each step
 };
 
-/// Solves A x = b to double precision with a factor in single precision, for all columns of b side
-/// by side: conjugate gradients preconditioned by it.
-/// @param multiply P -> A P; the columns of P are those that are not there yet.
-/// @param inverse_diagonal of A, #unknowns.
-/// @return the residual reached, as accuracy: the largest column's.
+/// Solve A x = b to double precision for all columns of b together. The method is conjugate
+/// gradients, preconditioned with a factor in single precision.
+/// @param multiply P -> A P; P contains the columns that have not converged yet
+/// @param inverse_diagonal #unknowns, of A
+/// @return the largest residual of a column, measured like `accuracy`; 1 if canceled.
 double refined_solve(const FloatCholesky& factor,
   const std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>& multiply,
   const Eigen::VectorXd& inverse_diagonal, const Eigen::MatrixXd& rhs,

@@ -9,8 +9,8 @@
 namespace bindpose
 {
 
-/// Samples in a box, x fastest: sample (i, j, k) of the extent lies at origin + spacing * (i, j,
-/// k). The value of a sample depends on its point only, so any sub-extent gets the same bits.
+/// Samples in a box, x fastest: sample (i, j, k) of the extent is at origin + spacing * (i, j, k).
+/// The value of a sample depends on its point only, so any sub-extent gets the same bits.
 struct SampleGrid
 {
   Vec3 origin = Vec3::Zero();
@@ -30,7 +30,7 @@ struct SampleGrid
       this->spacing.cwiseProduct(
         Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
   }
-  /// By its number among the extent's, from 0.
+  /// Return the point of the sample with this index within the extent, from 0.
   Vec3 point(Index number) const
   {
     const Index nx = this->size(0), ny = this->size(1);

@@ -6,13 +6,13 @@
 namespace bindpose
 {
 
-/// While it lives, calls of BLAS and CHOLMOD from this thread run on this thread alone, and never
-/// at the same time as others where the BLAS cannot stand that.
+/// Scope in which calls of BLAS and CHOLMOD from this thread run on this thread only. If the BLAS
+/// does not support concurrent calls, they are serialized, too.
 ///
-/// A threaded OpenBLAS is told once to use one thread. OpenMP regions started from this thread are
+/// A threaded OpenBLAS is set once to use one thread. OpenMP regions started from this thread are
 /// made inactive. OpenBLAS built without threads (libopenblas0-serial) has no locks either: two
-/// calls at the same time share a work buffer and give wrong numbers now and then. With it, one
-/// call at a time.
+/// concurrent calls share a work buffer and occasionally return wrong numbers. With this library
+/// only one call runs at a time.
 class SerialBlas
 {
 public:

@@ -15,14 +15,15 @@ SparseMatrix side_flux(
     const int k = (side.corner + 2) % 3; // opposite to the edge
     const Vec3 p[3] = { points.row(triangles(t, 0)), points.row(triangles(t, 1)),
       points.row(triangles(t, 2)) };
-    const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]); // of twice the area
+    const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]); // its length is twice the area
     const double squared = normal.squaredNorm();
     if (!(squared > 0.0))
     {
       continue;
     }
     const Vec3 unit = normal / std::sqrt(squared);
-    const Vec3 outwards = (p[(k + 2) % 3] - p[(k + 1) % 3]).cross(unit); // as long as the edge
+    // The length of `outwards` is that of the edge.
+    const Vec3 outwards = (p[(k + 2) % 3] - p[(k + 1) % 3]).cross(unit);
     for (Index c = 0; c < 3; ++c)
     {
       const Vec3 gradient = normal.cross(p[(c + 2) % 3] - p[(c + 1) % 3]) / squared;

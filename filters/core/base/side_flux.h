@@ -7,8 +7,8 @@
 namespace bindpose
 {
 
-/// N (#V x #V): N_ij is the integral over these sides of triangles of phi_i n . grad phi_j, what
-/// flows out of each triangle there; n lies in the triangle.
+/// Return N (#V x #V): N_ij is the integral of phi_i n . grad phi_j over these sides of triangles,
+/// the flux out of each triangle. n lies in the plane of the triangle.
 SparseMatrix side_flux(
   PointsView points, TrianglesView triangles, const std::vector<TriangleSide>& sides);
 

@@ -19,7 +19,7 @@ SideTask::SideTask(double delay, ExecutionContext& context, Work work)
     }
     catch (const std::system_error&)
     {
-      // No more threads: finish() does the work.
+      // No thread is available: finish() does the work.
     }
   }
 }

@@ -13,24 +13,25 @@
 namespace bindpose
 {
 
-/// Work that may be needed later, done on a thread of its own while the owner does something else.
-/// The owner decides afterwards whether the result is used, so an early start changes how long it
-/// takes to get a result, and nothing else.
+/// Work that may be needed later and runs on a separate thread while the owner does something else.
+/// The owner decides afterwards whether to use the result, so an early start changes only the time
+/// until the result is available.
 class SideTask
 {
 public:
-  /// Runs on one thread. Its context is cancelled when the owner's is, and by the destructor.
+  /// Runs on one thread. Its context is canceled when the owner's context is canceled, and by the
+  /// destructor.
   using Work = std::function<void(ExecutionContext& context)>;
 
-  /// Starts the work after `delay` seconds; if the context has one thread only, in finish(). The
-  /// context must outlive the task.
+  /// Start the work after `delay` seconds. If the context has only one thread, finish() does the
+  /// work instead. The context must outlive the task.
   SideTask(double delay, ExecutionContext& context, Work work);
-  /// Cancels the work and waits for its thread.
+  /// Cancel the work and wait for its thread.
   ~SideTask();
   SideTask(const SideTask&) = delete;
   SideTask& operator=(const SideTask&) = delete;
 
-  /// Starts the work if it has not started, waits for its end, and throws what it threw.
+  /// Start the work if it has not started, wait for its end, and rethrow its exception.
   void finish();
 
 private:
@@ -42,7 +43,7 @@ private:
   std::mutex mutex_;
   std::condition_variable changed_;
   bool wanted_ = false; ///< finish() was called
-  std::atomic<bool> dropped_{ false }; ///< by the destructor
+  std::atomic<bool> dropped_{ false }; ///< set by the destructor
   bool finished_ = false;
   std::exception_ptr failure_;
   std::thread thread_; ///< none if the context has one thread

@@ -1,15 +1,15 @@
 #ifndef bindpose_base_simd_h
 #define bindpose_base_simd_h
 
-/// BINDPOSE_SIMD_CLONES in front of a function: it is compiled for several instruction sets and the
-/// machine's best is taken at run time. Only for loops that the compiler vectorises over
-/// independent items: then every clone gives the same bits (nothing is contracted to fused
-/// operations but in files that ask for it, see BindposeCompiler.cmake). What the function calls
-/// must be BINDPOSE_ALWAYS_INLINE, or it stays in the plain instruction set.
+/// BINDPOSE_SIMD_CLONES in front of a function compiles it for several instruction sets; the best
+/// one for the machine is selected at run time. Use it only for loops that the compiler vectorizes
+/// over independent items. Then every clone computes the same bits, because operations are
+/// contracted to fused ones only in files that request it (see BindposeCompiler.cmake). Functions
+/// that it calls must be BINDPOSE_ALWAYS_INLINE; others use the baseline instruction set.
 ///
-/// BINDPOSE_SIMD_WIDTHS(define, Scalar), where a loop works on packs of a register's size: puts
-/// define(version, bytes, Scalar), a macro for a function that begins with `version` and works on
-/// packs of so many bytes, once for each instruction set.
+/// BINDPOSE_SIMD_WIDTHS(define, Scalar) is for loops over packs of a register's size. It expands
+/// define(version, bytes, Scalar) once for each instruction set. `define` is a macro for a function
+/// that begins with `version` and works on packs of `bytes` bytes.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
   !defined(__SANITIZE_ADDRESS__)
 #define BINDPOSE_SIMD_CLONES \

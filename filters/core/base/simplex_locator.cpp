@@ -1,5 +1,5 @@
-// A binary tree of axis-aligned boxes, split at the median of the elements' centres along the
-// longest side, searched nearest box first.
+// A binary tree of axis-aligned boxes. It is split at the median of the elements' centers along the
+// longest side and searched nearest box first.
 #include "base/simplex_locator.h"
 
 #include <algorithm>

@@ -9,8 +9,8 @@
 namespace bindpose
 {
 
-/// Where a point lies in a mesh: the element, and barycentric coordinates of the element's point
-/// nearest to it (for a triangle the fourth is 0).
+/// Location of a point in a mesh: an element, and the barycentric coordinates of the element's
+/// point that is nearest to the query point (for a triangle the fourth is 0).
 struct SimplexLocation
 {
   Index element = -1; ///< -1: the mesh has no element or the point is not finite
@@ -18,18 +18,19 @@ struct SimplexLocation
   double distance = 0.0; ///< from the point to the element, 0 inside
 };
 
-/// The point of a triangle or tet nearest to p, as barycentric coordinates and distance. Degenerate
-/// elements are handled by their edges.
+/// Return the point of a triangle or tet that is nearest to p, as barycentric coordinates and
+/// distance. Degenerate elements are handled by their edges.
 SimplexLocation nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 SimplexLocation nearest_in_tet(
   const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// Finds the element that holds a point, or the nearest one, by a tree of boxes. Building costs
-/// O(n log n), a query O(log n) near the mesh. Of equally near elements the one of lowest id wins.
+/// Finds the element that contains a point, or the nearest element, by a tree of boxes. Building
+/// costs O(n log n), a query near the mesh O(log n). Of equally near elements, the one of the
+/// lowest id is returned.
 class SimplexLocator
 {
 public:
-  /// Keeps views: points and elements must outlive the locator.
+  /// The locator keeps views: points and elements must outlive it.
   SimplexLocator(PointsView points, TetsView tets);
   SimplexLocator(PointsView points, TrianglesView triangles);
 
@@ -50,7 +51,7 @@ private:
   const Index* elements_;
   Index count_;
   int corners_;
-  std::vector<Vec3> lower_, upper_; // of elements
+  std::vector<Vec3> lower_, upper_; // boxes of the elements
   std::vector<Index> order_;
   std::vector<Node> nodes_;
 };

@@ -7,7 +7,7 @@
 namespace bindpose
 {
 
-/// Sorts, and keeps one of equal items.
+/// Sort the items and keep one of equal items.
 template <typename Item>
 void sort_unique(std::vector<Item>& items)
 {

@@ -1,15 +1,15 @@
 // One interface, two backends.
 //
-// CHOLMOD: cholmod_analyze gives a symbolic factor, which clones share. Each one copies it when it
-// first factors, and has a workspace (cholmod_common) of its own, so that clones factor at the same
-// time. The factor is always supernodal LL': a simplicial LDL' would accept negative pivots
-// silently.
+// CHOLMOD: cholmod_analyze returns a symbolic factor, which clones share. Each clone copies it when
+// it first factors and has its own workspace (cholmod_common), so that clones can factor
+// concurrently. The factor is always supernodal LL', because a simplicial LDL' would accept
+// negative pivots silently.
 //
-// Serial inside: handles are solved in parallel one level up, and a threaded BLAS would make
-// results depend on the number of threads. CHOLMOD also assembles supernodes in OpenMP regions of
-// four threads, which only get in each other's way there; they are made inactive for the call.
-// For the same reason OpenBLAS should be the threaded one, told to use one thread: the one built
-// without threads cannot be called by two threads at once (see SerialBlas).
+// A factorization is serial, because handles are solved in parallel one level up, and a threaded
+// BLAS would make results depend on the number of threads. CHOLMOD also assembles supernodes in
+// OpenMP regions of four threads. These threads would obstruct each other, so the regions are made
+// inactive for the call. OpenBLAS should be the threaded build, set to use one thread: the build
+// without threads does not support concurrent calls (see SerialBlas).
 #include "base/sparse_solver.h"
 
 #include "base/memory.h"
@@ -38,7 +38,7 @@ struct Counters
   std::atomic<Index> factorisations{ 0 };
 };
 
-/// What a backend does; SparseSolver counts and checks.
+/// Interface of a backend; SparseSolver counts and checks.
 class Factorisation
 {
 public:
@@ -98,7 +98,7 @@ public:
 
   std::unique_ptr<Factorisation> clone() const override
   {
-    // Eigen's solver cannot be copied; its analysis is cheap beside one factorisation.
+    // Eigen's solver cannot be copied; its analysis is cheap compared with a factorization.
     auto copy = std::make_unique<EigenFactorisation>();
     copy->pattern_ = this->pattern_;
     if (copy->pattern_)
@@ -108,7 +108,7 @@ public:
     return copy;
   }
 
-  // Taken by the analysis.
+  // The analysis allocates the factor.
   bool has_factor() const override { return true; }
   double bytes() const override
   {
@@ -204,7 +204,7 @@ public:
     {
       return this->failure("factored");
     }
-    // LAPACK lets NaN through; the estimate of the condition is 0 or NaN then.
+    // LAPACK accepts NaN; the estimate of the condition is then 0 or NaN.
     return cholmod_rcond(this->factor_, &this->common_) > 0.0
       ? Status()
       : Status::invalid_input("the matrix to be factored holds numbers that are not finite");
@@ -323,8 +323,8 @@ private:
 
   SparseSolver::Ordering ordering_;
   mutable cholmod_common common_{};
-  std::shared_ptr<cholmod_factor> pattern_; // what clones share
-  cholmod_factor* factor_ = nullptr; // not before the first factorisation
+  std::shared_ptr<cholmod_factor> pattern_; // shared by clones
+  cholmod_factor* factor_ = nullptr; // null before the first factorization
   cholmod_dense* x_ = nullptr; // kept between solves
   cholmod_dense* y_ = nullptr;
   cholmod_dense* e_ = nullptr;
@@ -410,7 +410,8 @@ Status SparseSolver::analyse(const SparseMatrix& matrix)
   {
     return Status::invalid_input("a matrix to be factored must be square and compressed");
   }
-  // METIS draws from the C library's generator: one analysis at a time, so that each is repeatable.
+  // METIS uses the C library's random generator. Analyses are serialized, so that each one is
+  // repeatable.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   this->impl_->size = matrix.rows();

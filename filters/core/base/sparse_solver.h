@@ -14,28 +14,28 @@ namespace bindpose
 
 struct Supernodes;
 
-/// Sparse Cholesky factorisation of symmetric positive definite matrices: the pattern is analysed
-/// once, then any number of matrices of that pattern are factored, each solves for any number of
-/// right-hand sides.
+/// Sparse Cholesky factorization of symmetric positive definite matrices. The pattern is analyzed
+/// once. Then any number of matrices of that pattern can be factored, and each factor solves for
+/// any number of right-hand sides.
 ///
-/// Only the lower triangle of a matrix is read. An object is used by one thread at a time; for
-/// several factorisations at once take a clone() per thread: all clones share one analysis.
+/// Only the lower triangle of a matrix is read. An object may be used by one thread at a time. For
+/// concurrent factorizations, use one clone() per thread; all clones share one analysis.
 ///
-/// CHOLMOD's supernodal method (dense blocks, BLAS; GPL) when built with it, Eigen's SimplicialLDLT
-/// otherwise, several times slower on meshes of volumes. Both are deterministic; METIS seeds its
-/// own generator, and analyses never run at the same time.
+/// The backend is CHOLMOD's supernodal method (dense blocks, BLAS; GPL) if it is built in.
+/// Otherwise it is Eigen's SimplicialLDLT, which is several times slower on volume meshes. Both are
+/// deterministic: METIS seeds its generator itself, and analyses never run concurrently.
 class SparseSolver
 {
 public:
   enum class Backend
   {
-    automatic, ///< CHOLMOD when built with it
+    automatic, ///< CHOLMOD if it is built in
     cholmod,
     eigen
   };
   enum class Ordering
   {
-    automatic, ///< METIS above 500 unknowns, AMD below (Eigen's backend always takes AMD)
+    automatic, ///< METIS above 500 unknowns, AMD below (Eigen's backend always uses AMD)
     metis, ///< nested dissection: least fill on meshes
     amd ///< minimum degree: fastest to compute
   };
@@ -43,8 +43,8 @@ public:
   {
     Backend backend = Backend::automatic;
     Ordering ordering = Ordering::automatic;
-    /// MiB that the whole process may hold; 0: as much as is available. What would take more is
-    /// refused before it is begun.
+    /// MiB that the whole process may use; 0: all available memory. A factorization that would take
+    /// more is rejected before it begins.
     Index memory_limit = 0;
   };
 
@@ -54,41 +54,43 @@ public:
   SparseSolver(SparseSolver&&) noexcept;
   SparseSolver& operator=(SparseSolver&&) noexcept;
 
-  /// True when this build has CHOLMOD.
+  /// Report whether this build has CHOLMOD.
   static bool has_cholmod();
-  /// A sentence for the user when CHOLMOD runs on a BLAS that is not known to be fast (the
-  /// reference BLAS is about 17 times slower than OpenBLAS); empty otherwise.
+  /// Return a sentence for the user if CHOLMOD runs on a BLAS that is not known to be fast (the
+  /// reference BLAS is about 17 times slower than OpenBLAS), otherwise an empty string.
   static std::string blas_warning();
 
-  /// "cholmod" or "eigen".
+  /// Return "cholmod" or "eigen".
   const char* backend_name() const;
 
-  /// Orders the unknowns and finds the pattern of the factor. unavailable when the chosen backend
-  /// is not built in; invalid_input when the matrix is not square or the factor would be too large.
+  /// Order the unknowns and find the pattern of the factor. The status is unavailable if the chosen
+  /// backend is not built in. It is invalid_input if the matrix is not square or the factor would
+  /// be too large.
   Status analyse(const SparseMatrix& matrix);
-  /// Factors a matrix of the analysed pattern. invalid_input when it is not positive definite: the
-  /// message names the unknown at whose pivot that showed. internal_error when the factor has no
-  /// room in memory.
+  /// Factor a matrix of the analyzed pattern. The status is invalid_input if the matrix is not
+  /// positive definite; the message names the unknown whose pivot failed. It is internal_error if
+  /// the factor does not fit into memory.
   Status factor(const SparseMatrix& matrix);
-  /// Solves for the columns of rhs with the last factorisation.
+  /// Solve for the columns of rhs with the last factorization.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
-  /// The same without allocations of its own: the caller keeps x.
+  /// Solve for one column. Reuse x to avoid allocations.
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
 
-  /// A solver with this one's analysis and no factorisation, for use on another thread.
+  /// Return a solver with the same analysis and no factorization, for use on another thread.
   SparseSolver clone() const;
 
-  /// Where the factor's nonzeros are; null for Eigen's backend and before analyse(). For
-  /// factorisations of another kind (see FloatCholesky).
+  /// Return the positions of the factor's nonzeros; null for Eigen's backend and before analyse().
+  /// Other factorizations use them (see FloatCholesky).
   std::shared_ptr<const Supernodes> supernodes() const;
 
-  /// Bytes that this object's factor will take; once it is there they are taken.
+  /// Return the bytes of this object's factor, which are known after analyse().
   double factor_bytes() const;
-  /// Unknowns analysed, nonzeros of the factor, floating point operations of one factorisation.
+  /// Return the number of unknowns, of nonzeros of the factor, and of floating-point operations of
+  /// one factorization.
   Index size() const;
   double factor_nonzeros() const;
   double factor_operations() const;
-  /// How often this solver and all its clones analysed and factored.
+  /// Return how often this solver and all its clones analyzed and factored.
   Index analyses() const;
   Index factorisations() const;
 

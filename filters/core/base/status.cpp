@@ -35,7 +35,8 @@ auto find_entry(Entries& entries, const std::string& key)
     entries.begin(), entries.end(), [&](const auto& entry) { return entry.first == key; });
 }
 
-/// Bytes of the printable UTF-8 character that the text begins with, 0 for anything else.
+/// Return the bytes of the printable UTF-8 character at the beginning of the text, or 0 if there is
+/// none.
 std::size_t character_length(std::string_view text)
 {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -56,7 +57,7 @@ std::size_t character_length(std::string_view text)
       return 0;
     }
   }
-  // Longer than need be, a surrogate, or beyond the last character.
+  // An overlong encoding, a surrogate, or a code beyond the last character.
   const unsigned second = byte(1);
   const bool wrong = (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
     (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);

@@ -11,25 +11,25 @@
 namespace bindpose
 {
 
-/// How a computation ended. The order is the one filters expose as an integer.
+/// Outcome of a computation. Filters expose these values as integers in this order.
 enum class StatusCode
 {
   ok = 0,
-  not_converged, ///< a result is there, its residuals are in the report and above the tolerance
-  invalid_input, ///< the caller's data cannot be used; the message names the first offender
+  not_converged, ///< a result exists; its residuals are in the report and exceed the tolerance
+  invalid_input, ///< the caller's data cannot be used; the message names the first violation
   cancelled,
-  unavailable, ///< a part is missing, or the method cannot; the message names what to do
+  unavailable, ///< a component is missing, or the method cannot do it; the message says what to do
   internal_error
 };
 
-/// "ok", "not_converged", … : the words of reports, files and Python.
+/// Return "ok", "not_converged", …: the words of reports, files and Python.
 const char* to_string(StatusCode code);
 
-/// What was measured, by key, in the order in which it was set.
+/// Measured values by key, in the order in which they were first set.
 ///
-/// A key is one of the report's documented names; a dot makes an object ("seconds.factor"), "[]."
-/// makes a list of objects whose columns are vectors of equal length ("handles[].name"). A key
-/// that does not apply is absent. The same keys are used in field data, JSON and Python.
+/// A key is one of the report's documented names. A dot makes an object ("seconds.factor"). "[]."
+/// makes a list of objects whose columns are vectors of equal length ("handles[].name"). A key that
+/// does not apply is absent. Field data, JSON and Python use the same keys.
 class Report
 {
 public:
@@ -37,7 +37,7 @@ public:
     std::vector<double>, std::vector<std::string>>;
 
   void set(const std::string& key, Value value);
-  /// Any number: whole ones stay whole, others are doubles.
+  /// Store any number: integers remain integers, others become doubles.
   template <typename Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
   void set(const std::string& key, Number value)
   {
@@ -45,14 +45,15 @@ public:
     this->set(key, Value(static_cast<Stored>(value)));
   }
   void set(const std::string& key, const char* value) { this->set(key, Value(std::string(value))); }
-  /// Adds to a number that may not be there yet (seconds of a phase that runs several times).
+  /// Add to a number, or set it if it is absent (for the seconds of a phase that runs several
+  /// times).
   void add(const std::string& key, double value);
   void erase(const std::string& key);
-  /// Takes over all of the other's entries, replacing those of the same key.
+  /// Copy all entries of the other report, replacing those of the same key.
   void merge(const Report& other);
 
   const Value* find(const std::string& key) const;
-  /// The number under the key, or the fallback when it is absent or not a number.
+  /// Return the number for the key, or the fallback if it is absent or not a number.
   double number(const std::string& key, double fallback) const;
   std::string text(const std::string& key, const std::string& fallback = {}) const;
 
@@ -63,8 +64,8 @@ private:
   std::vector<std::pair<std::string, Value>> entries_;
 };
 
-/// The text with a '?' for every control character and every byte that is no UTF-8: what a file or
-/// a name holds must not break a line, a terminal or a Python string.
+/// Return the text with a '?' for every control character and every byte that is not UTF-8. The
+/// content of a file or a name must not break a line, a terminal or a Python string.
 std::string one_line(std::string text);
 
 /// Outcome of a computation: code, one sentence, warnings (one sentence each) and the numbers.
@@ -76,10 +77,10 @@ struct Status
   Report report;
 
   bool ok() const { return this->code == StatusCode::ok; }
-  /// ok or not_converged: there is a result to hand on.
+  /// Report whether there is a result to pass on: ok or not_converged.
   bool usable() const { return this->ok() || this->code == StatusCode::not_converged; }
 
-  /// The message is made one_line().
+  /// Return a failed status. The message is passed through one_line().
   static Status failure(StatusCode code, std::string message);
   static Status invalid_input(std::string message);
   static Status cancelled();

@@ -6,7 +6,7 @@
 namespace bindpose
 {
 
-/// Seconds since it was made.
+/// Measures the seconds since its construction.
 class Stopwatch
 {
 public:

@@ -1,6 +1,7 @@
-// Supernode by supernode. The own unknowns and those of the rows below are brought together in one
-// small array, so that each column of the block is one run of memory that meets another one; four
-// columns at a time, because then the small array is read and written a quarter as often.
+// The solve runs supernode by supernode. The supernode's own unknowns and those of the rows below
+// are gathered in a small array, so that each column of the block meets contiguous memory. Four
+// columns are processed at a time, because the small array is then read and written a quarter as
+// often.
 #include "base/supernode_solve.h"
 
 #include "base/simd.h"
@@ -15,16 +16,17 @@ namespace bindpose
 
 namespace
 {
-constexpr int group = 4; // columns of a block at a time
+constexpr int group = 4; // columns of a block that are processed together
 
-/// One row's entries of all right-hand sides.
+/// Entries of one row, for all right-hand sides.
 typedef float Row4 __attribute__((vector_size(16)));
 typedef float Row8 __attribute__((vector_size(32)));
-/// Partial sums of a single right-hand side's dot products.
+/// Partial sums of the dot products of a single right-hand side.
 typedef float Lanes __attribute__((vector_size(64), aligned(4)));
 constexpr int lanes = 16;
 
-/// The group's triangle at the top, then the rows below it: t -= block x.
+/// Solve with the triangle at the top of each group of columns, then subtract from the rows below:
+/// t -= block x.
 template <typename Row>
 BINDPOSE_ALWAYS_INLINE void forward(const float* block, int rows, int width, float* entries)
 {
@@ -61,8 +63,8 @@ BINDPOSE_ALWAYS_INLINE void forward(const float* block, int rows, int width, flo
   }
 }
 
-/// The entries of `count` columns from row `first` on, times t. The sums do not wait for each
-/// other.
+/// Compute the dot products of `count` columns, from row `first` on, with t. The sums are
+/// independent of each other.
 template <int count, typename Row>
 BINDPOSE_ALWAYS_INLINE void dots(const float* a, const Row* t, int first, int rows, Row* sums)
 {
@@ -110,7 +112,7 @@ BINDPOSE_ALWAYS_INLINE void dots(const float* a, const float* t, int first, int 
   }
 }
 
-/// t = block^-T t, with the rows below as given.
+/// Solve t = block^-T t; the entries of the rows below are given.
 template <typename Row>
 BINDPOSE_ALWAYS_INLINE void backward(const float* block, int rows, int width, float* entries)
 {

@@ -6,13 +6,14 @@
 namespace bindpose
 {
 
-/// Right-hand sides that are solved for together at most.
+/// Largest number of right-hand sides that are solved together.
 constexpr int most_solve_columns = 8;
 
-/// Solves L L' x = b in place, with a Cholesky factor in supernodes. Bound by the reading of the
-/// factor, twice: several columns cost little more than one. The same bits on any machine.
-/// @param values the blocks, column by column; what is above their diagonals is not read.
-/// @param x #unknowns x columns, row by row, in order of elimination.
+/// Solve L L' x = b in place, with a Cholesky factor in supernodes. The time is that of reading the
+/// factor twice, so several columns cost little more than one. The bits are the same on every
+/// machine.
+/// @param values blocks, column by column; entries above their diagonals are not read
+/// @param x #unknowns x columns, row-major, in order of elimination
 /// @param columns 1, 4 or 8.
 void solve_with_supernodes(const Supernodes& nodes, const float* values, float* x, int columns);
 

@@ -6,16 +6,17 @@
 namespace bindpose
 {
 
-/// Where the nonzeros of a sparse Cholesky factor are: columns with (nearly) the same rows form a
-/// supernode, a dense block stored column by column. Supernodes are in postorder: each comes after
-/// all that update it.
+/// Positions of the nonzeros of a sparse Cholesky factor. Columns with (nearly) the same rows form
+/// a supernode, a dense block stored column by column. Supernodes are in postorder: each one comes
+/// after all supernodes that update it.
 struct Supernodes
 {
-  std::vector<int> order; ///< #unknowns: which unknown is eliminated when
-  std::vector<int> first_column; ///< #supernodes + 1, in order of elimination
-  std::vector<int> first_row; ///< #supernodes + 1, where each one's rows begin in rows
-  std::vector<int> first_value; ///< #supernodes + 1, where each one's block begins
-  /// Rows of each supernode in order of elimination, ascending; the first are its own columns.
+  std::vector<int> order; ///< #unknowns, the unknown that each step eliminates
+  std::vector<int> first_column; ///< #supernodes + 1, first column of each one, in order of
+                                 ///< elimination
+  std::vector<int> first_row; ///< #supernodes + 1, index of each one's first row in `rows`
+  std::vector<int> first_value; ///< #supernodes + 1, index of each one's block in the values
+  /// Rows of each supernode in order of elimination, ascending; the first ones are its own columns.
   std::vector<int> rows;
 };
 

@@ -1,4 +1,5 @@
-// Facets fall into buckets by their smallest vertex, a dozen each, which are sorted one by one.
+// Facets are put into buckets by their smallest vertex, about a dozen per bucket. Each bucket is
+// sorted.
 #include "base/tet_facets.h"
 
 #include <algorithm>

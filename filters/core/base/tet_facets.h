@@ -9,10 +9,10 @@
 namespace bindpose
 {
 
-/// Corners of a positive tet's sides, ordered to point outwards; side k lies opposite to corner k.
+/// Corners of a positive tet's sides, ordered to point outwards; side k is opposite to corner k.
 constexpr int facet_corners[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
 
-/// A tet's side, named by its vertices in ascending order.
+/// A side of a tet, identified by its vertices in ascending order.
 struct TetFacet
 {
   std::array<Index, 3> vertices;
@@ -20,8 +20,8 @@ struct TetFacet
   int side; ///< row of facet_corners
 };
 
-/// The 4 #T facets, sorted by vertices, then tet: those of two neighbours stand side by side.
-/// Cost: 0.1 us a facet; ids must be in range of the points that they name.
+/// Return the 4 #T facets, sorted by vertices, then by tet, so that the facets of two neighbors are
+/// adjacent. Ids must be in range of the points. Cost: 0.1 us per facet.
 std::vector<TetFacet> tet_facets(TetsView tets);
 
 } // namespace bindpose

@@ -18,7 +18,7 @@ BINDPOSE_SIMD_CLONES void multiply(
   Index c = 0;
   for (; c + 4 <= cols; c += 4)
   {
-    // Given blocks, those of full handles, are zero everywhere else.
+    // Skip zeros: given blocks, those of full handles, are zero except at these handles.
     if (any_of_four(x + c) || any_of_four(x + cols + c) || any_of_four(x + 2 * cols + c))
     {
       add_columns<4>(rows, a + c * rows, x + c, cols, y);
@@ -30,7 +30,7 @@ BINDPOSE_SIMD_CLONES void multiply(
   }
 }
 
-/// y_j = A^T x_j for a few columns of A.
+/// Compute y_j = A^T x_j for `count` columns of A.
 template <Index count>
 BINDPOSE_ALWAYS_INLINE void dot_columns(
   Index rows, const double* a, const double* x, double* y, Index y_stride)

@@ -6,12 +6,12 @@
 namespace bindpose
 {
 
-/// A matrix with a column for each coordinate.
+/// A matrix with one column per coordinate.
 using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// A X and A^T X for three columns, where a library's product for any size spends more time on
-/// rearranging A than on the product. Each number of A is read once; the same bits on any
-/// processor.
+/// Return A X and A^T X for three columns. A library's product for matrices of any size spends more
+/// time on rearranging A than on the product. Here each number of A is read once. The bits are the
+/// same on every processor.
 Coordinates thin_product(const Eigen::MatrixXd& a, const Coordinates& x);
 Coordinates transposed_thin_product(const Eigen::MatrixXd& a, const Coordinates& x);
 

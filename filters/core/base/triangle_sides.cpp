@@ -1,4 +1,4 @@
-// Sides are dealt out to the lower of their ends, then the few of each vertex are sorted.
+// Sides are put into buckets by the lower of their vertices, then each small bucket is sorted.
 #include "base/triangle_sides.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::vector<TriangleSide> sides_by_edge(TrianglesView triangles)
   std::vector<TriangleSide> sides(static_cast<std::size_t>(triangles.size()));
   for_each(
     [&](const TriangleSide& side) { sides[next[static_cast<std::size_t>(side.a)]++] = side; });
-  // Now next is where the sides of a vertex end.
+  // next[v] is now the end of the sides of vertex v.
   std::size_t begin = 0;
   for (Index v = 0; v < vertices; ++v)
   {

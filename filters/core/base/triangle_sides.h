@@ -8,13 +8,13 @@
 namespace bindpose
 {
 
-/// A side of a triangle, as one of its edge's.
+/// A side of a triangle and the edge that it belongs to.
 struct TriangleSide
 {
   Index a, b; ///< the edge, a <= b
   Index triangle;
-  int corner; ///< the side runs from this corner of the triangle to the next
-  bool forward; ///< it runs a -> b
+  int corner; ///< the side runs from this corner of the triangle to the next one
+  bool forward; ///< whether the side runs a -> b
 
   bool same_edge(const TriangleSide& other) const
   {
@@ -22,9 +22,10 @@ struct TriangleSide
   }
 };
 
-/// #F * 3 sides, those of an edge next to each other: sorted by (a, b, triangle, corner).
+/// Return #F * 3 sides, sorted by (a, b, triangle, corner), so that the sides of an edge are
+/// adjacent.
 std::vector<TriangleSide> sides_by_edge(TrianglesView triangles);
-/// Behind the last side of the edge that sides[begin] is of.
+/// Return the index after the last side of the edge that sides[begin] belongs to.
 std::size_t end_of_edge(const std::vector<TriangleSide>& sides, std::size_t begin);
 
 } // namespace bindpose

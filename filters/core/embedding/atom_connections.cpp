@@ -19,7 +19,7 @@ using Cube = EmbeddingAtoms::Cube;
 using Id = EmbeddingAtoms::Id;
 using Sample = EmbeddingAtoms::Sample;
 
-constexpr Index often = 1 << 15; // items between two looks at cancel
+constexpr Index often = 1 << 15; // items between two checks for cancel
 
 Cube moved(Cube cube, int axis, int by)
 {
@@ -104,11 +104,11 @@ private:
       });
   }
 
-  /// Connects along the lines that are cut, and measures how much of them is inside.
+  /// Connect atoms along lines that are cut, and measure the length of the lines inside.
   Status connect_crossings()
   {
     const auto& list = this->crossings_;
-    // Stretches between two crossings, by the first of them.
+    // Stretches between two crossings, by the index of the first crossing.
     std::vector<Index> stretches;
     for (std::size_t i = 0; i + 1 < list.size(); ++i)
     {
@@ -137,7 +137,8 @@ private:
         inside_after[stretches[i]] = w[i] >= this->threshold_ ? 1 : 0;
       }
     }
-    // Which lines at a sample are cut: bits for lines up along x, y, z, then down.
+    // Mark the cut lines at each sample: bits 0 to 2 for lines up along x, y, z, bits 3 to 5 for
+    // lines down.
     for (const LineCrossing& crossing : list)
     {
       const int axis = crossing.axis();
@@ -203,7 +204,8 @@ private:
     }
   }
 
-  /// Adds a stretch of a line that is inside to its atom, half a line to each sample's cell.
+  /// Add an inside stretch of a line to its atom. Each half of the line counts for the cell of the
+  /// nearer sample.
   void measure(Id lower, Id upper, double from, double to, Id atom)
   {
     if (atom < 0)
@@ -226,8 +228,8 @@ private:
     return static_cast<int>((axes & 1U) + (axes >> 1 & 1U) + (axes >> 2));
   }
 
-  /// Connects samples along lines that are not cut, and measures their cells: as much of one is
-  /// inside as of the lines through the sample that are cut.
+  /// Connect samples along lines that are not cut, and measure their cells. The inside fraction of
+  /// a cell is that of the cut lines through the sample.
   bool connect_samples()
   {
     for (Id cube = 0; cube < static_cast<Id>(this->atoms_.sampled.size()); ++cube)
@@ -267,7 +269,7 @@ private:
           }
           if (!down_is_cut && position[axis] == 0)
           {
-            // Sampled neighbours look up themselves.
+            // Sampled neighbors make this connection in their own upward direction.
             Sample below = this->atoms_.sample_of(cube, s);
             --below[axis];
             const Id last = this->atoms_.atom_of(below);
@@ -283,7 +285,7 @@ private:
     return true;
   }
 
-  /// Cubes inside hold nothing that separates.
+  /// Connect cubes inside, which contain nothing that separates.
   void connect_cubes()
   {
     for (Id i = 0; i < static_cast<Id>(this->atoms_.full.size()); ++i)
@@ -311,7 +313,7 @@ private:
 
   bool connect_triangles()
   {
-    // Around vertices.
+    // Triangles around vertices.
     const auto& triangles = this->surface_.triangles;
     std::vector<Id> first_at(this->surface_.points.size(), -1);
     struct Side
@@ -336,7 +338,7 @@ private:
           this->result_.within.unite(first, atom);
         }
         first = first >= 0 ? first : atom;
-        // An edge within one tet connects there as its vertices do.
+        // The triangles at an edge within one tet are already connected there by its vertices.
         if (this->cover_.tet_of_point[v] != this->cover_.tet_of_point[w])
         {
           sides.push_back({ std::min(v, w), std::max(v, w), static_cast<Id>(f) });
@@ -368,7 +370,7 @@ private:
     return true;
   }
 
-  /// Links hold on to the triangles that their ends lie on.
+  /// Connect links to the triangles that contain their ends.
   void connect_links()
   {
     for (const LatticeSurface::End& end : this->surface_.ends)
@@ -383,7 +385,7 @@ private:
     }
   }
 
-  /// The atom of a triangle's piece whose middle is nearest to a place.
+  /// Return the atom of a triangle's piece whose middle is nearest to a position.
   Id nearest_piece(Id triangle, const Vec3& place) const
   {
     const auto& pieces = this->cover_.pieces;
@@ -403,8 +405,8 @@ private:
   AtomConnections& result_;
   ExecutionContext& context_;
 
-  std::vector<std::uint8_t> cut_; // of the samples: which of the six lines are
-  std::vector<LineCrossing> crossings_; // by line, then along it
+  std::vector<std::uint8_t> cut_; // of the samples: bits of the lines that are cut
+  std::vector<LineCrossing> crossings_; // sorted by line, then along it
 };
 } // namespace
 

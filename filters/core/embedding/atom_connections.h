@@ -13,18 +13,20 @@
 namespace bindpose
 {
 
-/// Which atoms are connected by lines between samples and by triangles.
+/// Connections between atoms, by lines between samples and by triangles.
 struct AtomConnections
 {
   using Id = EmbeddingAtoms::Id;
 
   DisjointSets<Id> within; ///< atoms of one tet
   std::vector<std::pair<Id, Id>> across; ///< connected atoms of different tets
-  std::vector<float> shares; ///< of the atoms: how much is inside, in cells of a sample
-  std::vector<Id> of_vertex; ///< an atom at each vertex of the surface, -1: no triangle uses it
+  std::vector<float> shares; ///< #atoms: amount of the inside, in sample cells
+  /// An atom at each vertex of the surface; -1: no triangle uses the vertex.
+  std::vector<Id> of_vertex;
 };
 
-/// Cost: a winding number for every stretch of such a line between two crossings.
+/// Find the connections.
+/// Cost: one winding number per stretch of a line between two crossings.
 Status connect_atoms(const LatticeSurface& surface, const WindingNumber& winding, double threshold,
   const LatticeCover& cover, const EmbeddingAtoms& atoms, AtomConnections& result,
   ExecutionContext& context);

@@ -9,26 +9,27 @@
 namespace bindpose
 {
 
-/// A sub-grid of samples through all cubes of a lattice. They lie off the planes of the lattice, so
-/// that a sample is in one tet.
+/// A sub-grid of samples in all cubes of a lattice. No sample is on a plane of the lattice, so that
+/// each sample is in exactly one tet.
 struct CubeSamples
 {
   using Id = std::int32_t;
-  /// Whole numbers of a sample, over all cubes or within one.
+  /// Integer coordinates of a sample, over all cubes or within one cube.
   using Sample = std::array<Id, 3>;
 
-  static constexpr int along = 6; ///< a side of a cube
+  static constexpr int along = 6; ///< samples along the side of a cube
   static constexpr int of_cube = along * along * along;
-  static constexpr double shift[3] = { 0.62, 0.41, 0.53 }; ///< of the first, in samples' distances
+  /// Offset of the first sample, in units of the sample distance.
+  static constexpr double shift[3] = { 0.62, 0.41, 0.53 };
 
-  /// Of the sample with this number in a cube.
+  /// Return the coordinates in the cube of the sample with this number.
   static Sample position_of(int s) { return { s % along, s / along % along, s / (along * along) }; }
   static Sample next_of(Sample s, int axis)
   {
     ++s[axis];
     return s;
   }
-  /// In cubes.
+  /// Return the position of a sample, in cubes.
   static Vec3 place_of(const Sample& at)
   {
     return Vec3(at[0] + shift[0], at[1] + shift[1], at[2] + shift[2]) / along;

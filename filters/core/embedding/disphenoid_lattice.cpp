@@ -1,8 +1,9 @@
-// A tet's key: its lower cube, the axis across the face, which of the other two axes the edge of
-// the face is away on, and on which side. Seen from the lower centre c, with a the axis across, m
-// the one the edge is away on (side s), n the one the edge runs along, its nodes are c, c + a,
-// c + (a + s m - n) / 2 and c + (a + s m + n) / 2. A place d from the centre of its cube is in the
-// tet whose a, m, n sort |d| from large to small: the coordinates are sums of these.
+// The key of a tet contains its lower cube, the axis across the face (a), the axis along which the
+// edge of the face is offset from the face's center (m), and the side of that offset (s). The edge
+// is parallel to the third axis (n). With the lower center c, the nodes are
+//   c,   c + a,   c + (a + s m - n) / 2,   c + (a + s m + n) / 2.
+// Let d be the offset of a position from the center of its cube. The tet of the position is the one
+// whose a, m, n sort |d| in descending order. The barycentric coordinates are sums of these |d|.
 #include "embedding/disphenoid_lattice.h"
 
 #include <algorithm>
@@ -14,11 +15,11 @@ namespace bindpose
 namespace
 {
 constexpr int cube_bits = 16;
-constexpr int node_bits = 17; // nodes count half cubes
+constexpr int node_bits = 17; // nodes are in units of half cubes
 constexpr int tet_bits = 4;
 constexpr double margin = 2.0;
 
-/// The axes across, away and along, and the side.
+/// The axes across (a), of the offset (m) and along the edge (n), and the side.
 struct Frame
 {
   int a, m, n;
@@ -32,11 +33,12 @@ struct Frame
   {
     return 4 * a + 2 * (m == (a + 1) % 3 ? 0 : 1) + (positive ? 1 : 0);
   }
-  /// True when the volume of c, c + a, the edge's lower and its upper end is positive.
+  /// Report whether the volume of (c, c + a, lower end of the edge, upper end of the edge) is
+  /// positive.
   bool even() const { return (this->m == (this->a + 1) % 3) == (this->side > 0); }
 };
 
-/// The axes by the size of |d|, largest first; the first of equal ones.
+/// Return the axes sorted by |d|, largest first. Equal ones keep their order.
 std::array<int, 3> sorted_axes(const Vec3& d)
 {
   std::array<int, 3> axes{ 0, 1, 2 };
@@ -68,8 +70,9 @@ DisphenoidLattice::DisphenoidLattice(const Box& box, double spacing)
   int exponent = 0;
   const double mantissa = std::frexp(spacing, &exponent);
   this->spacing_ = std::ldexp(std::ceil(mantissa * digits) / digits, exponent);
-  // Off the box's own planes by fractions of a cube that differ: surfaces that are aligned with the
-  // axes, or go through the middle, lie in no plane of the lattice.
+  // The origin is offset from the box's planes by a different fraction of a cube per axis. Surfaces
+  // that are aligned with the axes, or pass through the middle, are therefore in no plane of the
+  // lattice.
   constexpr double fraction[3] = { 21.0, 13.0, 35.0 };
   const double unit = this->spacing_ / 64.0;
   for (int k = 0; k < 3; ++k)
@@ -159,7 +162,7 @@ int DisphenoidLattice::half_of(const Vec3& place)
 void DisphenoidLattice::cut(
   const Polygon& polygon, int direction, double lower, double upper, Polygon& part)
 {
-  // Two half spaces, one after the other (Sutherland and Hodgman).
+  // Clip by two half spaces, one after the other (Sutherland and Hodgman).
   Polygon below;
   for (const bool first : { true, false })
   {

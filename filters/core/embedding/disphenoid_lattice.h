@@ -11,13 +11,14 @@
 namespace bindpose
 {
 
-/// The body-centred cubic lattice, unbounded and stored nowhere: everything is known by keys. Its
-/// nodes are the corners and centres of cubes of side `spacing`; around the face between two cubes
-/// lie four equal tets (both centres and one edge of the face), dihedral angles 60 and 90 degrees.
-/// Their facets lie in the planes where the sum or the difference of two coordinates, in cubes, is
-/// whole.
+/// The body-centered cubic lattice. It is unbounded and not stored: its elements are computed from
+/// keys. Its nodes are the corners and centers of cubes of side `spacing`. Around the face between
+/// two cubes are four equal tets (each has both centers and one edge of the face), with dihedral
+/// angles of 60 and 90 degrees. Their facets are in the planes where the sum or the difference of
+/// two coordinates, in cubes, is an integer.
 ///
-/// Lengths are in cubes from the origin ("place"); cubes from (0, 0, 0) to (65535, 65535, 65535).
+/// A "place" is a position relative to the origin, in units of cubes. Cubes range from (0, 0, 0) to
+/// (65535, 65535, 65535).
 class DisphenoidLattice
 {
 public:
@@ -25,11 +26,11 @@ public:
   using Cube = std::array<std::int32_t, 3>;
 
   DisphenoidLattice() = default;
-  /// A lattice that leaves two cubes or more free around the box. The spacing is rounded up to 8
-  /// binary digits and the origin to a 64th of it, so that coordinates of nodes are exact when it
-  /// is at least least_spacing().
+  /// Make a lattice with at least two free cubes around the box. The spacing is rounded up to 8
+  /// binary digits and the origin to a 64th of the spacing. Coordinates of nodes are therefore
+  /// exact if the spacing is at least least_spacing().
   DisphenoidLattice(const Box& box, double spacing);
-  /// The smallest spacing whose nodes are exact for coordinates of this size.
+  /// Return the smallest spacing for which nodes are exact, for coordinates of this size.
   static double least_spacing(double largest_coordinate);
 
   double spacing() const { return this->spacing_; }
@@ -46,8 +47,9 @@ public:
   static Key cube_key(const Cube& cube);
   static Cube cube_of(Key cube_key);
 
-  /// A place's tet, and its barycentric coordinates, none of them negative, in the order of
-  /// corners(). Places on a facet, edge or node belong to one of the tets there, always the same.
+  /// The tet that contains a position, and the position's barycentric coordinates, all >= 0, in the
+  /// order of corners(). Positions on a facet, edge or node belong to one of the adjacent tets,
+  /// always the same one.
   struct Location
   {
     Key tet = 0;
@@ -55,23 +57,24 @@ public:
   };
   static Location locate(const Vec3& place);
 
-  /// Keys of a tet's nodes, in the order that makes its volume positive.
+  /// Return the keys of a tet's nodes, in the order that makes its volume positive.
   static std::array<Key, 4> corners(Key tet);
   Vec3 node_point(Key node) const;
 
-  /// A tet lies in two cubes, one half in each: those are 24 of a cube. Half 2k + 1 of a cube is in
-  /// the tet around its upper face, 2k around its lower face.
+  /// Every tet consists of two halves, one in each of two neighboring cubes; a cube contains 24
+  /// halves. Half 2k + 1 of a cube is in the tet with number k at its upper face, half 2k in the
+  /// tet with number k at its lower face.
   static constexpr int halves = 24;
   static Key tet_of_half(const Cube& cube, int half);
-  /// 0 … 11: which of the tets around its lower cube's upper faces it is; its halves are 2n + 1 of
-  /// that cube and 2n of the upper one.
+  /// Return the number of a tet, 0 … 11, among the tets around the upper faces of its lower cube.
+  /// Its halves are 2n + 1 of that cube and 2n of the upper one.
   static int number_of(Key tet) { return static_cast<int>(tet & 15U); }
-  /// Which of its cube's halves a place is in.
+  /// Return the half of its cube that contains a position.
   static int half_of(const Vec3& place);
 
-  /// The pieces of a triangle (or segment: three places, two of them equal) between the lattice's
-  /// planes: calls piece(middle, lower, upper) with a place in each and its bounds. Pieces thinner
-  /// than 1e-9 cubes are left out.
+  /// Cut a triangle by the lattice's planes, and call piece(middle, lower, upper) for each piece,
+  /// with a position in the piece and its bounds. A segment is passed as three positions, two of
+  /// them equal. Pieces thinner than 1e-9 cubes are skipped.
   template <typename Piece>
   static void for_pieces(const std::array<Vec3, 3>& places, const Piece& piece)
   {
@@ -104,7 +107,7 @@ private:
     const double y = place[(direction / 2 + 1) % 3];
     return direction % 2 ? x - y : x + y;
   }
-  /// The part between `lower` and `upper`.
+  /// Cut out the part between the planes `lower` and `upper`.
   static void cut(const Polygon& polygon, int direction, double lower, double upper, Polygon& part);
 
   template <typename Piece>

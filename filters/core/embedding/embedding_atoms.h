@@ -16,8 +16,9 @@
 namespace bindpose
 {
 
-/// What a surface and its inside are taken apart into, each atom in one tet of the lattice: samples
-/// of the cubes at the surface, then halves of the cubes inside, then pieces of triangles.
+/// The atoms of a surface and its inside; each atom is in one tet of the lattice. They are numbered
+/// in this order: samples of the cubes at the surface, halves of the cubes inside, pieces of
+/// triangles.
 class EmbeddingAtoms
 {
 public:
@@ -25,18 +26,18 @@ public:
   using Cube = DisphenoidLattice::Cube;
   using Id = LatticeCover::Id;
   using Sample = CubeSamples::Sample;
-  static constexpr int halves = DisphenoidLattice::halves; ///< of a cube
+  static constexpr int halves = DisphenoidLattice::halves; ///< per cube
 
   /// The cover must outlive the atoms.
   explicit EmbeddingAtoms(const LatticeCover& cover) : cover_(cover) {}
 
-  /// invalid_input: more than a million cubes at the surface.
+  /// Number the atoms. Return invalid_input if there are more than a million cubes at the surface.
   Status number(ExecutionContext& context);
-  /// Which samples are inside. Cost: a winding number each.
+  /// Find the samples that are inside. Cost: one winding number per sample.
   Status find_inside(const WindingNumber& winding, double threshold, ExecutionContext& context);
 
   Id count() const { return this->first_piece + static_cast<Id>(this->piece_tets_.size()); }
-  /// Over all cubes, of a sample's number in the cube at this place in `sampled`.
+  /// Return the coordinates over all cubes of sample s in cube `sampled[sampled_cube]`.
   Sample sample_of(Id sampled_cube, int s) const
   {
     const Cube cube = DisphenoidLattice::cube_of(this->sampled[sampled_cube]);
@@ -47,7 +48,8 @@ public:
     }
     return at;
   }
-  /// A sample's atom; -1: it is outside of all cubes. In a sampled cube it may not be inside.
+  /// Return the atom of a sample; -1: it is outside of all cubes. In a sampled cube the atom may be
+  /// outside; see is_inside().
   Id atom_of(const Sample& at) const
   {
     const Cube cube{ at[0] / CubeSamples::along, at[1] / CubeSamples::along,
@@ -64,12 +66,13 @@ public:
       ? found->second * CubeSamples::of_cube + s
       : this->first_full + (-1 - found->second) * halves + this->half_of_sample_[s];
   }
-  /// All atoms are, but those of samples outside, and -1.
+  /// Report whether an atom is inside. This is true for all atoms except samples outside; it is
+  /// false for -1.
   bool is_inside(Id atom) const
   {
     return atom >= this->first_full || (atom >= 0 && this->inside_[atom] != 0);
   }
-  /// Its place in `tets`.
+  /// Return the index of the atom's tet in `tets`.
   Id tet_of(Id atom) const
   {
     if (atom >= this->first_piece)
@@ -83,7 +86,7 @@ public:
     return this->half_tets_[(atom / CubeSamples::of_cube) * halves +
       this->half_of_sample_[atom % CubeSamples::of_cube]];
   }
-  /// The atom of a triangle in a tet, -1 when rounding left none there.
+  /// Return the atom of a triangle in a tet; -1: rounding left no piece there.
   Id atom_of(Id triangle, Key tet) const
   {
     const auto begin = this->cover_.pieces.begin() + this->cover_.first_piece[triangle];
@@ -94,31 +97,31 @@ public:
       ? -1
       : this->first_piece + static_cast<Id>(at - this->cover_.pieces.begin());
   }
-  /// Place in `tets`; -1: not there.
+  /// Return the index of a tet in `tets`; -1: it is not there.
   Id place_of_tet(Key tet) const;
-  /// A place in the atom, in cubes.
+  /// Return a position in the atom, in cubes.
   Vec3 place_of(Id atom) const;
-  /// The inside cube's place in `full`; -1: the cube is not inside as a whole.
+  /// Return the index of a cube in `full`; -1: the cube is not inside as a whole.
   Id full_cube(const Cube& cube) const
   {
     const auto found = this->cube_id_.find(DisphenoidLattice::cube_key(cube));
     return found != this->cube_id_.end() && found->second < 0 ? -1 - found->second : -1;
   }
 
-  std::vector<Key> sampled, full; ///< cubes at the surface, and inside, sorted
+  std::vector<Key> sampled, full; ///< keys of the cubes at the surface, and of those inside, sorted
   std::vector<Key> tets; ///< sorted
-  std::vector<std::array<Key, 4>> nodes; ///< of tets
+  std::vector<std::array<Key, 4>> nodes; ///< #tets: keys of the nodes
   std::array<int, halves> samples_of_half{};
-  Id first_full = 0; ///< of the atoms
+  Id first_full = 0; ///< first atom of the cubes in `full`
   Id first_piece = 0;
 
 private:
   const LatticeCover& cover_;
-  std::unordered_map<Key, Id> cube_id_; ///< place in sampled, or -1 - place in full
-  std::vector<Id> half_tets_; ///< places in tets: 24 a sampled cube, then 24 a full one
-  std::vector<Id> piece_tets_; ///< places in tets of cover_.pieces
+  std::unordered_map<Key, Id> cube_id_; ///< index in `sampled`, or -1 - index in `full`
+  std::vector<Id> half_tets_; ///< indices in `tets`: 24 per sampled cube, then 24 per full cube
+  std::vector<Id> piece_tets_; ///< indices in `tets` of cover_.pieces
   std::array<int, CubeSamples::of_cube> half_of_sample_{};
-  std::vector<std::uint8_t> inside_; ///< of the samples
+  std::vector<std::uint8_t> inside_; ///< 1 for samples that are inside
 };
 
 } // namespace bindpose

@@ -19,7 +19,7 @@ namespace
 using Key = EmbeddingAtoms::Key;
 using Id = EmbeddingAtoms::Id;
 
-constexpr Index often = 1 << 15; // items between two looks at cancel
+constexpr Index often = 1 << 15; // items between two checks for cancel
 
 class Parts
 {
@@ -69,7 +69,8 @@ private:
     return true;
   }
 
-  /// Atoms of a convex piece of material: the nodes that two of them have in common see one part.
+  /// Join the atoms of a convex piece of material: they are one part at every node that two of
+  /// their tets have in common.
   template <typename AtomAt>
   void join_convex(Index count, const AtomAt& atom_at)
   {
@@ -140,9 +141,9 @@ private:
 
   // ---- Probes ----
 
-  using Corner = std::pair<Key, Id>; ///< a node and a (part, corner) there
+  using Corner = std::pair<Key, Id>; ///< a node and the index 4 * part + corner of a corner at it
 
-  /// Finds copies of one node that are connected: adds pairs of corners to unite.
+  /// Find copies of one node that are connected, and append pairs of corners to unite.
   void probe_node(const Corner* begin, const Corner* end, const std::vector<Id>& roots,
     std::vector<std::pair<Id, Id>>& joined) const
   {
@@ -204,7 +205,7 @@ private:
     {
       return false;
     }
-    constexpr std::size_t most_copies = 12; // more: a soup, not a slice
+    constexpr std::size_t most_copies = 12; // more copies indicate a soup, not a slice
     std::vector<Id> copies;
     std::vector<std::pair<Index, Index>> several; // ranges of corners of nodes with copies
     for (std::size_t begin = 0; begin < corners.size();)
@@ -322,8 +323,9 @@ private:
         this->atoms_.samples_of_half[number] + this->atoms_.samples_of_half[number + 1];
       result.inside_fractions[t] = std::min(1.0, result.inside_fractions[t] / samples);
     }
-    // Tets hold 10 to 28 samples, by how they lie to the sub-grid: right for whole tets, but plates
-    // along it would come out too thick or too thin. The samples' own volume has no such bias.
+    // Tets contain 10 to 28 samples, depending on their position in the sub-grid. This is correct
+    // for whole tets, but plates aligned with the sub-grid would become too thick or too thin. The
+    // volume of the samples has no such bias.
     constexpr double samples_of_tet = CubeSamples::of_cube / 12.0;
     const double whole = (result.inside_fractions.array() >= 1.0).count();
     const double cut = result.inside_fractions.sum() - whole;
@@ -341,7 +343,7 @@ private:
 
   void bind(const std::vector<Index>& tet_of_part, EmbeddingTets& result)
   {
-    // For points that no triangle uses: of a tet's copies the one that holds most.
+    // For points that no triangle uses: the copy of the tet with the most material.
     std::vector<Index> fullest(this->atoms_.tets.size(), -1);
     for (std::size_t p = 0; p < tet_of_part.size(); ++p)
     {
@@ -390,12 +392,12 @@ private:
   const MaterialProbes& probes_;
   ExecutionContext& context_;
 
-  std::vector<Id> part_of_; // of the atoms
-  std::vector<Id> part_tets_; // places in atoms_.tets
+  std::vector<Id> part_of_; // #atoms: part of the atom
+  std::vector<Id> part_tets_; // #parts: index in atoms_.tets
   std::vector<double> part_shares_;
-  std::vector<Index> first_of_part_; // of each part's atoms
+  std::vector<Index> first_of_part_; // #parts + 1: offsets into of_part_
   std::vector<Id> of_part_;
-  DisjointSets<Id> corners_; // 4 * part + corner
+  DisjointSets<Id> corners_; // over 4 * part + corner
   std::vector<std::pair<Key, Id>> at_node_;
 };
 } // namespace

@@ -12,9 +12,9 @@
 namespace bindpose
 {
 
-/// Makes tets of connected atoms, and binds the points of the surface to them: fills mesh,
+/// Make tets from connected atoms, and bind the points of the surface to them. Fills mesh,
 /// inside_fractions, binding, lattice_tets and duplicated_nodes of an empty result.
-/// @return false when cancelled.
+/// @return false if canceled.
 bool make_embedding(PointsView points, const LatticeSurface& surface, const LatticeCover& cover,
   const EmbeddingAtoms& atoms, AtomConnections connections, const MaterialProbes& probes,
   EmbeddingTets& result, ExecutionContext& context);

@@ -1,28 +1,27 @@
-// What is to be held, the material, is the surface and what it encloses. It is taken apart into
-// atoms, each in one lattice tet: a piece of a triangle, or a sample of the inside. Two atoms are
-// connected when the straight line between them stays in the material; both its tets' nodes then
-// see them as one part, for the tets around a node fill a convex body (a rhombic dodecahedron), so
-// that the line does not leave it.
+// The material is the surface and the region that it encloses. It is divided into atoms, each in
+// one lattice tet: a piece of a triangle, or a sample of the inside. Two atoms are connected if the
+// straight segment between them stays in the material. They are then one part at the nodes that
+// their tets have in common. The reason is that the tets around a node fill a convex body (a
+// rhombic dodecahedron), which the segment does not leave.
 //
-// 1. The lattice's spacing, what triangles go through, and cubes that are inside as a whole
-//    (lattice_cover.h).
-// 2. The other cubes at the surface are sampled on a sub-grid (cube_samples.h, embedding_atoms.h).
-// 3. Lines between neighbouring samples are cut where triangles cross them. A stretch between two
-//    crossings is inside or not, by the winding number at its middle. Inside stretches connect what
-//    is at their ends. So a wall is never missed, however thin the gap behind it; connections that
-//    are thinner than the samples' distance are seen by the triangles around them
+// 1. Choose the lattice's spacing; find the tets and cubes that triangles pass through, and the
+//    cubes that are inside as a whole (lattice_cover.h).
+// 2. Sample the other cubes at the surface on a sub-grid (cube_samples.h, embedding_atoms.h).
+// 3. Cut lines between neighboring samples where triangles cross them. The winding number at the
+//    middle of a stretch between two crossings decides whether it is inside. An inside stretch
+//    connects the atoms at its ends. Therefore a wall is never missed, however thin the gap behind
+//    it. Connections thinner than the sample distance are found by the triangles around them
 //    (line_crossings.h, atom_connections.h).
-// 4. Triangles connect by shared vertices, and by shared edges in the tets that the edge goes
-//    through; within the tets around a node a triangle is one piece, being convex.
-// 5. Atoms that are connected in one tet make its parts. A union-find over (part, corner of its
-//    tet) finds the copies of nodes; parts with the same four copies are one tet
-//    (embedding_parts.h).
-// 6. Where the tets around a node hold but a slice of material, no line between samples may lie in
-//    it. So before the last step, nodes with several copies are looked at again: straight probes
-//    from one copy's atoms to the nearest of another's, against all triangles around the node
-//    (material_probes.h).
+// 4. Connect triangles by shared vertices, and by shared edges in the tets that the edge passes
+//    through. Within the tets around a node a triangle is one piece, because it is convex.
+// 5. Connected atoms in one tet form its parts. A union-find over (part, corner of its tet) finds
+//    the copies of nodes; parts with the same four copies are one tet (embedding_parts.h).
+// 6. If the tets around a node contain only a thin slice of material, it may contain no line
+//    between samples. So before the last step, nodes with several copies are tested again. Straight
+//    probes run from one copy's atoms to the nearest atoms of another copy, against all triangles
+//    around the node (material_probes.h).
 //
-// Every union keeps the smaller id, so that nothing depends on the order, nor on threads.
+// Every union keeps the smaller id, so the result depends neither on the order nor on threads.
 #include "embedding/embedding_tets.h"
 
 #include "embedding/atom_connections.h"
@@ -154,7 +153,7 @@ Status embed_surface(PointsView points, TrianglesView triangles, const WindingNu
     return status;
   }
   const Box box = bounding_box(points, triangles);
-  constexpr double largest_size = 1e100; // its cube is a volume
+  constexpr double largest_size = 1e100; // its cube is a finite volume
   if (!(box.size().maxCoeff() <= largest_size))
   {
     return Status::invalid_input("the surface is larger than 1e100, too large for volumes");

@@ -1,7 +1,8 @@
-// Triangles are cut by the lattice's planes; the cubes they go through are where the inside may
-// end. Other cubes are inside or not as a whole: found from cube to cube, starting at the surface,
-// since a region that winds often enough and has no triangle in it has triangles at its border
-// (winding numbers are harmonic there).
+// Triangles are cut by the lattice's planes. The inside can end only in the cubes that they pass
+// through. Other cubes are inside or outside as a whole. They are found by flooding from cube to
+// cube, starting at the surface. This finds all of them, because a region without triangles whose
+// winding number reaches the threshold has triangles at its border (winding numbers are harmonic
+// there).
 #include "embedding/lattice_cover.h"
 
 #include "base/gather.h"
@@ -20,13 +21,13 @@ using Key = LatticeCover::Key;
 using Cube = LatticeCover::Cube;
 using Id = LatticeCover::Id;
 
-// As fractions of the wanted number of tets: what is near enough to it.
+// Accepted numbers of tets, as fractions of the wanted number.
 constexpr double fewest_tets = 2.0 / 3.0;
 constexpr double most_tets = 1.5;
 constexpr double most_pieces = 2e8;
-constexpr double most_pieces_of_choice = 1e6; // beyond two a triangle
+constexpr double most_pieces_of_choice = 1e6; // in addition to two per triangle
 
-/// The cube across one of six sides.
+/// Return the cube across one of six sides.
 Cube neighbor_of(Key cube_key, int side)
 {
   Cube cube = DisphenoidLattice::cube_of(cube_key);
@@ -34,7 +35,7 @@ Cube neighbor_of(Key cube_key, int side)
   return cube;
 }
 
-/// What a surface measures, in units of its box's longest side.
+/// Measures of a surface, in units of the longest side of its box.
 struct Measures
 {
   double longest = 0.0;
@@ -56,20 +57,21 @@ struct Measures
     this->volume = std::min(std::abs(this->volume), size.prod());
     this->triangles = static_cast<double>(surface.triangles.size());
   }
-  /// Tets that this many cubes along the longest side will give, by the mean number of lattice tets
-  /// that a volume, and a surface beyond it, goes through.
+  /// Estimate the number of tets for this many cubes along the longest side, from the mean number
+  /// of lattice tets in a volume and the mean number of additional tets that a surface passes
+  /// through.
   double tets(double cubes) const
   {
     const double most = 12.0 * std::pow(cubes + 2.0, 3);
     return std::min(
       most, 12.0 * this->volume * cubes * cubes * cubes + 6.0 * this->area * cubes * cubes);
   }
-  /// Pieces of triangles, and crossings with the samples' lines.
+  /// Estimate the number of pieces of triangles and of crossings with the lines between samples.
   double pieces(double cubes) const
   {
     return this->triangles + 4.0 * this->perimeter * cubes + 65.0 * this->area * cubes * cubes;
   }
-  /// The largest number of cubes for which count(cubes) stays below a bound.
+  /// Return the largest number of cubes for which count(cubes) is below a bound.
   template <typename Count>
   static double most_cubes_along(double bound, const Count& count)
   {
@@ -271,7 +273,7 @@ LatticeCover::Kind LatticeCover::kind_of(const Cube& cube) const
 
 Status LatticeCover::find_cubes(ExecutionContext& context)
 {
-  std::vector<Key> border; // cubes whose neighbours are still to be looked at
+  std::vector<Key> border; // cubes whose neighbors have not been visited
   for (const auto& [key, kind] : this->kinds)
   {
     border.push_back(key);
@@ -319,7 +321,7 @@ Status LatticeCover::find_cubes(ExecutionContext& context)
       return too_many_cubes();
     }
   }
-  // Through openings the inside ends in the middle of free cubes.
+  // At openings of the surface the inside ends in cubes without triangles.
   std::vector<Key> open;
   for (const Key key : outside)
   {
@@ -359,7 +361,7 @@ Status LatticeCover::too_many_cubes()
     " cubes; take a smaller resolution");
 }
 
-/// Tets that hold the surface or lie in cubes inside.
+/// Return the number of tets that contain a piece of the surface or are in inside cubes.
 double LatticeCover::count_tets() const
 {
   std::vector<Key> tets;
@@ -411,7 +413,8 @@ Status LatticeCover::choose(Index resolution, Index wanted, ExecutionContext& co
     {
       return status;
     }
-    // As a power of the resolution: between that of a thread and that of a solid.
+    // The number of tets is modeled as a power of the resolution, with an exponent between that of
+    // a thread and that of a solid.
     double power = tets < wanted_tets ? 2.5 : 2.0;
     if (last_cubes > 0.0 && last_cubes != cubes)
     {

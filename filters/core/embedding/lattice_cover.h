@@ -14,30 +14,30 @@
 namespace bindpose
 {
 
-/// A surface with equal points welded; whatever else it has stays. Each link is one more triangle,
-/// without area, and its ends are two more points.
+/// A surface after welding equal points, otherwise unchanged. Each link adds one triangle without
+/// area and two points at its ends.
 struct LatticeSurface
 {
   using Id = std::int32_t;
 
-  /// A link's end.
+  /// One end of a link.
   struct End
   {
     Id point, link; ///< the link's triangle
-    Id triangle; ///< that holds the end
+    Id triangle; ///< triangle of the surface that contains the end
   };
 
-  std::vector<Id> of_point; ///< #V: id in `points`, -1 for a point that no triangle uses
+  std::vector<Id> of_point; ///< #V: id in `points`; -1 for a point that no triangle uses
   std::vector<Vec3> points;
   std::vector<std::array<Id, 3>> triangles;
-  std::vector<End> ends; ///< of the links
+  std::vector<End> ends; ///< ends of the links
 
-  /// @return false when cancelled.
+  /// @return false if canceled.
   bool build(PointsView all, TrianglesView faces, const std::vector<PartLink>& links,
     ExecutionContext& context);
 };
 
-/// Which tets and cubes of a lattice a surface goes through, and which cubes it encloses.
+/// The tets and cubes of a lattice that a surface passes through, and the cubes that it encloses.
 class LatticeCover
 {
 public:
@@ -45,32 +45,34 @@ public:
   using Cube = DisphenoidLattice::Cube;
   using Id = LatticeSurface::Id;
 
-  /// A triangle in a tet.
+  /// The part of a triangle in one tet.
   struct Piece
   {
     Key tet;
     Id triangle;
-    Vec3 middle; ///< a place of both
+    Vec3 middle; ///< a position in the tet and the triangle
   };
   enum class Kind : std::uint8_t
   {
     outside,
-    inside, ///< no triangle in it, and w >= threshold
-    cut ///< by triangles, or the inside ends in it
+    inside, ///< contains no triangle, and its winding number is at least the threshold
+    cut ///< contains triangles, or the inside ends in it
   };
   static constexpr Index most_cubes = 4000000;
   static constexpr Index largest_resolution = 1000; ///< cubes along the longest side
 
-  /// All three must outlive the cover.
+  /// All arguments must outlive the cover.
   LatticeCover(
     const LatticeSurface& surface, const WindingNumber& winding, double threshold, const Box& box)
     : surface_(surface), winding_(winding), threshold_(threshold), box_(box)
   {
   }
 
-  /// `resolution` cubes along the longest side of the box; 0: as many as give about `tets` tets,
-  /// but not more than 1000, and fewer where triangles would fall into millions of pieces.
-  /// invalid_input: more than most_cubes. Cost: 1 us per piece.
+  /// Choose the spacing and build the cover.
+  /// @param resolution number of cubes along the longest side of the box; 0: chosen to give about
+  /// `tets` tets, but at most 1000, and fewer if triangles would be cut into millions of pieces.
+  /// @return invalid_input if the lattice would have more than most_cubes cubes. Cost: 1 us per
+  /// piece.
   Status choose(Index resolution, Index tets, ExecutionContext& context);
   Status build(double spacing, ExecutionContext& context);
 
@@ -79,7 +81,7 @@ public:
     const auto& t = this->surface_.triangles[triangle];
     return { this->places[t[0]], this->places[t[1]], this->places[t[2]] };
   }
-  /// Calls body(tet) for the tets that the edge between two vertices goes through.
+  /// Call body(tet) for the tets that the edge between two vertices passes through.
   template <typename Body>
   void tets_of_edge(Id a, Id b, const Body& body) const
   {
@@ -93,9 +95,9 @@ public:
   static Status too_many_cubes();
 
   DisphenoidLattice lattice;
-  std::vector<Vec3> places; ///< of the vertices, in cubes
+  std::vector<Vec3> places; ///< positions of the vertices, in cubes
   std::vector<Key> tet_of_point;
-  std::vector<Piece> pieces; ///< by triangle, then tet
+  std::vector<Piece> pieces; ///< sorted by triangle, then by tet
   std::vector<Index> first_piece; ///< #F + 1
   std::unordered_map<Key, Kind> kinds; ///< of the cubes that are not outside
 
@@ -110,7 +112,7 @@ private:
   const WindingNumber& winding_;
   double threshold_;
   Box box_;
-  Cube first_cube_{}, last_cube_{}; ///< of the box
+  Cube first_cube_{}, last_cube_{}; ///< range of cubes that meet the box
 };
 
 } // namespace bindpose

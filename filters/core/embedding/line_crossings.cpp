@@ -1,5 +1,5 @@
-// Row by row in the projection along the axis: the exact sign of three areas for every line between
-// the triangle's borders.
+// The triangle is projected along the axis and processed row by row. For every line between its
+// borders, the exact signs of three areas decide whether the line crosses it.
 #include "embedding/line_crossings.h"
 
 #include "base/exact.h"
@@ -45,7 +45,7 @@ void add_line_crossings(
     corner[0][u], corner[0][v], corner[1][u], corner[1][v], corner[2][u], corner[2][v]);
   if (turn == 0)
   {
-    return; // seen from its edge: its neighbours are met
+    return; // parallel to the axis: its neighbors are crossed instead
   }
   const auto range = [&](int k) {
     return std::minmax({ corner[0][k], corner[1][k], corner[2][k] });

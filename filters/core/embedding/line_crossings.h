@@ -10,14 +10,14 @@
 namespace bindpose
 {
 
-/// Where a triangle meets the line from a sample to the next along an axis.
+/// The intersection of a triangle with the line from a sample to the next one along an axis.
 struct LineCrossing
 {
   using Key = LatticeCover::Key;
   using Id = LatticeCover::Id;
   using Sample = CubeSamples::Sample;
 
-  /// Crossings nearer than this share of the samples' distance are one.
+  /// Crossings that are closer than this fraction of the sample distance count as one.
   static constexpr double touching = 1e-9;
 
   Key line; ///< axis and sample
@@ -31,12 +31,13 @@ struct LineCrossing
     return { static_cast<Id>(this->line & mask), static_cast<Id>(this->line >> 20 & mask),
       static_cast<Id>(this->line >> 40 & mask) };
   }
-  /// A place on its line, in cubes.
+  /// Return a position on the line, in cubes.
   Vec3 place(double along_line) const;
 };
 
-/// Appends all crossings of a triangle, its corners in cubes, with lines along an axis. Lines that
-/// touch the border count for both triangles at it; a triangle that is seen from its edge has none.
+/// Append all crossings of a triangle (corners in cubes) with the lines along an axis. A line
+/// through the border of two triangles crosses both. A triangle that is parallel to the axis has no
+/// crossings.
 void add_line_crossings(
   LatticeCover::Id triangle, std::array<Vec3, 3> corner, int axis, std::vector<LineCrossing>& list);
 

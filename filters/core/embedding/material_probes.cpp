@@ -1,5 +1,5 @@
-// A probe is cut where triangles cross it, and stays inside when the winding number at the middle
-// of every piece says so.
+// Triangles that cross a probe cut it into pieces. The probe stays inside if the winding number at
+// the middle of every piece reaches the threshold.
 #include "embedding/material_probes.h"
 
 #include "base/disjoint_sets.h"
@@ -15,8 +15,8 @@ namespace bindpose
 
 namespace
 {
-/// Where the line from a to b meets a triangle, as a share of it; hits just beside the triangle
-/// count too: all they do is to cut the line once more.
+/// Intersect the segment from a to b with a triangle; `at` is the fraction of the segment. Hits
+/// just outside of the triangle count too, because they only cut the segment once more.
 bool meets(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t, double& at)
 {
   const Vec3 u = t[1] - t[0];

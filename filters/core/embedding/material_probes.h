@@ -10,14 +10,14 @@
 namespace bindpose
 {
 
-/// Straight probes through a surface and its inside, where no line between samples may lie: a slice
-/// of material in a few tets.
+/// Straight probes through the material (a surface and its inside). They find connections that the
+/// lines between samples miss, for example in a thin slice of material in a few tets.
 class MaterialProbes
 {
 public:
   using Id = LatticeCover::Id;
 
-  /// Both must outlive the probes.
+  /// Both arguments must outlive the probes.
   MaterialProbes(const LatticeCover& cover, const WindingNumber& winding, double threshold)
     : cover_(cover), winding_(winding), threshold_(threshold)
   {
@@ -25,20 +25,23 @@ public:
 
   struct Side
   {
-    Id root; ///< its name
-    std::vector<Vec3> places; ///< of its material, in cubes
+    Id root; ///< identifies the side
+    std::vector<Vec3> places; ///< positions in its material, in cubes
   };
-  /// Adds the pairs of names of sides that a probe connects. `triangles`: all those around; they
-  /// may be named more than once.
-  /// Cost: up to 12 probes for every pair of sides, each as many winding numbers as it is cut.
+  /// Append the pairs of roots of sides that a probe connects.
+  /// @param triangles all triangles nearby; duplicates are allowed.
+  /// Cost: up to 12 probes per pair of sides; each takes one winding number per piece into which
+  /// triangles cut it.
   void connect(std::vector<Side> sides, std::vector<Id> triangles,
     std::vector<std::pair<Id, Id>>& joined) const;
 
 private:
-  /// True when the line from a to b, crossed by these triangles only, stays in the material.
+  /// Report whether the segment from a to b, which only these triangles can cross, stays in the
+  /// material.
   bool stays_inside(const Vec3& a, const Vec3& b, const std::vector<Id>& triangles,
     std::vector<double>& cuts) const;
-  /// True when one of the shortest lines does.
+  /// Report whether one of the shortest segments between two sets of positions stays in the
+  /// material.
   bool connects(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
     const std::vector<Id>& triangles, std::vector<double>& cuts) const;
 

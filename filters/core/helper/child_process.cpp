@@ -1,6 +1,6 @@
-// The program's lines come through a pipe, which is polled so that cancel and time limit are looked
-// at every 20 ms. Its group is killed before the leader is reaped: until then its number cannot be
-// given to another process.
+// The program's lines are read from a pipe. The pipe is polled, so that cancel and time limit are
+// checked every 20 ms. The group is killed before the leader is reaped: until then its number
+// cannot be given to another process.
 #include "helper/child_process.h"
 
 #include "base/number_text.h"
@@ -28,7 +28,7 @@ namespace bindpose
 
 namespace
 {
-/// Standard input, output and error, and the folder.
+/// File actions for standard input, output and error, and for the working folder.
 class SpawnActions
 {
 public:
@@ -60,8 +60,8 @@ private:
   posix_spawn_file_actions_t actions_{};
 };
 
-/// A process group of its own, and signals: what the application blocks or ignores must not make
-/// the program deaf.
+/// A separate process group and default signal handling. Signals that the application blocks or
+/// ignores must reach the program.
 class SpawnAttributes
 {
 public:
@@ -90,7 +90,7 @@ private:
   posix_spawnattr_t attributes_{};
 };
 
-/// The process and its group; killed and reaped on every way out.
+/// The process and its group. The destructor kills and reaps them.
 class Child
 {
 public:
@@ -99,7 +99,7 @@ public:
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// @return an error number, 0 for none.
+  /// Start the process. @return an error number, 0 for success.
   int start(int lines)
   {
     const SpawnActions actions(this->request_, lines);
@@ -122,7 +122,7 @@ public:
     return 0;
   }
 
-  /// True once it has ended.
+  /// Report whether the process has ended.
   bool ended() const
   {
     siginfo_t info{};
@@ -130,7 +130,8 @@ public:
       info.si_pid == this->id_;
   }
 
-  /// Processor time of the child without that of its own children; 0 where it is not available.
+  /// Return the processor time of the child without that of its own children, or 0 if it is not
+  /// available.
   double processor_seconds() const
   {
     clockid_t clock{};
@@ -140,7 +141,8 @@ public:
     return told ? static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec) : 0.0;
   }
 
-  /// Kills what is left of the group and reaps the process. @return its status as of waitpid.
+  /// Kill the remaining processes of the group and reap the child. @return its status as from
+  /// waitpid.
   int finish()
   {
     int status = 0;
@@ -159,8 +161,8 @@ public:
 private:
   void set_limits() const
   {
-    // From outside, so that it holds for programs that know nothing of it; what they have taken in
-    // the first microseconds counts, too.
+    // Limits are set from this process, so that they apply to programs without an option for them.
+    // Memory that the program has allocated in the first microseconds counts too.
     const rlimit none{ 0, 0 };
     ::prlimit(this->id_, RLIMIT_CORE, &none, nullptr);
     if (this->request_.memory_limit > 0)
@@ -183,13 +185,13 @@ private:
   pid_t id_ = -1;
 };
 
-/// Takes what comes through the pipe apart.
+/// Splits the output of the pipe into lines.
 class Lines
 {
 public:
   explicit Lines(const std::function<void(const std::string&)>& take) : take_(take) {}
 
-  /// @return false at the end of the pipe.
+  /// Read from the pipe. @return false at its end.
   bool read(int pipe)
   {
     char block[4096];
@@ -208,7 +210,7 @@ public:
     constexpr std::size_t longest = 65536;
     if (this->pending_.size() > longest)
     {
-      this->pending_.clear(); // noise without line ends
+      this->pending_.clear(); // output without line ends
     }
     return true;
   }
@@ -315,7 +317,7 @@ Status run_child(const ChildRequest& request,
   for (;;)
   {
     pollfd wait{ open ? lines_read.get() : -1, POLLIN, 0 };
-    const int patience = open ? 20 : 1; // ms between looks at cancel and clock
+    const int patience = open ? 20 : 1; // ms between checks of cancel and time
     const int ready = ::poll(&wait, 1, patience);
     if (open && ready > 0)
     {
@@ -326,8 +328,8 @@ Status run_child(const ChildRequest& request,
     {
       return Status::cancelled();
     }
-    // The pipe is read to its end first: the last line may be the one that explains the end. A
-    // grandchild could hold it open, so the end of the child itself counts when nothing is ready.
+    // The pipe is first read to its end, because the last line may explain the failure. A
+    // grandchild may keep the pipe open, so the end of the child counts when no output is ready.
     if ((!open || ready == 0) && child.ended())
     {
       judge(child.finish(), end);

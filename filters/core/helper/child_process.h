@@ -11,58 +11,59 @@
 namespace bindpose
 {
 
-/// A program to be run in a process of its own.
+/// A program that is run in a separate process.
 struct ChildRequest
 {
-  std::string name; ///< what messages call it
-  std::string path; ///< of the executable
+  std::string name; ///< name in messages
+  std::string path; ///< path of the executable
   std::vector<std::string> arguments;
-  std::string folder; ///< where it is run, empty: where this process is
-  int input = -1; ///< file descriptor of its standard input, -1: nothing to read
+  std::string folder; ///< working folder; empty: that of this process
+  int input = -1; ///< file descriptor of its standard input, -1: no input
   int output = -1; ///< file descriptor of its standard output, -1: lines, like standard error
-  double time_limit = 120.0; ///< seconds after which it is killed
-  /// Seconds of its own processor time after which it is killed, 0: no limit. Other work on the
-  /// machine does not count.
+  double time_limit = 120.0; ///< the program is killed after this many seconds
+  /// The program is killed after this many seconds of its own processor time, 0: no limit. Other
+  /// processes on the machine do not count.
   double processor_limit = 0.0;
-  Index memory_limit = 0; ///< MiB of address space that it may use, 0: no limit
-  /// Called with the process group once it runs, and with 0 when nothing is left of the group.
+  Index memory_limit = 0; ///< largest address space in MiB, 0: no limit
+  /// Called with the process group when the program runs, and with 0 when the group has ended.
   std::function<void(int group)> started;
 };
 
-/// How it ended.
+/// Outcome of a program.
 struct ChildEnd
 {
   /// "was ended by signal 11 (Segmentation fault)" or "ended with code 7"; empty for code 0.
   std::string failure;
   bool by_signal = false;
-  bool at_limit = false; ///< it was stopped at one of its limits of time
+  bool at_limit = false; ///< it was stopped at one of its time limits
   double seconds = 0.0;
 };
 
-/// Runs a program to its end. It leads a process group of its own, which is killed on every way
-/// out, so that nothing that it started runs on. It leaves no core file. Called on this thread,
-/// `take_line` gets what it prints, line by line without the line ends.
-/// - ok: it ended by itself: see `end`;
+/// Run a program to its end. It leads a separate process group, which is always killed before the
+/// function returns, so that no process that it started remains. It writes no core file.
+/// `take_line` is called on this thread with each printed line, without the line end.
+/// - ok: the program ended; see `end`;
 /// - unavailable: it could not be started;
-/// - cancelled: the context was cancelled (the group is killed within 20 ms);
-/// - internal_error: it was stopped at a limit of time, or there is no pipe to be had.
+/// - cancelled: the context was canceled (the group is killed within 20 ms);
+/// - internal_error: it was stopped at a time limit, or no pipe could be created.
 Status run_child(const ChildRequest& request,
   const std::function<void(const std::string&)>& take_line, ChildEnd& end,
   ExecutionContext& context);
 
-/// invalid_input for a time limit (seconds) that is not positive or a memory limit (MiB) below 0.
+/// Return invalid_input for a time limit (seconds) that is not positive or a memory limit (MiB)
+/// below 0.
 Status check_limits(double time_limit, Index memory_limit);
 
-/// " under a memory limit of 500 MiB", empty without a limit.
+/// Return " under a memory limit of 500 MiB", or an empty string without a limit.
 std::string memory_words(Index memory_limit);
 
-/// True for a file that may be executed.
+/// Report whether a path is an executable file.
 bool executable_file(const std::string& path);
 
-/// The file of a program that stands in one of the folders of PATH; empty without one.
+/// Return the path of a program in one of the folders of PATH, or an empty string if there is none.
 std::string find_on_path(const std::string& program);
 
-/// A file descriptor that closes itself.
+/// A file descriptor that is closed by the destructor.
 class FileDescriptor
 {
 public:

@@ -1,5 +1,5 @@
-// The record: 8 bytes magic, five 64-bit counts, the arrays one behind the other in the machine's
-// own byte order, and the magic again, so that a truncated file is seen.
+// The record: 8 bytes magic, five 64-bit counts, the arrays in this order in the machine's byte
+// order, and the magic again, so that a truncated file is detected.
 #include "helper/mesher_format.h"
 
 #include <array>
@@ -103,7 +103,7 @@ bool read_mesher_data(int file, MesherData& data)
   std::size_t expected = 2 * magic.size() + sizeof(counts);
   for (std::size_t k = 0; k < counts.size(); ++k)
   {
-    // No product may overflow before it is compared.
+    // The product must not overflow before the comparison.
     if (counts[k] < 0 || static_cast<std::size_t>(counts[k]) > bytes.size() / sizes[k])
     {
       return false;

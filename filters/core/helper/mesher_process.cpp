@@ -1,7 +1,7 @@
-// The helper reads its job from standard input and writes the result to standard output; both are
-// anonymous files, so that no pipe can block and nothing has to be removed. Standard error is
-// lines: "progress FRACTION", "report KEY NUMBER", "error TEXT"; anything else is what a
-// library printed before it died, and is kept for the message.
+// The helper reads its job from standard input and writes the result to standard output. Both are
+// anonymous files, so that no pipe can block and no file must be removed. Standard error contains
+// lines: "progress FRACTION", "report KEY NUMBER", "error TEXT". Any other line was printed by a
+// library before a failure and is stored for the message.
 #include "helper/mesher_process.h"
 
 #include "helper/child_process.h"
@@ -25,7 +25,7 @@ constexpr const char* missing_helper =
   "the helper executable bindpose-mesher is missing; the packages libcgal-dev and libtet1.5-dev "
   "are needed to build it";
 
-/// A file without a name, closed on exec, on a descriptor that cannot collide with 0, 1 and 2.
+/// Create a file without a name, closed on exec, with a descriptor other than 0, 1 and 2.
 int anonymous_file(const char* name)
 {
   const int file = ::memfd_create(name, MFD_CLOEXEC);
@@ -44,7 +44,7 @@ std::string folder_of(const std::string& path)
   return slash == std::string::npos ? "." : path.substr(0, slash);
 }
 
-/// What the helper's lines say.
+/// Parses the lines of the helper.
 class Lines
 {
 public:
@@ -119,7 +119,7 @@ std::string find_mesher()
   {
     folders.push_back(folder_of(std::string(self, static_cast<std::size_t>(length))));
   }
-  // The library that holds this function: a plugin's folder, lib/libX.so, or
+  // The library that contains this function: a plugin's folder, lib/libX.so, or
   // lib/ARCHITECTURE/libX.so.
   Dl_info info{};
   if (::dladdr(reinterpret_cast<void*>(&find_mesher), &info) && info.dli_fname)
@@ -170,7 +170,8 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
   ChildRequest child;
   child.path = path;
   child.arguments = request.arguments;
-  // Should we die before the helper has asked to be told of it, it sees that its parent is another.
+  // The helper is notified when this process dies. The parent's id lets the helper detect that this
+  // process died before it requested the notification.
   child.arguments.insert(child.arguments.end(), { "--parent", std::to_string(::getpid()) });
   child.input = input_file.get();
   child.output = output_file.get();
@@ -180,7 +181,7 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
     (request.arguments.empty() ? std::string() : " " + request.arguments.front());
   if (request.memory_limit > 0)
   {
-    // The helper sets its limit itself: it can say so when it has run into it.
+    // The helper sets this limit itself, so that it can report when it exceeds the limit.
     child.arguments.insert(
       child.arguments.end(), { "--memory", std::to_string(request.memory_limit) });
   }

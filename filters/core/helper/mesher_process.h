@@ -15,34 +15,37 @@ struct MesherRequest
 {
   /// The job and its options, as on a command line: {"refine"}, {"tetgen", "--switches", "pY"}.
   std::vector<std::string> arguments;
-  double time_limit = 120.0; ///< seconds after which the helper is killed
-  Index memory_limit = 0; ///< MiB of address space that the helper may use, 0: no limit
-  double processor_limit = 0.0; ///< seconds of processor time with the same effect, 0: no limit
+  double time_limit = 120.0; ///< the helper is killed after this many seconds
+  Index memory_limit = 0; ///< largest address space of the helper in MiB, 0: no limit
+  /// The helper is killed after this many seconds of processor time, 0: no limit.
+  double processor_limit = 0.0;
 };
 
-/// What a job gave.
+/// Result of a job.
 struct MesherAnswer
 {
   MesherData data;
-  Report report; ///< what the helper counted, by the helper's own keys
+  Report report; ///< numbers that the helper reported, with the helper's keys
   double seconds = 0.0;
-  bool at_limit = false; ///< it was stopped at one of its limits of time
+  bool at_limit = false; ///< it was stopped at one of its time limits
 };
 
-/// Path of bindpose-mesher, empty when there is none. Looked for in the environment variable
-/// BINDPOSE_MESHER (which alone counts when it is set), then beside the running executable, beside
-/// the library, in the bin folder beside the library's, and in the build tree.
+/// Return the path of bindpose-mesher, or an empty string if there is none. If the environment
+/// variable BINDPOSE_MESHER is set, only this path is used. Otherwise the folders are, in this
+/// order: that of the running executable, that of the library, the bin folder next to the library's
+/// folder, and the build tree.
 std::string find_mesher();
 
-/// Runs one job in a process of its own and waits for it. CGAL and TetGen may crash, hang or eat
-/// all memory on bad input; here that becomes a status:
-/// - unavailable: there is no helper; the message names the packages it is built with;
-/// - cancelled: the context was cancelled (the helper is killed within 20 ms);
+/// Run one job in a separate process and wait for it. CGAL and TetGen may crash, hang or use all
+/// memory on bad input. This function converts these failures to a status:
+/// - unavailable: there is no helper; the message contains the packages that are needed to build
+///   it;
+/// - cancelled: the context was canceled (the helper is killed within 20 ms);
 /// - internal_error: the helper crashed, ended with an error, ran out of time or memory, or wrote
-///   something that is no mesh; the message says which.
+///   an invalid mesh; the message contains the reason.
 ///
-/// Input and output are anonymous memory files: nothing is left behind, whatever happens to either
-/// process. Progress lines of the helper become progress of the current phase.
+/// Input and output are anonymous memory files, so no file remains even if either process is
+/// killed. Progress lines of the helper become progress of the current phase.
 Status run_mesher(const MesherRequest& request, const MesherData& input, MesherAnswer& answer,
   ExecutionContext& context);
 

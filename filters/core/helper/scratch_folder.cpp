@@ -1,7 +1,7 @@
-// The guard is a shell that reads process groups from a socket, line by line, until its end, which
-// comes when the object goes or when this process dies in whatever way. Then it kills the last
-// group it was told of (none after an empty line) and removes the folder. It leads a process group
-// of its own: a Ctrl-C in the terminal does not reach it.
+// The guard is a shell that reads process groups from a socket, line by line, until the socket
+// closes. This happens when the object is destroyed or when this process dies for any reason. The
+// guard then kills the last group that it has read (no group after an empty line) and removes the
+// folder. It leads a separate process group, so that a Ctrl-C in the terminal does not reach it.
 #include "helper/scratch_folder.h"
 
 #include <cerrno>
@@ -71,7 +71,7 @@ void ScratchFolder::guard_group(int group)
   if (this->line_ >= 0)
   {
     const std::string line = group > 0 ? std::to_string(group) + "\n" : "\n";
-    // Without a guard there is nobody to tell; no signal for that.
+    // Without a guard the send fails; the flag prevents a signal in that case.
     static_cast<void>(::send(this->line_, line.data(), line.size(), MSG_NOSIGNAL));
   }
 }

@@ -6,24 +6,24 @@
 namespace bindpose
 {
 
-/// A temporary folder for a program that can only talk through files, in the system's folder for
-/// them (TMPDIR, else /tmp). It is removed with all that is in it when the object goes and, by a
-/// small shell process that waits for that, when this process dies, be it killed.
+/// A temporary folder, in the system's folder for temporary files (TMPDIR, else /tmp), for a
+/// program that can exchange data only through files. The destructor removes it with all its
+/// contents. If this process dies or is killed, a small shell process removes it.
 class ScratchFolder
 {
 public:
-  /// `purpose` becomes part of the name.
+  /// Create the folder. `purpose` becomes part of its name.
   explicit ScratchFolder(const std::string& purpose);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
 
-  /// Empty when no folder could be made: see error().
+  /// Return the path, which is empty if the folder could not be created: see error().
   const std::string& path() const { return this->path_; }
   const std::string& error() const { return this->error_; }
 
-  /// The process group that works in the folder and is to be killed, too, when this process dies;
-  /// 0: none. See ChildRequest::started.
+  /// Set the process group that works in the folder and must be killed if this process dies; 0:
+  /// none. See ChildRequest::started.
   void guard_group(int group);
 
 private:
@@ -32,7 +32,7 @@ private:
   std::string path_;
   std::string error_;
   int guard_ = -1; ///< process id
-  int line_ = -1; ///< file descriptor: its end tells the guard that this process is gone
+  int line_ = -1; ///< file descriptor; its closing signals the end of this process to the guard
 };
 
 } // namespace bindpose

@@ -1,14 +1,16 @@
-// A clean surface goes to TetGen as it is. Any other is first refined exactly until triangles meet
-// only in shared vertices and edges; TetGen then fills the convex hull (or a box around it) with
-// tets that keep all these triangles, and tets with a winding number below the threshold are thrown
-// away. Where openings bound much of what is enclosed, small tets in a box come first: they can end
-// where the winding number does. TetGen 1.5 fails on some inputs with one set of switches and on
-// others with another, so two are tried, then the same with vertices rounded to a coarser grid
-// (which welds nearly coincident ones) and with vertices moved a little (which takes soups apart).
-// Last comes a plain Delaunay triangulation of the refined vertices, or of the surface's own where
-// too many triangles cross: its tets need not respect the triangles.
+// A clean surface is passed to TetGen unchanged. Any other surface is first refined exactly until
+// its triangles meet only in shared vertices and edges. TetGen then fills the convex hull (or a box
+// around it) with tets that keep all these triangles, and tets with a winding number below the
+// threshold are removed. If the region is bounded mostly by openings, small tets in a box are tried
+// first, because their boundary can follow the winding number.
 //
-// Kept tets then get vertices inside and are improved: see cdt_tets_fill.cpp.
+// TetGen 1.5 fails on some inputs with one set of switches and on others with another set, so two
+// sets are tried. Then both are tried with vertices rounded to a coarser grid (which welds nearly
+// coincident ones) and with vertices moved a little (which separates the triangles of soups). The
+// last attempt is a plain Delaunay triangulation of the refined vertices, or of the surface's
+// vertices if too many triangles cross. Its tets need not respect the triangles.
+//
+// cdt_tets_fill.cpp then adds vertices inside the kept tets and improves the tets.
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
@@ -24,11 +26,11 @@
 namespace bindpose
 {
 
-/// How TetGen is called.
+/// A set of arguments for TetGen.
 struct CdtTets::Way
 {
   std::string switches;
-  bool box; ///< around the surface
+  bool box; ///< whether TetGen fills a box around the surface instead of its convex hull
 };
 
 struct CdtTets::TetgenRun
@@ -37,7 +39,7 @@ struct CdtTets::TetgenRun
   MesherAnswer answer;
 };
 
-/// How the vertices are moved before refinement.
+/// A change of the vertices before refinement.
 struct CdtTets::Move
 {
   const char* name;
@@ -50,7 +52,7 @@ struct CdtTets::Move
 namespace
 {
 
-/// A number in [-1, 1) from an integer, the same everywhere (splitmix64).
+/// Map an integer to a number in [-1, 1), identically on every machine (splitmix64).
 double scatter(std::uint64_t n)
 {
   std::uint64_t z = (n + 1) * 0x9e3779b97f4a7c15ull;
@@ -105,7 +107,7 @@ Status CdtTets::build(double seconds)
     MesherData data;
     data.points = this->surface_.points;
     data.triangles = this->surface_.triangles;
-    // Without c, TetGen throws the outside away itself.
+    // Without switch c, TetGen removes the tets outside.
     status =
       this->try_tetgen({ this->options_.keep_outside ? "pYcA" : "pYA", false }, no_move, data);
     if (status.ok() || this->final(status))
@@ -142,7 +144,7 @@ Status CdtTets::build(double seconds)
     }
     if (this->too_many_crossings_ || this->out_of_patience())
     {
-      break; // vertices moved a little make no fewer crossings
+      break; // small moves of the vertices do not reduce the crossings
     }
   }
   if (this->too_many_crossings_ && first_refined.points.rows() == 0)
@@ -158,8 +160,8 @@ Status CdtTets::build(double seconds)
   return status;
 }
 
-/// After that long, TetGen is left: the Delaunay triangulation that comes last takes a tenth of the
-/// time.
+/// Report whether the refinements and TetGen runs have used up their time. The Delaunay
+/// triangulation, which is the last attempt, takes a tenth of that time.
 bool CdtTets::out_of_patience() const
 {
   constexpr double patience = 8.0; // seconds
@@ -168,10 +170,11 @@ bool CdtTets::out_of_patience() const
     patience + per_triangle * static_cast<double>(this->surface_.triangles.rows());
 }
 
-/// TetGen on refined triangles, with one set of switches after the other. Across wide openings the
-/// triangles alone make tets too coarse to end where the winding number does, which may be outside
-/// the convex hull: they begin with small tets. Sheets with a sliver in front of them, where all is
-/// in doubt, do not: small tets miss the sliver, too.
+/// Run TetGen on refined triangles, with one set of switches after the other. If the surface has
+/// wide openings, small tets are tried first. The triangles alone then give tets too coarse to
+/// follow the winding number, which may reach the threshold outside the convex hull. The exception
+/// is a sheet with a sliver in front of it, which has a very large doubtful volume: small tets miss
+/// the sliver too.
 Status CdtTets::try_switches(const Move& move, const MesherData& refined)
 {
   const Phase phase(this->context_, "tetgen", 0.4, 1.0);
@@ -197,16 +200,17 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
       return status;
     }
   }
-  // T: how flat a tet on two of the triangles must be for these to count as one plane. The
-  // triangles are cut exactly, so that TetGen's own 1e-8 finds planes that are none, and crashes on
-  // them. Where both ways crash, others do, too: on the same triangles one in thirty succeeds.
+  // Switch T sets how flat a tet on two triangles must be for TetGen to treat the two as coplanar.
+  // The triangles are cut exactly. With the default of 1e-8, TetGen finds coplanar triangles where
+  // there are none, and crashes on them. If both sets of switches crash, other sets usually crash
+  // as well: on the same triangles one set in thirty succeeds.
   std::vector<Way> ways{ { "pYcAT1e-12", false }, { "pYAT1e-16", true } };
   if (move.jitter > 0.0)
   {
-    ways.erase(ways.begin()); // no triangles in one plane are left
+    ways.erase(ways.begin()); // no coplanar triangles are left
   }
-  // If the first way takes long, the last one starts beside it, where two do not take too much
-  // memory.
+  // If the first set of switches takes long, the last one is started in parallel, provided that two
+  // processes do not need too much memory.
   constexpr Index most_triangles = 1000000;
   constexpr double long_time = 1.0; // seconds
   constexpr double never = 1e6;
@@ -228,13 +232,13 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
     }
     if (this->timed_out_ || (!status.ok() && this->out_of_patience()))
     {
-      break; // on the same triangles, other switches run out of time as well
+      break; // with other switches, the same triangles reach the time limit as well
     }
     if (!done() && this->wrong_volume_ && !fine_tried)
     {
       try_fine();
     }
-    // When small tets are no better, TetGen did what it could.
+    // If small tets are wrong too, more runs of TetGen cannot help.
     this->finer_is_no_better_ = fine_is_wrong && this->wrong_volume_;
     if (done())
     {
@@ -244,7 +248,8 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
   return status;
 }
 
-/// Tets small enough to tell where the region ends between triangles, in a box around it.
+/// Compute tets in a box around the region that are small enough to resolve its boundary between
+/// triangles.
 Status CdtTets::try_fine_tets(const Move& move, const MesherData& refined)
 {
   this->wrong_volume_ = false;
@@ -259,7 +264,7 @@ Status CdtTets::try_fine_tets(const Move& move, const MesherData& refined)
     std::max(std::min(this->volume_bound(), this->inside_.volume() / tets_inside), box / most_tets);
   const Status status = this->try_tetgen({ "pAq2a" + short_number(bound), true }, move, refined);
   this->fine_fails_ = !status.ok() && !this->wrong_volume_;
-  this->timed_out_ = false; // without small tets it may be soon done
+  this->timed_out_ = false; // without small tets TetGen may finish soon
   return status;
 }
 
@@ -268,8 +273,8 @@ Status CdtTets::try_tetgen(const Way& way, const Move& move, const MesherData& i
   return this->judge(way, move, this->run_tetgen(way, input, this->context_));
 }
 
-/// TetGen gets twice what it needs at most for surfaces of this size where it succeeds; 20 to 60 us
-/// a triangle are usual. Thread-safe.
+/// Run TetGen with a time limit of twice the longest time that successful runs need for surfaces of
+/// this size. Typical runs take 20 to 60 us per triangle. Thread-safe.
 CdtTets::TetgenRun CdtTets::run_tetgen(
   const Way& way, const MesherData& input, ExecutionContext& context) const
 {
@@ -280,7 +285,7 @@ CdtTets::TetgenRun CdtTets::run_tetgen(
   return run;
 }
 
-/// Keeps TetGen's tets inside.
+/// Keep the inside tets of a TetGen run.
 Status CdtTets::judge(const Way& way, const Move& move, const TetgenRun& run)
 {
   const double start = this->context_.elapsed_seconds();
@@ -296,9 +301,9 @@ Status CdtTets::judge(const Way& way, const Move& move, const TetgenRun& run)
 Status CdtTets::try_delaunay(const MesherData& refined)
 {
   const double start = this->context_.elapsed_seconds();
-  // No triangles to keep: vertices that nearly coincide (the first of each small box stays) would
-  // only make slivers.
-  constexpr double near = 1e-7; // of the diagonal
+  // No triangles must be kept, so nearly coincident vertices would only make slivers. One vertex
+  // per small box is kept.
+  constexpr double near = 1e-7; // in bounding-box diagonals
   MesherData input = refined;
   std::set<std::array<double, 3>> boxes;
   Index kept = 0;
@@ -339,7 +344,7 @@ Status CdtTets::try_delaunay(const MesherData& refined)
   return status;
 }
 
-/// Moves the vertices, then cuts triangles along their crossings.
+/// Move the vertices, then cut the triangles along their crossings.
 Status CdtTets::refine(const Move& move, MesherData& refined)
 {
   const Phase phase(this->context_, "refine", 0.0, 0.4);
@@ -401,7 +406,7 @@ Status CdtTets::move_vertices(const Move& move, RepairedSurface& moved)
   return {};
 }
 
-/// One job of the helper, for at most `seconds` of processor time and what is left of the time.
+/// Run one job of the helper, for at most `seconds` of processor time and until the deadline.
 Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherData& input,
   double seconds, MesherAnswer& answer, ExecutionContext& context) const
 {
@@ -419,7 +424,7 @@ Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherD
   request.time_limit = std::min(left, slack * seconds);
   if (arguments.front() == "refine")
   {
-    // It gives up by itself, a little earlier, and says how far it came.
+    // The helper stops by itself a little earlier and reports its progress.
     constexpr double earlier = 0.9;
     request.arguments.insert(
       request.arguments.end(), { "--time", std::to_string(earlier * std::min(left, seconds)) });
@@ -427,7 +432,7 @@ Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherD
   return run_mesher(request, input, answer, context);
 }
 
-/// A status after which no other rung can help.
+/// Report whether no other rung can help after this status.
 bool CdtTets::final(const Status& status) const
 {
   return status.code == StatusCode::cancelled || status.code == StatusCode::unavailable ||
@@ -435,7 +440,7 @@ bool CdtTets::final(const Status& status) const
       (this->finer_is_no_better_ || this->context_.elapsed_seconds() >= this->deadline_));
 }
 
-/// Keeps the tets that the surface winds around; ok when their volume is right.
+/// Keep the tets that the surface winds around. Return ok if their volume is right.
 Status CdtTets::keep_inside(const MesherData& data)
 {
   const Phase phase(this->context_, "label", 0.9, 1.0);
@@ -457,7 +462,7 @@ Status CdtTets::keep_inside(const MesherData& data)
   {
     return status;
   }
-  // Smoothness was bought with too much volume: where the surface is mostly holes, or thin.
+  // The graph cut changes the volume too much if the surface consists mostly of holes, or is thin.
   this->log_.add("graph cut", this->context_.elapsed_seconds() - start, status);
   return this->take_inside(data, w, SegmentationMethod::threshold);
 }
@@ -484,7 +489,8 @@ Status CdtTets::take_inside(
   }
   kept.conservativeResize(count, 4);
   std::vector<TetFacet> facets = tet_facets(kept);
-  // Of the volume. Where numbers waver, a tet stays by itself.
+  // A tet without a neighbor is removed if it has less than this fraction of the volume. Winding
+  // numbers that vary around the threshold leave such tets.
   const double lone = this->inside_.labels_are_exact() ? 1e-8 : 1e-4;
   drop_crumbs(data.points, kept, facets, lone);
   peel_slivers(data.points, kept, facets, flat_height * this->diagonal_);
@@ -501,14 +507,15 @@ Status CdtTets::take_inside(
   }
   const double volume = tet_volumes(data.points, kept).sum();
   const double misfit = this->inside_.misfit(volume);
-  // A smooth boundary may cost less than what makes a threshold's tets wrong: they are the way out.
+  // The graph cut may prefer a smooth boundary to the right volume. If it misses the volume by more
+  // than this, the threshold's tets are used.
   constexpr double price_of_smoothness = 0.05;
   const bool fits = this->inside_.fits(volume) &&
     (method == SegmentationMethod::threshold || misfit <= price_of_smoothness);
   this->wrong_volume_ = !fits;
   if (fits || misfit < this->misfit_)
   {
-    // What does not fit is still better than nothing, should nothing fit better.
+    // The best tets are kept in case no other rung fits.
     this->misfit_ = misfit;
     this->volume_ = volume;
     this->mesh_.points = data.points;
@@ -532,11 +539,11 @@ Status CdtTets::take_inside(
                  : wrong_volume(volume, this->inside_);
 }
 
-/// TetGen leaves tets of no volume, or of rounding, now and then, not at the boundary: edges and
-/// facets around them are swapped until they are gone.
+/// Remove tets with no volume, or with a volume of rounding errors, which TetGen sometimes returns
+/// away from the boundary. Edges and facets around them are swapped until they disappear.
 Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet>& facets)
 {
-  constexpr double rounding = 1e-12; // of the cube on the longest edge
+  constexpr double rounding = 1e-12; // relative to the cube of the longest edge
   const Eigen::VectorXd volumes = tet_volumes(points, tets);
   bool any = false;
   for (Index t = 0; t < tets.rows() && !any; ++t)
@@ -563,7 +570,7 @@ Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet
   return {};
 }
 
-/// All tets that were told apart, but those that rounding has flattened.
+/// Take all segmented tets, except those that rounding has flattened.
 void CdtTets::take_all(
   const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside)
 {
@@ -593,7 +600,7 @@ Status CdtTets::complete()
   this->deadline_ = std::max(this->start_ + this->options_.time_limit, this->deadline_);
   if (this->options_.keep_outside)
   {
-    this->renumber(); // they are to be seen as they were told apart
+    this->renumber(); // the tets must stay as they were segmented
     return {};
   }
   Status status;
@@ -631,7 +638,8 @@ double CdtTets::mean_surface_edge() const
   return sum / static_cast<double>(std::max<Index>(1, triangles.size()));
 }
 
-/// Volume of a regular tet with edges of interior_edge, no shorter than a third of the surface's.
+/// Return the volume of a regular tet whose edges have the length interior_edge, but at least a
+/// third of the mean edge of the surface.
 double CdtTets::volume_bound() const
 {
   constexpr double default_edge = 0.04;
@@ -641,7 +649,8 @@ double CdtTets::volume_bound() const
     std::pow(std::max(fraction * this->diagonal_, this->mean_surface_edge() / 3.0), 3.0);
 }
 
-/// Vertices of the input first, in their order, then the others; unused ones go.
+/// Renumber the vertices: those of the input first, in their order, then the others. Remove unused
+/// ones.
 void CdtTets::renumber()
 {
   std::vector<char> used(static_cast<std::size_t>(this->mesh_.points.rows()), 0);

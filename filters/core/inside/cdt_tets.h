@@ -17,12 +17,13 @@ namespace bindpose
 
 struct MesherAnswer;
 
-/// Everything that was tried, with seconds and how it ended.
+/// The attempts (rungs) of a method, each with its seconds and its outcome.
 class RungLog
 {
 public:
   void add(const std::string& rung, double seconds, const Status& status);
-  /// rungs[].name, rungs[].seconds, rungs[].outcome ("ok" or why it was left).
+  /// Report rungs[].name, rungs[].seconds and rungs[].outcome. An outcome is "ok" or the message of
+  /// the failure.
   void report(Report& report) const;
 
 private:
@@ -34,46 +35,49 @@ private:
 /// See TetrahedralizeOptions.
 struct CdtOptions
 {
-  SegmentationOptions segmentation; ///< of open surfaces; a closed one's numbers are whole
+  /// Used for open surfaces only. A closed surface has integer winding numbers.
+  SegmentationOptions segmentation;
   double time_limit = 120.0;
   Index memory_limit = 0;
   bool bare = false;
   double interior_edge = 0.0;
-  bool keep_outside = false; ///< the tets that were told apart as they are, outside ones, too
+  bool keep_outside = false; ///< Keep the segmented tets unchanged, including those outside.
   HandlePlaces handles;
 };
 
-/// "the tets hold 3.9, but the winding number encloses 8"
+/// Return the failure "the tets hold 3.9, but the winding number encloses 8".
 Status wrong_volume(double volume, const EnclosedRegion& inside);
 
-/// Constrained Delaunay tets of a surface's hull, kept where the surface winds around them, by the
-/// helper executable: the rungs of method cdt. Call build(), then complete().
+/// Constrained Delaunay tets of the convex hull of a surface, reduced to the tets that the surface
+/// winds around. The helper executable computes them. This class implements the rungs of method
+/// cdt. Call build() first, then complete().
 class CdtTets
 {
 public:
   CdtTets(const RepairedSurface& surface, EnclosedRegion& inside, const CdtOptions& options,
     RungLog& log, ExecutionContext& context);
 
-  /// Climbs the rungs until the kept tets' volume is right, for at most `seconds`. On failure the
-  /// tets that came nearest are kept: see misfit().
+  /// Try one rung after the other until the kept tets have the right volume, for at most `seconds`.
+  /// On failure, the tets with the smallest misfit() are kept.
   Status build(double seconds);
-  /// EnclosedRegion::misfit of the tets that are there, infinity for none.
+  /// Return EnclosedRegion::misfit of the kept tets, or infinity if there are none.
   double misfit() const { return this->misfit_; }
-  /// Of the tets inside.
+  /// Return the volume of the tets inside.
   double volume() const { return this->volume_; }
-  /// Adds vertices inside, those of handles first, makes flat tets better and numbers the input's
-  /// vertices first. Only cancelled is a failure; what else goes wrong is a warning.
+  /// Add vertices inside (those of handles first), improve flat tets and renumber the vertices so
+  /// that those of the input come first. The only failure is cancelled; any other problem becomes a
+  /// warning.
   Status complete();
 
   TetMesh& mesh() { return this->mesh_; }
   std::vector<Index>& original_vertices() { return this->mesh_original_; }
   const std::vector<std::string>& warnings() const { return this->warnings_; }
-  /// Of keep_outside, else empty: #T the winding numbers that the decision was made from, and 1 for
-  /// the tets that are inside.
+  /// Winding numbers from which the segmentation was computed, #T; and 1 for the tets inside, #T.
+  /// Filled with keep_outside only, else empty.
   const Eigen::VectorXd& winding_numbers() const { return this->winding_numbers_; }
   const std::vector<char>& inside() const { return this->kept_; }
-  /// segmentation of the tets that are kept, and where it was a graph cut, energy,
-  /// threshold_energy, counts.changed_by_cut (see Segmentation).
+  /// The report of the kept tets: segmentation and, if it is a graph cut, energy, threshold_energy
+  /// and counts.changed_by_cut (see Segmentation).
   const Report& report() const { return this->report_; }
 
 private:
@@ -81,7 +85,7 @@ private:
   struct Way;
   struct TetgenRun;
   struct Inside;
-  /// Height of tets at the boundary that are taken off, of the diagonal.
+  /// Tets at the boundary with a smaller height are removed, in bounding-box diagonals.
   static constexpr double flat_height = 1e-11;
 
   Status try_switches(const Move& move, const MesherData& refined);
@@ -123,17 +127,17 @@ private:
   double start_ = 0.0;
   double deadline_ = 0.0;
   std::vector<Index> original_; ///< input id of the first vertices of the rung's points
-  bool wrong_volume_ = false; ///< the rung's tets are there, but their volume is wrong
-  bool finer_is_no_better_ = false; ///< then more of the same will not help
-  bool timed_out_ = false; ///< the last run of TetGen ended because of its time limit
-  double job_seconds_ = 0.0; ///< of refinements and of TetGen, one after the other
-  bool too_many_crossings_ = false; ///< the refinement gave up because of them
-  bool fine_fails_ = false; ///< small tets were tried, and there were none
+  bool wrong_volume_ = false; ///< the rung gave tets, but their volume is wrong
+  bool finer_is_no_better_ = false; ///< finer tets cannot improve the result
+  bool timed_out_ = false; ///< the last run of TetGen reached its time limit
+  double job_seconds_ = 0.0; ///< total of the refinements and the TetGen runs
+  bool too_many_crossings_ = false; ///< the refinement gave up because too many triangles cross
+  bool fine_fails_ = false; ///< small tets were tried, and TetGen returned none
   TetMesh mesh_;
   Eigen::VectorXd winding_numbers_;
   std::vector<char> kept_;
   std::vector<Index> mesh_original_;
-  std::vector<Index> handle_vertices_; ///< at points of handles, inside
+  std::vector<Index> handle_vertices_; ///< vertices at the points of handles inside
   double misfit_ = std::numeric_limits<double>::infinity();
   double volume_ = 0.0;
   std::vector<std::string> warnings_;

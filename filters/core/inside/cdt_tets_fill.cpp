@@ -1,6 +1,6 @@
-// Vertices inside of the tets of method cdt, so that weights have something to vary over: places of
-// a lattice that gets coarser away from the boundary (inner_points.h) become vertices
-// (tet_insertion.h). Then flat tets are improved (tet_improvement.h). Both keep the boundary.
+// Weights need vertices inside the tets of method cdt in order to vary there. Points of a lattice
+// that gets coarser away from the boundary (inner_points.h) become vertices (tet_insertion.h). Then
+// flat tets are improved (tet_improvement.h). Both steps keep the boundary.
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
@@ -21,20 +21,20 @@ namespace bindpose
 
 namespace
 {
-/// Triangles of the boundary within this height of one plane, of the diagonal, are in one plane.
+/// Boundary triangles within this distance of one plane, in bounding-box diagonals, are coplanar.
 constexpr double coplanar = 1e-10;
-/// Without a request for a length inside: there are at least about so many tets,
+/// Approximate minimum number of tets if no interior edge length is requested.
 constexpr Index fewest_tets = 1500;
-/// and about so many per triangle of the surface.
+/// Approximate number of tets per triangle of the surface in the same case.
 constexpr double tets_per_triangle = 4.2;
-/// With one.
+/// Largest number of tets if an interior edge length is requested.
 constexpr Index most_tets_on_request = 20000000;
-/// That come with a vertex inside, and with a triangle of the boundary, about.
+/// Approximate number of tets per vertex inside and per boundary triangle.
 constexpr Index tets_per_vertex = 6;
 constexpr Index tets_per_boundary_triangle = 2;
 
-/// The largest number of new vertices: it gives the wanted number of tets, and leaves some vertices
-/// for the space between triangles that are many already.
+/// Return the largest number of new vertices. It gives the wanted number of tets. It also leaves
+/// some vertices for the space between the triangles if these are many already.
 Index most_inner_vertices(Index surface_triangles, Index boundary_triangles)
 {
   constexpr double least = 0.1; // per triangle
@@ -44,7 +44,7 @@ Index most_inner_vertices(Index surface_triangles, Index boundary_triangles)
   return static_cast<Index>(std::max(least * triangles, tets / tets_per_vertex));
 }
 
-/// Removes the places that are nearer to one of the others than half of the local length.
+/// Remove the places whose distance to one of `others` is less than half of the local length.
 void remove_near(Points& places, const Points& others, const SizingField& sizes)
 {
   if (others.rows() == 0)
@@ -59,7 +59,7 @@ void remove_near(Points& places, const Points& others, const SizingField& sizes)
   for (Index i = 0; i < places.rows(); ++i)
   {
     const Vec3 p = places.row(i);
-    constexpr double spacing = 0.5; // of the local length
+    constexpr double spacing = 0.5; // in local lengths
     const double least = spacing * sizes.at(p);
     bool near = false;
     for (auto other = std::lower_bound(order.begin(), order.end(), p.x() - least,
@@ -77,20 +77,20 @@ void remove_near(Points& places, const Points& others, const SizingField& sizes)
 }
 } // namespace
 
-/// The space that the tets' boundary encloses.
+/// The region enclosed by the boundary of the tets.
 struct CdtTets::Inside
 {
   Interior interior;
   Index boundary_triangles = 0;
   std::unique_ptr<SizingField> sizes;
-  Points places; ///< of new vertices
+  Points places; ///< positions of new vertices
 };
 
-/// Adds vertices inside, those of handles first.
+/// Add vertices inside, those of handles first.
 Status CdtTets::fill()
 {
   const double start = this->context_.elapsed_seconds();
-  constexpr double found = 0.35; // share of the seconds
+  constexpr double found = 0.35; // fraction of the time
   Inside inside;
   Status status;
   {
@@ -117,13 +117,13 @@ Status CdtTets::fill()
   return status;
 }
 
-/// Finds places of new vertices. Edges of the boundary that are too long for them are split.
+/// Find positions of new vertices. Boundary edges that are too long for them are split.
 Status CdtTets::find_places(Inside& inside)
 {
   const double wanted = this->options_.interior_edge * this->diagonal_;
   if (wanted > 0.0)
   {
-    constexpr double long_edge = 3.0; // of the wanted length
+    constexpr double long_edge = 3.0; // in wanted lengths
     return this->find_even_places(
       wanted, long_edge * wanted, most_tets_on_request, most_tets_on_request, inside);
   }
@@ -139,18 +139,18 @@ Status CdtTets::find_places(Inside& inside)
   {
     return status;
   }
-  // The same length everywhere, so that there are enough.
+  // Use one length everywhere, so that there are enough tets.
   const double length =
     std::cbrt(this->volume_ / (static_cast<double>(fewest_tets) * regular_tet_volume));
   constexpr double long_edge = 2.0;
-  constexpr double share = 0.6; // of the tets for the boundary
+  constexpr double share = 0.6; // fraction of the tets that splitting the boundary may create
   return this->find_even_places(length, long_edge * length,
     static_cast<Index>(share * static_cast<double>(fewest_tets)), fewest_tets / tets_per_vertex,
     inside);
 }
 
-/// Finds at most about `most` places no farther than about `length` from each other, after edges of
-/// the boundary longer than `long_edge` have been split until there are `most_tets`.
+/// Find at most about `most` positions whose distances are at most about `length`. First, boundary
+/// edges longer than `long_edge` are split until there are `most_tets`.
 Status CdtTets::find_even_places(
   double length, double long_edge, Index most_tets, Index most, Inside& inside)
 {
@@ -169,9 +169,9 @@ Status CdtTets::find_inner_places(Index most, Inside& inside)
     : Status::cancelled();
 }
 
-/// Edges inside become as long as the shortest ones of the boundary near them, and longer by three
-/// quarters of the distance to these, at most `longest`. (Means of the lengths make tets too coarse
-/// for small details between long triangles.)
+/// Set the lengths of edges inside. Near the boundary they equal its shortest edges. They grow by
+/// three quarters of the distance to these, up to `longest`. (With mean lengths, tets are too
+/// coarse for small details between long triangles.)
 Status CdtTets::look_inside(double longest, Inside& inside)
 {
   const Points& points = this->mesh_.points;
@@ -206,13 +206,13 @@ Status CdtTets::look_inside(double longest, Inside& inside)
   return inside.interior.build(points, boundary, this->context_);
 }
 
-/// Points of the handles that lie inside, and points between them. Those between keep some distance
-/// from the boundary: there are vertices enough there, and flat tets would lie between. Removes the
-/// other places near them.
+/// Return the points of the handles that are inside, and points between them. Points between them
+/// keep some distance from the boundary: there are enough vertices there, and tets in between would
+/// be flat. Remove other positions near the returned points.
 Points CdtTets::places_of_handles(Inside& inside) const
 {
-  constexpr double near = 0.3; // of the local length
-  constexpr double touching = 1e-6; // of the diagonal
+  constexpr double near = 0.3; // in local lengths
+  constexpr double touching = 1e-6; // in bounding-box diagonals
   const SizingField& sizes = *inside.sizes;
   const HandleSamples samples =
     sample_places(this->options_.handles, [&](const Vec3& p) { return sizes.at(p); });
@@ -245,7 +245,7 @@ Status CdtTets::insert(const Points& places, std::vector<Index>& vertices)
   return status;
 }
 
-/// Takes the tets if they are valid and fill the same volume.
+/// Accept the tets if they are valid and fill the same volume.
 Status CdtTets::accept(TetMesh& mesh)
 {
   const double after = tet_volumes(mesh.points, mesh.tets).sum();
@@ -263,8 +263,8 @@ Status CdtTets::accept(TetMesh& mesh)
   return status;
 }
 
-/// Makes flat tets better. The input's vertices and those of handles stay, and so does the boundary
-/// but for the diagonals of triangles in one plane.
+/// Improve flat tets. The vertices of the input and of handles do not move. The boundary changes
+/// only by swapped diagonals of coplanar triangles.
 Status CdtTets::improve()
 {
   const double start = this->context_.elapsed_seconds();

@@ -10,13 +10,15 @@ namespace bindpose
 
 namespace
 {
-/// The cosine of a turn of the surface that makes an edge, or two edges of a crease, sharp.
+/// Return the cosine of the angle above which an edge, or the turn between two crease edges, is
+/// sharp.
 double cosine(double degrees)
 {
   return std::cos(degrees / 57.295779513082320877);
 }
 
-/// A triangle's edge bounds the region when its middle does, seen from inside the triangle.
+/// Report whether a triangle's edge bounds the region. The test point is near the middle of the
+/// edge, inside the triangle.
 bool bounds(const RegionBoundary& region, const TriangleSide& side)
 {
   const Vec3 middle = 0.5 *
@@ -32,7 +34,7 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
 {
   const std::vector<TriangleSide> sides = sides_by_edge(region.triangles());
   const double smooth = cosine(angle);
-  std::vector<std::pair<Index, Index>> ends; // (vertex, other end), both ways
+  std::vector<std::pair<Index, Index>> ends; // (vertex, other end), in both directions
   std::vector<Vec3> between;
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
   {
@@ -53,7 +55,7 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
     const Vec3 a = region.points().row(sides[i].a);
     const Vec3 b = region.points().row(sides[i].b);
     constexpr double most = 1000.0;
-    // Closer than the length wanted: facets beside the crease then rarely cut it off.
+    // Points are closer than the requested length, so that facets next to the crease rarely cut it.
     constexpr double dense = 0.7;
     const double length = dense * std::min({ field.at(a), field.at(b), field.at(0.5 * (a + b)) });
     const double parts = std::min(std::ceil((b - a).norm() / length), most);

@@ -7,16 +7,17 @@
 namespace bindpose
 {
 
-/// Points by which a mesher finds a surface's sharp edges again.
+/// Points from which a mesher recovers the sharp edges of a surface.
 struct CreasePoints
 {
   std::vector<Index> corners; ///< input vertices where creases end, meet or turn
   std::vector<Index> vertices; ///< other input vertices on creases
-  Points between; ///< points on crease edges longer than the sizing field wants, evenly spaced
+  /// Evenly spaced points on crease edges that are longer than the sizing field allows.
+  Points between;
 };
 
-/// Creases are edges at which the surface turns by more than `angle` degrees or is open or
-/// non-manifold, as far as they bound the region. Ids ascend.
+/// Find the creases that bound the region. A crease is an edge at which the surface turns by more
+/// than `angle` degrees, is open or is non-manifold. Ids ascend.
 CreasePoints find_creases(
   const RegionBoundary& region, const SizingField& field, double angle = 30.0);
 

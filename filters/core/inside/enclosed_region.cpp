@@ -1,6 +1,6 @@
-// The winding number of the whole surface decides. A surface that is closed has the same whole
-// number all over each region between its triangles, so one point a region is enough, far from the
-// triangles; an open one needs a look at every tet.
+// The winding number of the whole surface determines the region. If the surface is closed, the
+// winding number is the same integer in each region between its triangles. One point per region,
+// far from the triangles, is then enough. If the surface is open, every tet is evaluated.
 #include "inside/enclosed_region.h"
 
 #include "base/number_text.h"
@@ -19,12 +19,12 @@ namespace
 {
 constexpr double smallest_volume_ratio = 0.9;
 constexpr double largest_volume_ratio = 1.1;
-/// Numbers this near to the threshold belong to openings (or to nothing): walls have them far
-/// apart.
+/// Winding numbers this near to the threshold occur at openings (or in no region). On the two sides
+/// of a wall they are far apart.
 constexpr double doubtful = 0.25;
 
-/// Points spread evenly over a box, the same every time: an additive recurrence with the powers of
-/// the root of x^4 = x + 1, the three-dimensional golden ratio.
+/// Return points spread evenly over a box, always the same: an additive recurrence with the powers
+/// of the root of x^4 = x + 1, the three-dimensional golden ratio.
 Points spread_points(const Box& box, Index count)
 {
   const Vec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
@@ -59,7 +59,7 @@ Status EnclosedRegion::build(
   }
   if (surface.clean() && surface.found.components == 1)
   {
-    // It winds once around its inside, and nowhere twice.
+    // The surface winds once around its inside, and nowhere twice.
     this->volume_ = threshold <= 1.0 ? signed_volume(surface.points, surface.triangles) : 0.0;
     this->volume_error_ = 0.0;
   }
@@ -69,7 +69,7 @@ Status EnclosedRegion::build(
 Status EnclosedRegion::sample(
   const RepairedSurface& surface, double& negative, ExecutionContext& context)
 {
-  // The samples below, then tets.
+  // The queries are the samples below, then tets.
   WindingNumber::Options winding;
   winding.expected_queries = 500000;
   Status status = this->winding_.build(surface.points, surface.triangles, context, winding);
@@ -79,15 +79,16 @@ Status EnclosedRegion::sample(
     this->volume_error_ = 0.0;
     return status.usable() ? Status() : status;
   }
-  // More samples until enough are inside, as long as that costs less than a second or two: a sample
-  // costs about 1 us, and 15 ns for every open edge where the number is exact.
+  // Samples are added until enough are inside, as long as that takes less than a second or two. A
+  // sample costs about 1 us, and 15 ns per open edge if the winding number is exact.
   const double cost = this->winding_.method() == WindingMethod::fast
     ? 1.0
     : 0.1 + 0.015 * static_cast<double>(surface.found.boundary_edges);
   constexpr double affordable = 2e6; // us
   constexpr double most_samples = 1e6;
-  // As many points as a grid of 40 along the longest side has. They are not a grid: faces that are
-  // aligned with its planes (boxes, CAD) would count a whole layer of cells too many or too few.
+  // The number of points is that of a grid with 40 points along the longest side. The points are
+  // not a grid: faces aligned with its planes (boxes, CAD) would add or remove a whole layer of
+  // cells.
   const Vec3 size = this->box_.size();
   constexpr double enough = 20000.0; // samples inside, for an error below one percent
   constexpr double growth = 3.375;
@@ -150,9 +151,9 @@ Status EnclosedRegion::no_tets() const
 Status EnclosedRegion::only_specks(const RepairedSurface& surface) const
 {
   constexpr Index fewest_triangles = 10000;
-  constexpr double loose = 0.9; // of all sides
-  constexpr double largest_share = 1e-3; // of the box
-  constexpr double largest_thickness = 0.1; // of a triangle's size
+  constexpr double loose = 0.9; // fraction of the triangle sides that are boundary edges
+  constexpr double largest_share = 1e-3; // fraction of the box volume
+  constexpr double largest_thickness = 0.1; // in triangle sizes
   const Index count = surface.triangles.rows();
   const double share = this->volume_ / this->box_.size().prod();
   if (count < fewest_triangles || share > largest_share ||
@@ -188,7 +189,8 @@ Status EnclosedRegion::label(const MesherData& data, Eigen::VectorXd& w, Executi
   return status;
 }
 
-/// Closed surface: the winding number is the same all over a region between triangles.
+/// Label the tets of a closed surface: the winding number is constant in a region between
+/// triangles.
 Status EnclosedRegion::label_regions(
   const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context) const
 {
@@ -220,7 +222,8 @@ Status EnclosedRegion::label_regions(
   return context.cancelled() ? Status::cancelled() : Status();
 }
 
-/// Open surface: at each tet's centre; for large tets near the threshold the mean of four points.
+/// Label the tets of an open surface at their centers, or, for large tets near the threshold, by
+/// the mean of four points.
 Status EnclosedRegion::label_tets(
   const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context) const
 {
@@ -230,7 +233,7 @@ Status EnclosedRegion::label_tets(
   {
     return status;
   }
-  // Fast numbers that may be on the wrong side of the threshold: within their error bound of it.
+  // Fast winding numbers within their error bound of the threshold may be on the wrong side of it.
   const double doubt = this->winding_.method() == WindingMethod::fast
     ? this->winding_.status().report.number("error_bound", 0.0)
     : 0.0;
@@ -253,7 +256,7 @@ Status EnclosedRegion::label_tets(
   {
     return Status::cancelled();
   }
-  constexpr double large = 0.05; // of the diagonal
+  constexpr double large = 0.05; // in bounding-box diagonals
   std::vector<Index> tets;
   for (Index t = 0; t < data.tets.rows(); ++t)
   {
@@ -268,7 +271,7 @@ Status EnclosedRegion::label_tets(
   {
     for (int k = 0; k < 4; ++k)
     {
-      // Four-point rule of degree 2.
+      // Quadrature rule with four points, of degree 2.
       constexpr double near = 0.5854101966249685;
       constexpr double others = 0.1381966011250105;
       more.row(4 * static_cast<Index>(i) + k) = 4.0 * others * centers.row(tets[i]) +
@@ -281,7 +284,8 @@ Status EnclosedRegion::label_tets(
   {
     w[tets[i]] = 0.25 * values.segment(4 * static_cast<Index>(i), 4).sum();
   }
-  // TetGen's box is larger. In front of a sheet another one may add to its half: no inside.
+  // TetGen's box is larger than the surface's. Outside the surface's box, numbers of two sheets may
+  // add up to the threshold, but such points are not inside.
   for (Index t = 0; t < w.size(); ++t)
   {
     const Vec3 p = centers.row(t);

@@ -8,43 +8,50 @@
 namespace bindpose
 {
 
-/// Where a surface winds often enough around a point: {winding number >= threshold} in the
-/// surface's box. Says which tets are in it and whether a volume fits.
+/// The region {winding number >= threshold} in the bounding box of a surface. It labels tets as
+/// inside or outside and checks whether a volume fits the region.
 class EnclosedRegion
 {
 public:
-  /// Builds the winding number and estimates the volume. A surface that winds the other way around
-  /// more than it encloses is turned inside out (closed components are right by now, open ones may
-  /// not be). #samples in the box: until 20,000 are inside, fewer when that would take seconds.
+  /// Build the winding number and estimate the volume. If the surface encloses more volume with the
+  /// negative orientation than with the positive one, it is turned inside out. (Closed components
+  /// are already oriented; open ones may not be.) Sample points in the box are added until 20,000
+  /// are inside, fewer if these would take seconds.
   Status build(RepairedSurface& surface, double threshold, bool& turned, ExecutionContext& context);
 
   const WindingNumber& winding() const { return this->winding_; }
-  /// Exact for a clean surface of one component, sampled otherwise.
+  /// Return the volume: exact for a clean surface of one component, sampled otherwise.
   double volume() const { return this->volume_; }
-  /// Standard error of volume() from sampling, relative; 0 where it is exact.
+  /// Return the relative standard error of volume() from sampling, 0 if the volume is exact.
   double volume_error() const { return this->volume_error_; }
-  /// Volume where the number is within a quarter of the threshold, as a multiple of volume(): near
-  /// 0 where the surface itself bounds what it encloses, over 1 where its openings do.
+  /// Return the volume in which the winding number is within 0.25 of the threshold, as a multiple
+  /// of volume(). It is near 0 if the surface itself bounds the region, and over 1 if the openings
+  /// of the surface do.
   double doubtful_share() const { return this->doubtful_share_; }
-  /// Within 10 %, and what sampling may be wrong by.
+  /// Report whether a volume matches volume() within 10 % plus the sampling error.
   bool fits(double volume) const;
-  /// |log(volume / volume())|: 0 for equal, the same for half and double, infinity for none.
+  /// Return |log(volume / volume())|: 0 for equal volumes, the same for half and double, infinity
+  /// for no volume.
   double misfit(double volume) const;
-  /// A closed surface's tets are labelled exactly: when none is inside, no finer tet will be.
+  /// Report whether tets are labeled exactly, which is true for a closed surface. If no tet is
+  /// inside, finer tets cannot change that.
   bool labels_are_exact() const { return this->closed_; }
-  /// The error of a surface that winds nowhere often enough, with the largest number met so far.
+  /// Return the error of a surface that encloses no volume. The message contains the largest
+  /// winding number sampled so far.
   Status encloses_nothing() const;
-  /// The same of a method whose tets of some size found nothing inside; unavailable where the
-  /// surface does enclose something, too thin for them.
+  /// Return the error of a method whose tets of some size are all outside. The code is unavailable
+  /// if the surface encloses a volume that is too thin for such tets.
   Status no_tets() const;
 
-  /// The error of thousands of loose triangles that enclose only specks, thinner than a tenth of
-  /// their size, where some come near each other: tets of them are no shape, and take minutes.
+  /// Return the error of thousands of loose triangles that enclose only specks, between triangles
+  /// near each other and thinner than a tenth of a triangle's size. Tets of such specks represent
+  /// no shape and take minutes.
   Status only_specks(const RepairedSurface& surface) const;
 
-  /// Winding number of each tet: of its region's largest tet when the surface is closed, else at
-  /// its centre or, for large tets near the threshold, the mean of four points; 0 for a tet whose
-  /// centre is outside of the surface's box.
+  /// Compute the winding number of each tet. If the surface is closed, all tets of a region get the
+  /// number of its largest tet. Otherwise a tet gets the number at its center, or, if it is large
+  /// and near the threshold, the mean of four points. A tet whose center is outside the surface's
+  /// box gets 0.
   Status label(const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context);
 
 private:

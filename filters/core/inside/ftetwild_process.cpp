@@ -1,6 +1,6 @@
-// The surface is written as OFF, the tets are read as MEDIT, which fTetWild writes when the
-// output's name ends in .mesh. Its lines tell which of its five stages has ended; how long each
-// will take is a guess.
+// The surface is written as OFF. The tets are read as MEDIT, which fTetWild writes if the output's
+// name ends in .mesh. The printed lines report which of the five stages has ended. The duration of
+// each stage is estimated.
 #include "inside/ftetwild_process.h"
 
 #include "base/number_text.h"
@@ -41,7 +41,7 @@ Status check_options(const FtetwildOptions& options)
   return check_limits(options.time_limit, options.memory_limit);
 }
 
-/// What fTetWild prints: progress, and its last words.
+/// The output of fTetWild: updates the progress and stores the last line.
 class Lines
 {
 public:
@@ -73,13 +73,13 @@ private:
   std::string last_;
 };
 
-/// Tets turned to be positive, stray vertices dropped.
+/// Return the tets with positive orientation and without unused vertices.
 TetMesh clean_up(const MeditMesh& read)
 {
   TetMesh mesh{ Points(0, 3), read.tets };
   if (tet_volumes(read.points, mesh.tets).sum() < 0.0)
   {
-    mesh.tets.col(0).swap(mesh.tets.col(1)); // all have one orientation
+    mesh.tets.col(0).swap(mesh.tets.col(1)); // all tets have the same orientation
   }
   std::vector<Index> number(static_cast<std::size_t>(read.points.rows()), -1);
   std::vector<Index> used;
@@ -140,7 +140,7 @@ Status run_ftetwild(PointsView points, TrianglesView triangles, const FtetwildOp
   {
     return Status::failure(StatusCode::internal_error, folder.error());
   }
-  // fTetWild knows lengths that do not scale.
+  // fTetWild contains absolute lengths that do not scale with the input.
   const UnitFrame frame(bounding_box(points, triangles));
   const std::string surface = folder.path() + "/surface.off";
   const std::string tets = folder.path() + "/tets.mesh";

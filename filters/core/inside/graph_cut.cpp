@@ -1,8 +1,9 @@
-// Most nodes are decided at once: their own costs outweigh their edges. The others make a network.
-// There, a node that is cheaper inside hangs on the source by the difference of its two costs, one
-// that is cheaper outside on the sink; what flows from source to sink until nothing more fits has
-// filled the cheapest edges that separate them. Costs become whole numbers first: flow arithmetic
-// is then exact, and the end does not depend on rounding.
+// Most nodes are decided without flow, because their own costs outweigh their edges. The other
+// nodes make a network. A node that is cheaper inside is connected to the source, with the
+// difference of its two costs as capacity; a node that is cheaper outside is connected to the sink.
+// The maximum flow from source to sink saturates the cheapest edges that separate the two. Costs
+// are first rounded to integers, so that the flow arithmetic is exact and the result does not
+// depend on rounding.
 #include "inside/graph_cut.h"
 
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
@@ -28,8 +29,8 @@ struct Stop
 {
 };
 
-/// Residual capacities; every write is a look at cancel now and then, for the algorithm has no hook
-/// for it.
+/// Residual capacities. Writes check for cancel now and then, because the algorithm has no
+/// callback.
 struct Residuals
 {
   using key_type = Arc;
@@ -120,13 +121,13 @@ public:
   {
   }
 
-  /// Decides nodes that are on one side in every minimum: what they gain there by themselves, and
-  /// by edges to nodes that are decided, is more than all their other edges cost. That decides
-  /// neighbors in turn. Ends after a round that decides few.
+  /// Decide nodes that are on the same side in every minimum: their gain there, including edges to
+  /// decided nodes, is larger than the cost of all their other edges. Each decision can decide
+  /// neighbors in turn. The loop ends after a round that decides few nodes.
   void decide()
   {
     const auto nodes = static_cast<Index>(this->labels_.size());
-    std::vector<double> edges(this->labels_.size()); // costs of those to undecided nodes
+    std::vector<double> edges(this->labels_.size()); // costs of the edges to undecided nodes
     for (bool go_on = true; go_on;)
     {
       for (Index i = 0; i < nodes; ++i)
@@ -139,7 +140,7 @@ public:
         this->add(edge.a, edge.b, edge.cost, edges);
         this->add(edge.b, edge.a, edge.cost, edges);
       }
-      constexpr double rounding = 1e-9; // a node that is left undecided does no harm
+      constexpr double rounding = 1e-9; // an undecided node does no harm
       Index left = 0;
       Index decided = 0;
       for (Index i = 0; i < nodes; ++i)
@@ -159,12 +160,13 @@ public:
           ++left;
         }
       }
-      constexpr Index few = 20; // one in so many of those left
+      // The loop ends if at most one node is decided per 20 undecided ones.
+      constexpr Index few = 20;
       go_on = few * decided > left;
     }
   }
 
-  /// The energy of the undecided nodes, next to decided neighbors.
+  /// Return the energy of the undecided nodes, given their decided neighbors.
   CutEnergy rest()
   {
     this->ids_.assign(this->labels_.size(), -1);
@@ -188,7 +190,8 @@ public:
     return rest;
   }
 
-  /// @param rest labels of the rest, by their ids there.
+  /// Return the labels of all nodes. @param rest labels of the undecided nodes, by their ids in
+  /// rest().
   std::vector<char> with(const std::vector<char>& rest) const
   {
     std::vector<char> all = this->labels_;
@@ -212,12 +215,12 @@ private:
   }
 
   const CutEnergy& energy_;
-  std::vector<double> gains_; ///< by being inside
+  std::vector<double> gains_; ///< gain of the label inside
   std::vector<char> labels_;
-  std::vector<Index> ids_; ///< among those that are left
+  std::vector<Index> ids_; ///< id of each node in rest(), or -1
 };
 
-/// Decides by flow.
+/// Compute the labels by maximum flow.
 Status cut(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext& context)
 {
   const auto nodes = static_cast<Index>(energy.inside_costs.size());
@@ -239,7 +242,7 @@ Status cut(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext&
   {
     Index from, to;
     Flow capacity;
-    Index pair; ///< which of the pairs of opposite arcs
+    Index pair; ///< index of the pair of opposite arcs
   };
   std::vector<Line> lines;
   lines.reserve(2 * (energy.edges.size() + static_cast<std::size_t>(nodes)));

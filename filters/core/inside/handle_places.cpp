@@ -1,5 +1,6 @@
-// A line is cut into pieces that are equal when measured in local lengths. A triangle is halved at
-// its longest edge until that is short enough; the middles of edges that were cut are its samples.
+// A line is divided into pieces that are equal relative to the local length. A triangle is halved
+// at its longest edge until that edge is short enough. The midpoints of the halved edges are its
+// samples.
 #include "inside/handle_places.h"
 
 #include "base/line_pieces.h"

@@ -9,7 +9,7 @@
 namespace bindpose
 {
 
-/// Where handles are, for a mesher that makes them part of a volume.
+/// The geometry of handles, for a mesher that makes them part of a volume.
 struct HandlePlaces
 {
   Points points; ///< #H x 3: point handles, ends of bones, vertices of cages
@@ -19,17 +19,18 @@ struct HandlePlaces
   bool empty() const { return this->points.rows() == 0; }
 };
 
-/// invalid_input for coordinates that are not finite and ids out of range.
+/// Return invalid_input for coordinates that are not finite and for ids out of range.
 Status check_places(const HandlePlaces& places);
 
 struct HandleSamples
 {
-  Points points; ///< each place once
-  Index chosen = 0; ///< the first are the handles' own points
+  Points points; ///< each position once
+  Index chosen = 0; ///< number of the handles' own points, which come first
 };
 
-/// The points, then points between them: on segments (at least one on each) and triangles, as far
-/// from each other as `length` says there (> 0), at most 1,000 along a line.
+/// Return the handles' points, followed by points on segments (at least one per segment) and
+/// triangles. `length` returns the distance of neighboring samples at a point (> 0). A line gets at
+/// most 1,000 samples.
 HandleSamples sample_places(
   const HandlePlaces& places, const std::function<double(const Vec3&)>& length);
 

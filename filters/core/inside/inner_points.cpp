@@ -1,5 +1,6 @@
-// Level by level: a cell that is larger than the sizes ask for is cut into eight. A cell that the
-// surface does not meet is inside or outside as a whole; those outside are left alone.
+// The octree is built level by level: a cell that is larger than the sizes allow is divided into
+// eight. A cell that does not meet the surface is entirely inside or entirely outside. Cells
+// outside are not divided.
 #include "inside/inner_points.h"
 
 #include "base/parallel.h"
@@ -15,12 +16,14 @@ namespace bindpose
 
 namespace
 {
-constexpr double largest_cell = 1.1; // of the wanted length: edges are 0.87 and 1 of a cell's
-constexpr double clearance = 0.5; // from the surface, of the length that is wanted there
+// Largest side of a cell in requested lengths. The edges of tets are 0.87 and 1 cell sides long.
+constexpr double largest_cell = 1.1;
+// Distance from the surface, relative to the requested length there.
+constexpr double clearance = 0.5;
 constexpr int deepest = 19; // levels
 constexpr Index block = 256;
 
-/// Places are counted in halves of the smallest cells: 21 bits for each coordinate.
+/// Integer coordinates in units of half of the smallest cell's side: 21 bits per coordinate.
 using Place = std::array<std::uint64_t, 3>;
 
 class Lattice
@@ -29,7 +32,7 @@ public:
   Lattice(const Interior& interior, const SizingField& sizes, ExecutionContext& context)
     : interior_(interior), sizes_(sizes), context_(context)
   {
-    // Halved often enough, the whole has the size of the largest cells that are wanted.
+    // The root is a power of two times as large as the largest requested cells.
     const Box& box = interior.box();
     const double side = box.size().maxCoeff();
     double whole = largest_cell * sizes.largest();
@@ -39,16 +42,16 @@ public:
     this->lower_ = box.center() - Vec3::Constant(0.5 * whole);
   }
 
-  /// @return false when cancelled, or when more than `most` cells are inside; then points() is
-  /// empty.
+  /// Build the octree and choose its points. @return false when canceled, or if more than `most`
+  /// cells are inside; then points() is empty.
   bool build(Index most)
   {
     std::vector<Cell> cells{ Cell() };
-    constexpr double chosen = 0.7; // share of the seconds before choose()
-    double done = 0.0; // of that
+    constexpr double chosen = 0.7; // fraction of the time before choose()
+    double done = 0.0; // fraction of that part
     for (int level = 0; !cells.empty(); ++level)
     {
-      // Most cells are in the last levels, and how many these are is not known.
+      // Most cells are in the last levels, and the number of levels is not known.
       const double share = static_cast<double>(cells.size()) / static_cast<double>(most);
       const double next = std::min(0.5 * (1.0 + done), done + share);
       const ProgressRange range(this->context_, chosen * done, chosen * next);
@@ -67,14 +70,14 @@ public:
 private:
   struct Cell
   {
-    Place corner{}; ///< the lower one
-    bool inside = false; ///< all of it
+    Place corner{}; ///< lower corner
+    bool inside = false; ///< the whole cell is inside
     bool outside = false;
     bool large = false;
   };
 
-  /// A place, and 1 in the last bit where it is not yet known to be inside: of equal places, those
-  /// that are known come first.
+  /// A position, with the last bit 1 if the position may be outside. Equal positions sort so that
+  /// the ones known to be inside come first.
   using Key = std::uint64_t;
   static constexpr int bits = 21;
   static constexpr Key mask = (Key(1) << bits) - 1;
@@ -131,7 +134,8 @@ private:
       });
   }
 
-  /// The cells of the next level. Those that stay give their corners and centers.
+  /// Compute the cells of the next level. Cells that are not divided contribute their corners and
+  /// centers.
   bool cut(std::vector<Cell>& cells, int level, Index most)
   {
     const std::uint64_t units = side_of(level);
@@ -162,7 +166,7 @@ private:
     return this->cells_inside_ <= most;
   }
 
-  /// Keeps what is inside, away from the surface.
+  /// Keep the positions that are inside and far enough from the surface.
   bool choose()
   {
     std::vector<Key>& keys = this->keys_;
@@ -170,7 +174,7 @@ private:
     keys.erase(std::unique(keys.begin(), keys.end(), [](Key a, Key b) { return a >> 1 == b >> 1; }),
       keys.end());
     std::vector<char> good(keys.size(), 0);
-    // At a distance d, the sizes are larger than at the surface by growth * d.
+    // At distance d from the surface, the sizes are larger by growth * d.
     const double least = clearance / (1.0 + clearance * this->sizes_.growth());
     const bool whole = parallel_for(this->context_, static_cast<Index>(keys.size()), block,
       [&](Index begin, Index end)
@@ -203,7 +207,7 @@ private:
   ExecutionContext& context_;
   double unit_; ///< half of a smallest cell's side
   Vec3 lower_;
-  std::vector<Key> keys_; ///< corners and centers of the cells that are not cut
+  std::vector<Key> keys_; ///< corners and centers of the undivided cells
   Index cells_inside_ = 0;
   Points points_{ 0, 3 };
 };
@@ -216,13 +220,13 @@ Status Interior::build(Points points, Triangles boundary, ExecutionContext& cont
   this->box_ = bounding_box(this->points_, this->boundary_);
   this->tree_ = std::make_unique<TriangleTree>(this->points_, this->boundary_);
   WindingNumber::Options options;
-  options.expected_queries = std::max<Index>(1, this->boundary_.rows()); // about
+  options.expected_queries = std::max<Index>(1, this->boundary_.rows()); // approximate
   return this->winding_.build(this->points_, this->boundary_, context, options);
 }
 
 bool Interior::contains(const Vec3& p) const
 {
-  constexpr double half = 0.5; // the numbers are 0 and 1
+  constexpr double half = 0.5; // the winding numbers are 0 and 1
   return this->winding_.evaluate_at(p) > half;
 }
 
@@ -244,21 +248,22 @@ double Interior::layer(const SizingField& sizes) const
     const double size = sizes.at((a + b + c) / 3.0);
     sum += 0.5 * (b - a).cross(c - a).norm() / (size * size);
   }
-  constexpr double least_growth = 0.1; // slower growth is not seen in a layer
+  constexpr double least_growth = 0.1; // a layer does not show slower growth
   return sum * static_cast<double>(step) / (2.0 * std::max(sizes.growth(), least_growth));
 }
 
 namespace
 {
-/// Searches the scale of sizes that gives a wanted number of points. Points get fewer with the
-/// scale, by a power that depends on the surface: 3 in wide spaces, 2 in a layer at the surface,
-/// less where many triangles are near each other.
+/// Searches the scale of sizes that gives a wanted number of points. The number decreases with a
+/// power of the scale. The power depends on the surface: 3 in wide spaces, 2 in a layer at the
+/// surface, less if many triangles are near each other.
 class ScaleSearch
 {
 public:
   ScaleSearch(double first, double wanted) : wanted_(wanted), least_(first) {}
 
-  /// Tells how many points a scale gives: infinity if there are too many to be counted.
+  /// Add a measurement: the number of points at a scale, or infinity if they were too many to
+  /// count.
   void add(double scale, double points)
   {
     Sample& known = points > this->wanted_ ? this->many_ : this->few_;
@@ -274,12 +279,12 @@ public:
     known = { scale, points };
   }
 
-  /// The scale to try next.
+  /// Return the scale to try next.
   double next() const
   {
     const Sample& many = this->many_;
     const Sample& few = this->few_;
-    constexpr double blind = 12.0; // step where nothing is known
+    constexpr double blind = 12.0; // step without a finite measurement
     constexpr double largest_step = 12.0;
     constexpr double least_step = 1.1;
     if (few.scale == 0.0)
@@ -295,7 +300,7 @@ public:
       return std::max(
         this->least_, few.scale * std::max(largest_step_back, few.points / this->wanted_));
     }
-    double share = 0.5; // of the way from many to few
+    double share = 0.5; // fraction of the way from many to few
     if (std::isfinite(many.points) && few.points > 0.0)
     {
       constexpr double margin = 0.15;
@@ -305,7 +310,7 @@ public:
     return many.scale * std::pow(few.scale / many.scale, share);
   }
 
-  /// No scale between those that are known makes a difference.
+  /// Report whether all scales between the measured ones are practically equal.
   bool ended() const
   {
     constexpr double alike = 1.05;
@@ -316,17 +321,17 @@ public:
 private:
   struct Sample
   {
-    double scale = 0.0; ///< 0: none
+    double scale = 0.0; ///< 0: no measurement
     double points = 0.0;
   };
   double wanted_;
-  double least_; ///< scale
+  double least_; ///< smallest scale
   double power_ = 1.0;
-  Sample many_; ///< of the largest scale that gave more than wanted
-  Sample few_; ///< of the smallest one that gave fewer
+  Sample many_; ///< measurement at the largest scale that gave more than wanted
+  Sample few_; ///< measurement at the smallest scale that gave at most the wanted number
 };
 
-/// As many of the points as wanted, spread over their order.
+/// Return `wanted` of the points, evenly spaced in their order.
 Points thinned(const Points& points, Index wanted)
 {
   Points kept(wanted, 3);
@@ -341,15 +346,15 @@ Points thinned(const Points& points, Index wanted)
 bool inner_points(const Interior& interior, SizingField& sizes, Index most,
   ExecutionContext& context, Points& inner)
 {
-  constexpr double too_many = 5.0; // times `most`: no use in going on
-  constexpr double few_cells = 2000.0; // soon made in any case
+  constexpr double too_many = 5.0; // times `most`: the attempt ends
+  constexpr double few_cells = 2000.0; // computed soon in any case
   constexpr double enough = 1.2;
   constexpr double least_enough = 0.6;
   constexpr int attempts = 20;
-  constexpr double most_growth = 1.0; // cells of sizes that grew faster would not follow them
+  constexpr double most_growth = 1.0; // cells could not follow sizes that grow faster
   const double wanted = static_cast<double>(std::max<Index>(1, most));
   ScaleSearch search(sizes.scale(), wanted);
-  // A guess: there are 4 to 20 points for each cell of the layer at most surfaces.
+  // Initial guess: at most surfaces there are 4 to 20 points per cell of the layer.
   const double first_scale = sizes.scale();
   const auto raise = [&]
   {
@@ -368,14 +373,14 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
     }
   };
   raise();
-  Points fewer; // the most points so far that are not too many
-  Points more; // the fewest so far that are
+  Points fewer; // the largest set so far that is not too large
+  Points more; // the smallest set so far that is too large
   double before = -1.0;
-  double begin = 0.0; // of this attempt's progress
+  double begin = 0.0; // start of this attempt's progress
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
-    // Two or three attempts are usual.
-    constexpr double share = 0.45; // of what is left
+    // Two or three attempts are typical.
+    constexpr double share = 0.45; // fraction of the remaining progress
     const double end = begin + share * (1.0 - begin);
     const ProgressRange range(context, begin, end);
     begin = end;
@@ -397,7 +402,7 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
       continue;
     }
     search.add(sizes.scale(), points);
-    const bool same = whole && points == before; // the largest size decides, not the scale
+    const bool same = whole && points == before; // the largest size limits the cells, not the scale
     before = points;
     if (!many && (points >= least_enough * wanted || sizes.scale() == first_scale))
     {
@@ -417,8 +422,8 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
     }
     sizes.set_scale(search.next());
   }
-  // In a plate all cells may become smaller at the same scale: then there is nothing between none
-  // and too many, of which some are left out.
+  // In a plate all cells may be divided at the same scale. No scale then gives a number between
+  // none and too many, so a subset of the points is kept.
   constexpr double too_few = 0.3;
   const bool thin_out = more.rows() > 0 && static_cast<double>(fewer.rows()) < too_few * wanted;
   inner = thin_out ? thinned(more, static_cast<Index>(wanted)) : std::move(fewer);

@@ -1,12 +1,14 @@
-// Lattice vertices are numbered corners first (x fastest), then centres; everything below runs in
-// the order of these numbers, so results are the same for any number of threads.
+// Lattice vertices are numbered corners first (x fastest), then centers. All loops run in the order
+// of these numbers, so results are the same for any number of threads.
 //
-// Stuffing: 1. + for lattice vertices inside, - for the others. 2. On each edge between + and -,
-// the cut point by bisection (winding numbers jump at the surface, so nothing faster is safe).
-// 3. A vertex that has a cut point nearer than alpha times the edge moves there and becomes 0.
-// 4. Each tet with a + vertex and no - vertex is kept; one with - vertices keeps its + side, with
-// cut points in place of the - vertices. Where that leaves a quadrilateral on a face, both tets of
-// the face must cut it along the same diagonal: see diagonal_at_first().
+// Stuffing:
+// 1. Label lattice vertices inside + and the others -.
+// 2. Find the cut point of each edge between + and - by bisection. Winding numbers jump at the
+//    surface, so no faster method is safe.
+// 3. Move a vertex with a cut point nearer than alpha times the edge length there, and label it 0.
+// 4. Keep each tet with a + vertex and no - vertex. Of a tet with + and - vertices keep the + side,
+//    with cut points instead of the - vertices. If that leaves a quadrilateral on a face, both tets
+//    of the face must divide it along the same diagonal: see diagonal_at_first().
 #include "inside/lattice_tets.h"
 
 #include "base/parallel.h"
@@ -69,17 +71,18 @@ public:
     return this->lattice_.origin +
       this->lattice_.spacing * Vec3(at[0] + shift, at[1] + shift, at[2] + shift);
   }
-  /// Neighbours along a long edge differ in this.
+  /// Return the parity, which differs between neighbors along a long edge.
   bool even(Index v) const
   {
     const auto at = this->position(v);
     return (at[0] + at[1] + at[2]) % 2 == 0;
   }
-  /// An edge between a corner and a centre is short (sqrt(3)/2), all others are long (1).
+  /// Report whether an edge is long (1). An edge between a corner and a center is short
+  /// (sqrt(3)/2).
   bool is_long(Index v, Index w) const { return this->is_center(v) == this->is_center(w); }
 
-  /// Calls body(tet) for the tets between cube (i, j, k) and its three upper neighbours. The first
-  /// two vertices are centres, the last two corners.
+  /// Call body(tet) for the tets between cube (i, j, k) and its three upper neighbors. The first
+  /// two vertices are centers, the last two corners.
   template <typename Body>
   void tets_of_cube(Index i, Index j, Index k, const Body& body) const
   {
@@ -96,7 +99,7 @@ public:
       const Index c1 = this->center(next[0], next[1], next[2]);
       const int u = (axis + 1) % 3;
       const int v = (axis + 2) % 3;
-      // The face's corners, counter-clockwise seen from the upper cube.
+      // The corners of the face, counter-clockwise seen from the upper cube.
       constexpr int ring[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
       std::array<Index, 4> corners{};
       for (int r = 0; r < 4; ++r)
@@ -113,7 +116,7 @@ public:
     }
   }
 
-  /// All tets for which keep() holds, in order.
+  /// Collect all tets for which keep() returns true, in order.
   template <typename Keep>
   bool collect(ExecutionContext& context, const Keep& keep, std::vector<Tet>& tets) const
   {
@@ -165,7 +168,7 @@ SampleGrid grid_of(const Lattice& lattice, bool centers)
   return grid;
 }
 
-/// Renumbers to the vertices that are used, in their order.
+/// Remove unused vertices, keep the order of the others, and orient all tets positively.
 void compact(const std::vector<Vec3>& points, std::vector<Tet>& tets, TetMesh& mesh)
 {
   std::vector<Index> id(points.size(), -1);
@@ -267,7 +270,7 @@ private:
       });
   }
 
-  /// Where along the edge, from its first vertex, it passes the region's boundary.
+  /// Return the parameter at which the edge crosses the region's boundary, from its first vertex.
   double cut_of(const Edge2& edge) const
   {
     const bool first_inside = this->sign_[edge.first] > 0;
@@ -282,7 +285,7 @@ private:
     return 0.5 * (lower + upper);
   }
 
-  /// Moves each vertex that has a cut point too near to the nearest such point.
+  /// Move each vertex that has a cut point too near to the nearest such point.
   void snap()
   {
     struct End
@@ -351,10 +354,11 @@ private:
     return this->cut_vertex_[static_cast<std::size_t>(at - this->edges_.begin())];
   }
 
-  /// On the face of + vertices a, b and - vertex c, the cut leaves the quadrilateral a, b, bc, ac.
-  /// True when its diagonal starts at a, false when at b. The face has one long edge. When that is
-  /// a-b, the even one of the two has it; else the + vertex that is not on the long edge has it, so
-  /// that the diagonal ends at the long edge's cut point. Both tets of the face see the same.
+  /// Select the diagonal of the quadrilateral a, b, bc, ac that a cut leaves on the face of +
+  /// vertices a, b and - vertex c. Return true if the diagonal starts at a, false if it starts at
+  /// b. The face has one long edge. If that is a-b, the diagonal starts at the even vertex of the
+  /// two. Otherwise it starts at the + vertex that is not on the long edge, so that it ends at the
+  /// long edge's cut point. The result is the same for both tets of the face.
   bool diagonal_at_first(Index a, Index b, Index c) const
   {
     if (this->numbering_.is_long(a, b))
@@ -414,19 +418,20 @@ private:
     }
   }
 
-  /// + + - -: a prism with the ends (a, ac, ad) and (b, bc, bd). Its face (ac, ad, bd, bc) is on
-  /// the boundary, so that its diagonal is free: the better one.
+  /// Fill the case + + - -: a prism with the ends (a, ac, ad) and (b, bc, bd). Its face (ac, ad,
+  /// bd, bc) is on the boundary, so its diagonal can be chosen: the one with the better angle.
   void fill_wedge(Index a, Index b, Index c, Index d, std::vector<Tet>& out) const
   {
     std::vector<Tet> best;
     double best_angle = -1.0;
     for (const bool free_at_first : { true, false })
     {
-      // Diagonals of (a, b | ac, bc), (a, b | ad, bd), (ac, bc | ad, bd).
+      // Sides of the prism: (a, b | ac, bc), then (ac, bc | ad, bd) with the free diagonal, then
+      // (ad, bd | a, b).
       std::vector<Tet> tets;
       const std::array<Index, 3> top{ a, this->cut_vertex(a, c), this->cut_vertex(a, d) };
       const std::array<Index, 3> bottom{ b, this->cut_vertex(b, c), this->cut_vertex(b, d) };
-      // side[k] joins corners k and k+1; its diagonal starts at the top of corner k or k+1.
+      // Side k is between corners k and k + 1. Its diagonal starts at the top of corner k or k + 1.
       const std::array<bool, 3> at_k{ this->diagonal_at_first(a, b, c), free_at_first,
         !this->diagonal_at_first(a, b, d) };
       if (!split_prism(top, bottom, at_k, tets))
@@ -449,7 +454,7 @@ private:
     out.insert(out.end(), best.begin(), best.end());
   }
 
-  /// + + + -: a prism with the ends (a, b, c) and their cut points.
+  /// Fill the case + + + -: a prism with the ends (a, b, c) and their cut points.
   void fill_cut_corner(const std::array<Index, 3>& plus, Index minus, std::vector<Tet>& out) const
   {
     std::array<Index, 3> bottom{};
@@ -462,9 +467,10 @@ private:
     split_prism(plus, bottom, at_k, out);
   }
 
-  /// Three tets of a prism with the ends `top` and `bottom`. at_k[k]: the diagonal of the side
-  /// between corners k and k + 1 starts at top[k] (and ends at bottom[k + 1]), else at top[k + 1].
-  /// False when the three diagonals go around: no tets then fill the prism.
+  /// Divide a prism with the ends `top` and `bottom` into three tets. If at_k[k], the diagonal of
+  /// the side between corners k and k + 1 starts at top[k] and ends at bottom[k + 1], else it
+  /// starts at top[k + 1]. Return false if the three diagonals are cyclic: no tets then fill the
+  /// prism.
   static bool split_prism(const std::array<Index, 3>& top, const std::array<Index, 3>& bottom,
     const std::array<bool, 3>& at_k, std::vector<Tet>& out)
   {
@@ -501,7 +507,7 @@ private:
   std::vector<signed char> sign_;
   std::vector<Vec3> points_;
   std::vector<Edge2> edges_; // cut edges, sorted
-  std::vector<double> at_; // where they are cut
+  std::vector<double> at_; // cut position on each edge, from its first vertex, 0 … 1
   std::vector<Index> cut_vertex_;
 };
 } // namespace

@@ -1,7 +1,7 @@
-// Triangles of the boundary are the facets with one tet. Each of their three edges leads through
-// the tets around it, from facet to facet, to the other triangle of the boundary that bounds the
-// same wedge of the solid: its neighbor. Corners of neighbors at their common edge are the same
-// vertex.
+// The triangles of the boundary are the facets with one tet. From each of their edges, a walk
+// through the tets around the edge ends at another boundary triangle. The two triangles bound the
+// same wedge of the solid and are neighbors. The corners of neighbors at their common edge are the
+// same vertex.
 #include "inside/manifold_boundary.h"
 
 #include "base/disjoint_sets.h"
@@ -35,7 +35,7 @@ public:
     }
   }
 
-  /// The same facet as seen from the tet on its other side; -1 on the boundary.
+  /// Return the same facet in the tet on its other side, or -1 on the boundary.
   Index other(Index facet) const { return this->other_[facet]; }
 
   std::array<Index, 3> corners(Index facet) const
@@ -45,7 +45,7 @@ public:
     return { tet[of[0]], tet[of[1]], tet[of[2]] };
   }
 
-  /// The other facet of the same tet at the edge from a to b.
+  /// Return the other facet of the same tet at the edge from a to b.
   Index around(Index facet, Index a, Index b) const
   {
     const Index first = facet - facet % 4;
@@ -60,7 +60,7 @@ public:
     return -1;
   }
 
-  /// The boundary facet that bounds the same wedge of tets at the edge from a to b.
+  /// Return the boundary facet that bounds the same wedge of tets at the edge from a to b.
   Index neighbor(Index facet, Index a, Index b) const
   {
     for (Index next = this->around(facet, a, b);; next = this->around(this->other(next), a, b))
@@ -79,8 +79,8 @@ private:
   std::vector<Index> other_;
 };
 
-/// The triangles of the boundary with their neighbors across edges. Side 3 f + k leads from corner
-/// k of triangle f to the next one.
+/// The triangles of the boundary with their neighbors across edges. Side 3 f + k is the edge from
+/// corner k of triangle f to the next corner.
 struct Skin
 {
   std::vector<std::array<Index, 3>> corners; ///< vertices of the tets
@@ -122,8 +122,8 @@ Index next_side(Index side)
   return side % 3 == 2 ? side - 2 : side + 1;
 }
 
-/// Sides whose two vertices are those of another edge, too: the solid pinches along an edge, and is
-/// connected around each of its ends.
+/// Find sides whose two vertices are also those of another edge. This happens if the solid pinches
+/// along an edge and is connected around each of the edge's ends.
 std::vector<char> doubled_sides(const std::vector<Index>& vertex)
 {
   std::vector<std::array<Index, 3>> sides;
@@ -155,10 +155,10 @@ TriangleMesh manifold_boundary(const TetMesh& tets)
     corners.unite(next_side(side), skin.opposite[side]);
   }
   std::vector<Vec3> points;
-  std::vector<Index> vertex(skin.opposite.size(), -1); // of each triangle's corners
+  std::vector<Index> vertex(skin.opposite.size(), -1); // vertex of each triangle's corners
   for (Index corner = 0; corner < count; ++corner)
   {
-    const Index first = corners.find(corner); // the least, so it has its vertex already
+    const Index first = corners.find(corner); // the smallest of its set, so it already has a vertex
     if (first == corner)
     {
       vertex[corner] = static_cast<Index>(points.size());
@@ -166,7 +166,7 @@ TriangleMesh manifold_boundary(const TetMesh& tets)
     }
     vertex[corner] = vertex[first];
   }
-  // An edge between two vertices is there once: doubled ones get a vertex each in their middle.
+  // An edge between two vertices must be unique, so each doubled edge gets a vertex at its middle.
   const std::vector<char> doubled = doubled_sides(vertex);
   std::vector<Index> middle(vertex.size(), -1);
   std::vector<std::array<Index, 3>> triangles;
@@ -180,7 +180,7 @@ TriangleMesh manifold_boundary(const TetMesh& tets)
   }
   for (Index first = 0; first < count; first += 3)
   {
-    std::vector<Index> ring; // from a middle, where there is one
+    std::vector<Index> ring; // starts at a middle, if there is one
     for (Index side = first; side < first + 3; ++side)
     {
       ring.push_back(vertex[side]);

@@ -6,11 +6,11 @@
 namespace bindpose
 {
 
-/// The boundary of tets as a closed 2-manifold, oriented outwards: where more than two of its
-/// triangles meet at an edge, those that the tets between them connect are neighbors, and vertices
-/// are there once for every fan of triangles around them. An edge that would then join the same two
-/// vertices as another one is split at its middle. Points that no boundary triangle uses are left
-/// out. No two tets may overlap, and each facet has at most two tets.
+/// Return the boundary of tets as a closed 2-manifold, oriented outwards. If more than two boundary
+/// triangles meet at an edge, two of them are neighbors if the tets between them connect them. Each
+/// vertex is duplicated so that there is one copy per fan of triangles. An edge that would then
+/// join the same two vertices as another one is split at its middle. Points that no boundary
+/// triangle uses are removed. Tets must not overlap, and each facet must have at most two tets.
 /// Cost: O(#T log #T).
 TriangleMesh manifold_boundary(const TetMesh& tets);
 

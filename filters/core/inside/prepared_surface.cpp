@@ -7,7 +7,7 @@ namespace bindpose
 
 namespace
 {
-/// "1 triangle was", "2 triangles were"
+/// Return "1 triangle was" or "2 triangles were".
 std::string counted(Index count, const char* one, const char* many)
 {
   return std::to_string(count) + " " + (count == 1 ? one : many) + (count == 1 ? " was" : " were");
@@ -31,8 +31,8 @@ void report_turned(PreparedSurface& prepared)
   }
 }
 
-/// Repairs the surface once more without the backs of its triangles, if there are any. The
-/// diagnosis in the report stays that of the whole surface.
+/// Repair the surface again without back-side triangles, if there are any. The diagnosis in the
+/// report remains that of the whole surface.
 Status leave_out_backs(
   PointsView points, TrianglesView triangles, PreparedSurface& prepared, ExecutionContext& context)
 {

@@ -20,11 +20,12 @@ struct PreparedSurface
   /// counts.* of the diagnosis, counts.back_triangles, counts.turned_triangles,
   /// counts.turned_components
   Report report;
-  std::vector<std::string> warnings; ///< one sentence per kind of triangles left out or turned
+  /// One sentence per type of triangles that were removed or turned.
+  std::vector<std::string> warnings;
 };
 
-/// Repairs the surface (repair_surface), leaves out triangles that are the backs of others
-/// (back_sides) and builds its winding number (EnclosedRegion).
+/// Repair the surface (repair_surface), remove back-side triangles (back_sides) and build the
+/// winding number (EnclosedRegion).
 /// invalid_input: ids out of range, coordinates that are not finite, no triangle with an area.
 /// Cost: about 5 us per triangle.
 Status prepare_surface(PointsView points, TrianglesView triangles, double winding_threshold,

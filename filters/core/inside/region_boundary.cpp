@@ -39,7 +39,8 @@ bool RegionBoundary::bounded_at(Index f, const Vec3& p) const
 
 bool RegionBoundary::bounded_at_corner(Index f, int k) const
 {
-  // Far enough into the triangle for the side of it to count, near enough to speak for the corner.
+  // Far enough inside the triangle to be clearly on one side of it, near enough to represent the
+  // corner.
   constexpr double inwards = 0.02;
   const Vec3 center = (this->corner(f, 0) + this->corner(f, 1) + this->corner(f, 2)) / 3.0;
   return this->bounded_at(f, (1.0 - inwards) * this->corner(f, k) + inwards * center);
@@ -86,7 +87,8 @@ struct Site
   double length, area;
 };
 
-/// Points spread over a triangle, at most about `spacing` apart, in rows beside its shortest edge.
+/// Place points on a triangle, at most about `spacing` apart, in rows parallel to its shortest
+/// edge.
 template <typename Found>
 void spread(const RegionBoundary& region, Index f, double spacing, const Found& found)
 {
@@ -110,7 +112,7 @@ void spread(const RegionBoundary& region, Index f, double spacing, const Found& 
   const double area = 0.5 * a.cross(b).norm();
   for (double row = 0.0; row < rows; ++row)
   {
-    // The middle of the row's area, so that a single row's is the centre of the triangle.
+    // The middle of the row's area: the point of a single row is the center of the triangle.
     const double t = rows > 1.0 ? (row + 0.5) / rows : 2.0 / 3.0;
     const double columns = std::clamp(std::ceil(t * least / spacing), 1.0, most);
     const double share = area * (2.0 * row + 1.0) / (rows * rows * columns);

@@ -10,9 +10,10 @@
 namespace bindpose
 {
 
-/// {winding number >= threshold} in the surface's box, and where the surface's triangles bound it:
-/// what lies within or outside of it, such as the parts of crossing solids that are in each other,
-/// does not. All of it is thread-safe. The surface and the winding number must outlive it.
+/// The region {winding number >= threshold} in the surface's box, and the parts of the surface that
+/// bound it. Triangles within or outside the region do not bound it, for example the parts of
+/// crossing solids that are inside each other. All functions are thread-safe. The surface and the
+/// winding number must outlive this object.
 class RegionBoundary
 {
 public:
@@ -21,21 +22,22 @@ public:
 
   const Box& box() const { return this->box_; }
   bool holds(const Vec3& p) const;
-  /// The region ends at triangles only: winding numbers are whole.
+  /// Report whether triangles alone bound the region: all winding numbers are integers.
   bool closed() const { return this->closed_; }
-  /// True when the region is on one side of triangle f at p, a point of it: looked at 1e-6 of the
-  /// diagonal in front of it and behind it.
+  /// Report whether the region is on exactly one side of triangle f at p, a point of the triangle.
+  /// The test evaluates points 1e-6 of the diagonal in front of p and behind it.
   bool bounded_at(Index f, const Vec3& p) const;
-  /// The same next to corner k of the triangle.
+  /// Report the same next to corner k of the triangle.
   bool bounded_at_corner(Index f, int k) const;
-  /// How far the region (or what is around it) reaches from p, where triangle f bounds it, along
-  /// the normal; looked for in steps from `smallest` to `largest`, which it is at most. The less
-  /// of both sides.
+  /// Return the thickness of the region at p, where triangle f bounds it, along the normal. The
+  /// space on the other side of the triangle is measured too; the smaller value is returned. The
+  /// search steps from `smallest` to `largest`, which is the largest possible result.
   double thickness(Index f, const Vec3& p, double smallest, double largest) const;
-  /// Moves p to where the region ends along the unit vector n, outwards, at most `reach` away and
-  /// to 2^-20 of that. @return false when it does not begin there inside and end outside.
+  /// Move p along the unit vector n onto the boundary of the region, by at most `reach` in either
+  /// direction and to 2^-20 of that. n points outwards. @return false unless the search line starts
+  /// inside and ends outside.
   bool onto_boundary(Vec3& p, const Vec3& n, double reach) const;
-  /// Unit normal, zero for a triangle without area.
+  /// Return the unit normal, or zero for a triangle without area.
   Vec3 normal(Index f) const;
   Vec3 corner(Index f, int k) const { return this->points_.row(this->triangles_(f, k)); }
 
@@ -54,24 +56,26 @@ private:
 
 struct BoundarySampling
 {
-  double smallest = 0.0; ///< length of the shortest edges wanted, > 0
-  double largest = 0.0; ///< length of the longest edges wanted, >= smallest
-  double growth = 0.3; ///< by how much lengths may differ, relative to the distance
+  double smallest = 0.0; ///< length of the shortest requested edges, > 0
+  double largest = 0.0; ///< length of the longest requested edges, >= smallest
+  /// Largest difference of two lengths relative to the distance of their sites.
+  double growth = 0.3;
 };
 
-/// Where a surface bounds a region, and how long edges should be there.
+/// Sites on the boundary of a region with their requested edge lengths.
 struct BoundarySites
 {
   Points points; ///< #S x 3: input vertices on the boundary, then points of triangles
-  /// #S: the mean over the triangles at a vertex of their shortest edges, for a point that of its
-  /// triangle, and no more than the region (or the gap beside it) is thick; within the bounds.
+  /// Requested lengths, #S: for a vertex the mean of the shortest edges of its triangles, for a
+  /// point the shortest edge of its triangle. A length is at most the thickness of the region (or
+  /// of the gap next to it) and within the bounds.
   Eigen::VectorXd lengths;
-  Eigen::VectorXd areas; ///< #S: share of the boundary's area, 0 for vertices
+  Eigen::VectorXd areas; ///< #S: part of the boundary's area, 0 for vertices
   std::vector<Index> vertices; ///< input ids of the first sites
 };
 
-/// Sites on every triangle, about `largest` apart. Cost about 5 us a triangle.
-/// @return false when cancelled.
+/// Compute sites on every triangle, about `largest` apart. Cost: about 5 us per triangle.
+/// @return false when canceled.
 bool sample_boundary(const RegionBoundary& region, const BoundarySampling& options,
   BoundarySites& sites, ExecutionContext& context);
 

@@ -1,6 +1,5 @@
-// The helper meshes (mesher/remesh_job.cpp); here its result is checked, its vertices are found
-// among the input's by their coordinates, the worst tets are improved, and the distance is
-// measured.
+// The helper computes the mesh (mesher/remesh_job.cpp). This file checks the result, finds the
+// input's vertices in it by their coordinates, improves the worst tets, and measures the distance.
 #include "inside/remesh_tets.h"
 
 #include "base/number_text.h"
@@ -66,7 +65,7 @@ Status check_input(PointsView points, TrianglesView triangles, const RemeshOptio
 
 using Ids = std::map<std::array<double, 3>, Index>;
 
-/// The lowest id of the vertices with some coordinates.
+/// Map coordinates to the lowest id of the vertices with these coordinates.
 Ids ids_of(PointsView points, TrianglesView triangles)
 {
   Ids ids;
@@ -109,7 +108,7 @@ bool improve(
   return whole;
 }
 
-/// Drops stray vertices and numbers the input's vertices first.
+/// Remove unused vertices and number the input's vertices first.
 void number_vertices(const Ids& ids, const MesherData& data, RemeshResult& result)
 {
   constexpr Index unused = -2;

@@ -90,7 +90,8 @@ Status segment_tets(PointsView points, TetsView tets, const Eigen::VectorXd& win
   result.energy = energy.of(result.inside);
   if (result.energy >= result.threshold_energy)
   {
-    // As good: what one sees on a threshold's map is what one gets.
+    // If the energies are equal, the threshold's labels are used: they match a map of the winding
+    // numbers.
     result.inside = above;
     result.energy = result.threshold_energy;
   }

@@ -9,14 +9,14 @@
 namespace bindpose
 {
 
-/// How tets are told apart. The order is the one vtkTetrahedralizeSurface exposes.
+/// Method of labeling tets as inside or outside. vtkTetrahedralizeSurface exposes the same order.
 enum class SegmentationMethod
 {
   graph_cut, ///< the labels of least energy
-  threshold ///< inside where the winding number reaches the threshold
+  threshold ///< inside if the winding number reaches the threshold
 };
 
-/// "graph-cut", "threshold".
+/// Return "graph-cut" or "threshold".
 const char* to_string(SegmentationMethod method);
 
 struct SegmentationOptions
@@ -25,26 +25,28 @@ struct SegmentationOptions
   double winding_threshold = 0.5; ///< > 0
   /// Weight of smoothness against the winding number (gamma), >= 0; 0 is the plain threshold.
   double cut_smoothness = 1.0;
-  /// Difference of winding numbers across a facet that makes a cut there cheap (sigma), > 0.
+  /// Difference of winding numbers across a facet at which a cut becomes cheap (sigma), > 0.
   double cut_sigma = 0.1;
 };
 
 struct Segmentation
 {
-  std::vector<char> inside; ///< #T
-  double energy = 0.0; ///< of these labels; of graph_cut only, as what follows
-  double threshold_energy = 0.0; ///< of the plain threshold's, never less
-  Index changed = 0; ///< tets that the threshold labels otherwise
+  std::vector<char> inside; ///< #T: 1 inside, 0 outside
+  /// Energy of these labels; 0 with method threshold, as are the next two members.
+  double energy = 0.0;
+  double threshold_energy = 0.0; ///< energy of the threshold's labels, never less than energy
+  Index changed = 0; ///< number of tets that the threshold labels differently
 };
 
-/// Says which tets are inside from their winding numbers, as one decision for all of them: with
-/// w' = w - winding_threshold + 1/2, the energy is the sum over tets of max(w', 0) for those
-/// outside and max(1 - w', 0) for those inside, and over facets between the two, of cut_smoothness
-/// * area / mean area * exp(-(w_i - w_j)^2 / (2 cut_sigma^2)) (Jacobson, Kavan, Sorkine-Hornung,
-/// Robust Inside-Outside Segmentation using Generalized Winding Numbers, 2013, equation 10 with its
-/// misprint corrected). The boundary then follows jumps of the winding number - the surface - and
-/// is small across openings, instead of the ragged border of a threshold.
-/// @return invalid_input for options out of range, cancelled. Cost: 3 us a tet.
+/// Label tets as inside or outside from their winding numbers, by one optimization over all tets.
+/// With w' = w - winding_threshold + 1/2, the energy has two terms. The first is the sum over tets
+/// of max(w', 0) for tets outside and max(1 - w', 0) for tets inside. The second is the sum, over
+/// facets between a tet inside and one outside, of cut_smoothness * area / mean area * exp(-(w_i -
+/// w_j)^2 / (2 cut_sigma^2)) (Jacobson, Kavan, Sorkine-Hornung, Robust Inside-Outside Segmentation
+/// using Generalized Winding Numbers, 2013, equation 10 with its misprint corrected). The boundary
+/// then follows the jumps of the winding number, which are at the surface. Across openings its area
+/// is small, whereas the border of a threshold is ragged.
+/// @return invalid_input for options out of range, cancelled. Cost: 3 us per tet.
 Status segment_tets(PointsView points, TetsView tets, const Eigen::VectorXd& winding_numbers,
   const SegmentationOptions& options, Segmentation& result, ExecutionContext& context);
 

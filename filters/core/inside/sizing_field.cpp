@@ -1,5 +1,5 @@
-// A tree of boxes over the sites; a box whose smallest length, grown by the distance to the box, is
-// no less than the best value so far is left out.
+// The sites are stored in a tree of boxes. A box is skipped if its smallest length, grown by the
+// distance to the box, is at least the best value so far.
 #include "inside/sizing_field.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ SizingField::SizingField(
   {
     this->build(0, sites.rows());
   }
-  // Sites in the tree's order: neighbours in memory.
+  // Store the sites in the order of the tree, so that neighbors are adjacent in memory.
   for (Index i = 0; i < sites.rows(); ++i)
   {
     this->sites_.row(i) = sites.row(this->order_[i]);
@@ -77,7 +77,7 @@ double SizingField::bound(const Node& node, const Vec3& p) const
 double SizingField::at(const Vec3& p) const
 {
   double best = this->largest_;
-  // The median halves a node: no tree is deeper.
+  // Nodes are halved at the median, so no tree is deeper.
   std::array<std::pair<Index, double>, 128> stack;
   std::size_t top = 0;
   if (!this->nodes_.empty())
@@ -104,7 +104,7 @@ double SizingField::at(const Vec3& p) const
     }
     const double left = this->bound(this->nodes_[at + 1], p);
     const double right = this->bound(this->nodes_[node.right], p);
-    // The better child last: it is looked at first.
+    // Push the better child last, so that it is visited first.
     stack[top++] = left <= right ? std::make_pair(node.right, right) : std::make_pair(at + 1, left);
     stack[top++] = left <= right ? std::make_pair(at + 1, left) : std::make_pair(node.right, right);
   }

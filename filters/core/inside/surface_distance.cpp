@@ -12,14 +12,14 @@ namespace bindpose
 
 namespace
 {
-/// A point to measure from, and the area that it stands for; weight 0: left out.
+/// A sample point and the area that it represents. Samples with weight 0 are skipped.
 struct Sample
 {
   Vec3 point = Vec3::Zero();
   double weight = 0.0;
 };
 
-/// Each triangle's centre and each vertex, for two thirds and a third of the area.
+/// Collect each triangle's center and each vertex, with two thirds and one third of the area.
 template <typename AtCenter, typename AtCorner>
 bool collect(PointsView points, TrianglesView triangles, const AtCenter& at_center,
   const AtCorner& at_corner, std::vector<Sample>& samples, ExecutionContext& context)
@@ -89,13 +89,14 @@ bool measure(const std::vector<Sample>& samples, const TriangleTree& tree,
   return whole;
 }
 
-/// Where a boundary of tets goes along without the surface.
+/// Parts of the tets' boundary that close a hole of the surface.
 class Lids
 {
 public:
   Lids(const RegionBoundary& region, const TriangleTree& tree) : region_(region), tree_(tree) {}
 
-  /// The region ends near p, along the normal n at most `reach` away, at no triangle.
+  /// Report whether the region ends near p, along the normal n at most `reach` away, at no
+  /// triangle.
   bool contain(const Vec3& p, const Vec3& n, double reach) const
   {
     Vec3 end = p;
@@ -152,7 +153,7 @@ bool measure_distance(const TetMesh& mesh, const RegionBoundary& region, Surface
     const double size = std::sqrt(std::max((b - a).squaredNorm(), (c - a).squaredNorm()));
     return !lids.contain(center, (b - a).cross(c - a).normalized(), 0.5 * size);
   };
-  // A vertex counts when a triangle of it does; where lid and surface meet both are near.
+  // A vertex is included if one of its triangles is. Where lid and surface meet, both are near.
   return collect(
            mesh.points, skin, on_surface, [](Index, int, bool counts) { return counts; }, samples,
            context) &&

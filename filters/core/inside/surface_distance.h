@@ -6,20 +6,20 @@
 namespace bindpose
 {
 
-/// How far two surfaces are from each other.
+/// Distance between two surfaces.
 struct SurfaceDistance
 {
-  double maximum = 0.0; ///< infinity when one of them is empty
-  double mean = 0.0; ///< by area, of the direction in which it is larger
+  double maximum = 0.0; ///< infinity if one of them is empty
+  double mean = 0.0; ///< area-weighted mean, of the direction in which it is larger
   Index samples = 0;
 };
 
-/// Distances between the boundary of tets and the surface, where that bounds the region: from the
-/// surface's vertices and centres of triangles to the boundary, and back from the boundary's,
-/// except where the surface has a hole and the boundary is a lid over it: where the region ends at
-/// no triangle. Parts of the region that the tets lack, and of the tets outside of it, count. Cost
-/// about 10 us a sample.
-/// @return false when cancelled.
+/// Measure the distances between the boundary of tets and the part of the surface that bounds the
+/// region. They are measured from the vertices and triangle centers of the surface to the boundary,
+/// and vice versa. Parts of the boundary that close a hole of the surface are excluded: there the
+/// region ends at no triangle. Parts of the region without tets and tets outside the region are
+/// included. Cost: about 10 us per sample.
+/// @return false when canceled.
 bool measure_distance(const TetMesh& mesh, const RegionBoundary& region, SurfaceDistance& distance,
   ExecutionContext& context);
 

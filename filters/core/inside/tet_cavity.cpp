@@ -54,7 +54,7 @@ void CavitySearch::add_site(Index t)
   this->queue_.push_back(t);
 }
 
-/// The tet beyond facet k of a tet of the cavity.
+/// Return the tet beyond facet k of a tet of the cavity.
 Index CavitySearch::beyond_of_site(Index t, int k)
 {
   Index& next = this->site_of(t).beyond[k];
@@ -100,7 +100,7 @@ bool CavitySearch::facet_fits(const Vec3& p, Index t, int k, double least)
   return fit >= least;
 }
 
-/// Facet k of a tet, as seen from inside of it.
+/// Return facet k of a tet, oriented as seen from inside the tet.
 CavitySearch::Facet CavitySearch::facet_inwards(Index t, int k) const
 {
   const Tet& tet = this->tets_.tet(t);
@@ -108,8 +108,8 @@ CavitySearch::Facet CavitySearch::facet_inwards(Index t, int k) const
   return { tet[f[0]], tet[f[2]], tet[f[1]] };
 }
 
-/// A tet with a facet that makes too flat a tet with p leaves the cavity, and its neighbors are
-/// looked at again. @return false if the start leaves.
+/// Remove tets with a facet that makes too flat a tet with p, and check the neighbors of each
+/// removed tet again. @return false if the start is removed.
 bool CavitySearch::shrink(const Vec3& p, Index start, double least)
 {
   for (std::size_t next = 0; next < this->queue_.size(); ++next)
@@ -144,7 +144,7 @@ bool CavitySearch::shrink(const Vec3& p, Index start, double least)
   return true;
 }
 
-/// Collects the tets of the cavity that are connected to the start.
+/// Collect the tets of the cavity that are connected to the start.
 void CavitySearch::collect_connected(Index start, TetCavity& cavity)
 {
   const Index reached = -this->searches_;
@@ -170,7 +170,7 @@ void CavitySearch::collect_connected(Index start, TetCavity& cavity)
   }
 }
 
-/// The new tets fill the same volume, and no vertex is lost.
+/// Report whether the new tets fill the same volume and keep every vertex.
 bool CavitySearch::keeps_all(const Vec3& p, const TetCavity& cavity) const
 {
   double new_volume = 0.0;

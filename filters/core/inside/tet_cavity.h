@@ -11,34 +11,36 @@
 namespace bindpose
 {
 
-/// Tets to replace by tets from a new vertex, and facets that bound them, each oriented so that a
-/// point inside sees it from the positive side: (facet, point) is a positive tet.
+/// Tets that will be replaced by tets from a new vertex, and the facets that bound them. A facet is
+/// oriented so that (facet, point) is a positive tet for a point inside.
 struct TetCavity
 {
   std::vector<Index> tets;
   std::vector<TetComplex::Facet> facets;
 };
 
-/// Replaces the tets of the cavity. @return the vertex.
+/// Replace the tets of the cavity. @return the new vertex.
 Index fill_cavity(TetComplex& tets, const Vec3& p, const TetCavity& cavity);
 
-/// Finds cavities. Each thread needs its own; the tets may be edited between two searches.
+/// Finds cavities. Each thread needs a separate object. The tets may be edited between two
+/// searches.
 class CavitySearch
 {
 public:
   explicit CavitySearch(const TetComplex& tets) : tets_(tets) {}
 
-  /// The tets around tet `start`, joined by facets, whose circumspheres contain p, without those
-  /// from which p cannot be joined to a facet by a tet of quality `least`.
-  /// @return false if no cavity is left; p must be inside of `start`.
+  /// Find the tets around tet `start`, connected by facets, whose circumspheres contain p. A tet is
+  /// removed from the cavity if p cannot be joined to one of its facets by a tet of quality
+  /// `least`. p must be inside `start`.
+  /// @return false if no cavity remains.
   bool find(const Vec3& p, Index start, double least, TetCavity& cavity);
-  /// Qualities of tets that were computed, and tets that were collected.
+  /// Return the number of computed qualities plus the number of collected tets.
   Index evaluations() const { return this->evaluations_; }
 
 private:
   using Tet = TetComplex::Tet;
   using Facet = TetComplex::Facet;
-  /// A tet of a cavity: what is known of its facets while the cavity shrinks.
+  /// A tet of a cavity, with cached values of its facets while the cavity shrinks.
   struct Site
   {
     static constexpr Index unknown = -2;
@@ -58,12 +60,12 @@ private:
   bool keeps_all(const Vec3& p, const TetCavity& cavity) const;
 
   const TetComplex& tets_;
-  /// Per tet: the last search whose cavity it belongs to; minus that, if it is connected to the
-  /// start.
+  /// Per tet: the number of the last search whose cavity contains it; negative if it is connected
+  /// to the start.
   std::vector<Index> cavity_;
-  std::vector<Site> sites_; ///< of this search
+  std::vector<Site> sites_; ///< sites of the current search
   std::vector<Index> site_ids_; ///< per tet: its index in sites_, if it is in the cavity
-  std::vector<Index> queue_; ///< tets of this search to be looked at
+  std::vector<Index> queue_; ///< tets that the current search has yet to visit
   Index searches_ = 0;
   Index evaluations_ = 0;
 };

@@ -245,7 +245,7 @@ bool TetComplex::find_ring(Index a, Index b, Ring& ring) const
   {
     sides.push_back(this->others(t, a, b));
   }
-  // Start at the side that no other tet ends at, if there is one.
+  // Start at the side whose first vertex is not the end of another side, if there is one.
   std::size_t first = 0;
   for (std::size_t i = 0; i < sides.size(); ++i)
   {
@@ -283,7 +283,7 @@ bool TetComplex::find_ring(Index a, Index b, Ring& ring) const
 
 Index TetComplex::beyond(Index t, Index a, Index b, Index c) const
 {
-  // Look through the shortest list.
+  // Search the shortest of the three lists.
   if (this->at_[b].size() < this->at_[a].size())
   {
     std::swap(a, b);

@@ -11,17 +11,17 @@
 namespace bindpose
 {
 
-/// Tets that are edited in place: vertices know their tets, removed tets keep their ids unused
-/// until compact(). Queries are thread-safe while nothing is edited. The quality of a tet is the
-/// squared sine of its smallest dihedral angle (at most 70.53 degrees).
+/// Tets that are edited in place. Each vertex stores its tets. The ids of removed tets are not used
+/// again before compact(). Queries are thread-safe while nothing is edited. The quality of a tet is
+/// the squared sine of its smallest dihedral angle (at most 70.53 degrees).
 class TetComplex
 {
 public:
   using Tet = std::array<Index, 4>;
   using Facet = std::array<Index, 3>;
 
-  /// The tets around an edge a-b and their other vertices, in order. For an edge of the boundary
-  /// the ring is open: there is one more vertex than tets.
+  /// The tets around edge a-b and their other vertices, in order. The ring of a boundary edge is
+  /// open and has one more vertex than tets.
   struct Ring
   {
     std::vector<Index> tets;
@@ -30,15 +30,15 @@ public:
   };
 
   static constexpr double gone = 1e9; ///< quality of a removed tet
-  static constexpr std::size_t longest_ring = 10; ///< tets
+  static constexpr std::size_t longest_ring = 10; ///< largest number of tets
 
-  /// Takes over points and tets; the tets must be positive and meet in common facets.
+  /// Take over points and tets. The tets must be positive and meet in common facets.
   explicit TetComplex(TetMesh& mesh);
-  /// Gives points and tets back, in the order in which they were added.
+  /// Return points and tets in the order in which they were added.
   void write(TetMesh& mesh);
 
   Index vertex_count() const { return static_cast<Index>(this->points_.size()); }
-  /// One more than the largest id of a tet.
+  /// Return one more than the largest tet id.
   Index tet_ids() const { return static_cast<Index>(this->tets_.size()); }
   Index tet_count() const { return this->count_; }
   const Vec3& point(Index v) const { return this->points_[v]; }
@@ -47,28 +47,28 @@ public:
   const std::vector<Index>& tets_at(Index v) const { return this->at_[v]; }
   bool on_boundary(Index v) const { return this->boundary_[v] != 0; }
   double quality(Index t) const { return this->quality_[t]; }
-  /// -1 unless the volume is positive, exactly.
+  /// Return the quality, or -1 if the volume is not positive (exact test).
   static double quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
   double quality(const Tet& tet) const
   {
     return quality(
       this->points_[tet[0]], this->points_[tet[1]], this->points_[tet[2]], this->points_[tet[3]]);
   }
-  /// Quality that tet t would have with its vertex v at p.
+  /// Return the quality of tet t if its vertex v moved to p.
   double quality_with(Index t, Index v, const Vec3& p) const;
   static double quality_of_angle(double degrees);
   double volume(const Tet& tet) const;
-  /// Value of changes() at the last change of a tet at the vertex.
+  /// Return the value of changes() at the last change of a tet at the vertex.
   std::uint64_t stamp(Index v) const { return this->stamp_[v]; }
-  /// The newest stamp of all vertices.
+  /// Return the newest stamp of all vertices.
   std::uint64_t changes() const { return this->changes_; }
 
   Index add_vertex(const Vec3& p, bool on_boundary);
   void move(Index v, const Vec3& p);
   Index add(const Tet& tet);
   void remove(Index t);
-  /// Gives the tets the ids 0 to tet_count() - 1, in their order, and makes room for `ids` of them.
-  /// @return their new ids by the old ones, -1 for removed tets.
+  /// Renumber the tets as 0 to tet_count() - 1, in their order, and reserve memory for `ids` tets.
+  /// @return the new id of each old one, -1 for removed tets.
   std::vector<Index> compact(Index ids);
 
   static bool has(const Tet& tet, Index v)
@@ -77,19 +77,21 @@ public:
   }
   void tets_with(Index a, Index b, std::vector<Index>& found) const;
   bool has_edge(Index a, Index b) const;
-  /// The two other vertices, so that (a, b, first, second) is positive.
+  /// Return the other two vertices, ordered so that (a, b, first, second) is positive.
   std::pair<Index, Index> others(Index t, Index a, Index b) const;
-  /// @return false when the tets at the edge are no single ring, or too many.
+  /// Find the ring of edge a-b. @return false if its tets do not form a single ring, or if there
+  /// are too many.
   bool find_ring(Index a, Index b, Ring& ring) const;
-  /// The tet on the other side of a facet, -1 on the boundary.
+  /// Return the tet on the other side of a facet, or -1 on the boundary.
   Index beyond(Index t, Index a, Index b, Index c) const;
-  /// The boundary facets at v, oriented outwards.
+  /// Return the boundary facets at v, oriented outwards.
   std::vector<Facet> skin_at(Index v) const;
 
-  /// Both halves of all the tets at an edge would have a volume if a vertex at p split it.
+  /// Report whether a new vertex at p would split every tet at the edge into two tets with a
+  /// volume.
   bool may_split_edge(Index a, Index b, const std::vector<Index>& tets, const Vec3& p) const;
-  /// Puts a new vertex on an edge: every tet at the edge becomes two. @return the vertex, or -1 if
-  /// that makes a tet without volume; then nothing has changed.
+  /// Insert a new vertex into an edge: every tet at the edge becomes two. @return the vertex, or -1
+  /// if this would make a tet without volume; then nothing changes.
   Index split_edge(Index a, Index b, const Vec3& p);
 
 private:

@@ -1,9 +1,10 @@
-// Pass after pass over the tets that are too flat, worst first; a tet is looked at again only when
-// the tets at one of its vertices have changed. Steps for up to 64 tets are searched in parallel
-// while the mesh does not change (tet_steps.h), then applied in order. A step is searched again if
-// an earlier one changed a tet near it. The result does not depend on the number of threads.
-// In the last passes held vertices of tets that are still too flat may move. What is left of them
-// goes when it is a tet by itself.
+// Each pass visits the tets that are too flat, worst first. A tet is visited again only if the tets
+// at one of its vertices have changed. Steps for up to 64 tets are searched in parallel while the
+// mesh does not change (tet_steps.h), then applied in order. A step is searched again if an earlier
+// step changed a tet near it. The result does not depend on the number of threads.
+//
+// In the last passes, held vertices of tets that are still too flat may move. Tets that are then
+// still too flat and have no neighbor are removed.
 #include "inside/tet_improvement.h"
 
 #include "base/parallel.h"
@@ -42,7 +43,7 @@ public:
 
   bool run()
   {
-    constexpr Index last_passes = 4; // in which held vertices move
+    constexpr Index last_passes = 4; // in which held vertices may move
     constexpr Index first_passes = 3; // before vertices are added
     const Index passes = this->options_.passes - last_passes;
     bool whole = this->passes(this->options_.insert ? first_passes : passes, this->options_.angle);
@@ -71,8 +72,8 @@ private:
   static constexpr Index small = 1000; // tets
   static constexpr double large = 2.5e7; // evaluations
   static constexpr double per_tet_of_large = 400.0;
-  /// Tets for which steps are looked for at the same time: enough for many threads, few enough that
-  /// they are seldom neighbors.
+  /// Tets whose steps are searched at the same time: enough for many threads, few enough that they
+  /// are rarely neighbors.
   static constexpr std::size_t most_at_once = 64;
   static constexpr Index per_task = 2;
 
@@ -81,7 +82,7 @@ private:
     return static_cast<double>(this->evaluations_) > this->most_evaluations_;
   }
 
-  /// @return false when cancelled.
+  /// @return false when canceled.
   bool passes(Index most, double angle)
   {
     const double enough = TetComplex::quality_of_angle(angle);
@@ -93,7 +94,7 @@ private:
         return false;
       }
       this->context_.progress(static_cast<double>(pass + 1) / static_cast<double>(most));
-      constexpr Index worth_a_pass = 60; // one in so many
+      constexpr Index worth_a_pass = 60; // the passes end if at most one in 60 tets improves
       if (worth_a_pass * count.improved <= count.tried)
       {
         break;
@@ -111,10 +112,10 @@ private:
   bool pass(double enough, Count& count)
   {
     const std::vector<Index> flat = this->flat_tets(enough);
-    std::vector<Index> now; // tets to look at
-    std::vector<Index> later; // those that come next
+    std::vector<Index> now; // tets of this batch
+    std::vector<Index> later; // tets of the next batches
     const auto is_due = [&](Index t)
-    { return this->tets_.quality(t) < enough && this->changed(t); }; // it may be better by now
+    { return this->tets_.quality(t) < enough && this->changed(t); }; // it may have improved
     for (std::size_t next = 0; (next < flat.size() || !later.empty()) && !this->exhausted();)
     {
       const std::vector<Index> first = std::exchange(later, {});
@@ -159,7 +160,7 @@ private:
     return true;
   }
 
-  /// Reserves the tet's vertices for this batch, so that no two tets search a new position for the
+  /// Reserve the tet's vertices for this batch, so that no two tets search a new position for the
   /// same vertex. @return false if another tet has reserved a vertex that may move.
   bool claim(Index t)
   {
@@ -178,7 +179,7 @@ private:
     return true;
   }
 
-  /// Looks for steps while nothing changes. @return false when cancelled.
+  /// Search steps while nothing changes. @return false when canceled.
   bool look_at(const std::vector<Index>& tets)
   {
     this->tried_.resize(static_cast<std::size_t>(this->tets_.tet_ids()), 0);
@@ -209,7 +210,7 @@ private:
     return whole;
   }
 
-  /// A tet that the step uses has been removed or changed.
+  /// Report whether a tet that the step uses has been removed or changed.
   bool touched_since(std::uint64_t before, const TetStep& step) const
   {
     const auto touched = [&](Index t) { return !this->tets_.alive(t) || this->newest(t) > before; };
@@ -255,7 +256,7 @@ private:
     }
   }
 
-  /// The last change at a vertex of the tet.
+  /// Return the last change at a vertex of the tet.
   std::uint64_t newest(Index t) const
   {
     std::uint64_t last = 0;
@@ -266,7 +267,7 @@ private:
     return last;
   }
 
-  /// A vertex of the tet has seen a change since the tet was tried.
+  /// Report whether a vertex of the tet has changed since the tet was tried.
   bool changed(Index t) const
   {
     return t >= static_cast<Index>(this->tried_.size()) || this->tried_[t] < this->newest(t);
@@ -292,7 +293,7 @@ private:
     return flat;
   }
 
-  /// Removes tets that share no facet with another and stayed too flat.
+  /// Remove tets that share no facet with another tet and remain too flat.
   void drop_lone_tets()
   {
     const std::vector<Index> flat =
@@ -322,10 +323,11 @@ private:
   double most_evaluations_ = 0.0;
   Index evaluations_ = 0;
   std::vector<char> moved_;
-  std::vector<std::uint64_t> tried_; ///< per tet: the newest change of all when it was tried
-  std::vector<Index> claims_; ///< per vertex: the last turn in which a tet at it was looked at
+  /// Per tet: the newest change of the mesh when the tet was tried.
+  std::vector<std::uint64_t> tried_;
+  std::vector<Index> claims_; ///< per vertex: the last batch that reserved it
   Index turn_ = 0;
-  std::vector<TetStep> steps_; ///< of the tets that are looked at
+  std::vector<TetStep> steps_; ///< steps of the tets of this batch
   PerThread<TetStepSearch> searches_;
 };
 } // namespace

@@ -24,14 +24,14 @@ namespace
 {
 using Tet = TetComplex::Tet;
 
-constexpr Index often = 256; // steps after which cancel is looked at
+constexpr Index often = 256; // steps between two checks for cancel
 
 struct LongEdge
 {
   double length;
   Index a, b;
 
-  /// Longest first, then by ids.
+  /// Order by length, longest first, then by ids.
   bool operator<(const LongEdge& other) const
   {
     return std::tie(this->length, other.a, other.b) < std::tie(other.length, this->a, this->b);
@@ -50,16 +50,17 @@ std::vector<Vec3> as_vectors(const Points& points)
 
 constexpr Index first_round = 64; // places
 
-/// An order of insertion, in rounds, each twice as long as the one ahead of it and spread over all
-/// of the places, so that cavities soon become small (Amenta, Choi, Rote, Incremental Constructions
-/// con BRIO, 2003). A round is divided into `tracks` pieces of `near`, an order in which neighbors
-/// are near each other, and takes one place of each piece in turn. So places that are inserted at
-/// the same time are far apart, and each is near one that was inserted shortly before, whose tets
-/// are still in the processor's caches.
+/// Return an order of insertion, in rounds. Each round is twice as long as the previous one and
+/// spread over all places, so that cavities soon become small (Amenta, Choi, Rote, Incremental
+/// Constructions con BRIO, 2003). `near` is an order in which consecutive places are near each
+/// other. A round divides it into `tracks` pieces and takes one place of each piece in turn. Places
+/// that are inserted at the same time are therefore far apart. Each of them is near a place that
+/// was inserted shortly before, whose tets are still in the processor's caches.
 std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Index tracks)
 {
   const auto count = static_cast<Index>(near.size());
-  // Every second place is in the last round, every second one of the others in the round before it.
+  // Every second place is in the last round, every second of the remaining ones in the round before
+  // it, and so on.
   std::vector<std::vector<Index>> rounds(1);
   for (Index size = first_round; size < count; size *= 2)
   {
@@ -91,8 +92,9 @@ std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Ind
   return order;
 }
 
-/// The share of the work that the first `done` of `count` places are. About half of it is done in
-/// equal parts by the rounds, however few places the first ones have: their cavities are large.
+/// Return the fraction of the work after the first `done` of `count` places. About half of the work
+/// is distributed equally over the rounds, because the few places of the first rounds have large
+/// cavities.
 double share_of_insertion(std::size_t done, std::size_t count)
 {
   const auto rounds = [](std::size_t places)
@@ -101,15 +103,15 @@ double share_of_insertion(std::size_t done, std::size_t count)
     (static_cast<double>(done) / static_cast<double>(count) + rounds(done) / rounds(count));
 }
 
-/// Finds the tets that contain given places while tets are being replaced: a tree over the initial
-/// tets, for each replaced tet the range of its successors, and walks from tet to tet.
+/// Finds the tets that contain given places while tets are being replaced. It uses a tree over the
+/// initial tets, the range of the successors of each replaced tet, and walks from tet to tet.
 class PlaceFinder
 {
 public:
   explicit PlaceFinder(const TetComplex& tets) : tets_(tets) {}
 
-  /// To be called first, with the tets that the complex has by now. `near`: an order in which
-  /// places behind each other are often near each other. @return false when cancelled.
+  /// Locate all places in the current tets. This must be called first. `near`: an order in which
+  /// consecutive places are usually near each other. @return false when canceled.
   bool look_for(const TetMesh& mesh, const Points& places, const std::vector<std::int32_t>& near,
     ExecutionContext& context)
   {
@@ -130,7 +132,7 @@ public:
       });
   }
 
-  /// The tet that contains place i, p; -1 where none is found. Thread-safe.
+  /// Return the tet that contains place i at p, or -1 if none is found. Thread-safe.
   Index find(Index i, const Vec3& p) const
   {
     Index t = this->first_[i];
@@ -155,11 +157,11 @@ public:
         }
       }
     }
-    return this->walk(t, p, few); // rounding may have chosen a neighbor
+    return this->walk(t, p, few); // rounding may have selected a neighbor
   }
 
-  /// Finds these places again, so that the tets which were replaced are no longer needed. The tets
-  /// get new ids then: see renumber(). @return false when cancelled.
+  /// Locate the pending places again, so that replaced tets are no longer needed. The tets then get
+  /// new ids: see renumber(). @return false when canceled.
   bool find_again(
     const Points& places, const std::vector<Index>& pending, ExecutionContext& context)
   {
@@ -174,7 +176,7 @@ public:
       });
   }
 
-  /// The tets have new ids.
+  /// Update the ids of the tets.
   void renumber(const std::vector<Index>& ids)
   {
     for (Index& t : this->first_)
@@ -184,7 +186,7 @@ public:
     this->replaced_.clear();
   }
 
-  /// The tets have been replaced by those from `begin` to the last.
+  /// Record that the tets have been replaced by those from `begin` to the last.
   void replace(const std::vector<Index>& tets, Index begin)
   {
     this->replaced_.resize(static_cast<std::size_t>(this->tets_.tet_ids()));
@@ -195,7 +197,7 @@ public:
   }
 
 private:
-  static constexpr int few = 50; // tets to look at, one after the other
+  static constexpr int few = 50; // largest number of tets of a short walk
   static constexpr int many = 500;
   struct Range
   {
@@ -203,7 +205,8 @@ private:
     Index end = 0;
   };
 
-  /// The side of tet t behind which p lies, as an index into facet_corners; -1: p is in the tet.
+  /// Return the side of tet t that separates it from p, as an index into facet_corners, or -1 if p
+  /// is in the tet.
   int side_towards(Index t, const Vec3& p, int first = 0) const
   {
     const Tet& tet = this->tets_.tet(t);
@@ -220,20 +223,21 @@ private:
     return -1;
   }
 
-  /// Walks from a tet at the vertex that these tets were made for: the straight way from there to p
-  /// was inside of the cavity.
+  /// Walk from a tet at the vertex for which these tets were created. The straight line from that
+  /// vertex to p was inside the cavity.
   Index walk_from(const Range& range, const Vec3& p) const
   {
     const std::vector<Index>& around = this->tets_.tets_at(this->tets_.tet(range.begin)[3]);
     return around.empty() ? -1 : this->walk(around.front(), p, many);
   }
 
-  /// The tet that contains p, at most `longest` steps from t. @return -1 where it is farther away.
+  /// Return the tet that contains p and is at most `longest` steps from t, or -1 if it is farther
+  /// away.
   Index walk(Index t, const Vec3& p, int longest) const
   {
     for (int step = 0; step < longest && t >= 0; ++step)
     {
-      // Another first side: no way round in circles.
+      // Each step starts at another side, so that the walk does not cycle.
       const int side = this->side_towards(t, p, step);
       if (side < 0)
       {
@@ -247,8 +251,8 @@ private:
   }
 
   const TetComplex& tets_;
-  std::vector<Index> first_; ///< per place: the tet that contained it, or was the nearest, at first
-  std::vector<Range> replaced_; ///< per tet that is gone
+  std::vector<Index> first_; ///< per place: the tet that contained it at first, or the nearest tet
+  std::vector<Range> replaced_; ///< per replaced tet
 };
 
 /// Cavities of up to 64 places are searched in parallel while the mesh does not change, then filled
@@ -263,11 +267,11 @@ public:
     this->quiet_.set_threads(context.threads());
   }
 
-  /// mesh: the tets as they are by now.
+  /// Insert vertices. mesh: the current tets.
   bool insert(const TetMesh& mesh, const Points& places, std::vector<Index>& vertices)
   {
     const std::vector<std::int32_t> near = order_by_place(as_vectors(places));
-    constexpr double looked = 0.2; // share of the seconds
+    constexpr double looked = 0.2; // fraction of the time
     {
       const ProgressRange range(this->context_, 0.0, looked);
       if (!this->finder_.look_for(mesh, places, near, this->context_))
@@ -279,8 +283,8 @@ public:
     const std::vector<Index> order = order_of_insertion(near, most_at_once);
     std::vector<Index> now;
     std::vector<Index> later;
-    // The first cavities are large where all vertices lie on one sphere, and overlap: as many are
-    // searched at the same time as do not.
+    // If all vertices are on one sphere, the first cavities are large and overlap. The number of
+    // places that are searched at the same time is therefore adapted.
     std::size_t at_once = 1;
     for (std::size_t next = 0; next < order.size() || !later.empty();)
     {
@@ -319,7 +323,7 @@ public:
           later.push_back(now[i]);
         }
       }
-      constexpr std::size_t seldom = 4; // one in so many
+      constexpr std::size_t seldom = 4; // at most one in four places may be searched again
       const bool overlap = seldom * (later.size() - waiting) > now.size();
       at_once =
         overlap ? std::max<std::size_t>(1, at_once / 2) : std::min(most_at_once, 2 * at_once);
@@ -332,7 +336,7 @@ private:
   static constexpr std::size_t most_at_once = 64;
   static constexpr Index per_task = 4;
 
-  /// The tets or the edge that a place would replace.
+  /// The tets or the edge that a new vertex would replace.
   struct Site
   {
     enum class Kind
@@ -352,8 +356,8 @@ private:
     }
   };
 
-  /// Gives back the memory of tets that have been replaced. pending: the places not yet inserted.
-  /// @return false when cancelled.
+  /// Free the memory of replaced tets. pending: the places that are not yet inserted. @return false
+  /// when canceled.
   bool drop_replaced(const Points& places, const std::vector<Index>& pending)
   {
     if (!this->finder_.find_again(places, pending, this->quiet_))
@@ -365,14 +369,15 @@ private:
     return true;
   }
 
-  /// How many ids may be in use when there are this many tets: half as many replaced ones are kept.
+  /// Return the largest number of ids in use for this many tets. The memory of up to half as many
+  /// replaced tets is kept.
   static Index most_ids_of(Index tets)
   {
-    constexpr Index few = 100000; // that take little memory
+    constexpr Index few = 100000; // these take little memory
     return few + tets + tets / 2;
   }
 
-  /// @return false when cancelled.
+  /// @return false when canceled.
   bool look_at(const Points& places, const std::vector<Index>& now)
   {
     return parallel_for(this->quiet_, static_cast<Index>(now.size()), per_task,
@@ -389,8 +394,9 @@ private:
       });
   }
 
-  /// Place i is p. Tries tets of at least 1 degree first, then a split of an edge that contains p
-  /// up to rounding (points of a bone are collinear), then any positive tets.
+  /// Search the site of place i at p. The first try is a cavity with tets of at least 1 degree. The
+  /// second try is a split of an edge that contains p up to rounding (points of a bone are
+  /// collinear). The last try is a cavity with any positive tets.
   void look_at(Index i, const Vec3& p, CavitySearch& search, Site& site) const
   {
     site.kind = Site::Kind::none;
@@ -421,7 +427,7 @@ private:
   bool find_edge(const Vec3& p, Index t, Site& site) const
   {
     const Tet& tet = this->tets_.tet(t);
-    constexpr double rounding = 1e-9; // of the edge
+    constexpr double rounding = 1e-9; // in edge lengths
     for (int i = 0; i < 4; ++i)
     {
       for (int j = 0; j < i; ++j)
@@ -440,7 +446,7 @@ private:
     return false;
   }
 
-  /// @return the new vertex, -1 where nothing helps.
+  /// Insert the vertex. @return the new vertex, or -1 if there is no valid site.
   Index take(const Site& site, const Vec3& p)
   {
     const Index begin = this->tets_.tet_ids();
@@ -467,7 +473,7 @@ private:
   PerThread<CavitySearch> searches_;
   std::array<Site, most_at_once> sites_;
   const double thick_ = TetComplex::quality_of_angle(1.0);
-  Index most_ids_ = most_ids_of(tets_.tet_count()); ///< then replaced tets are dropped
+  Index most_ids_ = most_ids_of(tets_.tet_count()); ///< above this, replaced tets are dropped
 };
 } // namespace
 
@@ -494,7 +500,7 @@ bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionC
     queue.pop();
     if (!tets.has_edge(edge.a, edge.b))
     {
-      continue; // it was there twice
+      continue; // it was in the queue twice
     }
     const Index v =
       tets.split_edge(edge.a, edge.b, 0.5 * (tets.point(edge.a) + tets.point(edge.b)));

@@ -23,7 +23,7 @@ double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   const double volume = std::abs((b - a).cross(c - a).dot(d - a)); // six times
   constexpr double nearly_one = 0.9999;
   double largest_cosine = -1.0;
-  double least_sine = 1.0; // of small angles, whose cosines are all rounded to 1
+  double least_sine = 1.0; // used for small angles, whose cosines are all rounded to 1
   for (int i = 0; i < 4; ++i)
   {
     for (int j = 0; j < i; ++j)
@@ -84,8 +84,8 @@ namespace
 {
 using EdgeKey = std::array<Index, 2>;
 
-/// Two triangles of the boundary meet at less than `angle` degrees, measured inside: their normals
-/// are nearly opposite, and the other one lies behind the plane of the first.
+/// Report whether two boundary triangles meet at less than `angle` degrees, measured inside: their
+/// normals are nearly opposite, and the second triangle is behind the plane of the first.
 bool is_wedge(PointsView points, const Triangles& boundary, const TriangleSide& one,
   const TriangleSide& other, double angle)
 {
@@ -102,10 +102,11 @@ bool is_wedge(PointsView points, const Triangles& boundary, const TriangleSide& 
     n.dot(corner(other, 2) - corner(one, 0)) < 0.0;
 }
 
-/// Whether another triangle of the boundary is so near in front of this one, on its inside, that no
-/// tet on it can have all its angles above `angle` degrees. Such a tet would contain the roof of
-/// that slope over the triangle. It is enough that one of the roof's ridges, or the segment from
-/// the center of the triangle's inscribed circle to the roof's top, meets another triangle.
+/// Report whether another boundary triangle is so near on the inside of this one that every tet on
+/// it has an angle of at most `angle` degrees. A tet with larger angles would contain the roof of
+/// that slope over the triangle. The test checks whether one of the roof's ridges meets another
+/// triangle. It also checks the segment from the center of the triangle's inscribed circle to the
+/// roof's top.
 bool is_blocked(
   PointsView points, const Triangles& boundary, const TriangleTree& tree, Index t, double angle)
 {
@@ -124,7 +125,7 @@ bool is_blocked(
   }
   center /= around;
   const double radius = normal.norm() / around;
-  constexpr double within = 0.999; // of the roof, against rounding
+  constexpr double within = 0.999; // fraction of the roof height, a margin for rounding
   const Vec3 top = center - within * std::tan(angle / degrees) * radius * normal.normalized();
   const auto others = [&](Index other)
   {
@@ -141,7 +142,7 @@ EdgeKey edge_key(Index a, Index b)
   return { std::min(a, b), std::max(a, b) };
 }
 
-/// The edges of tets below `angle`, sorted.
+/// Return the edges of tets below `angle`, sorted.
 std::vector<EdgeKey> edges_of_flat(TetsView tets, const Eigen::VectorXd& angles, double angle)
 {
   std::vector<EdgeKey> edges;
@@ -159,7 +160,7 @@ std::vector<EdgeKey> edges_of_flat(TetsView tets, const Eigen::VectorXd& angles,
   return edges;
 }
 
-/// Whether is_blocked(), for the triangles that have one of the edges.
+/// Evaluate is_blocked() for the triangles that have one of the edges.
 std::vector<char> blocked_triangles(PointsView points, const Triangles& boundary,
   const std::vector<EdgeKey>& edges, double angle, ExecutionContext& context)
 {
@@ -185,7 +186,7 @@ std::vector<char> blocked_triangles(PointsView points, const Triangles& boundary
   return blocked;
 }
 
-/// Edges at which tets cannot have good angles, sorted: see count_forced_tets().
+/// Return the edges at which tets cannot have good angles, sorted: see count_forced_tets().
 std::vector<EdgeKey> forced_edges(
   PointsView points, const Triangles& boundary, const std::vector<char>& blocked, double angle)
 {
@@ -253,13 +254,14 @@ Status check_tets(
   {
     const Vec3 a = points.row(tets(t, 0)), b = points.row(tets(t, 1));
     const Vec3 c = points.row(tets(t, 2)), d = points.row(tets(t, 3));
-    // In truth, and in the doubles of whoever integrates over it.
+    // The volume must be positive both exactly and in double precision, which later integrals use.
     if (orientation_3d(a, b, c, d) <= 0 || !(tet_volume(a, b, c, d) > 0.0))
     {
       return failure("tet " + std::to_string(t) + " has no positive volume");
     }
   }
-  // The facet runs the way of its sorted vertices, as seen from outside of its tet.
+  // Report whether the facet, seen from outside its tet, has the orientation of its sorted
+  // vertices.
   const auto forward = [&](const TetFacet& facet)
   {
     const auto& corners = facet_corners[facet.side];

@@ -1,11 +1,12 @@
 // A tet is improved by the first of these steps that works:
-// 1. removing one of its edges: the tets around it are replaced by tets between its ends and a
-//    triangulation of the ring of their other vertices, the best one by dynamic programming. An
-//    edge of the boundary that is nearly flat can go as well; with a single tet that removes it.
+// 1. removing one of its edges: the tets around the edge are replaced by tets between its two ends
+//    and a triangulation of the ring of their other vertices. The best triangulation is found by
+//    dynamic programming. A boundary edge that is nearly flat can be removed too; if it has a
+//    single tet, that tet is removed.
 // 2. removing one of its facets: two tets become three around a new edge;
 // 3. moving one of its vertices: a search in a few directions with shrinking steps;
-// 4. contracting one of its edges into one of its ends, when no vertex could be moved;
-// 5. inserting a vertex in the middle of it or of one of its edges, where that is allowed.
+// 4. contracting one of its edges into one of its ends, if no vertex could be moved;
+// 5. inserting a vertex in the middle of the tet or of one of its edges, if insertion is allowed.
 #include "inside/tet_steps.h"
 
 #include "base/sort_unique.h"
@@ -20,7 +21,7 @@ namespace bindpose
 
 namespace
 {
-constexpr double better = 0.02; // what counts as an improvement: a fiftieth of a tet's angle
+constexpr double better = 0.02; // smallest decrease of the cost: a fiftieth of a tet's angle
 constexpr double never = std::numeric_limits<double>::infinity();
 // Cosines between the normals of boundary triangles.
 constexpr double flat_cosine = 0.966; // 15 degrees: an edge that may be swapped
@@ -32,7 +33,7 @@ bool turned_less(const Vec3& one, const Vec3& other, double cosine)
 }
 
 constexpr int directions_count = 14;
-/// Along the axes, then along the diagonals of a cube.
+/// Return direction k: first the axes, then the diagonals of a cube.
 Vec3 direction(int k)
 {
   if (k < 6)
@@ -93,7 +94,8 @@ void TetStepSearch::find(Index t, TetStep& step)
       return;
     }
   }
-  constexpr double too_near = 0.01; // of the longest edge: no move makes up for that
+  // As a fraction of the longest edge. No move can compensate for an edge shorter than this.
+  constexpr double too_near = 0.01;
   if (this->contract_any(tet, too_near, step))
   {
     return;
@@ -140,7 +142,7 @@ TetStepSearch::Cost TetStepSearch::cost(const std::vector<Index>& tets) const
   return cost;
 }
 
-/// The smallest quality that a tet may have which replaces tets of that cost.
+/// Return the smallest allowed quality of tets that replace tets of this cost.
 double TetStepSearch::least_after(const Cost& cost) const
 {
   return std::min(
@@ -165,7 +167,7 @@ bool TetStepSearch::remove_edge(Index a, Index b, TetStep& step)
   const std::vector<Index>& r = ring.vertices;
   const std::size_t n = r.size();
   constexpr std::size_t most = TetComplex::longest_ring + 1;
-  // best[i][j]: what the best triangulation of the polygon r[i] … r[j] costs.
+  // best[i][j]: the cost of the best triangulation of the polygon r[i] … r[j].
   std::array<std::array<double, most>, most> best;
   std::array<std::array<std::size_t, most>, most> apex{};
   for (std::size_t i = 0; i + 1 < n; ++i)
@@ -229,7 +231,8 @@ bool TetStepSearch::remove_edge(Index a, Index b, TetStep& step)
   return true;
 }
 
-/// The boundary is flat enough at the edge, and its new edge makes it touch itself nowhere.
+/// Report whether the boundary is flat enough at the edge and does not touch itself at the new
+/// edge.
 bool TetStepSearch::may_swap_boundary(Index a, Index b, const Ring& ring) const
 {
   if (this->rules_.options.keep_boundary && !(this->rules_.options.coplanar > 0.0))
@@ -316,7 +319,7 @@ bool TetStepSearch::remove_facet(Index t, Index a, Index b, Index c, TetStep& st
 
 // ---- Vertices --------------------------------------------------------------------------------
 
-/// With vertex `moved` at p.
+/// Return the patch of the boundary triangles `skin` with vertex `moved` at p.
 TetStepSearch::Patch TetStepSearch::patch_of(
   const std::vector<Facet>& skin, Index moved, const Vec3& p) const
 {
@@ -370,7 +373,7 @@ bool TetStepSearch::move(Index v, TetStep& step)
   const double least = this->least_after(old);
   double value = old.sum;
   Vec3 at = start;
-  // Those that cost something first: they rule out most directions.
+  // Sort the most expensive tets first: they rule out most directions.
   std::stable_sort(this->star_.begin(), this->star_.end(),
     [&](Index s, Index t) { return this->tets_.quality(s) < this->tets_.quality(t); });
   constexpr double first_step = 0.3;
@@ -411,8 +414,8 @@ bool TetStepSearch::move(Index v, TetStep& step)
   return true;
 }
 
-/// Cost of new tets, one for each item: infinity above `most` and where one of them is worse than
-/// `least`.
+/// Return the cost of new tets, one per item. It is infinity if it exceeds `most` or if one of the
+/// tets is worse than `least`.
 template <typename Items, typename QualityOf>
 double TetStepSearch::sum_of(
   const Items& items, const QualityOf& quality_of, double least, double most)
@@ -431,7 +434,7 @@ double TetStepSearch::sum_of(
   return sum;
 }
 
-/// Cost of the tets of star_ with v at p.
+/// Return the cost of the tets of star_ with v at p.
 double TetStepSearch::sum_of_star(Index v, const Vec3& p, double least, double most)
 {
   return this->sum_of(
@@ -440,8 +443,8 @@ double TetStepSearch::sum_of_star(Index v, const Vec3& p, double least, double m
 
 // ---- New vertices ------------------------------------------------------------------------------
 
-/// Inserts a vertex in the middle of the tet or of one of its edges, with the tets around it that
-/// its circumsphere takes in, then moved to where that costs least.
+/// Insert a vertex in the middle of the tet or of one of its edges. It replaces the tets around it
+/// whose circumspheres contain it, and is then moved to the position of least cost.
 bool TetStepSearch::insert_near(Index t, TetStep& step)
 {
   const Tet& tet = this->tets_.tet(t);
@@ -484,9 +487,10 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
       shortest = std::min(shortest, (this->point(w) - p).norm());
     }
   }
-  constexpr double margin = 0.3; // a vertex more must be worth it
+  constexpr double margin = 0.3; // a new vertex must reduce the cost by this much
   const double enough = old.sum - margin;
-  // At first a place may cost that many times what is there, after a look around less.
+  // Largest cost, relative to the old cost, of the first position, and of the best position of the
+  // first search step.
   constexpr double hopeful = 3.0;
   constexpr double promising = 1.5;
   double value = this->sum_of_cavity(step.cavity, p, least, never);
@@ -525,7 +529,7 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
   return true;
 }
 
-/// Cost of tets from p to the cavity's facets.
+/// Return the cost of the tets from p to the cavity's facets.
 double TetStepSearch::sum_of_cavity(
   const TetCavity& cavity, const Vec3& p, double least, double most)
 {
@@ -538,7 +542,7 @@ double TetStepSearch::sum_of_cavity(
 
 // ---- Contraction -----------------------------------------------------------------------------
 
-/// Contracts an edge that is no longer than `share` of the tet's longest.
+/// Contract an edge that is at most `share` times as long as the longest edge of the tet.
 bool TetStepSearch::contract_any(const Tet& tet, double share, TetStep& step)
 {
   double longest = 0.0;
@@ -559,7 +563,7 @@ bool TetStepSearch::contract_any(const Tet& tet, double share, TetStep& step)
   return false;
 }
 
-/// Vertex a becomes b; the tets at both are gone.
+/// Replace vertex a by b. The tets that contain both vertices are removed.
 bool TetStepSearch::contract(Index a, Index b, TetStep& step)
 {
   const bool on_boundary = this->tets_.on_boundary(a);
@@ -592,7 +596,7 @@ bool TetStepSearch::contract(Index a, Index b, TetStep& step)
   const auto has_b = [b](const Facet& f) { return std::find(f.begin(), f.end(), b) != f.end(); };
   if (on_boundary && std::none_of(skin.begin(), skin.end(), has_b))
   {
-    return false; // the boundary would be drawn inwards
+    return false; // the boundary would move inwards
   }
   if (fresh.empty() || !this->keeps_shape(skin, a, b) || !this->keeps_topology(skin, a, b))
   {
@@ -603,12 +607,13 @@ bool TetStepSearch::contract(Index a, Index b, TetStep& step)
   return true;
 }
 
-/// No boundary triangle at a turns by more than what is flat when a becomes b; a vertex of a
-/// crease goes along the crease, and where creases meet or end none goes. skin: the boundary
-/// triangles at a.
+/// Report whether boundary triangles at a stay nearly flat when a becomes b. A vertex of a crease
+/// may only be contracted along the crease. A vertex at which creases meet or end may not be
+/// contracted. skin: the boundary triangles at a.
 bool TetStepSearch::keeps_shape(const std::vector<Facet>& skin, Index a, Index b) const
 {
-  std::vector<std::pair<Index, Vec3>> sides; // (other end of an edge at a, normal beside it)
+  // (other end of an edge at a, normal of a triangle at the edge)
+  std::vector<std::pair<Index, Vec3>> sides;
   for (const auto& f : skin)
   {
     std::array<Vec3, 3> p{ this->point(f[0]), this->point(f[1]), this->point(f[2]) };
@@ -646,14 +651,14 @@ bool TetStepSearch::keeps_shape(const std::vector<Facet>& skin, Index a, Index b
   return creases == 0 || (creases == 2 && along);
 }
 
-/// The link condition: what is around a and around b is around the edge a-b, too. The outside
-/// counts as one more vertex that the boundary's triangles make tets with.
+/// Check the link condition: the intersection of the links of a and b must be the link of the edge
+/// a-b. The outside is treated as one more vertex that forms tets with the boundary triangles.
 bool TetStepSearch::keeps_topology(const std::vector<Facet>& skin, Index a, Index b) const
 {
   const Link link_a = this->link_of(a, skin);
   const Link link_b =
     this->link_of(b, this->tets_.on_boundary(b) ? this->tets_.skin_at(b) : std::vector<Facet>());
-  // Around the edge is a cycle (or more than one, where the boundary touches itself).
+  // The link of the edge is a cycle (or more than one, if the boundary touches itself).
   std::vector<Index> at_edge;
   this->tets_.tets_with(a, b, at_edge);
   const auto cycle = static_cast<std::ptrdiff_t>(at_edge.size()) +

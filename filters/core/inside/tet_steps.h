@@ -13,14 +13,14 @@
 namespace bindpose
 {
 
-/// A change of a few tets after which they cost less.
+/// A change of a few tets that lowers their cost.
 struct TetStep
 {
   enum class Kind
   {
     none,
     swap, ///< the tets `removed` are replaced by `fresh`
-    contract, ///< the same, and a vertex is no longer used
+    contract, ///< a swap after which one vertex is no longer used
     move, ///< `vertex` moves to `place`
     insert ///< the tets of `cavity` are replaced by tets from a new vertex at `place`
   };
@@ -30,7 +30,7 @@ struct TetStep
   Index vertex = -1;
   Vec3 place = Vec3::Zero();
   TetCavity cavity;
-  /// Vertices of the tet for which no better place was found.
+  /// Vertices of the tet for which no better position was found.
   std::vector<Index> stay;
 
   void clear();
@@ -47,43 +47,45 @@ struct TetStepRules
   const ImproveOptions& options;
   const OntoSurface& surface;
   std::vector<char> held; ///< #V
-  /// #V, stamp of the vertex when no better place was found for it; 0: none was looked for.
+  /// Stamp of each vertex when the last search found no better position for it, #V; 0: no search
+  /// yet.
   std::vector<std::uint64_t> stays;
   bool release = false; ///< held vertices may move
   bool insert = false; ///< vertices may be added
 };
 
-/// A better place is looked for if a tet at v is too flat.
+/// Report whether a better position for v may be searched: a tet at v is too flat.
 bool may_move(const TetComplex& tets, const TetStepRules& rules, Index v);
 
-/// Finds steps. Each thread needs its own; tets and rules may change between two searches.
+/// Finds steps. Each thread needs a separate object. Tets and rules may change between two
+/// searches.
 class TetStepSearch
 {
 public:
   TetStepSearch(const TetComplex& tets, const TetStepRules& rules);
 
-  /// The first step that improves tet t, of kind none where there is none.
+  /// Find the first step that improves tet t. Its kind is none if there is no such step.
   void find(Index t, TetStep& step);
-  /// Qualities of tets that were computed.
+  /// Return the number of computed tet qualities.
   Index evaluations() const { return this->evaluations_ + this->cavities_.evaluations(); }
 
 private:
   using Tet = TetComplex::Tet;
   using Facet = TetComplex::Facet;
   using Ring = TetComplex::Ring;
-  /// Cost of a set of tets: 0 where all are good enough.
+  /// Cost of a set of tets: 0 if all are good enough.
   struct Cost
   {
-    double sum = 0.0; ///< of log(sine wanted / sine of the smallest dihedral angle)
+    double sum = 0.0; ///< sum of log(required sine / sine of the smallest dihedral angle)
     double worst = 1.0; ///< smallest quality
   };
-  /// The boundary at a vertex.
+  /// The boundary around a vertex.
   struct Patch
   {
     bool smooth = true;
     Vec3 normal = Vec3::Zero();
   };
-  /// Sorted, and so are the vertices of each.
+  /// The link of a vertex. The lists and the vertices of each simplex are sorted.
   struct Link
   {
     std::vector<Index> vertices;
@@ -119,8 +121,8 @@ private:
 
   const TetComplex& tets_;
   const TetStepRules& rules_;
-  const double good_; ///< quality of tets that are left as they are
-  const double bad_; ///< below it, vertices may be inserted
+  const double good_; ///< tets of at least this quality do not change
+  const double bad_; ///< vertices may be inserted near tets below this quality
   CavitySearch cavities_;
   Ring ring_;
   std::vector<Index> star_;

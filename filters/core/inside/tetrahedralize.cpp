@@ -1,8 +1,9 @@
-// The ladder: cdt (cdt_tets.h), then remesh: Delaunay refinement (remesh_tets.h), else a lattice
-// that is cut (lattice_tets.h, finer when the volume is off). Every rung is judged by the volume it
-// has against the volume that winds enough. When none fits, the one that came nearest is taken,
-// with a warning. embed (embedding_tets.h), wrap (wrap_surface.h, filled as cdt does it) and
-// ftetwild (ftetwild_process.h) stand beside the ladder.
+// Method automatic tries cdt (cdt_tets.h), then remesh. remesh is Delaunay refinement
+// (remesh_tets.h) or, if that fails, a cut lattice (lattice_tets.h), which becomes finer if its
+// volume is wrong. The volume of each attempt (rung) is compared with the volume of {w >=
+// threshold}. If no volume fits, the tets with the smallest misfit are used, with a warning. The
+// methods embed (embedding_tets.h), wrap (wrap_surface.h, filled as in cdt) and ftetwild
+// (ftetwild_process.h) are not part of this sequence.
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
@@ -29,10 +30,10 @@ namespace bindpose
 
 namespace
 {
-/// End of the surface triangulation, as a fraction of the work of method cdt.
+/// Fraction of the work of method cdt after which the surface is triangulated.
 constexpr double cdt_built = 0.45;
 
-/// Neither cdt nor remesh: what is left to do is said, whatever the reason.
+/// Return the failure of both cdt and remesh. The message recommends embed, whatever the reason.
 Status no_method_fits(Status status)
 {
   if (status.code == StatusCode::cancelled)
@@ -65,7 +66,7 @@ public:
   {
     return this->make_and_check([this]() { return this->climb(); });
   }
-  /// Of method embed, with tets that are made already.
+  /// Complete method embed with given tets.
   Status run(EmbeddingTets embedding)
   {
     return this->make_and_check([&]() { return this->take(std::move(embedding)); });
@@ -170,7 +171,7 @@ private:
         return status;
       }
     }
-    // Nothing fits: what came nearest.
+    // If no volume fits, use the tets with the smallest misfit.
     if (cdt.misfit() < worst_misfit && cdt.misfit() <= this->lattice_misfit_)
     {
       this->warn(wrong_volume(cdt.volume(), this->inside_).message);
@@ -209,7 +210,7 @@ private:
     return status;
   }
 
-  /// The vertices at the handles' points.
+  /// Find the vertices at the handles' points.
   void find_handles()
   {
     const Points& handles = this->options_.handles.points;
@@ -234,7 +235,8 @@ private:
     this->report_.set("counts.handle_vertices", Report::Value(found));
   }
 
-  /// The lattice tets that came nearest, with a warning; `status` when there are none.
+  /// Take the lattice tets with the smallest misfit, with a warning. Return `status` if there are
+  /// none.
   Status take_lattice(const Status& status)
   {
     if (this->lattice_misfit_ > worst_misfit || status.code == StatusCode::cancelled)
@@ -257,7 +259,8 @@ private:
     return this->options_.quality == 0.0 || this->angle() >= this->options_.quality;
   }
 
-  /// Runs another rung, and returns to the present tets unless its smallest angle is larger.
+  /// Run another rung. Keep its tets only if their smallest angle is larger than that of the
+  /// present tets.
   /// @return ok or cancelled.
   template <typename Rung>
   Status improve_by(const Rung& rung)
@@ -280,7 +283,7 @@ private:
     return {};
   }
 
-  /// Replaces the tets of cdt by those of remesh if these have the larger smallest angle.
+  /// Replace the tets of cdt by those of remesh if these have a larger smallest angle.
   Status leave_cdt_for_quality()
   {
     const double angle = this->angle();
@@ -331,7 +334,7 @@ private:
       }
       else if (status = check_tets(mesh.points, mesh.tets); !status.ok())
       {
-        // No other reason is needed.
+        // status contains the reason
       }
       else if (!this->inside_.fits(volume))
       {
@@ -365,8 +368,8 @@ private:
     return this->options_.resolution == 0 ? automatic : this->options_.resolution;
   }
 
-  /// Delaunay refinement by the helper. Its edges are as long as the surface's own within bounds
-  /// that the resolution gives; by default 0.005 and 0.035 of the box's longest side.
+  /// Run the helper's Delaunay refinement. Its edges are as long as the surface's, within bounds
+  /// that depend on the resolution; by default 0.005 and 0.035 of the box's longest side.
   Status refine_inside()
   {
     const double start = this->context_.elapsed_seconds();
@@ -379,14 +382,14 @@ private:
     options.smallest_edge = shortest * cube;
     options.largest_edge = longest * cube;
     options.memory_limit = this->options_.memory_limit;
-    // What method cdt has left of the time, and some of it for the lattice.
+    // The time that remains after method cdt, minus some time for the lattice.
     constexpr double least_share = 0.25;
     constexpr double lattice_share = 0.1;
     options.time_limit = std::max(
       this->time_left() - lattice_share * this->time_limit_, least_share * this->time_limit_);
     if (this->options_.method == TetMethod::automatic)
     {
-      // Several times what it needs for most surfaces: one of needles takes minutes.
+      // Several times the duration for most surfaces. A surface of needles takes minutes.
       constexpr double patience = 8.0; // seconds
       constexpr double per_triangle = 1e-4;
       constexpr double most_patience = 14.0;
@@ -423,8 +426,8 @@ private:
     return {};
   }
 
-  /// The input's own points and triangles, so that every one of its points is bound; which way
-  /// triangles are turned matters to the winding number only.
+  /// Embed the input's own points and triangles, so that every input point is bound. The
+  /// orientation of the triangles matters only for the winding number.
   Status embed()
   {
     const double start = this->context_.elapsed_seconds();
@@ -452,7 +455,7 @@ private:
     return this->keep_no_vertex(TetMethod::embed);
   }
 
-  /// A closed surface around the surface, filled as any clean surface is.
+  /// Compute a closed surface around the surface and fill it as any clean surface.
   Status wrap()
   {
     RepairedSurface wrap;
@@ -553,7 +556,8 @@ private:
     return this->report_distance();
   }
 
-  /// What does not fit is taken with a warning when it is not off by too much.
+  /// Check the volume. A wrong volume is accepted with a warning if it differs by at most a factor
+  /// of two.
   Status judge_volume()
   {
     const TetMesh& mesh = this->result_.mesh;
@@ -611,7 +615,8 @@ private:
     const TetMesh& mesh = this->result_.mesh;
     Status status;
     const bool embedded = this->options_.method == TetMethod::embed;
-    if (embedded || this->options_.keep_outside) // all others were checked, or left, by their rung
+    // The rungs of all other methods have checked their tets.
+    if (embedded || this->options_.keep_outside)
     {
       status = check_tets(mesh.points, mesh.tets, embedded);
       if (!status.ok())
@@ -668,7 +673,8 @@ private:
                 : ""));
   }
 
-  /// Labels and angles; of the whole hull how many tets are inside, and their volume.
+  /// Set labels and angles. With keep_outside, also report the number of tets inside and their
+  /// volume.
   void label_tets()
   {
     const TetMesh& mesh = this->result_.mesh;
@@ -705,9 +711,9 @@ private:
     this->log_.add(rung, this->context_.elapsed_seconds() - start, status);
   }
 
-  /// A volume that is off by more than a factor of two is no result.
+  /// Largest misfit of a usable result: a factor of two in volume.
   static constexpr double worst_misfit = 0.6931471805599453;
-  /// A wrap winds once around its inside, whatever the surface does.
+  /// A wrap winds once around its inside, for every surface.
   static constexpr double wrap_threshold = 0.5;
 
   PointsView points_;
@@ -723,8 +729,8 @@ private:
   static constexpr double time_limit_per_triangle = 1.2e-4;
   const double time_limit_;
   double climb_start_ = 0.0;
-  std::vector<char> inside_tets_; ///< of keep_outside, else empty
-  TetMesh lattice_mesh_; ///< of remesh, when it did not fit
+  std::vector<char> inside_tets_; ///< used with keep_outside, else empty
+  TetMesh lattice_mesh_; ///< lattice tets of remesh whose volume is wrong
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
   const Report& diagnosis_; ///< the initial report_
   Report report_;
@@ -825,7 +831,7 @@ const char* to_string(TetMethod method)
 
 namespace
 {
-/// Fails the way the ladder does: with what the preparation found, and no tets.
+/// Return a failure with the warnings and the report of the preparation, as Ladder does.
 Status failed(Status status, const PreparedSurface& prepared)
 {
   status.warnings.insert(

@@ -13,77 +13,81 @@
 namespace bindpose
 {
 
-/// How tets are made. The order is the one vtkTetrahedralizeSurface exposes.
+/// Method of making tets. vtkTetrahedralizeSurface exposes the same order.
 enum class TetMethod
 {
   automatic, ///< cdt, then remesh
-  cdt, ///< constrained Delaunay tets of the convex hull, kept where the surface winds around them
-  remesh, ///< well-shaped tets of the winding number's field, graded
-  embed, ///< lattice tets that hold the surface, each part its own
-  wrap, ///< cdt of a closed surface around the surface
-  ftetwild ///< by the program fTetWild, where it is installed
+  /// Constrained Delaunay tets of the convex hull, reduced to those that the surface winds around.
+  cdt,
+  remesh, ///< well-shaped, graded tets of the region that the winding number defines
+  embed, ///< lattice tets that contain the surface; separate parts share no vertex
+  wrap, ///< cdt of a closed surface that wraps the surface
+  ftetwild ///< the program fTetWild, if it is installed
 };
 
-/// "auto", "cdt", "remesh", "embed", "wrap", "ftetwild".
+/// Return "auto", "cdt", "remesh", "embed", "wrap" or "ftetwild".
 const char* to_string(TetMethod method);
 
-/// The interior_edge that smooth weights need in a surface that encloses a volume in a box of this
-/// diagonal: at most 0.04, and such that there are at least about 10,000 tets. With fewer of them
-/// weights are more than 0.015 rms from those of much finer tets.
+/// Return the interior_edge that smooth weights need in a surface with this volume and this
+/// bounding-box diagonal. It is at most 0.04, and at most the length that gives about 10,000 tets.
+/// With fewer tets, weights differ by more than 0.015 rms from those of much finer tets.
 double interior_edge_of_weights(double volume, double diagonal);
 
 struct TetrahedralizeOptions
 {
   TetMethod method = TetMethod::automatic;
-  /// Inside is where the winding number is at least this. 0.5 is half way through the surface;
-  /// up to 0.9 pulls the lid of an opening inwards, 1.5 keeps what is enclosed twice.
+  /// A point is inside if its winding number is at least this. 0.5 is half way through the surface.
+  /// Values up to 0.9 pull the lid of an opening inwards; 1.5 keeps the volume that is enclosed
+  /// twice.
   double winding_threshold = 0.5;
-  /// cdt of open surfaces only: see SegmentationOptions. (A closed surface's winding numbers are
-  /// whole between its triangles, and nothing is left to decide.)
+  /// Used by cdt for open surfaces only: see SegmentationOptions. (The winding numbers of a closed
+  /// surface are integers between its triangles, so no choice remains.)
   SegmentationMethod segmentation = SegmentationMethod::graph_cut;
   double cut_smoothness = 1.0; ///< >= 0
   double cut_sigma = 0.1; ///< > 0
-  /// Lattice cubes along the longest side (remesh, embed), 4 … 1000. Tets grow with its cube; those
-  /// of remesh have edges from 0.2 to 1.4 cubes. 0: automatic, 40 for remesh, as many as give about
-  /// 30,000 tets for embed.
+  /// Lattice cubes along the longest side (remesh, embed), 4 … 1000. The number of tets grows with
+  /// the cube of the resolution. Edges of remesh are between 0.2 and 1.4 cubes long. 0: automatic,
+  /// which is 40 for remesh, and the resolution that gives about 30,000 tets for embed.
   Index resolution = 0;
-  /// embed with resolution 0: about how many lattice tets, >= 1.
+  /// Approximate number of lattice tets of embed with resolution 0, >= 1.
   Index lattice_tets = 30000;
-  /// Seconds for all of the helper's or fTetWild's work, >= 0. 0: 120, or 120 per million triangles
-  /// if that is more.
+  /// Time limit for all work of the helper or of fTetWild in seconds, >= 0. 0: 120, or 120 per
+  /// million triangles if that is more.
   double time_limit = 0.0;
-  Index memory_limit = 0; ///< MiB of address space for a helper process, 0: no limit
-  /// Smallest dihedral angle that every tet must have, degrees, 0 … 20. Method automatic leaves the
-  /// surface's triangles for it where they do not allow it (remesh reaches 10.7 on any surface); a
-  /// result that misses it is not_converged. 0: as large as the surface's triangles allow.
+  Index memory_limit = 0; ///< largest address space of a helper process in MiB, 0: no limit
+  /// Required smallest dihedral angle of every tet, degrees, 0 … 20. If the surface's triangles do
+  /// not allow it, method automatic gives them up (remesh reaches 10.7 on any surface). The status
+  /// is not_converged if the result misses the angle. 0: as large as the surface's triangles allow.
   double quality = 0.0;
-  /// cdt and wrap only: no vertices are added inside and flat tets stay as they are; interior_edge
-  /// and quality must be 0.
+  /// For cdt and wrap only: no vertices are added inside and flat tets are not improved.
+  /// interior_edge and quality must be 0.
   bool bare = false;
-  /// cdt and wrap: longest edges inside, as a fraction of the surface's diagonal, >= 0; edges of
-  /// the surface that are longer than three of these are split. 0: automatic; edges inside are as
-  /// long as the surface's own near them and grow with the distance to it, vertices are added until
-  /// there are 4.5 tets per triangle, and a surface of few triangles is filled with about 1,500
-  /// tets, for which its long edges are split. Smooth weights need vertices inside, not only on the
-  /// surface. ftetwild: the edge length that it aims at everywhere; 0: its own 0.05.
+  /// For cdt and wrap: longest edges inside, in bounding-box diagonals, >= 0. Edges of the surface
+  /// that are more than three times as long are split. 0: automatic. Edges inside are then as long
+  /// as the surface's edges near them and grow with the distance to it. Vertices are added until
+  /// there are about 4.5 tets per triangle. A surface of few triangles is filled with about 1,500
+  /// tets, and its long edges are split for that. Smooth weights need vertices inside, in addition
+  /// to those on the surface. For ftetwild: the target edge length everywhere; 0: fTetWild's
+  /// default 0.05.
   double interior_edge = 0.0;
-  /// cdt only: keep all tets of the surface's convex hull (or of a box around it, where that was
-  /// needed), as the segmentation told them apart: labels says which are inside. No vertices are
-  /// added, not for handles either.
+  /// For cdt only: keep all segmented tets of the surface's convex hull (or of a box around it, if
+  /// that was necessary). labels reports which tets are inside. No vertices are added, not even for
+  /// handles.
   bool keep_outside = false;
-  /// wrap only, fractions of the surface's diagonal: radius of the ball that carves (0.0001 … 1)
-  /// and distance of the wrap from the surface (0.000001 … 1): see WrapOptions.
+  /// For wrap only, in bounding-box diagonals: radius of the carving ball (0.0001 … 1) and distance
+  /// of the wrap from the surface (0.000001 … 1). See WrapOptions.
   double wrap_alpha = 0.02;
   double wrap_offset = 0.001;
-  /// ftetwild only: how far the boundary may be from the surface, as a fraction of the diagonal,
-  /// 0.00001 … 0.1.
+  /// For ftetwild only: largest distance of the boundary from the surface, in bounding-box
+  /// diagonals, 0.00001 … 0.1.
   double ftetwild_epsilon = 1e-3;
-  /// cdt and wrap: points that become vertices where they are inside, segments and triangles on
-  /// which vertices are put at the local edge length. (insert_handles splits other methods' tets.)
+  /// For cdt and wrap: points inside become vertices. Segments and triangles get vertices at the
+  /// local edge length. (insert_handles() splits the tets of other methods.)
   HandlePlaces handles;
 };
 
-/// What became of a tet. The numbers are those of the array `Label`: above 0 is inside.
+/// Label of a tet. The values are those of the array `Label`: a tet is inside if the value is above
+/// 0.
 enum class TetLabel
 {
   outside_above = -1, ///< outside, though its winding number reaches the threshold
@@ -94,82 +98,91 @@ enum class TetLabel
 
 struct TetrahedralizeResult
 {
-  TetMesh mesh; ///< positive tets, no stray vertices
-  std::vector<Index> original_vertices; ///< #V: id of the input vertex, ascending, then -1 for new
-  /// #T: at the tets' centres; with keep_outside what the segmentation decided on, which is a mean
-  /// for large tets near the threshold.
+  TetMesh mesh; ///< positive tets, no unused vertices
+  /// #V: id of the input vertex, ascending, then -1 for new vertices.
+  std::vector<Index> original_vertices;
+  /// Winding numbers at the centers of the tets, #T. With keep_outside these are the numbers that
+  /// the segmentation used, which are means for large tets near the threshold.
   Eigen::VectorXd winding_numbers;
-  std::vector<TetLabel> labels; ///< #T; a tet of embed is inside where its centre is
+  std::vector<TetLabel> labels; ///< #T; a tet of embed is inside if its center is
   Eigen::VectorXd min_dihedral_angles; ///< #T, degrees
-  std::vector<DefectPlace> defects; ///< where the surface is unclean
-  std::vector<Index> handle_vertices; ///< of cdt, #H: vertex at the handles' point, -1 for none
-  /// Of embed only, else empty: #T share of the tet that is inside, and where the input's points
-  /// lie.
+  std::vector<DefectPlace> defects; ///< defects of the surface with their locations
+  std::vector<Index> handle_vertices; ///< for cdt, #H: vertex at the handle's point, or -1
+  /// For embed only, else empty: fraction of each tet that is inside, #T, and the positions of the
+  /// input's points in the tets.
   Eigen::VectorXd inside_fractions;
   PointBinding binding;
 };
 
-/// Tets of what a surface encloses, whatever the surface: open, crossing, doubled, non-manifold,
-/// partly inside out (Jacobson, Kavan, Sorkine-Hornung, Robust Inside-Outside Segmentation using
-/// Generalized Winding Numbers, 2013).
+/// Compute tets of the volume that a surface encloses. The surface may be open, crossing, doubled,
+/// non-manifold or partly inside out (Jacobson, Kavan, Sorkine-Hornung, Robust Inside-Outside
+/// Segmentation using Generalized Winding Numbers, 2013).
 ///
-/// - **cdt** keeps the input's vertices and triangles, cut where triangles cross. Clean surfaces go
-///   to TetGen as they are. The work is done by the helper executable bindpose-mesher.
-/// - **remesh** has good angles. Delaunay refinement by the helper grades edges by the
-///   surface's own and keeps its vertices where they are not too near to each other, not its
-///   triangles (remesh_tets.h). Without the helper, or when it fails, runs out of time or the
-///   volume does not fit, a lattice is cut, which always ends: it keeps no vertex, and parts
-///   thinner than a lattice cube are lost.
-/// - **embed** is not the inside but a lattice around it; every point of the surface is in a tet.
-///   Parts that are near but not connected share no vertex (embed_surface).
-/// - **wrap** is cdt of an alpha wrap (wrap_surface.h), by the helper: for surfaces whose
-///   orientation is hopeless, sheets and loose triangles; winding numbers have no say. What is
-///   closed up to gaps of two alpha becomes solid, and **what is open becomes a thin shell**, with
-///   a warning that names both volumes. All of the surface is in it or, at
-///   corners, on its boundary; no vertex is kept.
-/// - **ftetwild** is what the program fTetWild makes of the surface, where it is installed
+/// - **cdt** keeps the input's vertices and triangles. Triangles are cut along their crossings.
+///   Clean surfaces are passed to TetGen unchanged. The helper executable bindpose-mesher does the
+///   work.
+/// - **remesh** has good angles. The helper computes it by Delaunay refinement and grades edges by
+///   those of the surface. It keeps the surface's vertices if they are far enough from each other,
+///   but not its triangles (remesh_tets.h). A lattice is cut instead if there is no helper, if the
+///   helper fails or runs out of time, or if the volume is wrong. The lattice always succeeds, but
+///   keeps no vertex, and parts thinner than a lattice cube are lost.
+/// - **embed** computes a lattice around the inside; every point of the surface is in a tet. Parts
+///   that are near each other but not connected share no vertex (embed_surface).
+/// - **wrap** is cdt of an alpha wrap (wrap_surface.h), which the helper computes. It is intended
+///   for surfaces with unusable orientation, for sheets and for loose triangles. The winding number
+///   does not affect the result. A part that is closed except for gaps of two alpha becomes solid.
+///   **An open part becomes a thin shell**, with a warning that contains both volumes. All of the
+///   surface is inside the tets or, at corners, on their boundary. No vertex is kept.
+/// - **ftetwild** runs the program fTetWild on the surface, if it is installed
 ///   (ftetwild_process.h). winding_threshold must be 0.5. No vertex is kept.
 ///
-/// auto takes neither embed nor wrap nor ftetwild.
+/// Method auto never uses embed, wrap or ftetwild.
 ///
-/// Orientation is repaired first (repair_surface); what was turned is in a warning.
+/// Orientation is repaired first (repair_surface); a warning reports the turned parts.
 ///
-/// Report: method; rungs[].name, rungs[].seconds, rungs[].outcome (each thing tried, and why it was
-/// left); counts.* of the diagnosis; counts.tets, counts.tet_vertices, counts.kept_vertices;
-/// volume (of the tets inside), winding_volume (of {w >= threshold}: exact for clean surfaces,
-/// sampled otherwise), winding_volume_error (its standard error, relative), min_dihedral_angle
-/// (degrees), counts.tets_below_5_degrees, counts.tets_below_5_degrees_forced (how many of these
-/// have an edge of a boundary triangle with a corner below 5 degrees or with another boundary
-/// triangle close in front of it, or an edge at which two boundary triangles meet at less than 5
-/// degrees: while the surface's triangles are kept, few of them can be better),
-/// quality[].dihedral_angle, quality[].tets (how many tets have their smallest dihedral angle from
-/// this many degrees to the next); counts.handle_points,
-/// counts.handle_vertices (of cdt with handles: how many of their points are vertices);
-/// segmentation (of cdt; a graph cut whose volume does not fit is left for the threshold), energy,
-/// threshold_energy, counts.changed_by_cut (see Segmentation); for remesh and embed resolution, for
-/// embed what embed_surface reports.
-/// For remesh by refinement, wrap and ftetwild distance_max and distance_mean (of the tets'
-/// boundary and the surface where that bounds the inside, percent of its diagonal); for wrap
-/// counts.wrap_triangles.
+/// Report:
+/// - method
+/// - rungs[].name, rungs[].seconds, rungs[].outcome: each attempt and its outcome
+/// - counts.* of the diagnosis
+/// - counts.tets, counts.tet_vertices, counts.kept_vertices
+/// - volume: of the tets inside
+/// - winding_volume: of {w >= threshold}, exact for clean surfaces, sampled otherwise
+/// - winding_volume_error: relative standard error of winding_volume
+/// - min_dihedral_angle: degrees
+/// - counts.tets_below_5_degrees
+/// - counts.tets_below_5_degrees_forced: the number of these with an edge that the boundary forces
+///   (see count_forced_tets). Few of these tets can be better while the surface's triangles are
+///   kept.
+/// - quality[].dihedral_angle, quality[].tets: number of tets with their smallest dihedral angle
+///   from this many degrees to the next value
+/// - counts.handle_points, counts.handle_vertices: for cdt with handles, the number of their points
+///   and of those that are vertices
+/// - segmentation: for cdt; if the volume of a graph cut is wrong, the threshold is used instead
+/// - energy, threshold_energy, counts.changed_by_cut: see Segmentation
+/// - resolution: for remesh and embed
+/// - the report of embed_surface: for embed
+/// - distance_max, distance_mean: for remesh by refinement, wrap and ftetwild, between the tets'
+///   boundary and the part of the surface that bounds the inside, percent of its diagonal
+/// - counts.wrap_triangles: for wrap
 ///
-/// not_converged: a dihedral angle is below quality; the message names the smallest angle.
-/// invalid_input: not finite, flat (but for embed and wrap), or encloses nothing (the same);
-/// keep_outside with another method than cdt; or, of
-/// method automatic, neither cdt nor remesh gives a valid mesh: the message tells the last reason
-/// and names method embed. unavailable: method cdt or wrap without helper, ftetwild without
-/// fTetWild; method remesh (or another) found no tet in what is enclosed, too thin for its tets.
-/// internal_error: the method asked for gave no valid mesh.
-/// Cost: about 0.1 ms a triangle, and up to 1 ms where many are needles or cross.
+/// not_converged: a dihedral angle is below quality; the message contains the smallest angle.
+/// invalid_input: coordinates not finite; the surface is flat or encloses nothing (except for embed
+/// and wrap); keep_outside with another method than cdt. For method automatic also: neither cdt nor
+/// remesh gives a valid mesh; the message contains the last reason and recommends method embed.
+/// unavailable: method cdt or wrap without helper; ftetwild without fTetWild; or method remesh (or
+/// another) found no tet inside, because the enclosed region is too thin for its tets.
+/// internal_error: the requested method gave no valid mesh.
+/// Cost: about 0.1 ms per triangle, and up to 1 ms if many triangles are needles or cross.
 Status tetrahedralize(PointsView points, TrianglesView triangles,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);
 
-/// The same for a surface that prepare_surface() has made ready, with the same points, triangles
-/// and winding threshold (another threshold: invalid_input).
+/// Compute the same for a surface from prepare_surface(), with the same points, triangles and
+/// winding threshold (another threshold: invalid_input).
 Status tetrahedralize(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);
 
-/// The result of method embed for tets that embed_surface() has made of the prepared surface: with
-/// winding numbers, labels, angles and the report. Cost: a winding number a tet.
+/// Compute the result of method embed from tets that embed_surface() has computed for the prepared
+/// surface: winding numbers, labels, angles and the report. Cost: one winding number per tet.
 Status take_embedding(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
   EmbeddingTets embedding, TetrahedralizeResult& result, ExecutionContext& context);
 

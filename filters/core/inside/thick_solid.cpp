@@ -13,11 +13,11 @@ namespace bindpose
 
 namespace
 {
-/// Cubes along the longest side with which a surface of this area gets about the wanted number of
-/// triangles.
+/// Return the number of cubes along the longest side that gives a surface of this area about the
+/// wanted number of triangles.
 Index resolution_for(const Box& box, double area, Index triangles)
 {
-  // Stuffing cuts an area of one cube face into 3.8 triangles, measured on a sphere.
+  // Stuffing creates 3.8 triangles per surface area of one cube face, measured on a sphere.
   constexpr double triangles_per_face = 3.8;
   constexpr double fewest = 16.0;
   constexpr double most = 400.0;
@@ -35,8 +35,9 @@ Index resolution_for(const Box& box, double area, Index triangles)
   return static_cast<Index>(std::lround(std::max(resolution, fewest)));
 }
 
-/// Triangles whose surface the lattice vertices inside miss: at one of their points, at most half a
-/// cube apart, no vertex of the cube around it is inside.
+/// Return the triangles that the lattice vertices inside miss. The test points of a triangle are at
+/// most half a cube apart. A triangle is missed if no vertex of the cube around one of them is
+/// inside.
 Triangles missed_triangles(PointsView points, TrianglesView triangles, const Lattice& lattice,
   const std::vector<char>& inside)
 {
@@ -118,7 +119,7 @@ Status thick_solid(PointsView points, TrianglesView triangles, const WindingNumb
       region.inside[v] = w[v] >= threshold ? 1 : 0;
     }
   }
-  // A lattice vertex is within 0.559 cubes of every point, so the layer has no gaps.
+  // Every point is within 0.559 cubes of a lattice vertex, so the layer has no gaps.
   constexpr double layer = 0.6;
   const double thickness = layer * lattice.spacing;
   const Triangles thickened = options.join_near_parts

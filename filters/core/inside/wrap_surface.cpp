@@ -1,5 +1,5 @@
-// The helper wraps (mesher/wrap_job.cpp) around the origin at a size of about 1; here that frame is
-// made and left, and the result checked: closed, and around something.
+// The helper computes the wrap (mesher/wrap_job.cpp) around the origin at a size of about 1. This
+// file transforms into that frame and back. It checks that the result is closed and has a volume.
 #include "inside/wrap_surface.h"
 
 #include "base/number_text.h"

@@ -1,5 +1,5 @@
-// A temporary file "STEM.part-PID-N.ENDING" in the same folder, so that the final rename is atomic
-// and writers that look at the ending write it like the target.
+// The temporary file "STEM.part-PID-N.EXTENSION" is in the same folder, so that the final rename is
+// atomic. Writers that select a format by the extension write it like the target.
 #include "io/atomic_file.h"
 
 #include "io/text_scanner.h"
@@ -39,7 +39,7 @@ Status cannot_write(const std::string& path, const std::string& reason)
   return Status::invalid_input("cannot write " + path + ": " + reason);
 }
 
-/// Waits until a file or a folder is on the disk; false, with errno, when that fails.
+/// Wait until a file or a folder is on the disk. Return false, with errno, if that fails.
 bool sync_path(const std::string& path)
 {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -121,7 +121,8 @@ Status AtomicFile::commit()
   {
     return Status::failure(StatusCode::internal_error, "a file is committed that was not opened");
   }
-  Status status = check_target(this->target_, this->overwrite_); // another may have made it since
+  // The target may have been created since open().
+  Status status = check_target(this->target_, this->overwrite_);
   if (status.ok())
   {
     Registry& files = registry();
@@ -152,7 +153,8 @@ Status AtomicFile::commit_synced()
   Status status = this->commit();
   if (status.ok())
   {
-    // The name lives in the folder. A file system that cannot sync folders has done what it can.
+    // The folder contains the name. If the file system cannot sync folders, nothing more can be
+    // done.
     const std::size_t name = target.find_last_of('/');
     sync_path(name == std::string::npos ? "." : target.substr(0, name + 1));
   }

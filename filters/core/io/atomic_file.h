@@ -9,17 +9,17 @@
 namespace bindpose
 {
 
-/// A file that appears whole or not at all: what is written goes to a temporary file beside the
-/// target, and commit() renames it. Without a commit the temporary file is removed, whatever the
-/// reason (failure, cancel, exception).
+/// A file that is either complete or missing. The content is written to a temporary file in the
+/// target's folder, and commit() renames it. Without a commit (failure, cancel, exception) the
+/// temporary file is removed.
 ///
 ///     AtomicFile file;
 ///     Status status = file.open("out.vtu", false);
 ///     if (status.ok()) status = write_it(file.temporary());
 ///     if (status.ok()) status = file.commit();
 ///
-/// commit() does no fsync: after a power failure the target may be missing or empty. Work that a
-/// person would miss is committed by commit_synced(), which waits for the disk.
+/// commit() does not call fsync: after a power failure the target may be missing or empty. Use
+/// commit_synced(), which waits for the disk, for work that a person would miss.
 class AtomicFile
 {
 public:
@@ -28,32 +28,33 @@ public:
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Makes the empty temporary file. invalid_input, one sentence, when the target exists and must
-  /// not be overwritten, is no regular file, or its folder is missing or not writable.
+  /// Create the empty temporary file. Return invalid_input with one sentence if the target exists
+  /// and must not be overwritten, if it is not a regular file, or if its folder is missing or not
+  /// writable.
   Status open(const std::string& target, bool overwrite);
 
-  /// Path to write to, in the target's folder, with the target's ending.
+  /// Return the path to write to. It is in the target's folder and has the target's extension.
   const std::string& temporary() const { return this->temporary_; }
 
-  /// Gives the file its final name.
+  /// Rename the file to its final name.
   Status commit();
 
-  /// The same, with contents and name on the disk when it returns: not even a power failure leaves
-  /// half a file.
+  /// Commit the file; its contents and its name are on the disk on return. Even a power failure
+  /// leaves no partial file.
   Status commit_synced();
 
-  /// The same under another name in the same folder: for files that are named after what is in
-  /// them. Replaces a file of that name.
+  /// Commit the file as commit_synced() does, under another name in the same folder, for files
+  /// named after their contents. It replaces a file of that name.
   Status commit_synced_as(const std::string& target);
 
-  /// Removes the temporary file; nothing when there is none.
+  /// Remove the temporary file, if there is one.
   void discard();
 
-  /// What open() would say about the target, leaving nothing behind.
+  /// Return the status of open() for the target, without leaving a file behind.
   static Status check(const std::string& target, bool overwrite);
 
-  /// Removes the temporary files of all AtomicFiles of this process that are not yet committed:
-  /// for a program that must end at once. Thread-safe; not for a signal handler itself.
+  /// Remove the temporary files of all AtomicFiles of this process that are not yet committed, for
+  /// a program that must end immediately. Thread-safe, but not for use in a signal handler.
   static void discard_all();
 
 private:
@@ -62,7 +63,7 @@ private:
   bool overwrite_ = false;
 };
 
-/// A text as a file that appears whole or not at all.
+/// Write a text to a file that is either complete or missing.
 Status write_whole_file(const std::string& path, std::string_view content, bool overwrite);
 
 } // namespace bindpose

@@ -12,8 +12,7 @@ namespace bindpose
 namespace
 {
 constexpr Index largest_count = Index(1) << 40;
-/// An empty matrix needs no bytes however many rows or columns it has, but walking through them
-/// must end.
+/// An empty matrix needs no bytes for any number of rows or columns, but loops over them must end.
 constexpr Index largest_empty = Index(1) << 20;
 
 Status read_size(TextScanner& scanner, Index& columns, Index& rows)

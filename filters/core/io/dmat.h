@@ -8,10 +8,10 @@
 namespace bindpose
 {
 
-/// Reads a DMAT file (libigl's matrix format), ASCII or binary: "columns rows", then the values
-/// column by column; binary files say "0 0", then "columns rows", then raw little-endian doubles.
-/// invalid_input, naming the file and, for text, the line, for: a wrong header, a truncated file,
-/// words that are no numbers. Values that are not finite are read as they are.
+/// Read a DMAT file (libigl's matrix format), ASCII or binary. It contains "columns rows", then the
+/// values column by column. Binary files contain "0 0", then "columns rows", then raw little-endian
+/// doubles. invalid_input, with the file and, for text, the line, for: a wrong header, a truncated
+/// file, words that are not numbers. Values that are not finite are accepted.
 Status read_dmat(const std::string& path, Weights& matrix);
 
 enum class DmatEncoding
@@ -20,7 +20,7 @@ enum class DmatEncoding
   binary
 };
 
-/// Writes a matrix; values read back as the same doubles.
+/// Write a matrix. Its values can be read back as the same doubles.
 Status write_dmat(
   const std::string& path, WeightsView matrix, DmatEncoding encoding = DmatEncoding::ascii);
 

@@ -1,5 +1,5 @@
-// tinygltf parses, with buffers read through a function of ours and no pictures; what it hands over
-// is not trusted: every index, count and offset is checked before a number is taken from a buffer.
+// tinygltf parses the file. It reads buffers through a callback and reads no images. Its output is
+// not trusted: every index, count and offset is checked before a number is read from a buffer.
 #include "io/gltf_skin.h"
 
 #include "base/memory.h"
@@ -20,13 +20,13 @@ namespace bindpose
 
 namespace
 {
-constexpr Index deepest = 100; // brackets in each other
+constexpr Index deepest = 100; // levels of nested brackets
 constexpr Index most_frames = 100000;
-constexpr double frames_per_second = 24.0; // of animations with uneven keys
+constexpr double frames_per_second = 24.0; // used if keys are not evenly spaced
 
 using Transforms = std::vector<Eigen::Affine3d>;
 
-/// What is wrong, to be said behind the path.
+/// An error in the file. The sentence is appended to the path.
 struct Broken : std::exception
 {
   explicit Broken(std::string text) : sentence(std::move(text)) {}
@@ -36,7 +36,7 @@ struct Broken : std::exception
 
 // ---- Parsing -----------------------------------------------------------------------------------
 
-/// How many brackets of a JSON text are open at once: what reads it calls itself for each.
+/// Return the nesting depth of the brackets of a JSON text. The parser recurses once per level.
 Index depth_of(std::string_view text)
 {
   Index depth = 0;
@@ -135,7 +135,7 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
   {
     throw;
   }
-  catch (const std::exception& error) // of JSON values of a wrong kind
+  catch (const std::exception& error) // thrown for JSON values of a wrong type
   {
     errors = error.what();
   }
@@ -150,7 +150,7 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
   }
   for (const std::string& extension : model.extensionsRequired)
   {
-    // All others change what the numbers of a mesh or a node mean.
+    // All other extensions change the meaning of the numbers of a mesh or a node.
     if (extension.compare(0, 14, "KHR_materials_") != 0 &&
       extension.compare(0, 12, "KHR_texture_") != 0)
     {
@@ -220,7 +220,7 @@ std::size_t component_size(int type)
   }
 }
 
-/// The largest value of the type, by which normalised ones are divided.
+/// Return the largest value of the type, which is the divisor of normalized values.
 double unit_of(int type)
 {
   switch (type)
@@ -250,7 +250,7 @@ public:
     this->bytes_ = std::max(this->bytes_, file_size);
   }
 
-  /// All numbers of an accessor, an element a row. type: of tinygltf.
+  /// Read all numbers of an accessor, one element per row. type: a constant of tinygltf.
   Numbers read(int id, int type, const char* what) const
   {
     const tinygltf::Accessor& accessor = at(this->model_.accessors, id, "accessor");
@@ -260,7 +260,8 @@ public:
     }
     const int columns = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
     const std::size_t size = component_size(accessor.componentType);
-    // A sparse accessor needs no bytes for what is zero, but none is that much larger.
+    // A sparse accessor needs no bytes for zeros, but no valid one has more elements than the file
+    // has bytes.
     if (accessor.count == 0 || accessor.count > this->bytes_)
     {
       throw Broken(std::string(what) + " count " + std::to_string(accessor.count) +
@@ -302,7 +303,7 @@ public:
     return numbers;
   }
 
-  /// The same with a check: finite.
+  /// Read the same and check that all numbers are finite.
   Numbers read_finite(int id, int type, const char* what) const
   {
     Numbers numbers = this->read(id, type, what);
@@ -313,7 +314,7 @@ public:
     return numbers;
   }
 
-  /// The same of whole numbers.
+  /// Read the same and check that the numbers are integers.
   Numbers read_ids(int id, int type, const char* what) const
   {
     const int component = at(this->model_.accessors, id, "accessor").componentType;
@@ -403,7 +404,7 @@ bool take(const std::vector<double>& from, Eigen::Matrix<double, Size, 1>& to)
   return to.allFinite();
 }
 
-/// A node's own placement: a matrix, or translation, rotation and scale.
+/// The local transform of a node: a matrix, or translation, rotation and scale.
 struct Placement
 {
   bool has_matrix = false;
@@ -448,7 +449,7 @@ struct Nodes
   std::vector<int> parents;
   std::vector<int> order; ///< parents first
 
-  /// Node to scene.
+  /// Return the node-to-scene transforms.
   Transforms stand() const
   {
     Transforms global(this->placements.size());
@@ -512,7 +513,7 @@ bool take(const tinygltf::Value& value, Vec3& to)
   return to.allFinite();
 }
 
-/// Our own extras; those of others, and damaged ones, are none.
+/// Read the extras that Bindpose writes. Return nothing for other or damaged extras.
 std::optional<GltfNote> read_note(const tinygltf::Value& extras, std::size_t joints)
 {
   if (!extras.IsObject() || !extras.Has("bindpose") || !extras.Get("bindpose").IsObject())
@@ -553,7 +554,7 @@ std::optional<GltfNote> read_note(const tinygltf::Value& extras, std::size_t joi
 
 struct SkinNodes
 {
-  std::vector<int> nodes; ///< of the joints
+  std::vector<int> nodes; ///< nodes of the joints
   std::vector<int> joint_of_node;
 };
 
@@ -626,7 +627,7 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
 
 // ---- Meshes ------------------------------------------------------------------------------------
 
-/// What primitives are put together to.
+/// Data collected from all primitives.
 struct Parts
 {
   std::vector<Numbers> points;
@@ -641,9 +642,9 @@ struct Parts
   Index meshes = 0;
   bool more_attributes = false; ///< further sets of texture coordinates or colors
   Index unweighted = 0;
-  /// Where the vertices of these accessors begin: materials share them.
+  /// First vertex of each set of accessors: primitives with different materials share them.
   std::map<std::map<std::string, int>, Index> shared;
-  /// joint, weight, by vertex.
+  /// (joint, weight) per vertex.
   std::vector<std::vector<std::pair<Index, double>>> influences;
 };
 
@@ -667,7 +668,7 @@ void add_triangles(const std::vector<Index>& corners, int mode, Index offset, Pa
   }
 }
 
-/// An attribute with a row a vertex; no rows when it is missing.
+/// Read an attribute with one row per vertex. Return no rows if it is missing.
 Numbers read_attribute(const Accessors& accessors, const tinygltf::Primitive& primitive,
   const char* name, int type, Index vertices, bool ids = false)
 {
@@ -731,7 +732,7 @@ void read_influences(const Accessors& accessors, const tinygltf::Primitive& prim
         const double weight = weights(v, k);
         if (weight == 0.0)
         {
-          continue; // whatever the joint is
+          continue; // the joint id does not matter
         }
         if (weight < 0.0 || ids(v, k) >= static_cast<double>(joints))
         {
@@ -813,7 +814,7 @@ void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
   add_triangles(corners, mode, offset, parts);
 }
 
-/// One below another; nothing unless all parts have rows.
+/// Concatenate the parts. Do nothing unless every part has rows.
 template <typename Matrix>
 void join(const std::vector<Numbers>& parts, Index rows, double unit, Matrix& all)
 {
@@ -845,7 +846,8 @@ void join(const std::vector<Numbers>& parts, Index rows, double unit, Matrix& al
   }
 }
 
-/// Rows sum to one; then the joint that held what our rows lacked goes.
+/// Set the weights with rows that sum to one. Then remove the joint "rest" that write_gltf_skin()
+/// adds.
 void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
 {
   const auto joints = static_cast<Index>(skin.joints.size());
@@ -877,7 +879,7 @@ void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
     skin.joints.pop_back();
     joint_nodes.nodes.pop_back();
     skin.weights.conservativeResize(Eigen::NoChange, joints - 1);
-    for (GltfJoint& joint : skin.joints) // nothing hangs on it in a file of ours
+    for (GltfJoint& joint : skin.joints) // write_gltf_skin() puts no joint below it
     {
       joint.parent = joint.parent < joints - 1 ? joint.parent : -1;
     }
@@ -886,7 +888,7 @@ void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
 
 // ---- Animation ---------------------------------------------------------------------------------
 
-/// A property of a node over time.
+/// A property of a node as a function of time.
 struct Track
 {
   int node;
@@ -898,7 +900,7 @@ struct Track
   } property;
   std::string interpolation;
   std::vector<double> times;
-  Numbers values; ///< cubic: three rows a key: in-tangent, value, out-tangent
+  Numbers values; ///< cubic: three rows per key: in-tangent, value, out-tangent
 
   bool cubic() const { return this->interpolation == "CUBICSPLINE"; }
   Eigen::VectorXd value(std::size_t key) const
@@ -958,11 +960,11 @@ std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& a
   }
   else
   {
-    return {}; // weights of morph targets
+    return {}; // animates weights of morph targets
   }
   if (track.node < 0)
   {
-    return {}; // of an extension
+    return {}; // belongs to an extension
   }
   at(model.nodes, track.node, "node");
   const tinygltf::AnimationSampler& sampler = at(animation.samplers, channel.sampler, "sampler");
@@ -986,7 +988,7 @@ std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& a
   return track;
 }
 
-/// When frames are: at the keys where these are evenly spaced, else 24 times a second.
+/// Return the times of the frames: the keys if they are evenly spaced, else 24 per second.
 std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
 {
   std::set<double> keys;
@@ -1006,7 +1008,7 @@ std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
   }
   if (even)
   {
-    // Times are floats: a rate that is nearly whole was whole.
+    // Times are floats: a rate that is nearly an integer was an integer.
     rate = 1.0 / step;
     rate = std::abs(rate - std::round(rate)) < 1e-4 * rate ? std::round(rate) : rate;
     return { keys.begin(), keys.end() };
@@ -1024,7 +1026,7 @@ std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
   return times;
 }
 
-/// Return the name of the animation that was read; none if no animation moves a joint.
+/// Return the name of the animation that was read, or nothing if no animation moves a joint.
 std::optional<std::string> read_animation(const tinygltf::Model& model, const Accessors& accessors,
   Nodes nodes, const SkinNodes& skin_nodes, GltfSkin& skin)
 {
@@ -1070,7 +1072,7 @@ std::optional<std::string> read_animation(const tinygltf::Model& model, const Ac
     for (const Track& track : tracks)
     {
       Placement& placement = nodes.placements[track.node];
-      placement.has_matrix = false; // glTF animates no node with a matrix
+      placement.has_matrix = false; // glTF does not animate nodes with a matrix
       const Eigen::VectorXd value = track.at(time);
       switch (track.property)
       {
@@ -1107,7 +1109,7 @@ std::string counted(std::size_t count, const char* one, const char* many)
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-/// The parts of the file that `skin` does not hold, one phrase per kind.
+/// Return the parts of the file that `skin` does not contain, one phrase per type.
 std::vector<std::string> find_losses(const tinygltf::Model& model, const Parts& parts,
   const GltfSkin& skin, const std::optional<std::string>& animation, Index other_meshes)
 {
@@ -1161,7 +1163,7 @@ std::vector<std::string> find_losses(const tinygltf::Model& model, const Parts& 
   return losses;
 }
 
-/// "a, b and c"
+/// Return "a, b and c".
 std::string listed(const std::vector<std::string>& phrases)
 {
   std::string text;
@@ -1174,7 +1176,7 @@ std::string listed(const std::vector<std::string>& phrases)
 
 // ---- All ---------------------------------------------------------------------------------------
 
-/// The skin that the first mesh with one uses; -1: no mesh has one.
+/// Return the skin of the first mesh that has one, or -1 if no mesh has one.
 int first_skin(const tinygltf::Model& model)
 {
   for (const tinygltf::Node& node : model.nodes)
@@ -1217,7 +1219,7 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
     const tinygltf::Mesh& mesh = at(model.meshes, node.mesh, "mesh");
     if (which >= 0 && !seen.insert(node.mesh).second)
     {
-      continue; // the joints place it, so it would be there twice
+      continue; // the joints place the mesh, so it would be duplicated
     }
     if (!global[n].matrix().allFinite())
     {
@@ -1226,7 +1228,7 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
     const Eigen::Affine3d place = which >= 0 ? Eigen::Affine3d::Identity() : global[n];
     if (which < 0)
     {
-      parts.shared.clear(); // at another place it is another mesh
+      parts.shared.clear(); // at another position it is another mesh
     }
     for (const tinygltf::Primitive& primitive : mesh.primitives)
     {

@@ -6,7 +6,7 @@
 namespace bindpose
 {
 
-/// x -> translation + rotation * (scale .* x): what a node of glTF holds.
+/// The map x -> translation + rotation * (scale .* x) of a glTF node.
 struct Trs
 {
   Vec3 translation = Vec3::Zero();
@@ -16,8 +16,9 @@ struct Trs
   Eigen::Affine3d affine() const;
 };
 
-/// The translation, the rotation of the polar decomposition M = R P and the diagonal of P: the map
-/// itself when it has no shear in its own axes. A mirrored map keeps its sign in the scales.
+/// Return the translation, the rotation of the polar decomposition M = R P and the diagonal of P.
+/// The result equals the map if the map has no shear in its own axes. If the map mirrors, the
+/// scales are negative.
 Trs nearest_trs(const Eigen::Affine3d& map);
 
 } // namespace bindpose

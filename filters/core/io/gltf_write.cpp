@@ -1,7 +1,7 @@
-// A model of tinygltf is filled from behind: the weights are packed into sets of four, the numbers
-// go as accessors into the one buffer, the joints become nodes, the frames an animation. What
-// floats, dropped weights and translation-rotation-scale nodes make of a pose is measured on the
-// way: the vertices are moved once as the file moves them and once as they should be.
+// This file fills a tinygltf model. The weights are packed into sets of four, the numbers become
+// accessors of one buffer, the joints become nodes and the frames an animation. Floats, dropped
+// weights and nodes with translation, rotation and scale change a pose. The change is measured by
+// moving the vertices both as the file does and exactly.
 #include "io/gltf_skin.h"
 
 #include "io/gltf_transform.h"
@@ -19,21 +19,21 @@ namespace bindpose
 
 namespace
 {
-constexpr std::size_t largest_file = 0xf0000000; // a .glb counts its bytes in 32 bits
-constexpr float smallest_weight = 0x1p-24F; // beside 1 a float does not hold less
-constexpr double exact_row = 1e-6; // of a row's sum
+constexpr std::size_t largest_file = 0xf0000000; // a .glb stores its size in 32 bits
+constexpr float smallest_weight = 0x1p-24F; // next to 1 a float represents no smaller weight
+constexpr double exact_row = 1e-6; // tolerance of a row's sum
 
 using Transforms = std::vector<Eigen::Affine3d>;
 
 // ---- Weights -----------------------------------------------------------------------------------
 
-/// The weights as the file has them: `per_row` of each vertex, the largest first.
+/// The weights as stored in the file: `per_row` per vertex, the largest first.
 struct PackedWeights
 {
   Index per_row = 0; // a multiple of 4
   std::vector<std::uint16_t> joints;
   std::vector<float> weights;
-  bool rest_joint = false; // the joint behind all others
+  bool rest_joint = false; // additional joint after all others
   Index dropped = 0;
   double dropped_share = 0.0;
   Index negative_rows = 0; // with a negative weight or a sum above one
@@ -45,7 +45,8 @@ struct Influence
   Index joint;
 };
 
-/// What is left of a row, all of at least 0 and summing to one, the rest joint's share included.
+/// Return the influences that are kept of a row. All are at least 0 and sum to one, including that
+/// of the joint "rest".
 std::vector<Influence> influences_of(
   const GltfSkin& skin, Index v, Index most, PackedWeights& packed)
 {
@@ -64,7 +65,8 @@ std::vector<Influence> influences_of(
     }
   }
   packed.negative_rows += changed || lacks < -exact_row;
-  // Weights above and below cancel in the sum, but not in what is left without the negative ones.
+  // Negative weights and weights above one cancel in the sum, but not after the negative ones are
+  // removed.
   if (lacks > exact_row)
   {
     row.push_back({ lacks, joints });
@@ -87,7 +89,7 @@ std::vector<Influence> influences_of(
   {
     sum += influence.weight;
   }
-  if (row.empty()) // weights that are tiny and negative
+  if (row.empty()) // all weights are tiny or negative
   {
     return { { 1.0, joints } };
   }
@@ -120,7 +122,7 @@ PackedWeights pack(const GltfSkin& skin, Index most)
     {
       const Influence& influence = rows[v][k];
       packed.joints[at + k] = static_cast<std::uint16_t>(influence.joint);
-      // The largest takes what rounding leaves of one.
+      // The largest weight absorbs the rounding errors of the row sum.
       packed.weights[at + k] = k == 0 ? 1.0F - sum : static_cast<float>(influence.weight);
       sum += packed.weights[at + k];
       packed.rest_joint =
@@ -132,7 +134,7 @@ PackedWeights pack(const GltfSkin& skin, Index most)
 
 // ---- Where vertices go -------------------------------------------------------------------------
 
-/// The maps of the mesh by all joints, and a last one at rest.
+/// Return the maps from rest to pose of all joints, and the identity as the last one.
 Transforms maps_of(const GltfSkin& skin, const Transforms& posed)
 {
   Transforms maps;
@@ -167,7 +169,7 @@ Vec3 moved(const Transforms& maps, const Vec3& p, const PackedWeights& packed, I
   return result;
 }
 
-/// How far the file moves a vertex from where it belongs, at most.
+/// Return the largest distance between a vertex as the file moves it and its correct position.
 double largest_error(const GltfSkin& skin, const PackedWeights& packed, const Transforms& wanted,
   const Transforms& held, const Points& points)
 {
@@ -185,10 +187,11 @@ double largest_error(const GltfSkin& skin, const PackedWeights& packed, const Tr
   return largest;
 }
 
-/// The joints, each behind its parent; fewer when parents run in a circle.
+/// Return the joints, each after its parent. The result is shorter if the parents are cyclic.
 std::vector<Index> parents_first(const std::vector<GltfJoint>& joints)
 {
-  std::vector<std::vector<Index>> children(joints.size() + 1); // of none: the first list
+  // children[0]: joints without a parent.
+  std::vector<std::vector<Index>> children(joints.size() + 1);
   for (std::size_t j = 0; j < joints.size(); ++j)
   {
     children[joints[j].parent + 1].push_back(static_cast<Index>(j));
@@ -202,7 +205,8 @@ std::vector<Index> parents_first(const std::vector<GltfJoint>& joints)
   return order;
 }
 
-/// Local maps of joints that stand as wanted, as far as nodes can; `held` is how they stand then.
+/// Return local maps that put the joints at `wanted`, as far as nodes can represent it. `held` is
+/// set to the resulting joint-to-scene maps.
 std::vector<Trs> local_maps(const GltfSkin& skin, const Transforms& wanted, Transforms& held)
 {
   std::vector<Trs> locals(skin.joints.size());
@@ -212,7 +216,8 @@ std::vector<Trs> local_maps(const GltfSkin& skin, const Transforms& wanted, Tran
     const Index parent = skin.joints[j].parent;
     const Eigen::Affine3d above = parent < 0 ? Eigen::Affine3d::Identity() : held[parent];
     Eigen::Affine3d local = above.inverse() * wanted[j];
-    if (!local.matrix().allFinite()) // the parent is flat: nothing below it can be put right
+    // The parent is singular, so no local map can correct the joint.
+    if (!local.matrix().allFinite())
     {
       local = wanted[j];
     }
@@ -236,7 +241,7 @@ public:
     this->model.asset.generator = "Bindpose";
   }
 
-  /// An accessor on a bufferView of its own.
+  /// Add an accessor with a separate bufferView.
   template <typename Number>
   int add(const std::vector<Number>& values, int components, int type, int target = 0)
   {
@@ -262,7 +267,7 @@ public:
     return static_cast<int>(this->model.accessors.size()) - 1;
   }
 
-  /// Rows of a matrix as floats, with their smallest and largest values.
+  /// Add the rows of a matrix as floats, with their smallest and largest values.
   template <typename Matrix>
   int add_rows(const Matrix& rows, int type, int target = TINYGLTF_TARGET_ARRAY_BUFFER)
   {
@@ -298,7 +303,7 @@ std::vector<double> to_vector(const Vec3& v)
   return { v[0], v[1], v[2] };
 }
 
-/// glTF's order is x y z w.
+/// Return the components in glTF's order, x y z w.
 std::vector<double> to_vector(const Eigen::Quaterniond& q)
 {
   return { q.x(), q.y(), q.z(), q.w() };
@@ -352,7 +357,7 @@ void add_mesh(Builder& builder, const GltfSkin& skin, const PackedWeights& packe
   if (skin.normals.rows() > 0)
   {
     Points normals = skin.normals;
-    for (Index v = 0; v < normals.rows(); ++v) // glTF demands unit length
+    for (Index v = 0; v < normals.rows(); ++v) // glTF requires unit length
     {
       const Vec3 n = normals.row(v).transpose().stableNormalized();
       normals.row(v) = (n.squaredNorm() > 0.5 ? n : Vec3(Vec3::UnitZ())).transpose();
@@ -407,7 +412,7 @@ void add_mesh(Builder& builder, const GltfSkin& skin, const PackedWeights& packe
   builder.model.meshes.push_back(mesh);
 }
 
-/// Node 0 is the mesh's, 1 the one above all joints, 2 + j that of joint j.
+/// Node 0 is the mesh, node 1 is above all joints, and node 2 + j is joint j.
 constexpr int first_joint = 2;
 
 void add_nodes(Builder& builder, const GltfSkin& skin, const std::vector<Trs>& locals, bool rests)
@@ -459,7 +464,7 @@ void add_nodes(Builder& builder, const GltfSkin& skin, const std::vector<Trs>& l
     }
     model.nodes[parent < 0 ? 1 : first_joint + parent].children.push_back(id);
     bound.joints.push_back(id);
-    for (int k = 0; k < 16; ++k) // column by column, as Eigen has them
+    for (int k = 0; k < 16; ++k) // column by column, as in Eigen
     {
       inverse_binds.push_back(static_cast<float>(inverse.data()[k]));
     }
@@ -492,8 +497,8 @@ void add_channel(tinygltf::Animation& animation, int times, int values, int node
   animation.channels.push_back(channel);
 }
 
-/// Three tracks a joint. Of two quaternions of a rotation the one nearer to the last is taken, for
-/// programs go from key to key.
+/// Add three tracks per joint. Of the two quaternions of a rotation, the one nearer to the previous
+/// key is used, because programs interpolate between keys.
 void animate_joints(Builder& builder, const GltfSkin& skin, std::vector<std::vector<Trs>>& frames)
 {
   const int times = add_times(builder, skin);
@@ -526,7 +531,8 @@ void animate_joints(Builder& builder, const GltfSkin& skin, std::vector<std::vec
   builder.model.animations.push_back(animation);
 }
 
-/// A target a frame, which is wholly there at its moment.
+/// Add one morph target per frame. Its weight is one at the time of the frame and zero at the other
+/// frames.
 void animate_shapes(Builder& builder, const GltfSkin& skin)
 {
   tinygltf::Mesh& mesh = builder.model.meshes[0];
@@ -659,7 +665,7 @@ Status write_model(const std::string& path, const tinygltf::Model& model, bool b
   {
     throw;
   }
-  catch (const std::exception&) // of nlohmann-json: it writes UTF-8 only
+  catch (const std::exception&) // thrown by nlohmann-json, which writes only UTF-8
   {
     return Status::invalid_input("a name is not UTF-8");
   }

@@ -1,5 +1,5 @@
-// MEDIT: keywords, each followed by a count and as many lines of numbers; the last number of a line
-// is a reference that we do not use. A keyword that we do not know is skipped up to the next one.
+// MEDIT: keywords, each followed by a count and as many lines of numbers. The last number of a line
+// is a reference, which is not used. An unknown keyword is skipped up to the next keyword.
 #include "io/medit.h"
 
 #include "io/text_scanner.h"
@@ -119,7 +119,7 @@ Status read_sections(TextScanner& scanner, std::size_t bytes, MeditMesh& mesh)
     {
       status = read_elements(scanner, bytes, mesh.tets);
     }
-    // Anything else: an unknown keyword or its numbers.
+    // Other words are unknown keywords or their numbers.
   }
   return status;
 }

@@ -8,7 +8,7 @@
 namespace bindpose
 {
 
-/// What is used of a MEDIT file: tets, triangles or both over the same vertices.
+/// The content of a MEDIT file that is read: tets, triangles or both, over the same vertices.
 struct MeditMesh
 {
   Points points;
@@ -16,13 +16,13 @@ struct MeditMesh
   Tets tets;
 };
 
-/// Reads an ASCII MEDIT file (INRIA's .mesh): Vertices (2D ones get z = 0), Triangles, Tetrahedra.
-/// Other sections and all references are skipped. Ids are as in the file, less one.
-/// invalid_input, naming file and line, for: a wrong header, a truncated file, words that are no
+/// Read an ASCII MEDIT file (INRIA's .mesh): Vertices (2D vertices get z = 0), Triangles,
+/// Tetrahedra. Other sections and all references are skipped. Ids are those of the file minus one.
+/// invalid_input, with file and line, for: a wrong header, a truncated file, words that are not
 /// numbers, coordinates that are not finite, vertex ids out of range.
 Status read_medit(const std::string& path, MeditMesh& mesh);
 
-/// Writes version 2, dimension 3; coordinates read back as the same doubles.
+/// Write version 2, dimension 3. Coordinates can be read back as the same doubles.
 Status write_medit(
   const std::string& path, PointsView points, TrianglesView triangles, TetsView tets);
 

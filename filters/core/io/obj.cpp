@@ -1,5 +1,5 @@
-// OBJ: "v x y z" and "f a b c …", ids from 1, each corner "a", "a/t", "a//n" or "a/t/n". Lines
-// "l a b …" count where there is no face.
+// OBJ: "v x y z" and "f a b c …", ids from 1, each corner "a", "a/t", "a//n" or "a/t/n". Lines "l a
+// b …" are used only if there is no face.
 #include "io/obj.h"
 
 #include "io/text_scanner.h"
@@ -24,7 +24,7 @@ Status read_vertex(TextScanner& scanner, std::vector<Vec3>& points)
   return {};
 }
 
-/// A face with three corners or more, or a line with two vertices or more.
+/// Read a face with three corners or more, or a line with two vertices or more. Skip shorter ones.
 Status read_entry(TextScanner& scanner, Index vertices, const std::string& what, std::size_t fewest,
   std::vector<Index>& corners, std::vector<Index>& offsets, Index& skipped)
 {
@@ -56,7 +56,7 @@ Status read_entry(TextScanner& scanner, Index vertices, const std::string& what,
   return {};
 }
 
-/// Ids may come before their vertices: they are compared with the final number.
+/// Check ids against the final number of vertices, because ids may precede their vertices.
 Status check_entries(
   const std::string& path, const std::string& what, const std::vector<Index>& corners, Index count)
 {

@@ -1,4 +1,4 @@
-// OFF: the word OFF, three counts, then a line for each vertex and a line for each face.
+// OFF: the word OFF, three counts, then one line per vertex and one line per face.
 #include "io/off.h"
 
 #include "io/text_scanner.h"
@@ -8,10 +8,10 @@ namespace bindpose
 
 namespace
 {
-/// Counts above this are a wrong file, not a mesh: ids stay far from overflow.
+/// A larger count means an invalid file. The limit also keeps ids far from overflow.
 constexpr Index largest_count = Index(1) << 40;
 
-/// OFF with any of the prefixes ST, C, N, whose numbers stand behind the coordinates or are
+/// Accept OFF with any of the prefixes ST, C, N. Their numbers follow the coordinates and are
 /// skipped.
 Status read_header(TextScanner& scanner)
 {
@@ -52,13 +52,13 @@ Status read_counts(TextScanner& scanner, Index& vertices, Index& faces)
   {
     status = scanner.read_index("the number of faces", largest_count, faces);
   }
-  scanner.rest_of_line(); // the number of edges, which nobody needs and some leave out
+  scanner.rest_of_line(); // the number of edges, which is not used and may be missing
   return status;
 }
 
 Status read_vertices(TextScanner& scanner, std::size_t bytes, Index count, Points& points)
 {
-  // Three digits and three blanks a vertex are the least: a wrong count must not take all memory.
+  // A vertex needs at least three digits and three blanks. A wrong count must not use all memory.
   if (static_cast<std::size_t>(count) > bytes / 6 + 1)
   {
     return scanner.error(
@@ -113,7 +113,7 @@ Status read_off(const std::string& path, PolygonMesh& mesh)
       status = scanner.read_index("a vertex id of a face", vertices, vertex);
       mesh.corners.push_back(vertex);
     }
-    scanner.rest_of_line(); // a colour
+    scanner.rest_of_line(); // a color
     if (corners < 3)
     {
       mesh.corners.resize(begin);

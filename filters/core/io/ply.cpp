@@ -1,6 +1,6 @@
-// PLY: a text header that lists elements and their properties, then the elements' values, as text
-// or as raw numbers. Everything is walked through, only x, y, z and the lists of vertex ids are
-// kept.
+// PLY: a text header that lists elements and their properties, followed by the elements' values, as
+// text or as raw numbers. All values are parsed; only x, y, z and the lists of vertex ids are
+// stored.
 #include "io/ply.h"
 
 #include "io/text_scanner.h"
@@ -154,7 +154,7 @@ Status read_header(TextScanner& scanner, Header& header)
   return scanner.error("the header has no end");
 }
 
-/// Gives number after number, whatever the encoding.
+/// Reads one number after the other, in any encoding.
 class Values
 {
 public:
@@ -231,7 +231,7 @@ private:
   Encoding encoding_;
 };
 
-/// Where a property's values go.
+/// Destination of a property's values.
 enum class Role
 {
   skipped,

@@ -21,7 +21,7 @@ bool has_json_form(const T& value)
   return true;
 }
 
-/// The object that the dots before the last part of the key lead to.
+/// Return the object that the dots before the last part of the key address.
 Json& object_of(Json& root, const std::string& key, std::string& last)
 {
   Json* at = &root;

@@ -6,9 +6,9 @@
 namespace bindpose
 {
 
-/// The report as a JSON object: "a.b" becomes {"a": {"b": …}}, the columns "h[].x", "h[].y" become
-/// the list h of objects {"x": …, "y": …}, a bare "h[]" the list of its values. Numbers that are
-/// not finite, which JSON cannot say, are left out.
+/// Return the report as a JSON object. "a.b" becomes {"a": {"b": …}}. The columns "h[].x", "h[].y"
+/// become the list h of objects {"x": …, "y": …}. A bare "h[]" becomes the list of its values.
+/// Numbers that are not finite are omitted, because JSON cannot represent them.
 std::string to_json(const Report& report, int indent = 2);
 
 } // namespace bindpose

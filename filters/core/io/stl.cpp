@@ -1,5 +1,6 @@
-// STL is a soup of triangles. Binary: 80 bytes, a count, 50 bytes a triangle. Text: the words
-// "vertex x y z" between others. A binary file may begin with "solid" as well, so its size decides.
+// STL is a triangle soup. Binary: 80 bytes, a count, 50 bytes per triangle. Text: the words "vertex
+// x y z" between other words. A binary file may begin with "solid" as well, so the format is
+// determined from the file size.
 #include "io/stl.h"
 
 #include "io/text_scanner.h"
@@ -16,7 +17,7 @@ namespace
 constexpr std::size_t header_size = 84;
 constexpr std::size_t triangle_size = 50;
 
-/// Gives equal places the same vertex id, in order of first appearance.
+/// Maps equal coordinates to the same vertex id, in order of first appearance.
 class Welder
 {
 public:
@@ -49,7 +50,7 @@ private:
       return hash ^ (hash >> 32);
     }
   };
-  std::unordered_map<Key, Index, Hash> ids_; // only looked up, never walked through
+  std::unordered_map<Key, Index, Hash> ids_; // only for lookups, never iterated
   std::vector<Vec3> points_;
 };
 
@@ -93,7 +94,7 @@ Status read_text(
     ended = word == "endsolid";
     if (ended)
     {
-      scanner.rest_of_line(); // its name, which may be any word
+      scanner.rest_of_line(); // the name of the solid, which may be any word
     }
     if (word != "vertex")
     {

@@ -1,5 +1,5 @@
-// Reads text files word by word. Numbers go through std::from_chars: quick, and a decimal point
-// is a point in every locale.
+// Text files are read word by word. Numbers are parsed by std::from_chars, which is fast and uses
+// the decimal point in every locale.
 #include "io/text_scanner.h"
 
 #include <algorithm>
@@ -23,8 +23,9 @@ constexpr bool is_blank(char c)
   return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n');
 }
 
-/// Return the index of the first blank (or of the first other character); text.size() if there is
-/// none. Several times as fast as find_first_of() with a list of blanks.
+/// Return the index of the first blank (or, with blank = false, of the first other character), or
+/// text.size() if there is none. This is several times as fast as find_first_of() with a list of
+/// blanks.
 template <bool blank>
 std::size_t find_first(std::string_view text)
 {
@@ -65,7 +66,7 @@ bool parse(std::string_view text, T& value)
   return result.ec == std::errc() && result.ptr == end && !text.empty();
 }
 
-/// A word for an error text: short, and printable whatever the file holds.
+/// Return a word for an error message: shortened, and printable for any file content.
 std::string quoted(std::string_view word)
 {
   std::string text = "'";
@@ -124,7 +125,7 @@ Status write_file(const std::string& path, std::string_view content)
     return Status::invalid_input("cannot write " + path + ": " + system_reason());
   }
   const bool written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
-  // Closing writes what is buffered: a full disk may show only here.
+  // Closing writes the buffer, so a full disk may be reported only here.
   if (std::fclose(file.release()) != 0 || !written)
   {
     return Status::invalid_input("cannot write " + path + ": " + system_reason());
@@ -143,8 +144,8 @@ bool parse_number(std::string_view text, double& value)
   }
   if (result.ec == std::errc::result_out_of_range)
   {
-    // Nearer to 0 than a double can be (1e-400), or too large. A number with a decimal point before
-    // its first other digit and no exponent cannot be too large.
+    // The number is nearer to 0 than any double (1e-400), or too large. A number without exponent
+    // whose first nonzero digit follows the decimal point cannot be too large.
     const std::size_t exponent = text.find_first_of("eE");
     const bool tiny = exponent == std::string_view::npos
       ? text.find_first_of("123456789") > text.find('.')

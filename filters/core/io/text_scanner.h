@@ -9,56 +9,57 @@
 namespace bindpose
 {
 
-/// The whole file. invalid_input when it is missing, a directory, unreadable or empty.
+/// Read the whole file. Return invalid_input if it is missing, a directory, unreadable or empty.
 Status read_file(const std::string& path, std::string& content);
 
-/// Writes the whole file. invalid_input with the system's reason when it cannot be written.
+/// Write the whole file. Return invalid_input with the system's reason if that fails.
 Status write_file(const std::string& path, std::string_view content);
 
-/// The number that all of the text spells, in any locale; false for anything else. "nan" and
-/// "inf" are numbers here: whoever needs finite ones asks.
+/// Parse a text that consists of one number, in any locale. Return false for any other text. "nan"
+/// and "inf" are accepted; a caller that requires finite numbers must check.
 bool parse_number(std::string_view text, double& value);
 bool parse_index(std::string_view text, Index& value);
 
-/// Appends the shortest spelling that reads back as the same double.
+/// Append the shortest text that can be read back as the same double.
 void append_number(std::string& text, double value);
 void append_index(std::string& text, Index value);
 
-/// Words of a text, line by line. Words are parted by blanks; a comment runs from its sign to the
-/// end of the line. The text must outlive the scanner.
+/// Splits a text into words, line by line. Blanks separate words. A comment extends from its
+/// character to the end of the line. The text must outlive the scanner.
 class TextScanner
 {
 public:
-  /// comment: the sign that begins a comment, 0 for none. The path is for error texts only.
+  /// Scan `text`. `comment` is the character that begins a comment, or 0 if there are no comments.
+  /// `path` is used in error messages only.
   TextScanner(std::string path, std::string_view text, char comment = '#');
 
-  /// Goes to the next line that has a word; false at the end of the text.
+  /// Advance to the next line with a word. Return false at the end of the text.
   bool next_line();
-  /// The next word of this line; false at its end.
+  /// Get the next word of this line. Return false at its end.
   bool next_word(std::string_view& word);
-  /// The next word of this or a later line; false at the end of the text.
+  /// Get the next word of this or a later line. Return false at the end of the text.
   bool next_word_of_text(std::string_view& word);
-  /// What is left of this line, without blanks around it and without its comment.
+  /// Return the unread part of this line, without surrounding blanks and without its comment.
   std::string_view rest_of_line();
 
-  /// The next word of the text must be an index in [0, limit) resp. a finite number; the status
-  /// says what was expected ("a vertex id") and what stood there.
+  /// Read the next word of the text, which must be an index in [0, limit) or a finite number. The
+  /// status contains the expected item ("a vertex id") and the word that was found.
   Status read_index(const char* what, Index limit, Index& value);
   Status read_number(const char* what, double& value);
 
-  /// Bytes that are read so far, to go on behind a text header of a binary file.
+  /// Return the number of bytes read so far, for reading binary data after a text header.
   std::size_t position() const { return this->next_; }
-  /// Number of the current line, from 1.
+  /// Return the number of the current line, from 1.
   Index line() const { return this->line_number_; }
-  /// invalid_input: "PATH, line N: sentence".
+  /// Return invalid_input with the message "PATH, line N: sentence".
   Status error(const std::string& sentence) const;
 
 private:
   std::string path_;
   std::string_view text_;
   char comment_;
-  std::string_view line_; // what is left of the current line
-  std::size_t next_ = 0; // where the next line begins
+  std::string_view line_; // unread part of the current line
+  std::size_t next_ = 0; // start of the next line
   Index line_number_ = 0;
 };
 

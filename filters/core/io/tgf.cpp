@@ -1,4 +1,4 @@
-// TGF: nodes, a line with a single #, edges. Ids are any integers; edges name nodes by them.
+// TGF: nodes, a line with a single #, edges. Ids are any integers; edges refer to nodes by id.
 #include "io/tgf.h"
 
 #include "io/text_scanner.h"
@@ -100,7 +100,7 @@ Status read_tgf(const std::string& path, Tgf& graph)
   {
     return status;
   }
-  TextScanner scanner(path, text, 0); // # parts nodes and edges: no comments
+  TextScanner scanner(path, text, 0); // # separates nodes and edges, so there are no comments
   Ids ids;
   bool in_edges = false;
   while (status.ok() && scanner.next_line())
@@ -111,7 +111,7 @@ Status read_tgf(const std::string& path, Tgf& graph)
     {
       if (in_edges)
       {
-        break; // libigl ignores what comes behind a second one
+        break; // libigl ignores the lines after a second #
       }
       in_edges = true;
       continue;

@@ -8,18 +8,18 @@
 namespace bindpose
 {
 
-/// A skeleton as a TGF file holds it: nodes in space and edges between them.
+/// A skeleton as stored in a TGF file: nodes in space and edges between them.
 struct Tgf
 {
   struct Node
   {
     Vec3 position = Vec3::Zero();
-    std::string text; ///< what stands behind the coordinates; may be empty
-    Index line = 0; ///< of the file, for error texts
+    std::string text; ///< text after the coordinates; may be empty
+    Index line = 0; ///< line in the file, for error messages
   };
   struct Edge
   {
-    Index from = 0, to = 0; ///< positions in nodes: head and tail of a bone
+    Index from = 0, to = 0; ///< indices into nodes: head and tail of a bone
     bool bone = true;
     bool pseudo = false;
     bool cage = false;
@@ -29,10 +29,10 @@ struct Tgf
   std::vector<Edge> edges; ///< in file order
 };
 
-/// Reads Jacobson's Trivial Graph Format: lines "id x y z [text]", a line "#", lines
-/// "from to [is_bone is_pseudo is_cage]" (an edge without flags is a bone).
-/// invalid_input, naming file and line, for: no node, words that are no numbers, coordinates that
-/// are not finite, an id that is used twice, an edge to an unknown or to its own node.
+/// Read Jacobson's Trivial Graph Format: lines "id x y z [text]", a line "#", lines "from to
+/// [is_bone is_pseudo is_cage]" (an edge without flags is a bone).
+/// invalid_input, with file and line, for: no node, words that are not numbers, coordinates that
+/// are not finite, a duplicate id, an edge to an unknown node or to its own node.
 Status read_tgf(const std::string& path, Tgf& graph);
 
 Status write_tgf(const std::string& path, const Tgf& graph);

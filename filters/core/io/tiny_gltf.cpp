@@ -1,5 +1,5 @@
-// tinygltf is a header: its code is compiled here.
-#include <fstream> // which tinygltf forgets
+// tinygltf is a header-only library; this file compiles its implementation.
+#include <fstream> // missing in tinygltf
 
 #define TINYGLTF_IMPLEMENTATION
 #include "io/tiny_gltf.h"

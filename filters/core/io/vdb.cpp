@@ -1,20 +1,20 @@
-// The samples are cut into the 8 x 8 x 8 blocks that are the leaf nodes of a VDB tree, each on its
-// own and in parallel: a block of one value becomes a tile, any other a leaf. The tree takes them
-// one after another, and pruning makes larger tiles of equal ones. Then OpenVDB's own archive code
-// writes the tree, through a stream buffer of ours: it hears of progress and cancel, and a full
-// disk fails loudly, which OpenVDB's own file class does not notice.
+// The samples are divided in parallel into the 8 x 8 x 8 blocks that are the leaf nodes of a VDB
+// tree. A block of one value becomes a tile, any other block a leaf. The blocks are inserted into
+// the tree sequentially, and pruning merges equal tiles into larger ones. OpenVDB's archive code
+// then writes the tree through a stream buffer of this file. The buffer reports progress, checks
+// for cancel and reports a full disk, which OpenVDB's file class ignores.
 //
-// A narrow band needs to know which voxels have the other side of the threshold nearby: a box of
-// (2 N + 1)^3 voxels, spread axis by axis.
+// A voxel is in the narrow band if the other side of the threshold occurs in the box of (2 N + 1)^3
+// voxels around it. This is computed axis by axis.
 //
-// This is the only file that knows OpenVDB.
+// This is the only file that includes OpenVDB.
 #include "io/vdb.h"
 
 #ifdef BINDPOSE_HAS_OPENVDB
 #include "base/parallel.h"
 #include "io/atomic_file.h"
 
-#define IMATH_HALF_NO_LOOKUP_TABLE // a table in Imath, which would have to be linked for it
+#define IMATH_HALF_NO_LOOKUP_TABLE // without this, a table of Imath would have to be linked
 #include <openvdb/io/Archive.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Prune.h>
@@ -61,9 +61,9 @@ namespace
 {
 using Leaf = openvdb::FloatTree::LeafNodeType;
 constexpr Index leaf_size = Leaf::DIM;
-/// OpenVDB's indices are 32 bit; room is left for the outer nodes, which reach farther.
+/// OpenVDB's indices have 32 bits. This limit leaves room for the outer nodes, which reach farther.
 constexpr Index largest_index = Index(1) << 30;
-/// More than any memory holds; their number fits an Index.
+/// This exceeds every memory, but fits an Index.
 constexpr double most_samples = 1e15;
 
 Status check(const SampleGrid& grid, const VdbOptions& options)
@@ -130,7 +130,7 @@ Status check(const SampleGrid& grid, const VdbOptions& options)
   return {};
 }
 
-/// The grid cut into blocks of 8 x 8 x 8 voxels, aligned as the leaf nodes of a tree.
+/// The grid divided into blocks of 8 x 8 x 8 voxels, aligned with the leaf nodes of a tree.
 class Blocks
 {
 public:
@@ -140,7 +140,8 @@ public:
     {
       this->lower_[axis] = grid.extent[2 * axis];
       this->upper_[axis] = grid.extent[2 * axis + 1];
-      this->first_[axis] = this->lower_[axis] & ~(leaf_size - 1); // rounds down, below 0 as well
+      // Rounds down, also for negative indices.
+      this->first_[axis] = this->lower_[axis] & ~(leaf_size - 1);
       this->count_[axis] = (this->upper_[axis] - this->first_[axis]) / leaf_size + 1;
       this->size_[axis] = grid.size(axis);
     }
@@ -155,7 +156,7 @@ public:
       static_cast<int>(this->first_[1] + y * leaf_size),
       static_cast<int>(this->first_[2] + z * leaf_size));
   }
-  /// Calls visit(offset in the leaf, id of the sample) for the block's voxels in the extent.
+  /// Call visit(offset in the leaf, id of the sample) for the block's voxels in the extent.
   template <typename Visit>
   void for_each_sample(const openvdb::Coord& origin, const Visit& visit) const
   {
@@ -183,9 +184,9 @@ public:
   }
 
 private:
-  Index lower_[3], upper_[3]; // of the extent
-  Index first_[3]; // voxel of the first block
-  Index count_[3]; // of blocks
+  Index lower_[3], upper_[3]; // bounds of the extent
+  Index first_[3]; // first voxel of the first block
+  Index count_[3]; // number of blocks
   Index size_[3];
 };
 
@@ -194,15 +195,15 @@ using Sides = std::vector<unsigned char>;
 constexpr unsigned char below = 1;
 constexpr unsigned char above = 2;
 
-/// Every entry of a line gets the sides that lie within `width` of it; `outside` are those beyond
-/// the line's ends. `found` is room for the result.
+/// Set every entry of a line to the sides that occur within `width` of it. `outside` contains the
+/// sides beyond the line's ends. `found` is memory for the result.
 void spread_along_line(
   unsigned char* line, Index stride, Index size, Index width, unsigned char outside, Sides& found)
 {
   found.assign(static_cast<std::size_t>(size), 0);
   for (const unsigned char side : { below, above })
   {
-    Index last = outside & side ? -1 : -width - 1; // the nearest one so far
+    Index last = outside & side ? -1 : -width - 1; // the nearest entry so far
     for (Index i = 0; i < size; ++i)
     {
       last = line[i * stride] & side ? i : last;
@@ -221,8 +222,9 @@ void spread_along_line(
   }
 }
 
-/// The sides of the threshold within `width` voxels along each axis, of every sample.
-/// @return false when cancelled.
+/// Find the sides of the threshold that occur within `width` voxels along each axis, for every
+/// sample.
+/// @return false when canceled.
 template <typename Value>
 bool find_sides(const SampleGrid& grid, const Value* values, const VdbOptions& options,
   ExecutionContext& context, Sides& sides)
@@ -236,7 +238,7 @@ bool find_sides(const SampleGrid& grid, const Value* values, const VdbOptions& o
   const Index nz = grid.size(2);
   sides.resize(static_cast<std::size_t>(grid.count()));
   unsigned char* const data = sides.data();
-  // A layer of constant z at a time, then one of constant y.
+  // Process one layer of constant z at a time, then one of constant y.
   bool going = false;
   {
     const ProgressRange range(context, 0.0, 0.6);
@@ -279,7 +281,7 @@ struct Voxel
   bool active = false;
 };
 
-/// What a value of the image is in the grid.
+/// Converts a value of the image to a voxel of the grid.
 class Classifier
 {
 public:
@@ -317,14 +319,15 @@ private:
   float mirror_;
 };
 
-/// A leaf, or the one voxel that all of the block are like.
+/// A leaf, or the voxel that all voxels of the block equal.
 struct Block
 {
   std::unique_ptr<Leaf> leaf;
   Voxel tile;
 };
 
-/// @return false when cancelled. `not_finite` is the first sample that is no finite float, or -1.
+/// Build the tree. @return false when canceled. `not_finite` is the first sample that is not a
+/// finite float, or -1.
 template <typename Value>
 bool make_tree(const SampleGrid& grid, const Value* values, const Sides& sides,
   const VdbOptions& options, ExecutionContext& context, openvdb::FloatTree& tree, Index& not_finite)
@@ -405,15 +408,16 @@ openvdb::math::Transform::Ptr make_transform(const SampleGrid& grid, const VdbOp
       matrix(axis, k) = options.direction(k, axis) * grid.spacing[axis];
     }
   }
-  // OpenVDB makes it the simplest kind of map that does. The origin comes after: from a matrix that
-  // has it the spacing would be found as a difference of two points, rounded.
+  // OpenVDB selects the simplest type of map for this matrix. The origin is added afterwards: with
+  // the origin in the matrix, OpenVDB would compute the spacing as a rounded difference of two
+  // points.
   auto transform = openvdb::math::Transform::createLinearTransform(matrix);
   transform->postTranslate(openvdb::Vec3d(grid.origin.data()));
   return transform;
 }
 
 // ---- the file -----------------------------------------------------------------------------------
-/// A file that tells how far it is, and takes nothing more after a cancel.
+/// A file buffer that reports progress and rejects writes after a cancel.
 class WatchedFile : public std::filebuf
 {
 public:
@@ -427,7 +431,7 @@ protected:
   {
     if (this->context_.cancelled())
     {
-      return 0; // the stream calls it a failure and throws
+      return 0; // the stream treats this as a failure and throws
     }
     this->bytes_ += static_cast<double>(size);
     this->context_.progress(std::min(1.0, this->bytes_ / this->expected_bytes_));
@@ -440,7 +444,7 @@ private:
   double bytes_ = 0.0;
 };
 
-/// What io::File writes, to a stream of the caller's.
+/// Writes the same bytes as io::File, to a stream of the caller.
 class StreamArchive : public openvdb::io::Archive
 {
 public:
@@ -450,7 +454,7 @@ public:
   }
 };
 
-/// FNV-1a with words of 64 bits in place of bytes.
+/// FNV-1a with 64-bit words instead of bytes.
 class Hash
 {
 public:
@@ -462,7 +466,7 @@ public:
       std::uint64_t word = 0;
       std::memcpy(&word, bytes + at, std::min<std::streamsize>(sizeof(word), size - at));
       this->state_ = (this->state_ ^ word) * 0x100000001b3ull;
-      this->state_ ^= this->state_ >> 32; // a product alone never moves a bit down
+      this->state_ ^= this->state_ >> 32; // multiplication never moves a bit downwards
     }
   }
   std::uint64_t value() const { return this->state_; }
@@ -471,7 +475,8 @@ private:
   std::uint64_t state_;
 };
 
-/// "xxxxxxxx-xxxx-8xxx-8xxx-xxxxxxxxxxxx": a UUID of version 8, digits as one likes (RFC 9562).
+/// Return "xxxxxxxx-xxxx-8xxx-8xxx-xxxxxxxxxxxx": a UUID of version 8, whose digits are free (RFC
+/// 9562).
 std::string uuid_of(std::uint64_t first, std::uint64_t second)
 {
   char digits[33];
@@ -484,9 +489,9 @@ std::string uuid_of(std::uint64_t first, std::uint64_t second)
     text.substr(16, 4) + "-" + text.substr(20);
 }
 
-/// Replaces the random tag in the file's header by one made from all the rest. Programs use it to
-/// tell whether a file has changed since they looked.
-/// @return false when the file cannot be read or written.
+/// Replace the random tag in the file's header by one computed from the rest of the file. Programs
+/// use the tag to detect changes of a file.
+/// @return false if the file cannot be read or written.
 bool settle_tag(const std::string& path, const std::string& tag, ExecutionContext& context)
 {
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
@@ -504,7 +509,7 @@ bool settle_tag(const std::string& path, const std::string& tag, ExecutionContex
       char* const found = std::search(chunk.data(), end, tag.begin(), tag.end());
       if (found == end)
       {
-        return size > 0; // a version that keeps no such text: nothing to settle
+        return size > 0; // this version stores no such tag, so there is nothing to replace
       }
       at = found - chunk.data();
       std::fill_n(found, tag.size(), '0');
@@ -574,7 +579,7 @@ Status write_any(const std::string& path, const SampleGrid& samples, const Value
   Status status = check(samples, options);
   if (status.ok())
   {
-    status = AtomicFile::check(path, options.overwrite); // before the work
+    status = AtomicFile::check(path, options.overwrite); // check before the work
   }
   if (!status.ok())
   {

@@ -9,67 +9,71 @@
 namespace bindpose
 {
 
-/// Which voxels of a VDB grid are active, that is, hold values of their own.
+/// Selects the active voxels of a VDB grid. Active voxels store individual values.
 enum class VdbBand
 {
-  full, ///< all that differ from the background
-  narrow ///< only those near where the values cross the threshold
+  full, ///< all voxels that differ from the background
+  narrow ///< only voxels near the threshold crossing
 };
 
-/// "full", "narrow".
+/// Return "full" or "narrow".
 const char* to_string(VdbBand band);
 
 struct VdbOptions
 {
-  /// What programs that read the file call the grid; not empty.
+  /// Name of the grid in programs that read the file; not empty.
   std::string grid_name = "winding_number";
-  /// Columns: unit directions of the grid's axes, as in vtkImageData. The spacing counts along
-  /// them.
+  /// Unit directions of the grid's axes in the columns, as in vtkImageData. The spacing is measured
+  /// along them.
   Eigen::Matrix3d direction = Eigen::Matrix3d::Identity();
-  /// Value of everything outside of the extent: 0 for winding numbers, 1 for a field whose outside
-  /// is 1, such as 1 - winding number.
+  /// Value outside the extent: 0 for winding numbers, 1 for a field that is 1 outside, such as 1 -
+  /// winding number.
   double background = 0.0;
   VdbBand band = VdbBand::full;
-  /// Narrow: how many voxels from the crossing along each axis, 1 … 2^30. 3, as for level sets.
+  /// Narrow band only: width in voxels from the crossing along each axis, 1 … 2^30. 3 is usual for
+  /// level sets.
   Index band_width = 3;
-  /// Narrow: the level of the surface.
+  /// Narrow band only: the level of the surface.
   double threshold = 0.5;
-  /// Values this near to the background become it; 0 … Full band only.
+  /// Full band only: values within this distance of the background become the background, >= 0.
   double tolerance = 1e-6;
-  /// Replace an existing file?
+  /// Whether an existing file is replaced.
   bool overwrite = false;
 };
 
-/// ok, or unavailable, naming the package that this build was made without.
+/// Return ok, or unavailable with the name of the package that this build lacks.
 Status check_vdb_available();
 
-/// Writes grid.count() values, x fastest, as one float grid of an OpenVDB file (.vdb). Voxel
-/// (i, j, k) has the index (i, j, k) of the sample, also below 0, and its centre lies at the
-/// sample's point, so that the file and a vtkImageData agree in world coordinates.
+/// Write grid.count() values, x fastest, as one float grid of an OpenVDB file (.vdb). Voxel (i, j,
+/// k) has the index (i, j, k) of the sample, which may be negative. Its center is at the sample's
+/// point, so that the file and a vtkImageData have the same world coordinates.
 ///
-/// - **Full**: a fog volume, OpenVDB's word for a density that is 0 outside and 1 inside. Values
-///   within `tolerance` of the background become inactive background, all others are active floats;
-///   regions of one value are stored as tiles. Nothing is clamped: overlapping parts wind 2 times,
-///   inside-out ones -1, and programs that draw densities expect 0 … 1. A background other than 0
-///   makes the class "unknown", as no fog volume has one.
-/// - **Narrow**: active are voxels with a voxel of the other side of `threshold` at most
-///   `band_width` away along each axis; the outside of the extent counts as background. All others
-///   are inactive and hold one value a side: the background, or its mirror image at the threshold
-///   (0 and 1 by default). So the isosurface at the threshold is that of the full grid, in a much
-///   smaller file. The class is "unknown": neither a density, the inside being inactive, nor a
-///   level set, the values being no distances. Extract it at isovalue `threshold`.
+/// - **Full**: a fog volume, OpenVDB's term for a density that is 0 outside and 1 inside. Values
+///   within `tolerance` of the background become inactive background; all others are active floats.
+///   Regions of one value are stored as tiles. Values are not clamped: the winding number is 2 in
+///   overlapping parts and -1 in inverted ones, whereas programs that draw densities expect 0 … 1.
+///   With a background other than 0 the class is "unknown", because fog volumes have the background
+///   0.
+/// - **Narrow**: a voxel is active if a voxel on the other side of `threshold` is at most
+///   `band_width` away along each axis. Points outside the extent count as background. All other
+///   voxels are inactive and have one value per side: the background, or its mirror image at the
+///   threshold (0 and 1 by default). The isosurface at the threshold is therefore that of the full
+///   grid, in a much smaller file. The class is "unknown": the grid is not a density, because the
+///   inside is inactive, and not a level set, because the values are not distances. Extract it at
+///   isovalue `threshold`.
 ///
-/// The file is there whole or not at all. The same values give the same bytes for any number of
-/// threads; the file's UUID, which OpenVDB takes at random, is made from its contents.
+/// The file is either complete or missing. The same values give the same bytes for any number of
+/// threads: the file's UUID, which is random in OpenVDB, is computed from its contents.
 ///
-/// Reports counts.samples, counts.active_voxels, counts.leaf_nodes (of 8 x 8 x 8 voxels that are
-/// not constant), file_bytes. A warning when nothing is active.
+/// Report: counts.samples, counts.active_voxels, counts.leaf_nodes (of 8 x 8 x 8 voxels that are
+/// not constant), file_bytes. There is a warning if no voxel is active.
 /// unavailable: built without OpenVDB. invalid_input: an empty grid, spacing that is not positive,
 /// directions that are not orthonormal, an index beyond 2^30, a value or option that is not finite
 /// as a float, options out of range, a background equal to the threshold, an unwritable file.
-/// A cancel is heard within 100 ms, but for OpenVDB's preparation of what it writes, 16 ns a voxel
-/// in leaf nodes. Cost on one core: 11 ns a sample, narrow 33 ns, and 30 ns a voxel in leaf nodes
-/// to compress it; 5 bytes such a voxel, narrow a byte a sample more.
+/// A cancel takes effect within 100 ms, except while OpenVDB prepares the output, 16 ns per voxel
+/// in leaf nodes. Cost on one core: 11 ns per sample (narrow: 33 ns), plus 30 ns per voxel in leaf
+/// nodes for compression. Memory: 5 bytes per voxel in leaf nodes (narrow: plus one byte per
+/// sample).
 Status write_vdb(const std::string& path, const SampleGrid& grid, const float* values,
   const VdbOptions& options, ExecutionContext& context);
 Status write_vdb(const std::string& path, const SampleGrid& grid, const double* values,

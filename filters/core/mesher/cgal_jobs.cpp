@@ -1,18 +1,21 @@
 // Exact refinement of a triangle soup, and plain Delaunay tets.
 //
 // A round of refinement:
-// 1. Pairs of triangles whose boxes meet, and that meet in more than shared vertices and edges, are
-//    found with exact predicates.
-// 2. For each such pair the exact intersection (points and segments) is noted at both triangles.
-// 3. Each triangle with notes is projected along its largest normal component and cut by an exact
-//    constrained Delaunay triangulation of its edges and notes; new vertices are lifted back.
+// 1. Exact predicates find the pairs of triangles that meet in more than shared vertices and edges,
+//    among those whose boxes meet.
+// 2. For each such pair the exact intersection (points and segments) is recorded for both
+//    triangles.
+// 3. Each triangle with recorded intersections is projected along its largest normal component. An
+//    exact constrained Delaunay triangulation of its edges and intersections cuts it, and new
+//    vertices are lifted back.
 // 4. New vertices are rounded to doubles. The same exact point has the same rounding in every
-//    triangle it lies on, so neighbours still fit. Equal vertices are welded, triangles of no area
-//    and duplicates are dropped.
-// Rounding moves vertices by an ulp and may let triangles cross anew: rounds repeat until none do.
-// Where sheets lie in each other but for the rounding of whoever computed them, every round leaves
-// more crossings than it found; then all begins anew with the input's vertices rounded to a grid
-// that is far coarser than doubles and far finer than shapes, in which such sheets coincide.
+//    triangle that contains it, so neighbors still fit. Equal vertices are welded; triangles
+//    without area and duplicates are dropped.
+// Rounding moves vertices by an ulp and can make triangles cross again, so rounds are repeated
+// until no triangles cross. If sheets coincide except for the rounding of the program that computed
+// them, every round leaves more crossings than it found. Then the job starts again with the input's
+// vertices rounded to a grid in which such sheets coincide. This grid is far coarser than doubles
+// and far finer than shapes.
 #include "mesher/jobs.h"
 
 #include "base/stopwatch.h"
@@ -48,7 +51,7 @@ struct Soup
 {
   std::vector<Coordinates> points;
   std::vector<Face> faces;
-  std::map<Coordinates, Index> ids; // of all points, by coordinates
+  std::map<Coordinates, Index> ids; // ids of all points by coordinates
 
   Inexact::Point_3 inexact(Index v) const
   {
@@ -80,7 +83,7 @@ struct Soup
     return f[0] == f[1] || f[1] == f[2] || f[2] == f[0] ||
       CGAL::collinear(this->inexact(f[0]), this->inexact(f[1]), this->inexact(f[2]));
   }
-  /// Welds by coordinates, drops faces without area and faces that another one repeats.
+  /// Weld vertices by coordinates. Drop faces without area and faces that repeat another one.
   void tidy()
   {
     std::set<Face> seen;
@@ -102,7 +105,8 @@ struct Soup
   }
 };
 
-/// True when two triangles without area zero meet in more than vertices and edges they share.
+/// Report whether two triangles with positive area meet in more than the vertices and edges that
+/// they share.
 bool cross(const Soup& soup, const Face& f, const Face& g)
 {
   // Rotate shared vertices to the front of both.
@@ -129,7 +133,8 @@ bool cross(const Soup& soup, const Face& f, const Face& g)
   }
   if (shared == 1)
   {
-    // What they share is convex and holds the vertex; if it is more, it reaches an opposite edge.
+    // The intersection is convex and contains the vertex. If it contains more, it reaches an
+    // opposite edge.
     return CGAL::do_intersect(Inexact::Segment_3(point(a[1]), point(a[2])), soup.inexact(g)) ||
       CGAL::do_intersect(Inexact::Segment_3(point(b[1]), point(b[2])), soup.inexact(f));
   }
@@ -142,7 +147,7 @@ bool cross(const Soup& soup, const Face& f, const Face& g)
   return true;
 }
 
-/// In order. Of more than `most`, some are missing.
+/// Return the pairs of crossing triangles, sorted. If there are more than `most`, some are missing.
 std::vector<Pair> crossing_pairs(const Soup& soup, std::size_t most)
 {
   using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
@@ -165,15 +170,15 @@ std::vector<Pair> crossing_pairs(const Soup& soup, std::size_t most)
   return pairs;
 }
 
-/// What a triangle has to be cut along.
+/// Points and segments along which a triangle must be cut.
 struct Cuts
 {
   std::vector<Exact::Point_3> points;
   std::vector<Exact::Segment_3> segments;
 };
 
-/// Notes where triangle f meets an edge of another one: at f and, for what lies on that edge, the
-/// other one has its own look.
+/// Append the intersection of an edge of one triangle with the other triangle to `points` or
+/// `segments`.
 void note(const Exact::Segment_3& edge, const Exact::Triangle_3& triangle,
   std::vector<Exact::Point_3>& points, std::vector<Exact::Segment_3>& segments)
 {
@@ -206,8 +211,9 @@ void note_pair(const Soup& soup, const Face& f, const Face& g, Cuts& at_f, Cuts&
     note(Exact::Segment_3(a.vertex(k), a.vertex(k + 1)), b, points, segments);
     note(Exact::Segment_3(b.vertex(k), b.vertex(k + 1)), a, points, segments);
   }
-  // Not in one plane: at most two points, the ends of the common segment. In one plane: the
-  // segments are the outline of the common polygon, and every point ends one of them or is all.
+  // For triangles in different planes, there are at most two points, the ends of the common
+  // segment. For triangles in one plane, the segments are the outline of the common polygon, and
+  // every point is an end of a segment or the whole intersection.
   if (segments.empty() && points.size() == 2)
   {
     segments.emplace_back(points[0], points[1]);
@@ -225,7 +231,8 @@ using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Planar =
   CGAL::Constrained_Delaunay_triangulation_2<Exact, Structure, CGAL::Exact_intersections_tag>;
 
-/// The exact value's rounding; an interval around it would depend on how it was computed.
+/// Return the exact value's rounding. The rounding of an interval would depend on how it was
+/// computed.
 double rounded(const Exact::FT& x)
 {
   return CGAL::to_double(CGAL::exact(x));
@@ -245,7 +252,7 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
       axis = k;
     }
   }
-  if (normal[axis] == 0) // to_double of a tiny exact number may mislead
+  if (normal[axis] == 0) // to_double may have rounded tiny components to 0
   {
     axis = normal[0] != 0 ? 0 : (normal[1] != 0 ? 1 : 2);
   }
@@ -266,7 +273,8 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
   {
     planar.insert_constraint(ends[k], ends[(k + 1) % 3]);
   }
-  // Notes are known in space; only where they cross each other must a vertex be lifted.
+  // Recorded points are known in space. Only vertices where segments cross each other must be
+  // lifted.
   std::map<Planar::Vertex_handle, Exact::Point_3> known;
   const auto insert = [&](const Exact::Point_3& p)
   {
@@ -333,7 +341,7 @@ std::string too_long(double limit)
     "still splitting crossing triangles after " + std::to_string(static_cast<int>(limit)) + " s");
 }
 
-/// One round on pairs that cross. @return empty, or why it gave up.
+/// Cut the triangles of the crossing pairs once. @return empty, or the reason for giving up.
 std::string split(Soup& soup, const std::vector<Pair>& pairs, const Stopwatch& clock,
   const RefineOptions& options, std::size_t face_limit)
 {
@@ -396,7 +404,7 @@ Soup soup_of(const MesherData& data)
   return soup;
 }
 
-/// To a grid of about 2^-42 (2e-13) of the diagonal.
+/// Round the points to a grid of about 2^-42 (2e-13) of the diagonal.
 void round_points(MesherData& data)
 {
   constexpr double fraction = 0x1p-42;
@@ -410,24 +418,24 @@ std::string refine(MesherData& data, const RefineOptions& options)
 {
   const Stopwatch clock;
   Soup soup = soup_of(data);
-  // A few hundred large triangles may well fall into tens of thousands of pieces, and be meshed.
+  // A few hundred large triangles can be cut into tens of thousands of pieces and still be meshed.
   constexpr std::size_t small = 10000;
   const auto face_limit = static_cast<std::size_t>(
     options.growth_limit * static_cast<double>(std::max(soup.faces.size(), small)));
-  constexpr std::size_t few = 64; // pairs; so many come and go
+  constexpr std::size_t few = 64; // pairs; fewer do not count as growth
   constexpr int patience = 3; // rounds
-  // More than this many pairs take too long, or fall into too many pieces, two more for each.
+  // More pairs than this take too long or make too many pieces, which are two more per pair.
   constexpr double seconds_per_pair = 2.5e-4;
   const auto pair_limit = std::min(static_cast<std::size_t>(options.time_limit / seconds_per_pair),
     face_limit / 2 - std::min(face_limit, soup.faces.size()) / 2);
   bool rounded = false;
   std::size_t before = std::numeric_limits<std::size_t>::max();
-  int growing = 0; // rounds after which more crossed than before
+  int growing = 0; // rounds with more crossings than the round before
   int round = 0;
   for (; round < options.round_limit; ++round)
   {
     const std::vector<Pair> pairs = crossing_pairs(soup, pair_limit);
-    constexpr double first_found = 0.4; // share of the seconds, where little crosses
+    constexpr double first_found = 0.4; // fraction of the time, if few triangles cross
     tell_progress(first_found);
     if (pairs.size() > pair_limit)
     {

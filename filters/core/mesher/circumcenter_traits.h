@@ -16,11 +16,10 @@ using RobustTraits = CGAL::Robust_weighted_circumcenter_filtered_traits_3<
   CGAL::Exact_predicates_inexact_constructions_kernel>;
 using RobustCircumcenter = RobustTraits::Construct_weighted_circumcenter_3;
 
-/// Circumcentres that are as far from one corner as from the others. Mesh_3 takes any point within
-/// the circumsphere for the centre, and for a flat cell (four points on a circle, as every square
-/// of a grid has them) rounding leaves no more than that: the segments between centres then cross
-/// the surface at a wrong place, which refinement splits again and again, down to 1e-7 of the
-/// diagonal.
+/// Constructs circumcenters that are equally far from all corners. Mesh_3 accepts any point within
+/// the circumsphere as the center. For a flat cell (four points on a circle, as in every square of
+/// a grid) rounding may return such a point. The segments between centers then cross the surface at
+/// a wrong position, and refinement splits there again and again, down to 1e-7 of the diagonal.
 class Circumcenter : public RobustCircumcenter
 {
 public:
@@ -38,7 +37,8 @@ public:
   }
 
 private:
-  /// Near the cell, a segment that ends at the centre is off by less than a millionth of an edge.
+  /// Report whether the center is accurate enough. Near the cell, a segment that ends at such a
+  /// center is off by less than a millionth of an edge.
   static bool good(const Point& center, const WeightedPoint& p, const WeightedPoint& q,
     const WeightedPoint& r, const WeightedPoint& s)
   {
@@ -65,7 +65,7 @@ struct CircumcenterTraits : RobustTraits
   }
 };
 
-/// Stands for the traits where Mesh_triangulation_3 asks for a kernel.
+/// Tag that selects the traits where Mesh_triangulation_3 expects a kernel.
 struct CircumcenterKernel
 {
 };

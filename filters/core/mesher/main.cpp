@@ -1,5 +1,5 @@
-// bindpose-mesher JOB [options] < mesh > mesh: one job of CGAL or TetGen in a process of its own,
-// because both may crash, hang or take all memory on bad input. Run by Bindpose, not by people.
+// bindpose-mesher JOB [options] < mesh > mesh runs one job of CGAL or TetGen in a separate process,
+// because both may crash, hang or take all memory on bad input. Bindpose runs it, not a user.
 #include "mesher/jobs.h"
 
 #include <cstdio>
@@ -37,8 +37,8 @@ namespace
   std::_Exit(1);
 }
 
-/// When Bindpose dies, so does this. It may have died before it could be asked for: then the parent
-/// is another.
+/// Make this process die with its parent. If the parent died before this request, the parent id
+/// differs and the job fails.
 void die_with(pid_t parent)
 {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -50,7 +50,7 @@ void die_with(pid_t parent)
 
 void set_limits(double memory_mib)
 {
-  // A crash here is expected: no core files.
+  // A crash is expected here, so no core files are written.
   const rlimit none{ 0, 0 };
   ::setrlimit(RLIMIT_CORE, &none);
   if (memory_mib > 0.0)
@@ -62,8 +62,8 @@ void set_limits(double memory_mib)
   std::set_new_handler([] { fail("out of memory"); });
 }
 
-/// Goes where no file can be made: CGAL leaves what it could not mesh in the working folder
-/// ("dump-bug.mesh"), which is the user's.
+/// Change to a folder in which no file can be created. CGAL writes input that it could not mesh
+/// ("dump-bug.mesh") to the working folder, which belongs to the user.
 void leave_working_folder()
 {
   if (::chdir("/proc") != 0 && ::chdir("/") != 0)
@@ -149,7 +149,8 @@ int main(int argc, char* argv[])
   die_with(static_cast<pid_t>(number(options, "--parent", 0.0)));
   set_limits(number(options, "--memory", 0.0));
   leave_working_folder();
-  // Libraries print to standard output: keep it for the result alone.
+  // Libraries print to standard output. It is redirected to standard error, so that the original
+  // receives only the result.
   const int result = ::dup(1);
   ::dup2(2, 1);
   try
@@ -174,7 +175,7 @@ int main(int argc, char* argv[])
     std::string text = error.what();
     for (char& c : text)
     {
-      c = c == '\n' ? ' ' : c; // CGAL's texts have many lines
+      c = c == '\n' ? ' ' : c; // CGAL's messages have many lines
     }
     fail(text);
   }
@@ -186,7 +187,7 @@ int main(int argc, char* argv[])
         : code == 5 ? "TetGen found two facets that nearly coincide"
                     : "TetGen gave up with code " + std::to_string(code));
   }
-  // No destructors: what TetGen's do after an error is the reason for this process.
+  // Exit without destructors, because those of TetGen are unreliable after an error.
   std::fflush(stderr);
   std::_Exit(0);
 }

@@ -1,15 +1,15 @@
 // Curves in the plane: exact arrangement, and quality triangles of a region.
 //
-// Arrangement: all points and segments go into a constrained Delaunay triangulation with exact
-// coordinates, which splits segments wherever they cross, overlap or meet a point. New vertices are
-// rounded to doubles; rounding bends the pieces by an ulp and may let them cross anew, so the
-// pieces are inserted again until nothing new appears. Curves that almost touch leave gaps that
-// refinement cannot work with; then points are rounded to a coarser grid and edges bent to the
-// points they pass (snap rounding: Hobby; Guibas and Marimont), by the same rounds.
+// Arrangement: all points and segments are inserted into a constrained Delaunay triangulation with
+// exact coordinates, which splits segments where they cross, overlap or meet a point. New vertices
+// are rounded to doubles. Rounding bends the pieces by an ulp and can make them cross again, so the
+// pieces are inserted again until no new vertex appears. Curves that almost touch leave gaps that
+// are too narrow for refinement. Then points are rounded to a coarser grid, and edges are bent to
+// the points that they pass (snap rounding: Hobby; Guibas and Marimont), in the same rounds.
 //
-// Filling: Delaunay refinement (Ruppert, Shewchuk; CGAL's Delaunay_mesher_2), step by step under a
-// limit of points. Angles up to 20.6 degrees can always be had, but for those that the outline has
-// itself; 30 degrees mostly can.
+// Filling: Delaunay refinement (Ruppert, Shewchuk; CGAL's Delaunay_mesher_2), step by step, with a
+// limit on the number of points. Angles up to 20.6 degrees can always be reached, except for angles
+// of the outline itself. 30 degrees can usually be reached.
 #include "mesher/jobs.h"
 
 #include "base/stopwatch.h"
@@ -40,7 +40,7 @@ using Pair = std::pair<Index, Index>;
 using Pairs = std::set<Pair>; // unordered edges: the lower id first
 using Coordinates = std::array<double, 2>;
 
-/// An id for a vertex that has none yet: the value that a default-made one has is no id.
+/// Id of a vertex. A default-constructed one has no id (-1).
 struct VertexId
 {
   Index value = -1;
@@ -54,7 +54,7 @@ using Arrangement = CGAL::Constrained_Delaunay_triangulation_2<Exact,
 struct Plane
 {
   std::vector<Coordinates> points;
-  std::map<Coordinates, Index> ids; // of all points, by coordinates; the first of equal ones
+  std::map<Coordinates, Index> ids; // ids of all points by coordinates; the first of equal points
 
   Index add(const Coordinates& p)
   {
@@ -72,19 +72,21 @@ Pair edge_of(Index a, Index b)
   return { std::min(a, b), std::max(a, b) };
 }
 
-/// The exact value's rounding; an interval around it would depend on how it was computed.
+/// Return the exact value's rounding. The rounding of an interval would depend on how it was
+/// computed.
 double rounded(const Exact::FT& x)
 {
   return CGAL::to_double(CGAL::exact(x));
 }
 
-/// The nearest point of the grid, if there is one.
+/// Round a coordinate to the grid, or return it unchanged if there is no grid.
 double snapped(double x, double grid)
 {
   return grid > 0.0 ? std::round(x / grid) * grid : x;
 }
 
-/// Leads edges through vertices that they pass at less than half of the grid. @return whether any.
+/// Bend edges through vertices that they pass at less than half of the grid. @return whether an
+/// edge was bent.
 bool bend(const Arrangement& arrangement, const Plane& plane, double grid, Pairs& edges)
 {
   bool any = false;
@@ -122,7 +124,7 @@ bool bend(const Arrangement& arrangement, const Plane& plane, double grid, Pairs
   return any;
 }
 
-/// Inserts points and edges. @return empty, or why it gave up.
+/// Insert points and edges. @return empty, or the reason for giving up.
 std::string insert(const Plane& plane, const Pairs& edges, Arrangement& arrangement)
 {
   std::vector<std::pair<Exact::Point_2, VertexId>> points;
@@ -163,8 +165,9 @@ using FillFace = CGAL::Delaunay_mesh_face_base_2<Inexact>;
 using Filling = CGAL::Constrained_Delaunay_triangulation_2<Inexact,
   CGAL::Triangulation_data_structure_2<FillVertex, FillFace>, CGAL::Exact_predicates_tag>;
 
-/// Angles and lengths; but triangles with a side below a floor are not refined for their angles.
-/// Where bounds above 20.6 degrees have no solution, refinement would go on to the last bit.
+/// Bounds of angles and lengths. Triangles with a side below the floor are not refined for their
+/// angles. Otherwise refinement would continue to the last bit where bounds above 20.6 degrees have
+/// no solution.
 class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Filling>
 {
 public:
@@ -217,10 +220,10 @@ private:
   double floor_;
 };
 
-/// The region as a triangulation whose faces know whether they are inside.
+/// Triangulate the region and mark the faces inside it.
 std::string build(const MesherData& data, Filling& filling)
 {
-  // Sides of triangles that no neighbour has, as they run: inside is to their left.
+  // Sides of triangles without a neighbor, in their direction: the inside is to their left.
   std::set<Pair> outline;
   std::set<Index> used;
   for (Index t = 0; t < data.triangles.rows(); ++t)
@@ -312,7 +315,8 @@ double area_of(const MesherData& data)
   return 0.5 * twice;
 }
 
-/// @return whether the bounds hold everywhere, with no more vertices than the limit.
+/// Refine the triangulation. @return whether the bounds hold everywhere, with no more vertices than
+/// the limit.
 bool refine(Filling& filling, double min_angle, const FillOptions& options, std::size_t limit,
   const Stopwatch& clock)
 {
@@ -425,7 +429,7 @@ std::string arrange(MesherData& data, double grid)
     {
       const Index a = e->first->vertex(Arrangement::ccw(e->second))->info().value;
       const Index b = e->first->vertex(Arrangement::cw(e->second))->info().value;
-      if (a != b) // rounding may bring both ends together
+      if (a != b) // rounding may merge both ends
       {
         edges.insert(edge_of(a, b));
       }
@@ -468,7 +472,7 @@ std::string arrange(MesherData& data, double grid)
 std::string fill_plane(MesherData& data, const FillOptions& options)
 {
   const Stopwatch clock;
-  // An equilateral triangle with half the longest edge is smaller than what refinement leaves.
+  // An equilateral triangle with half the longest edge is smaller than the triangles of refinement.
   const double triangles = options.longest_edge > 0.0
     ? area_of(data) / (0.4 * 0.25 * options.longest_edge * options.longest_edge)
     : 0.0;

@@ -1,16 +1,17 @@
 // Tets of {winding number >= threshold} by CGAL's Delaunay refinement (Mesh_3; Jamin, Alliez,
 // Yvinec, Boissonnat, CGALmesh: a Generic Framework for Delaunay Mesh Generation, 2015).
 //
-// 1. The surface's own edge lengths, where it bounds the region, and the region's thickness give a
-//    sizing field.
-// 2. The triangulation starts with the surface's vertices that lie on the boundary, corners and
-//    creases first, and points between them on long creases. A point nearer to those that are there
-//    than half the length wanted is left out: no good tet fits between them.
-// 3. Refinement adds points of the boundary and circumcentres until facets and cells are small and
-//    round enough. What is smaller than a part of the length wanted is never split: that ends it
-//    where creases are too sharp for angles, and in parts thinner than the shortest edge.
-// Slivers stay: tet_improvement.h is better at them than exudation and perturbation are (measured:
-// 2 and 7 degrees after exudation, 12 after improvement), and always ends.
+// 1. The edge lengths of the surface, where it bounds the region, and the thickness of the region
+//    determine a sizing field.
+// 2. The triangulation starts with the surface's vertices on the boundary, corners and creases
+//    first, and with points between them on long creases. A point is omitted if it is nearer to an
+//    existing vertex than half the desired length, because no good tet fits between them.
+// 3. Refinement adds points of the boundary and circumcenters until facets and cells are small and
+//    round enough. Facets and cells smaller than a fraction of the desired length are never split.
+//    Therefore refinement ends even at creases that are too sharp for the angles, and in parts
+//    thinner than the shortest edge.
+// Slivers remain. tet_improvement.h handles them better than exudation and perturbation (measured:
+// 2 and 7 degrees after exudation, 12 after improvement), and it always ends.
 #include "mesher/circumcenter_traits.h"
 #include "mesher/jobs.h"
 
@@ -50,7 +51,7 @@ Kernel::Point_3 to_point(const Vec3& p)
   return { p.x(), p.y(), p.z() };
 }
 
-/// A multiple of the sizing field, as CGAL asks for it.
+/// A multiple of the sizing field, in the form that CGAL requires.
 struct Size
 {
   using FT = Kernel::FT;
@@ -64,14 +65,14 @@ struct Size
   double factor;
 };
 
-// Circumradii as multiples of the edge length wanted. An equilateral triangle has 0.577, half a
-// square 0.707; a regular tet 0.612.
+// Circumradii as multiples of the desired edge length. For comparison: 0.577 for an equilateral
+// triangle, 0.707 for half a square, 0.612 for a regular tet.
 constexpr double facet_radius = 0.8;
 constexpr double cell_radius = 0.85;
 constexpr double facet_distance = 0.2;
 constexpr double facet_angle = 25.0; // degrees
 constexpr double radius_edge = 2.0;
-// What is smaller is not split for its shape.
+// Facets and cells with smaller circumradii are not split.
 constexpr double least_facet_radius = 0.25;
 constexpr double least_cell_radius = 0.25;
 
@@ -156,7 +157,7 @@ private:
   BoundedCellCriteria cells_;
 };
 
-/// Raises the shortest edge until the tets will not be too many.
+/// Raise the shortest edge until the expected number of tets is within the limit.
 SizingField make_field(const BoundarySites& sites, RemeshJobOptions& options)
 {
   for (;; options.smallest_edge *= 1.1)
@@ -164,8 +165,8 @@ SizingField make_field(const BoundarySites& sites, RemeshJobOptions& options)
     options.largest_edge = std::max(options.largest_edge, options.smallest_edge);
     const Eigen::VectorXd lengths =
       sites.lengths.array().max(options.smallest_edge).min(options.largest_edge);
-    // A regular tet of edge h holds 0.118 h^3, and with edges growing from the boundary inwards
-    // 1 / (2 growth h^2) of h^-3 lie below each unit of area.
+    // A regular tet of edge h has the volume 0.118 h^3. If edges grow from the boundary inwards,
+    // the integral of h^-3 below a unit of area is 1 / (2 growth h^2).
     const double per_area = 0.5 / (0.118 * options.growth);
     const double tets = per_area * (sites.areas.array() / lengths.array().square()).sum();
     if (tets <= options.tet_limit)
@@ -300,7 +301,7 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
     constexpr double sparse = 1.0;
     start.insert(sites.points.row(i), sparse);
   }
-  // Where the surface is open, all of it that bounds the inside may lie in one plane.
+  // If the surface is open, the part of it that bounds the inside may lie in one plane.
   std::vector<std::pair<Kernel::Point_3, Domain::Index>> more;
   constexpr int some = 100;
   if (complex.triangulation().dimension() < 3)
@@ -318,7 +319,8 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   }
   tell_report("seconds.start", clock.seconds());
 
-  // About five tets a vertex: far more vertices than expected are a refinement that does not end.
+  // There are about five tets per vertex. Far more vertices than expected show that refinement does
+  // not end.
   const auto most_vertices =
     static_cast<std::size_t>(options.tet_limit) + 2 * complex.triangulation().number_of_vertices();
   CGAL::Mesh_error_code code = CGAL::CGAL_MESH_3_NO_ERROR;

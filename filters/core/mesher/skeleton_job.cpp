@@ -1,13 +1,15 @@
 // Curve skeletons by mean curvature flow (Tagliasacchi, Alhashim, Olson, Zhang, Mean Curvature
 // Skeletons, Computer Graphics Forum 31(5), 2012) by CGAL, one closed component at a time.
 //
-// 1. The triangles become closed manifold meshes: where more than two meet at an edge, the sheets
-//    are parted. Hollows (components of negative volume) are left out: they have no inside.
-// 2. Each component is brought to even triangles, some thousands: the flow solves a linear system
-//    of its vertices in every step, and what is coarse has no vertices to contract along.
-// 3. The flow contracts the surface, pulled to its medial axis, short edges collapse, flat
-//    triangles split, and vertices that cannot shrink further stay, until the area hardly changes.
-// 4. What is left is as thin as a thread; edges collapse until no triangle is left.
+// 1. The triangles become closed manifold meshes: sheets are separated at edges where more than two
+//    triangles meet. Hollows (components of negative volume) are omitted, because they have no
+//    inside.
+// 2. Each component is remeshed to some thousands of even triangles. In every step the flow solves
+//    a linear system of the vertices, and coarse parts have no vertices along which to contract.
+// 3. The flow contracts the surface and pulls it to its medial axis. Short edges collapse, flat
+//    triangles are split, and vertices that cannot shrink further are fixed, until the area hardly
+//    changes.
+// 4. The result is as thin as a thread; its edges collapse until no triangle is left.
 #include "mesher/jobs.h"
 #include "mesher/triangle_soup.h"
 
@@ -46,7 +48,7 @@ using Flow = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
 Mesh to_manifold(const MesherData& data)
 {
   TriangleSoup<Kernel::Point_3> soup(data);
-  // Sheets are cut apart where they are not manifold, and each sewn up again.
+  // Sheets are separated where they are not manifold, and each one is stitched again.
   pmp::orient_polygon_soup(soup.points, soup.triangles);
   Mesh mesh;
   pmp::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, mesh);
@@ -54,13 +56,14 @@ Mesh to_manifold(const MesherData& data)
   return mesh;
 }
 
-/// The closed components, the largest first.
+/// A closed component.
 struct Part
 {
   Mesh mesh;
   double volume = 0.0;
 };
 
+/// Return the closed components, the largest first.
 std::vector<Part> closed_parts(const Mesh& mesh, Index& open, Index& hollow)
 {
   std::vector<std::size_t> component(mesh.number_of_faces());
@@ -92,7 +95,7 @@ std::vector<Part> closed_parts(const Mesh& mesh, Index& open, Index& hollow)
   return parts;
 }
 
-/// Even triangles, about as many as wanted.
+/// Remesh to even triangles, about as many as `triangles`.
 void even_out(Mesh& mesh, double triangles)
 {
   constexpr double edges_per_triangle = 1.5;
@@ -105,14 +108,14 @@ void even_out(Mesh& mesh, double triangles)
         .get_placement(simplification::LindstromTurk_placement<Mesh>()));
     mesh.collect_garbage();
   }
-  // Of an equilateral triangle with that share of the area.
+  // Edge of an equilateral triangle with this fraction of the area.
   const double edge =
     std::sqrt(4.0 / std::sqrt(3.0) * CGAL::to_double(pmp::area(mesh)) / triangles);
   pmp::isotropic_remeshing(mesh.faces(), edge, mesh, CGAL::parameters::number_of_iterations(2));
   mesh.collect_garbage();
 }
 
-/// The skeleton of a closed mesh, appended.
+/// Append the skeleton of a closed mesh.
 void contract(const Mesh& mesh, const SkeletonJobOptions& options, double begin, double end,
   Index& iterations, std::vector<Vec3>& points, std::vector<std::array<Index, 2>>& segments)
 {
@@ -134,7 +137,7 @@ void contract(const Mesh& mesh, const SkeletonJobOptions& options, double begin,
     {
       break;
     }
-    // The change falls about as a power of the step.
+    // The change decreases about as a power of the step number, so its logarithm measures progress.
     furthest =
       std::max(furthest, std::log(std::min(change, 1.0)) / std::log(flow.area_variation_factor()));
     tell_progress(begin + (end - begin) * std::min(furthest, 1.0));
@@ -188,7 +191,7 @@ std::string skeleton(MesherData& data, const SkeletonJobOptions& options)
   for (Part& part : parts)
   {
     const double share = CGAL::to_double(pmp::area(part.mesh)) / area;
-    // A small component has a shape, too.
+    // A small component needs enough triangles for its shape, too.
     constexpr double least = 1000.0;
     even_out(part.mesh, std::max(least, share * options.triangles));
     triangles += static_cast<Index>(part.mesh.number_of_faces());

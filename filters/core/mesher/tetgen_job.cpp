@@ -1,5 +1,5 @@
-// TetGen on a surface. TetGen drops vertices that nothing uses or that nearly coincide and
-// renumbers the rest, but it never moves a vertex: input vertices are found again by their exact
+// TetGen on a surface. TetGen drops vertices that are unused or nearly coincide and renumbers the
+// rest, but it never moves a vertex. Therefore input vertices are identified by their exact
 // coordinates.
 #include "mesher/jobs.h"
 
@@ -90,9 +90,10 @@ void add_box(Points& points, Triangles& triangles)
   }
 }
 
-/// The steps of ::tetrahedralize() but one: after the boundary has been recovered, that would list
-/// all facets, in a third of the peak memory, to flip back to Delaunay's tets what can be. Vertices
-/// are inserted and tets are improved later, so that nothing is gained by it.
+/// Run the steps of ::tetrahedralize() except one. After the boundary has been recovered, the
+/// omitted step would list all facets, in a third of the peak memory, and flip tets back to
+/// Delaunay tets where possible. It gains nothing, because vertices are inserted and tets are
+/// improved later.
 void run_steps(tetgenbehavior& behavior, tetgenio& in, tetgenio& out)
 {
   clock_t unused = 0;
@@ -103,7 +104,7 @@ void run_steps(tetgenbehavior& behavior, tetgenio& in, tetgenio& out)
   mesh.transfernodes();
   exactinit(behavior.verbose, behavior.noexact, behavior.nostaticfilter, mesh.xmax - mesh.xmin,
     mesh.ymax - mesh.ymin, mesh.zmax - mesh.zmin);
-  // Shares of the seconds on scans and prints.
+  // Fractions of the time on scans and models for 3D printing.
   constexpr double triangulated = 0.3, facets_found = 0.4, recovered = 0.7, carved = 0.85;
   mesh.incrementaldelaunay(unused);
   tell_progress(triangulated);
@@ -160,7 +161,7 @@ std::string tetgen(MesherData& data, const TetgenOptions& options)
   behavior.facet_ang_tol = 180.0;
   run_steps(behavior, in, out);
 
-  // New numbers: input vertices keep theirs, the others follow in TetGen's order.
+  // Renumber the vertices: those of the input keep their ids, the others follow in TetGen's order.
   std::unordered_map<Key, Index, KeyHash> ids;
   ids.reserve(static_cast<std::size_t>(points.rows()));
   for (Index v = 0; v < points.rows(); ++v)
@@ -194,7 +195,8 @@ std::string tetgen(MesherData& data, const TetgenOptions& options)
       data.tets(t, k) = id_of[out.tetrahedronlist[t * out.numberofcorners + k]];
     }
   }
-  // All have one orientation, by exact predicates; doubles might get the sign of a sliver wrong.
+  // Exact predicates give all tets the same orientation. In doubles the volume of a sliver may have
+  // the wrong sign.
   if (tet_volumes(data.points, data.tets).sum() < 0.0)
   {
     data.tets.col(0).swap(data.tets.col(1));

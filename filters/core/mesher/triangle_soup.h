@@ -9,7 +9,7 @@
 namespace bindpose
 {
 
-/// Points and triangles as CGAL takes them.
+/// Points and triangles in the form that CGAL requires.
 template <typename Point>
 struct TriangleSoup
 {

@@ -1,8 +1,8 @@
 // Alpha wrapping (Portaneri, Rouxel-Labbé, Hemmer, Cohen-Steiner, Alliez, Alpha Wrapping with an
 // Offset, ACM Transactions on Graphics 41(4), 2022) by CGAL. A Delaunay triangulation is carved
-// from outside: through every facet that a ball of radius alpha fits through, unless what is behind
-// it touches the surface; then a vertex is added at the distance `offset` from it. It asks for
-// nothing but distances to triangles, so it ends for any of them, and what is left is closed.
+// from outside, through every facet that a ball of radius alpha fits through. If the cell behind a
+// facet touches the surface, a vertex is added at the distance `offset` from the surface instead.
+// The method uses only distances to triangles, so it ends for any input, and its result is closed.
 #include "mesher/jobs.h"
 #include "mesher/triangle_soup.h"
 
@@ -21,8 +21,8 @@ namespace
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// Counts the vertices that are added. How many there will be is not known: the bar is half way
-/// when there is one for every square of side alpha that the surface has room for.
+/// Reports progress by counting the added vertices, whose final number is unknown. Progress is
+/// about half when there is one vertex per square of side alpha of the surface's area.
 class Progress : public CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor
 {
 public:

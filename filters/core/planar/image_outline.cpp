@@ -1,15 +1,14 @@
-// Marching squares with two rows of alpha in memory: a frame of alpha 0 is put around the image,
-// each line between neighbouring pixels of which one is inside gets one vertex, and each cell
-// between four pixels links the vertices on its sides, with the inside on the left. Every vertex
-// then has one successor, and loops are read off.
+// Marching squares with two rows of alpha in memory. A frame of alpha 0 surrounds the image. Each
+// line between an inside pixel and an outside neighbor gets one vertex. Each cell between four
+// pixels links the vertices on its sides, with the inside on the left. Every vertex then has one
+// successor, and following the successors gives the loops.
 //
-// Simplification removes vertices, and only such that no loop can come to cross or touch another:
-// between its neighbours p and n a vertex v may go when the triangle p v n holds no other vertex.
-// First come passes that try every second vertex at a quarter of the tolerance: straight lines
-// halve at every pass, and no chain of contour points is looked at more than about log(length)
-// times. Then each vertex in turn looks as far ahead as it can: it takes the farthest vertex to
-// which a straight line stays within the tolerance, even where nearer ones fail, as they do on
-// stairs of pixels.
+// Simplification removes only vertices whose removal cannot make loops cross or touch. A vertex v
+// between its neighbors p and n can be removed if the triangle p v n contains no other vertex. The
+// first passes try every second vertex at a quarter of the tolerance. Straight lines halve at every
+// pass, and each chain of contour points is tested only about log(length) times. Then each vertex
+// in turn searches ahead. It takes the farthest vertex to which a straight line stays within the
+// tolerance, even if nearer ones fail, as they do on stairs of pixels.
 #include "planar/image_outline.h"
 
 #include <algorithm>
@@ -23,14 +22,14 @@ namespace
 constexpr Index none = -1;
 constexpr Index longest_contour = Index(1) << 25;
 
-/// The contour, link by link.
+/// The contour as a linked list.
 struct Contour
 {
   std::vector<Vec2> points;
   std::vector<Index> next;
 };
 
-/// A row of alpha between two columns of the frame.
+/// A row of alpha, with one column of the frame at each end.
 struct AlphaLine
 {
   explicit AlphaLine(Index columns) : values(static_cast<std::size_t>(columns + 2), 0.0f) {}
@@ -89,12 +88,14 @@ private:
     }
   }
 
-  /// How far from a to b the threshold is; never at an end, so that no two vertices coincide.
+  /// Return the position of the threshold between a and b. It is never at an end, so that no two
+  /// vertices coincide.
   double crossing(float a, float b) const
   {
     constexpr double margin = 0x1p-10;
     const double t =
-      (double(this->threshold_) - double(a)) / (double(b) - double(a)); // one of them is inside
+      // Exactly one of a and b is inside.
+      (double(this->threshold_) - double(a)) / (double(b) - double(a));
     return std::clamp(t, margin, 1.0 - margin);
   }
 
@@ -142,8 +143,9 @@ private:
     }
   }
 
-  /// Corners counter-clockwise from lower left; side k lies between corners k and k + 1. Each run
-  /// of inside corners is left behind at its last side, to where a run begins.
+  /// Link the vertices on the sides of a cell. Corners are counter-clockwise from the lower left;
+  /// side k is between corners k and k + 1. The link of each run of inside corners starts at the
+  /// side after the run and ends at the side where a run begins.
   void link_cell(const std::array<bool, 4>& in, const std::array<Index, 4>& sides,
     const std::array<float, 4>& values, Contour& contour) const
   {
@@ -178,7 +180,7 @@ private:
   float threshold_;
   AlphaLine lower_;
   AlphaLine upper_;
-  std::vector<Index> bottom_; // vertices on the sides of the row of cells, by column
+  std::vector<Index> bottom_; // vertices on the bottom sides of the row of cells, by column
   std::vector<Index> top_;
 };
 
@@ -222,7 +224,7 @@ double squared_distance(const Vec2& p, const Vec2& a, const Vec2& b)
   return (p - a - t * along).squaredNorm();
 }
 
-/// Vertices by square cells of the plane.
+/// Vertices sorted into the square cells of a grid.
 class VertexGrid
 {
 public:
@@ -254,8 +256,8 @@ public:
     }
   }
 
-  /// True when visit(id) is true for a vertex near the triangle: rows of cells that it meets, from
-  /// its leftmost to its rightmost point in the row.
+  /// Report whether visit(id) is true for a vertex near the triangle. In each row of cells that the
+  /// triangle meets, the cells from its leftmost to its rightmost point are visited.
   template <typename Visit>
   bool any(const std::array<Vec2, 3>& corners, const Visit& visit) const
   {
@@ -272,7 +274,7 @@ public:
         const Vec2& a = corners[k];
         const Vec2& b = corners[(k + 1) % 3];
         const double rise = b.y() - a.y();
-        // The part of the side within the row's strip.
+        // The part of the side within the strip of this row.
         double from = 0.0;
         double to = 1.0;
         if (rise != 0.0)
@@ -371,7 +373,7 @@ public:
     return {};
   }
 
-  /// What is left.
+  /// Copy the remaining vertices to the outline.
   void collect(ImageOutline& outline) const
   {
     const Index count = std::count(this->alive_.begin(), this->alive_.end(), 1);
@@ -411,7 +413,7 @@ private:
           fewer = true;
           this->remove(l, p, n, 1);
           this->alive_[v] = 0;
-          v = n > v ? n : v; // the neighbour stays for this pass
+          v = n > v ? n : v; // the neighbor is not removed in this pass
         }
       }
     }
@@ -432,12 +434,12 @@ private:
     return fewer;
   }
 
-  /// Takes vertices behind p away one after the other, then puts back those behind the last one to
-  /// which the line from p was good.
+  /// Remove vertices after p one by one, then restore those after the last one to which the line
+  /// from p was within the tolerance.
   bool leap_from(std::size_t loop, Index p, double tolerance)
   {
     constexpr std::size_t farthest = 256; // vertices
-    constexpr double hopeless = 3.0; // times the tolerance
+    constexpr double hopeless = 3.0; // multiple of the tolerance at which the search ends
     std::vector<Index>& gone = this->gone_;
     gone.clear();
     std::size_t good = 0;
@@ -473,8 +475,8 @@ private:
     this->previous_[n] = p;
   }
 
-  /// Largest distance of the contour's points between p and n from their line; looks no further
-  /// once it is above the limit.
+  /// Return the largest distance of the contour's points between p and n from their line. The
+  /// search ends when the limit is exceeded.
   double deviation(std::size_t loop, Index p, Index n, double limit) const
   {
     const std::vector<Vec2>& points = this->loops_.points;
@@ -487,13 +489,13 @@ private:
     return std::sqrt(largest);
   }
 
-  /// The contour's next point, gone or not.
+  /// Return the contour's next point, whether removed or not.
   Index after(std::size_t loop, Index v) const
   {
     return v + 1 < this->loops_.starts[loop + 1] ? v + 1 : this->loops_.starts[loop];
   }
 
-  /// Whether another vertex lies in the closed triangle, or close to it by rounding.
+  /// Report whether another vertex is in the closed triangle, or within rounding of it.
   bool holds_vertex(Index p, Index v, Index n) const
   {
     const std::vector<Vec2>& points = this->loops_.points;
@@ -522,14 +524,14 @@ private:
       });
   }
 
-  static constexpr Index fewest = 4; // a single pixel's diamond stays one
+  static constexpr Index fewest = 4; // so that a single pixel's diamond is kept
 
   const Loops& loops_;
   VertexGrid grid_;
   std::vector<char> alive_;
-  std::vector<Index> next_; // among those alive
+  std::vector<Index> next_; // next and previous remaining vertex
   std::vector<Index> previous_;
-  std::vector<Index> left_; // vertices, by loop
+  std::vector<Index> left_; // remaining vertices per loop
   std::vector<Index> gone_;
 };
 } // namespace

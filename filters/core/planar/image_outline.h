@@ -9,38 +9,40 @@
 namespace bindpose
 {
 
-/// Fills one row of an image's alpha, #columns values in [0, 1]. Row 0 is at y = 0; rows are asked
-/// for once each, in order. What is not finite counts as 0.
+/// Fills one row of an image's alpha, #columns values in [0, 1]. Row 0 is at y = 0. Rows are
+/// requested once each, in order. A value that is not finite counts as 0.
 using AlphaRow = std::function<void(Index row, float* values)>;
 
 struct ImageOutlineOptions
 {
-  double threshold = 0.5; ///< a pixel is inside where its alpha is at least this, in (0, 1]
-  /// Pixels, 0 … 1: the simplified outline and the contour are nowhere farther apart. 0 keeps every
+  double threshold = 0.5; ///< a pixel is inside if its alpha is at least this, in (0, 1]
+  /// Largest distance between the simplified outline and the contour, 0 … 1 pixels. 0 keeps every
   /// point.
   double simplify = 0.5;
 };
 
-/// Closed curves: counter-clockwise around what is inside, holes clockwise.
+/// Closed curves: counter-clockwise around the inside, clockwise around holes.
 struct ImageOutline
 {
-  PlanePoints points; ///< #V x 2, in pixels: pixel (column, row) has its centre there
-  Segments segments; ///< #V x 2, each vertex is the start of one and the end of one
+  /// #V x 2, in pixels: the center of pixel (column, row) is at these coordinates.
+  PlanePoints points;
+  Segments segments; ///< #V x 2; each vertex is the start of one segment and the end of another
 };
 
-/// Outline of what an image shows, from its alpha: contour by marching squares, then simplified.
+/// Compute the outline of an image from its alpha: a contour by marching squares, then simplified.
 ///
-/// - **Contour**: between the centres of neighbouring pixels, where alpha interpolated along the
-///   line passes the threshold. Beyond the image alpha is 0, so the outline of an opaque one runs
-///   half a pixel outside of its outer centres. Where two inside pixels touch by corners only, the
-///   saddle of the bilinear interpolation says whether they are one.
-/// - **Simplified**: a vertex goes when all contour points between its neighbours stay within the
-///   tolerance of the line between these, and when the triangle of the three holds no other vertex:
-///   loops never cross or touch themselves or each other, none is lost.
+/// - **Contour**: vertices are between the centers of neighboring pixels, where the interpolated
+///   alpha crosses the threshold. Alpha is 0 outside of the image, so the outline of an opaque
+///   image is half a pixel outside of its outer pixel centers. If two inside pixels touch only at a
+///   corner, the saddle of the bilinear interpolation decides whether they are connected.
+/// - **Simplification**: a vertex is removed if all contour points between its neighbors are within
+///   the tolerance of the line between the neighbors, and if the triangle of the three contains no
+///   other vertex. Loops therefore never cross or touch themselves or each other, and none is lost.
 ///
 /// Report: counts.pixels, counts.inside_pixels, counts.contour_points, counts.outline_points,
-/// counts.loops. invalid_input: no pixels, nothing inside, a threshold or tolerance out of range,
-/// an outline of more than 2^25 contour points. Cost: 5 ns a pixel and 1 us a contour point.
+/// counts.loops. Return invalid_input if there are no pixels or no inside pixels, if the threshold
+/// or the tolerance is out of range, or if the outline has more than 2^25 contour points.
+/// Cost: 5 ns per pixel and 1 us per contour point.
 Status image_outline(Index columns, Index rows, const AlphaRow& alpha,
   const ImageOutlineOptions& options, ImageOutline& outline, ExecutionContext& context);
 

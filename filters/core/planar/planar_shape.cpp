@@ -1,12 +1,12 @@
-// 1. Vertices that segments and handles use are gathered, equal ones once, moved towards the origin
-//    when they are far from it and scaled by a power of two to about 1, which rounds nothing.
+// 1. Collect the vertices of segments and handles, merging equal ones. If they are far from the
+//    origin, move them toward it. Scale them by a power of two to about 1. Neither step rounds.
 // 2. The helper splits curves and bones where they meet, and triangulates their convex hull.
-// 3. A triangle is kept where the winding number, averaged over it, reaches the threshold. Around
-//    closed curves it is constant on each triangle.
-//    Where curves almost touch, closer than refinement can work with, steps 1 to 3 are repeated on
-//    a grid of 1e-12 of the size, which merges what is nearer.
-// 4. The helper refines what is kept. Curves and bones in it, and its outline, stay edges.
-// 5. Vertices are numbered: those of the input first.
+// 3. Keep the triangles whose mean winding number reaches the threshold. Around closed curves it is
+//    constant on each triangle. If curves almost touch, closer than refinement can handle, repeat
+//    steps 1 to 3 on a grid of 1e-12 of the size, which merges nearer points.
+// 4. The helper refines the kept triangles. Curves and bones in them, and the outline, remain
+//    edges.
+// 5. Number the vertices, those of the input first.
 #include "planar/planar_shape.h"
 
 #include "base/number_text.h"
@@ -70,7 +70,7 @@ Status check_options(const PlanarShapeOptions& options)
   return check_limits(options.time_limit, options.memory_limit);
 }
 
-/// Vertices that are used, equal ones once.
+/// The vertices in use; equal ones are merged.
 class Gathered
 {
 public:
@@ -89,8 +89,8 @@ public:
   Index count() const { return static_cast<Index>(this->points.size()); }
 
   std::vector<Vec2> points; ///< scaled
-  std::vector<Index> originals; ///< lowest input id, -1 for a handle's
-  std::vector<Vec2> places; ///< as they came in
+  std::vector<Index> originals; ///< lowest input id; -1 for a handle's point
+  std::vector<Vec2> places; ///< input positions
 
 private:
   std::map<std::pair<double, double>, Index> ids_;
@@ -141,16 +141,16 @@ private:
   const PlanarShapeOptions& options_;
   ExecutionContext& context_;
   Gathered gathered_;
-  Segments curves_; ///< as they run
+  Segments curves_; ///< oriented with the inside on the left
   Segments bones_;
   std::vector<Index> handles_; ///< gathered vertex of each handle point
   int exponent_ = 0;
-  Vec2 shift_ = Vec2::Zero(); ///< what is at the scaled origin
+  Vec2 shift_ = Vec2::Zero(); ///< input point that is mapped to the scaled origin
   double rounding_ = 0.0; ///< 8 units in the last place of the coordinates, scaled
-  double diagonal_ = 0.0; ///< of the curves, scaled
+  double diagonal_ = 0.0; ///< of the box of the curves, scaled
   PlanePoints curve_points_; ///< scaled
   double finest_ = 0.0; ///< smallest height of a kept triangle, scaled
-  double finest_allowed_ = 0.0; ///< that refinement can work with
+  double finest_allowed_ = 0.0; ///< smallest height that refinement can handle, scaled
   double grid_ = 0.0; ///< scaled; 0: none
   CurveWindingNumber winding_;
   MesherData data_;
@@ -191,14 +191,14 @@ Status Builder::scale()
     this->shift_[k] = lower[k] > size ? lower[k] : upper[k] < -size ? upper[k] : 0.0;
   }
   this->rounding_ = 0x1p-49 * farthest;
-  // A part of the size that nobody means, or what rounding leaves of details.
+  // A fraction of the size below any intended detail, or the limit that rounding sets for details.
   int exponent = 0;
   std::frexp(std::max(0x1p-40 * this->diagonal_, this->rounding_), &exponent);
   this->finest_allowed_ = std::ldexp(1.0, exponent);
   return {};
 }
 
-/// On the grid, if there is one.
+/// Scale a point; if there is a grid, round it to the grid.
 Vec2 Builder::scaled(const Vec2& p) const
 {
   const Vec2 moved = p - this->shift_;
@@ -220,7 +220,7 @@ void Builder::gather()
   const std::set<Index> used(
     this->segments_.data(), this->segments_.data() + this->segments_.size());
   std::map<Index, Index> gathered;
-  for (const Index v : used) // ascending: the lowest id stands for equal ones
+  for (const Index v : used) // ascending: the lowest id represents equal points
   {
     gathered[v] = add(this->points_.row(v).transpose(), v);
   }
@@ -285,7 +285,8 @@ Status Builder::arrange()
   return {};
 }
 
-/// By a rule of degree 5 with 7 points (Radon): the centre, and two points towards each corner.
+/// Return the mean winding number by a rule of degree 5 with 7 points (Radon): the center, and two
+/// points toward each corner.
 double Builder::mean_winding(Index triangle) const
 {
   const Vec2 a = this->point(this->data_.triangles(triangle, 0));
@@ -301,7 +302,8 @@ double Builder::mean_winding(Index triangle) const
   for (const double sign : { -1.0, 1.0 })
   {
     const double weight = (155.0 + sign * root) / 1200.0;
-    const double way = (1.0 - sign * root) / 7.0; // from the centre to the corner
+    // Fraction of the way from the center to the corner.
+    const double way = (1.0 - sign * root) / 7.0;
     for (const Vec2& corner : { a, b, c })
     {
       sum += weight * this->winding_.evaluate_at(center + way * (corner - center));
@@ -404,7 +406,8 @@ Status Builder::fill()
   Status status;
   for (std::size_t k = 0; k < angles.size(); ++k)
   {
-    // The helper may crash or hang over gaps at the limit of doubles; others get their turn, too.
+    // The helper may crash or hang on gaps at the limit of double precision. Half of the time is
+    // kept for weaker angles.
     const double seconds = this->options_.time_limit - this->context_.elapsed_seconds();
     status = this->try_fill(angles[k], k + 1 < angles.size() ? 0.5 * seconds : seconds, answer);
     if (status.code != StatusCode::internal_error)
@@ -434,7 +437,7 @@ Status Builder::fill()
 Status Builder::try_fill(double angle, double seconds, MesherAnswer& answer)
 {
   constexpr double part = 0.8; // the rest is for reading and writing
-  constexpr double fine = 0x1p-10; // triangles of the angles asked for have no reason to be smaller
+  constexpr double fine = 0x1p-10; // triangles with the requested angles do not need to be smaller
   const double edge = this->options_.edge * this->diagonal_;
   const double detail = edge > 0.0 ? std::min(edge, this->finest_) : this->finest_;
   const double floor = std::max(fine * detail, this->rounding_);
@@ -444,15 +447,16 @@ Status Builder::try_fill(double angle, double seconds, MesherAnswer& answer)
     seconds, answer);
 }
 
-/// Whether the triangles stay positive where they came from: new points are rounded there, and
-/// those of the input go back to their places before they were put on the grid, if `exact`.
+/// Report whether all triangles stay positive in input coordinates, where new points are rounded.
+/// If `exact`, the points of the input return to their positions before they were rounded to the
+/// grid.
 bool Builder::fits(bool exact) const
 {
   const auto place = [&](Index v)
   { return exact && v < this->gathered_.count() ? this->gathered_.places[v] : this->unscaled(v); };
   for (Index t = 0; t < this->data_.triangles.rows(); ++t)
   {
-    const auto side = [&](int from, int to) // scaled, or areas could underflow
+    const auto side = [&](int from, int to) // scaled, because areas could underflow
     {
       const Vec2 along =
         place(this->data_.triangles(t, to)) - place(this->data_.triangles(t, from));
@@ -485,7 +489,8 @@ Status Builder::number(PlanarShape& shape)
   shape.points.resize(count, 2);
   shape.original_vertices.assign(static_cast<std::size_t>(count), none);
   Index at = 0;
-  for (Index v = 0; v < static_cast<Index>(ids.size()); ++v) // the input's come first, ascending
+  // Vertices of the input come first, ascending.
+  for (Index v = 0; v < static_cast<Index>(ids.size()); ++v)
   {
     if (ids[v] == none)
     {

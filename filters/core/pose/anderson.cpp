@@ -1,6 +1,7 @@
-// Changes of g and of the residual f = g - x lie in rings, a row each. The normal equations are
-// kept up to date: a new change adds a row of products, and a product with the residual itself
-// follows from its change, so that a step needs one inner product for each row and one more.
+// The changes of g and of the residual f = g - x are stored in ring buffers, one row per change.
+// The normal equations are updated incrementally: a new change adds a row of products, and the
+// products with the residual follow from that row. A step therefore needs one inner product per row
+// and one more.
 #include "pose/anderson.h"
 
 #include "base/packs.h"
@@ -13,8 +14,8 @@ namespace bindpose
 
 namespace
 {
-/// Of products scaled to ones on the diagonal: changes nearer to parallel than this share out
-/// evenly instead of cancelling in large numbers.
+/// Regularization of the normal equations after scaling to a unit diagonal. Changes that are closer
+/// to parallel than this get even coefficients instead of large ones of opposite sign.
 template <typename Scalar>
 constexpr double ridge = sizeof(Scalar) == 4 ? 1e-6 : 1e-10;
 
@@ -30,7 +31,7 @@ BINDPOSE_ALWAYS_INLINE void take_change_of(
   }
 }
 
-/// The same for the residual g - x.
+/// residual change = (g - x) - last, last = g - x
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void take_residual_change_of(Index count, const Scalar* __restrict g,
   const Scalar* __restrict x, Scalar* __restrict last, Scalar* __restrict change)
@@ -106,7 +107,7 @@ BINDPOSE_ALWAYS_INLINE double dot_of(Index count, const Scalar* a, const Scalar*
   return sum;
 }
 
-// Clones cannot be templates.
+// Functions with SIMD clones cannot be templates.
 #define BINDPOSE_ANDERSON_LOOPS(Scalar)                                                \
   BINDPOSE_SIMD_CLONES void take_change(                                               \
     Index count, const Scalar* now, Scalar* last, Scalar* change)                      \
@@ -155,8 +156,9 @@ Anderson<Scalar>::Anderson(Index window, Index size, Index carried, Dot dot)
   }
 }
 
-/// The normal equations by Cholesky's method, in place. By hand, because a solve takes thousands of
-/// these five by five, and a library's call for any size costs more than an iteration's products.
+/// Solve the normal equations by Cholesky's method, in place. The factorization is written out
+/// because a solve of the pose needs thousands of these small systems (5 x 5), and a library call
+/// for any size costs more than the products of an iteration.
 template <typename Scalar>
 bool Anderson<Scalar>::solve(Index count, std::array<double, largest_anderson_window>& shares)
 {
@@ -183,7 +185,7 @@ bool Anderson<Scalar>::solve(Index count, std::array<double, largest_anderson_wi
     }
     good = good && pivot > 0.0;
     const double inverse = 1.0 / std::sqrt(pivot);
-    l[i * largest_anderson_window + i] = inverse; // the diagonal's reciprocals
+    l[i * largest_anderson_window + i] = inverse; // reciprocals of the diagonal
     shares[i] = right * inverse;
   }
   for (Index i = count - 1; i >= 0; --i)

@@ -13,16 +13,17 @@ namespace bindpose
 
 constexpr Index largest_anderson_window = 50;
 
-/// Anderson acceleration of an iteration x <- g(x) whose fixed point is sought: the next x is g(x)
-/// less a combination of the last changes of g, namely the one that makes the same combination of
-/// the last changes of the residual g(x) - x cancel g(x) - x best. Where x obeys linear
-/// constraints, the extrapolated x does, too: shares of iterates sum to one. Whether an
-/// extrapolated x is any good is the caller's to decide (by an energy that must not rise); if not,
-/// it goes on from g(x) and calls forget(). Peng et al. 2018, Anderson acceleration for geometry
-/// optimization and physics simulation.
+/// Anderson acceleration of an iteration x <- g(x) whose fixed point is sought. The next x is g(x)
+/// minus a linear combination of the last changes of g. The coefficients are those whose
+/// combination of the last changes of the residual g(x) - x is closest to g(x) - x. The
+/// coefficients of the iterates sum to one, so the extrapolated x satisfies the same linear
+/// constraints as the iterates.
+/// The caller decides whether an extrapolated x is acceptable, for example by an energy that must
+/// not rise. If it is not, the caller continues from g(x) and calls forget(). Peng et al. 2018,
+/// Anderson acceleration for geometry optimization and physics simulation.
 ///
-/// Numbers that are linear functions of x (like a gradient) can be carried along: they follow x in
-/// memory, take part in the combinations, but not in the residual.
+/// Numbers that are linear functions of x (such as a gradient) can be carried along. They follow x
+/// in memory and are combined like x, but they are not part of the residual.
 ///
 /// Scalar: float or double.
 ///
@@ -34,22 +35,24 @@ public:
   /// Inner product of two residuals.
   using Dot = std::function<double(const Scalar*, const Scalar*)>;
 
-  /// @param window iterates that are looked back on, 0 (no acceleration) to
+  /// @param window number of previous iterates to combine, 0 (no acceleration) to
   /// largest_anderson_window.
-  /// @param size of x; @param carried how many numbers follow it.
+  /// @param size number of entries of x.
+  /// @param carried number of values that follow x in memory.
   Anderson(Index window, Index size, Index carried, Dot dot);
 
   Index window() const { return this->window_; }
 
-  /// The next iterate has no past.
+  /// Discard the previous iterates.
   void forget() { this->count_ = 0; }
 
-  /// g is g(x), both with what they carry; x becomes the extrapolated iterate. False, and x is what
-  /// it was, when there is nothing to extrapolate from yet or nothing finite comes out.
+  /// Compute the extrapolated iterate x from g = g(x); both arrays include the carried numbers.
+  /// Return false and leave x unchanged if there are no previous iterates or the coefficients are
+  /// not finite.
   bool next(const Scalar* g, Scalar* x);
 
-  /// Sum of the sizes of the last shares: how much larger than an iterate's the round-off of what
-  /// was carried along may be.
+  /// Sum of the absolute values of the last coefficients: the factor by which the round-off of the
+  /// carried numbers may exceed that of a plain iterate.
   double reach() const { return this->reach_; }
 
 private:
@@ -57,17 +60,17 @@ private:
 
   Index window_, size_, length_;
   Dot dot_;
-  Index count_ = 0; ///< iterates seen
+  Index count_ = 0; ///< number of iterates passed to next() since forget()
   double reach_ = 0.0;
-  AlignedVector<Scalar> changes_g_, changes_f_; ///< rings of `window` rows
+  AlignedVector<Scalar> changes_g_, changes_f_; ///< ring buffers of `window` rows
   AlignedVector<Scalar> last_g_, last_f_;
-  Eigen::MatrixXd products_; ///< of the changes of the residual
-  Eigen::VectorXd right_; ///< of each change with the last residual
-  std::vector<double> factor_; ///< rows of largest_anderson_window
+  Eigen::MatrixXd products_; ///< inner products of the changes of the residual
+  Eigen::VectorXd right_; ///< inner products of each change with the last residual
+  std::vector<double> factor_; ///< Cholesky factor, in rows of largest_anderson_window
 };
 
-/// Sum of a_i b_i in eight running sums, or sixteen of floats, whatever the processor: the same
-/// bits everywhere.
+/// Return the sum of a_i b_i. It uses 16 running sums (32 for floats) in a fixed order on every
+/// processor, so the bits are the same everywhere.
 double packed_dot(Index count, const double* a, const double* b);
 double packed_dot(Index count, const float* a, const float* b);
 

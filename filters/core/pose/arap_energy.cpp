@@ -1,8 +1,10 @@
-// Every energy here is a sum over elements, a group's share of the element, and the element's edges
-// with their cotangent weights. Elements: one group has the whole share. Spokes and rims: each
-// vertex' group has one third (triangle) or one quarter (tet); equal groups are added up first.
-// Spokes know no elements: they are a sum over the mesh's edges with the weights that the stiffness
-// matrix has for them, half for the group of either end.
+// Every energy here is a sum over elements, over the groups of each element with their fractions of
+// it, and over the element's edges with their cotangent weights.
+// - Elements: one group has the whole element.
+// - Spokes and rims: the group of each vertex has one third (triangle) or one quarter (tet) of the
+//   element; the fractions of equal groups are added first.
+// - Spokes: the sum runs over the edges of the mesh with their weights from the stiffness matrix;
+//   the group of either end has half of the edge.
 #include "pose/arap_energy.h"
 
 #include "base/most_frequent.h"
@@ -28,7 +30,7 @@ constexpr const int (&edges_of(const TetsView&))[6][2]
   return tet_edges;
 }
 
-/// The groups that an element's edges belong to, with their shares, which sum to one.
+/// The groups of an element or edge and their fractions of it, which sum to one.
 template <int Corners>
 struct Shares
 {
@@ -68,12 +70,13 @@ Shares<Corners> shares_of(const Elements& elements, Index e, const RotationGroup
   return shares;
 }
 
-/// For each vertex the label that most of its elements have; -1 where there are none.
+/// Return for each vertex the label that most of its elements have; -1 if it has no element.
 template <typename Elements>
 std::vector<Index> labels_around(
   const Elements& elements, const std::vector<Index>& of_element, std::size_t vertices)
 {
-  std::vector<Index> begin(vertices + 2, 0); // of each vertex in labels, two places late
+  // Start of each vertex's labels, shifted by two entries.
+  std::vector<Index> begin(vertices + 2, 0);
   for (Index e = 0; e < elements.rows(); ++e)
   {
     for (Index k = 0; k < elements.cols(); ++k)
@@ -142,7 +145,8 @@ struct Spoke
   double weight;
 };
 
-/// Below this share of its vertices' own entries a weight is round-off, whatever its sign.
+/// A weight below this fraction of the diagonal entries of its vertices is round-off, whatever its
+/// sign.
 constexpr double no_weight = 1e-12;
 
 std::vector<Spoke> spokes_of(const SparseMatrix& stiffness, Index* left_out)
@@ -197,7 +201,7 @@ SparseMatrix make_stiffness(
   return positive;
 }
 
-/// The groups at an edge's ends, each with its share of the edge.
+/// Return the groups at the ends of an edge, each with its fraction of the edge.
 Shares<2> shares_of(const Spoke& spoke, const RotationGroups& groups)
 {
   Shares<2> shares;
@@ -262,7 +266,7 @@ SparseMatrix make_covariance(
   entries.reserve(static_cast<std::size_t>(elements.rows()) * Corners * 4);
   for (Index e = 0; e < elements.rows(); ++e)
   {
-    // b_i = sum_j c_ij (v_i - v_j): what vertex i of this element contributes to S.
+    // b_i = sum_j c_ij (v_i - v_j): the contribution of vertex i of this element to S.
     Vec3 b[Corners];
     std::fill(b, b + Corners, Vec3::Zero());
     for (Index k = 0; k < c.cols(); ++k)

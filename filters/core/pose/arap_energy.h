@@ -10,66 +10,73 @@
 namespace bindpose
 {
 
-/// Which edges share a rotation. All are normalised so that an affine map x -> J x with the same
-/// rotation R everywhere costs 1/2 volume |J - R|^2 (area on surfaces). Spokes and rims and
-/// elements find that R themselves; spokes do for x -> s R x with s >= 0, and may cost less for a J
-/// that stretches, because a vertex' own edges need not point evenly in all directions.
+/// The sets of edges that share one rotation. All energies are normalized: an affine map x -> J x
+/// with the same rotation R everywhere costs 1/2 volume |J - R|^2 (area on surfaces). For spokes
+/// and rims and for elements, the best rotation is this R. For spokes, it is R if J = s R with
+/// s >= 0. Another map J may cost less with spokes, because the edges of one vertex need not be
+/// distributed evenly over all directions.
 ///
-/// An edge's weight is the sum of its elements' cotangent weights. Spokes leave out edges where
-/// that is negative (obtuse angles opposite to it): alone they would gain by turning away from
-/// rest. The other energies need not, because a whole element's weights make a positive form. What
-/// is said of costs above holds for spokes where no edge was left out.
+/// The weight of an edge is the sum of its elements' cotangent weights. Spokes omit the edges whose
+/// weight is negative (obtuse angles opposite to the edge), because such an edge alone would lower
+/// the energy by turning away from rest. The other energies keep all edges, because the weights of
+/// a whole element form a positive semi-definite form. The costs above apply to spokes only if no
+/// edge was omitted.
 enum class ArapEnergy : int
 {
   automatic = 0, ///< elements on tets, spokes and rims on surfaces
-  spokes_and_rims = 1, ///< a rotation a vertex, for all edges of its elements (Chao et al. 2010)
-  elements = 2, ///< a rotation a triangle (Liu et al. 2008) or tet (Chao et al. 2010)
-  spokes = 3 ///< a rotation a vertex, for the edges that end at it (Sorkine and Alexa 2007)
+  /// One rotation per vertex, for all edges of its elements (Chao et al. 2010).
+  spokes_and_rims = 1,
+  elements = 2, ///< one rotation per triangle (Liu et al. 2008) or tet (Chao et al. 2010)
+  spokes = 3 ///< one rotation per vertex, for the edges that end at it (Sorkine and Alexa 2007)
 };
 
-/// "spokes_and_rims", "triangles", "tetrahedra" or "spokes"; automatic is resolved first.
+/// Return "spokes_and_rims", "triangles", "tetrahedra" or "spokes"; `automatic` is resolved first.
 const char* to_string(ArapEnergy energy, bool tets);
 
-/// The energy that automatic stands for; others as they are.
+/// Return the energy that `automatic` selects, and any other energy unchanged.
 ArapEnergy resolved(ArapEnergy energy, bool tets);
 
-/// The matrix L of 1/2 tr(V'^T L V'), the energy's quadratic part, whatever the groups: the
-/// stiffness matrix, for spokes without its edges of negative weight.
-/// @param left_out is told how many edges those are.
+/// Return the matrix L of 1/2 tr(V'^T L V'), the quadratic part of the energy, #V x #V. It does not
+/// depend on the groups. It is the stiffness matrix; for spokes it excludes the edges of negative
+/// weight.
+/// @param left_out receives the number of excluded edges.
 SparseMatrix arap_stiffness(
   PointsView rest, TrianglesView triangles, ArapEnergy energy, Index* left_out = nullptr);
 SparseMatrix arap_stiffness(
   PointsView rest, TetsView tets, ArapEnergy energy, Index* left_out = nullptr);
 
-/// One sentence for whoever chose spokes on a mesh that has such edges; empty when there are none.
+/// Return a one-sentence warning about the edges that spokes leave out; empty if there are none.
 std::string left_out_warning(Index left_out);
 
-/// Which rotation each vertex (spokes, spokes and rims) or element (elements) follows.
+/// Assignment of vertices (spokes, spokes and rims) or elements (elements) to rotations.
 struct RotationGroups
 {
   ArapEnergy energy = ArapEnergy::spokes_and_rims;
   Index count = 0;
-  /// #V: whose rotation a vertex follows; of elements, that of most of its elements (the lowest of
-  /// equals), -1 where it has none.
+  /// #V: the group of each vertex. For elements: the group of most of the vertex's elements (the
+  /// lowest of equally frequent groups), -1 if no element uses the vertex.
   std::vector<Index> of_vertex;
-  std::vector<Index> of_element; ///< #elements; empty for the energies of vertices
+  /// #elements: the group of each element; empty for the per-vertex energies.
+  std::vector<Index> of_element;
 };
 
-/// Groups from labels of the vertices; an element takes the label that most of its vertices have
-/// (the lowest of equals), labels that no element has disappear.
+/// Return the groups for labels of the vertices. With the energy of elements, an element takes the
+/// label that most of its vertices have (the lowest of equally frequent labels), and unused labels
+/// are removed.
 RotationGroups rotation_groups(
   ArapEnergy energy, TrianglesView triangles, Index count, std::vector<Index> vertex_labels);
 RotationGroups rotation_groups(
   ArapEnergy energy, TetsView tets, Index count, std::vector<Index> vertex_labels);
 
-/// The matrix that sums S_k = sum c e e'^T of all groups out of posed vertices, 3 #groups x #V:
-/// row i * #groups + k of (matrix * V') is row i of S_k, with e = v_i - v_j at rest, e' posed.
+/// Return the matrix (3 #groups x #V) that computes the covariances S_k = sum c e e'^T of all
+/// groups from posed vertices. Row i * #groups + k of (matrix * V') is row i of S_k. The edges are
+/// e = v_i - v_j at rest and e' posed.
 SparseMatrix covariance_matrix(
   PointsView rest, TrianglesView triangles, const RotationGroups& groups);
 SparseMatrix covariance_matrix(PointsView rest, TetsView tets, const RotationGroups& groups);
 
-/// 1/2 sum_k sum c |e' - R_k e|^2, edge by edge: exact near zero, where sums of large terms are
-/// not. Cost: #elements x #edges.
+/// Return 1/2 sum_k sum c |e' - R_k e|^2, summed edge by edge. The sum is accurate near zero, where
+/// a difference of large terms is not. Cost: #elements x #edges.
 double arap_energy(PointsView rest, TrianglesView triangles, const RotationGroups& groups,
   PointsView posed, const std::vector<Eigen::Matrix3d>& rotations);
 double arap_energy(PointsView rest, TetsView tets, const RotationGroups& groups, PointsView posed,

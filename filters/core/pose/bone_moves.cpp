@@ -1,9 +1,10 @@
 // At a point (x, y, z) of a bone's frame the endpoint weight is e = z / length, clamped, and the
-// twist turns by the angle a = (1 - e) head + e tail. What that adds to the point is
+// twist turns by the angle a = (1 - e) head + e tail. Twist and stretch add to the point
 //     ( -sin a y - (1 - cos a) x,  sin a x - (1 - cos a) y,  0 )  and  e (stretch - 1) vector.
-// With s and c the sine and cosine of a / 2 this is sin a = 2 s c and 1 - cos a = 2 s^2, which is
-// exactly nothing without a twist, and does not mind if both change their signs: so whole turns can
-// be taken off a. What is left is at most half a turn, whose quarter has short series.
+// With s and c the sine and cosine of a / 2, sin a = 2 s c and 1 - cos a = 2 s^2. Both are exactly
+// zero without a twist, and both stay the same if s and c change their signs. Whole turns can
+// therefore be subtracted from a. The remaining angle is at most half a turn, and a short series is
+// accurate for a quarter of it.
 #include "pose/bone_moves.h"
 
 #include "base/packs.h"
@@ -18,15 +19,16 @@ namespace bindpose
 
 namespace
 {
-/// Up to an eighth of a turn the series' next terms are less than the last digit.
+/// Number of terms of the series: up to an eighth of a turn the next term is below the last digit.
 template <typename Scalar>
 constexpr int terms = sizeof(Scalar) == 4 ? 5 : 9;
 
-/// 1.5 * 2^23 (2^52): added to less and taken away again, it rounds to whole numbers.
+/// 1.5 * 2^23 (2^52): adding and then subtracting it rounds a smaller number to an integer.
 template <typename Scalar>
 constexpr Scalar whole_numbers = sizeof(Scalar) == 4 ? 12582912.0 : 6755399441055744.0;
 
-/// Of cos (pi / 2 x) (first = 0) and sin (pi / 2 x) (first = 1): a factor for every second power.
+/// Return the coefficients of the series of cos (pi / 2 x) if first = 0 or of sin (pi / 2 x) if
+/// first = 1, one for every second power.
 template <typename Scalar>
 constexpr std::array<Scalar, terms<Scalar>> coefficients(int first)
 {
@@ -40,9 +42,10 @@ constexpr std::array<Scalar, terms<Scalar>> coefficients(int first)
   return result;
 }
 
-/// cos (pi / 2 x) of first = 0, sin (pi / 2 x) / x of first = 1. Every second term for itself: two
-/// short chains of operations that wait for each other instead of a long one.
-/// @param square x^2; @param fourth x^4.
+/// Compute cos (pi / 2 x) (first = 0) or sin (pi / 2 x) / x (first = 1). Even and odd terms are
+/// summed separately: two short chains of dependent operations run faster than one long chain.
+/// @param square x^2.
+/// @param fourth x^4.
 template <int first, typename Scalar, typename Pack>
 BINDPOSE_ALWAYS_INLINE void sum_series(const Pack& square, const Pack& fourth, Pack& sum)
 {
@@ -59,7 +62,7 @@ BINDPOSE_ALWAYS_INLINE void sum_series(const Pack& square, const Pack& fourth, P
   sum = (even * fourth + factors[0]) + odd * square;
 }
 
-/// a (x, y, z, 1)
+/// Compute result = a (x, y, z, 1).
 template <typename Scalar, typename Pack>
 BINDPOSE_ALWAYS_INLINE void coordinate(const Scalar* a, const Pack (&point)[3], Pack& result)
 {
@@ -102,7 +105,7 @@ BINDPOSE_ALWAYS_INLINE void add_any(const std::int32_t* columns, const Scalar* w
         {
           given[i - begin] = static_cast<Scalar>(from[i * handles]);
         }
-        e = given == given ? given : e; // not a number: not given
+        e = given == given ? given : e; // NaN: no endpoint weight is given
       }
       const Pack w = pack_at(weights + k * of_tile + begin);
       const Pack longer = w * e;
@@ -120,7 +123,7 @@ BINDPOSE_ALWAYS_INLINE void add_any(const std::int32_t* columns, const Scalar* w
         sum_series<1, Scalar>(square, fourth, sine);
         sum_series<0, Scalar>(square, fourth, cosine);
         sine *= part;
-        // s / 2 and c; sin a / 4 = s / 2 c and (1 - cos a) / 4 = 2 (s / 2)^2
+        // s / 2 and c; (sin a) / 4 = (s / 2) c and (1 - cos a) / 4 = 2 (s / 2)^2
         const Pack half_s = sine * cosine, c = one - (sine + sine) * sine;
         const Pack half_sw = half_s * w;
         const Pack sin_w = half_sw * c, versine_w = half_sw * (half_s + half_s);
@@ -140,7 +143,7 @@ BINDPOSE_ALWAYS_INLINE void add_any(const std::int32_t* columns, const Scalar* w
   }
 }
 
-// Clones cannot be templates.
+// Functions with SIMD clones cannot be templates.
 #define BINDPOSE_OF_SCALAR(Scalar)                                                            \
   BINDPOSE_SIMD_CLONES void add(const std::int32_t* columns, const Scalar* weights,           \
     Index columns_of_tile, const std::int32_t* of_column, const BoneFrame<Scalar>* frames,    \
@@ -170,7 +173,7 @@ BoneFrames<Scalar> bone_frames(
     }
     result.of_column.push_back(static_cast<std::int32_t>(result.frames.size()));
     const Eigen::Matrix3d linear = transforms[j].leftCols<3>();
-    Eigen::Matrix3d axes; // a row each
+    Eigen::Matrix3d axes; // one per row
     axes.row(2) = bone.vector.stableNormalized();
     axes.row(0) = Vec3(axes.row(2)).unitOrthogonal();
     axes.row(1) = axes.row(2).cross(axes.row(0));
@@ -187,10 +190,12 @@ BoneFrames<Scalar> bone_frames(
       }
       frame.coordinates[axis][3] = static_cast<Scalar>(origin[axis]);
     }
-    // Of the shortest bones as much as there are numbers for: 0 times it must not be nothing.
+    // 1 / length of a very short bone can exceed the largest Scalar. It is clamped because 0 times
+    // infinity is not 0.
     frame.per_length =
       static_cast<Scalar>(std::min(1.0 / length, 1.0 * std::numeric_limits<Scalar>::max()));
-    // So many turns that they cannot be rounded off have no angle any more.
+    // With more turns than can be rounded to integers, the angle has no meaning; the twist is
+    // clamped.
     const double most = 0.1 * whole_numbers<Scalar>;
     const double head = bone.twist[0] / 360.0, more = (bone.twist[1] - bone.twist[0]) / 360.0;
     frame.head_turns = static_cast<Scalar>(head - std::nearbyint(head));

@@ -7,35 +7,39 @@
 namespace bindpose
 {
 
-/// A bone that stretches or twists, in a frame of its own: z along it from its head on, x and y
-/// across.
+/// A bone that stretches or twists, in its own frame: z points from the head along the bone, x and
+/// y are perpendicular to it.
 template <typename Scalar>
 struct BoneFrame
 {
-  Scalar coordinates[3][4]; ///< from a point (and one) to x, y and z
-  /// Under the transform: four times those of x and y, and all that the stretch adds.
+  Scalar coordinates[3][4]; ///< rows that map (point, 1) to x, y and z
+  /// World directions after the transform: four times the x axis, four times the y axis, and the
+  /// displacement of the tail by the stretch.
   Scalar directions[3][3];
-  Scalar per_length; ///< endpoint weight of z, before it is clamped to 0 to 1
-  Scalar head_turns, more_turns; ///< the twist at the head, and what is added up to the tail
+  Scalar per_length; ///< factor from z to the endpoint weight, before clamping to [0, 1]
+  /// Twist at the head, and its increase from head to tail, in turns.
+  Scalar head_turns, more_turns;
   bool twists;
 };
 
 template <typename Scalar>
 struct BoneFrames
 {
-  std::vector<std::int32_t> of_column; ///< -1: neither stretches nor twists
+  /// Index in frames; -1: the bone neither stretches nor twists.
+  std::vector<std::int32_t> of_column;
   std::vector<BoneFrame<Scalar>> frames;
 };
 
-/// @param centre what the tiles' points are less (load_points()).
+/// @param centre origin of the tiles' points (load_points()).
 template <typename Scalar>
 BoneFrames<Scalar> bone_frames(
   const std::vector<BoneChange>& bones, const std::vector<Affine>& transforms, const Vec3& centre);
 
-/// moves += what stretches and twists add to linear blending, see Skinning::stretchable_bones(). A
-/// turn is right to the last digits of a Scalar.
+/// Add to `moves` the displacements that stretch and twist add to linear blending, see
+/// Skinning::stretchable_bones(). The rotations are accurate to the last digits of a Scalar.
 /// @param endpoints #V x #handles endpoint weights, or of size 0.
-/// @param first the tile's first vertex; @param count its vertices.
+/// @param first first vertex of the tile.
+/// @param count number of its vertices.
 template <typename Scalar>
 void add_bone_moves(const WeightTiles<Scalar>& weights, const BoneFrames<Scalar>& bones,
   WeightsView endpoints, Index first, Index count, const TilePoints<Scalar>& points,

@@ -1,10 +1,11 @@
-// Vertices that are given leave the system. A part of the mesh without any would leave it singular,
-// so one of its vertices is grounded (its x is 0), and the part as a whole moves by a shift t of
-// its own: as forces within a part sum to zero, nothing is lost. Held points A x = b then are a
-// small dense system for their multipliers m and the shifts,
-//     A L^-1 A^T m - A 1 t = A L^-1 force - b,    (A 1)^T m = 0,
-// the second because the multipliers' forces must sum to zero, too. Which points are independent is
-// decided beforehand by a pivoted QR of A, so that the small system can be solved.
+// Given vertices are eliminated from the system. A part of the mesh without a given vertex would
+// leave the system singular. One of its vertices is therefore grounded (its x is 0), and the part
+// as a whole moves by a separate shift t. This is exact because the forces within a part sum to
+// zero. Held points A x = b then lead to a small dense system for their multipliers m and the
+// shifts t,
+//     A L^-1 A^T m - A 1 t = A L^-1 force - b,    (A 1)^T m = 0.
+// The second equation states that the multipliers' forces sum to zero in each part. A pivoted QR of
+// A selects the independent points beforehand, so that the small system can be solved.
 #include "pose/constrained_stiffness.h"
 
 #include <Eigen/QR>
@@ -16,7 +17,7 @@ namespace bindpose
 
 namespace
 {
-/// Held points below this share of the largest pivot count as redundant.
+/// Held points whose pivot is below this fraction of the largest pivot are redundant.
 constexpr double held_rank = 1e-9;
 } // namespace
 
@@ -112,7 +113,8 @@ Status ConstrainedStiffness::prepare(const SparseMatrix& stiffness,
   return {};
 }
 
-/// Scales the held points, tells the independent ones and how their targets follow from all.
+/// Scale the held points, select the independent ones and compute how their targets follow from the
+/// targets of all.
 void ConstrainedStiffness::choose_independent(const std::vector<char>& is_given)
 {
   const auto count = static_cast<Index>(this->held_.size());
@@ -162,7 +164,8 @@ void ConstrainedStiffness::choose_independent(const std::vector<char>& is_given)
   {
     (i < rank ? this->kept_ : this->redundant_).push_back(qr.colsPermutation().indices()[i]);
   }
-  // All points are combinations of the kept ones; targets that are not, are met as well as can be.
+  // All points are combinations of the kept ones. Targets that contradict this are met in the
+  // least-squares sense.
   const Eigen::MatrixXd r = qr.matrixR().topRows(rank);
   Eigen::MatrixXd combination = Eigen::MatrixXd::Identity(count, rank);
   if (rank < count)
@@ -207,7 +210,7 @@ void ConstrainedStiffness::factor_held(double unit)
   {
     return;
   }
-  // In units in which the stiffness has ones on its diagonal.
+  // Scale the stiffness to ones on the diagonal (on average).
   this->response_ = this->unknowns_.empty() ? right : Eigen::MatrixXd(this->solver_.solve(right));
   this->response_ *= unit;
   Eigen::MatrixXd& small = this->held_system_;
@@ -258,7 +261,7 @@ void ConstrainedStiffness::solve(
       target.row(i) = held.row(i);
       for (const auto& [v, share] : this->held_[i])
       {
-        target.row(i) -= share * x.row(v); // 0 but at given vertices
+        target.row(i) -= share * x.row(v); // x is 0 except at given vertices
       }
       target.row(i) *= this->scale_[i];
     }
@@ -275,8 +278,8 @@ void ConstrainedStiffness::solve(
         }
       }
     }
-    // Once more with what that leaves: held points close to each other make an inverse that is
-    // right to few digits, and an energy knows no difference between a miss and a gain.
+    // One step of iterative refinement. Held points close to each other give an inverse with few
+    // correct digits, and the energy does not distinguish a missed point from an improvement.
     Eigen::MatrixXd answer = this->multipliers_ * small;
     answer += this->multipliers_ * (small - this->held_system_ * answer);
     inner.noalias() -= this->response_ * answer.topRows(kept);

@@ -10,31 +10,35 @@
 namespace bindpose
 {
 
-/// A point of a mesh: vertices and their shares of it, which sum to one.
+/// A point of a mesh: vertices and their barycentric weights, which sum to one.
 using MeshPoint = std::vector<std::pair<Index, double>>;
 
-/// Minimises 1/2 <x, L x> - <force, x> for a stiffness matrix L, with some vertices given and some
-/// points of the mesh held; factored once for a choice of these, solved for any values.
+/// Minimizes 1/2 <x, L x> - <force, x> for a stiffness matrix L. The values of some vertices are
+/// given, and some points of the mesh are held at target values. The system is factored once for a
+/// choice of vertices and points and solved for any values.
 ///
-/// L may be singular: a connected part without a given vertex is free to move as one. Points held
-/// in it say where it is; without any its mean is zero. Points that others determine are found and
-/// left out; those that contradict each other are met in the least-squares sense.
+/// L may be singular, because a connected part without a given vertex can translate freely. Held
+/// points in such a part determine its translation; without held points its mean is zero. Held
+/// points that depend linearly on other held points are detected and left out. Contradictory held
+/// points are satisfied in the least-squares sense.
 class ConstrainedStiffness
 {
 public:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  /// @param part_of_vertex connected part of L's graph of each vertex; -1: x stays 0 there.
-  /// @param given vertices, ascending, each once.
-  /// invalid_input when L has no factor: elements too distorted for double precision.
+  /// @param part_of_vertex connected part of L's graph of each vertex, #V; -1: x is 0 at this
+  /// vertex.
+  /// @param given vertices in ascending order, each once.
+  /// @return invalid_input if L cannot be factored: elements are too distorted for double
+  /// precision.
   Status prepare(const SparseMatrix& stiffness, const std::vector<Index>& part_of_vertex,
     Index part_count, std::vector<Index> given, std::vector<MeshPoint> held);
 
-  /// x (#V x k) for a force (#V x k), values at given vertices (#given x k, in their order) and at
-  /// held points (#held x k).
+  /// Compute x (#V x k) for a force (#V x k), values at the given vertices (#given x k, in their
+  /// order) and values at the held points (#held x k).
   void solve(const Rows& force, const Rows& given, const Rows& held, Rows& x) const;
 
-  /// Which of the held points others determine.
+  /// Held points that depend linearly on other held points.
   const std::vector<Index>& redundant() const { return this->redundant_; }
 
 private:
@@ -44,22 +48,23 @@ private:
   std::vector<Index> given_;
   std::vector<MeshPoint> held_;
   std::vector<Index> unknowns_; ///< vertices of the factored matrix
-  std::vector<Index> row_of_; ///< #V: place in unknowns_ or -1
+  std::vector<Index> row_of_; ///< #V: index in unknowns_ or -1
   SparseMatrix border_; ///< #unknowns x #given
   SparseSolver solver_;
 
-  // Held points, by the terms that are not given, scaled to unit size.
+  // Held points: the weights of the vertices that are not given, scaled to unit length.
   std::vector<double> scale_;
-  std::vector<Index> kept_; ///< independent ones
+  std::vector<Index> kept_; ///< independent held points
   std::vector<Index> redundant_;
-  Eigen::MatrixXd least_squares_; ///< #kept x #held: targets of the kept ones
+  /// #kept x #held: targets of the kept points from those of all held points.
+  Eigen::MatrixXd least_squares_;
   Eigen::MatrixXd response_; ///< #unknowns x #kept: L^-1 A^T
-  Eigen::MatrixXd held_system_; ///< A L^-1 A^T and the shifts of parts
-  Eigen::MatrixXd multipliers_; ///< its inverse
+  Eigen::MatrixXd held_system_; ///< A L^-1 A^T, bordered by the shifts of the parts
+  Eigen::MatrixXd multipliers_; ///< inverse of held_system_
 
-  std::vector<Index> floating_; ///< #V: place among the parts without a given vertex, or -1
-  std::vector<Index> shift_; ///< of each floating part: its column in multipliers_; -1: not held
-  std::vector<double> size_; ///< of each floating part: its vertices
+  std::vector<Index> floating_; ///< #V: index among the parts without a given vertex, or -1
+  std::vector<Index> shift_; ///< per floating part: its column in multipliers_; -1: no held point
+  std::vector<double> size_; ///< per floating part: its number of vertices
 };
 
 } // namespace bindpose

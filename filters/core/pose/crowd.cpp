@@ -1,4 +1,5 @@
-// One space and one solver; an instance's rotations are lent to the solver and taken back.
+// All instances use one space and one solver. The rotations of an instance are moved into the
+// solver and copied back.
 #include "pose/crowd.h"
 
 namespace bindpose
@@ -54,7 +55,7 @@ Status Crowd::solve(
       context, this->space_, { this->space_.stiffness, this->no_load_ }, poses[i], options, d);
     if (!status.usable())
     {
-      // What stands is the pose before; the next solve begins anew.
+      // The transforms of the last successful pose remain; the next solve starts without rotations.
       this->rotations_[i].clear();
       if (status.code != StatusCode::cancelled)
       {
@@ -118,7 +119,8 @@ Status Crowd::deform_normals(ExecutionContext& context, PointsView rest_normals,
     }
     if (!placements.empty())
     {
-      // The cofactors of a map turn normals: their columns are cross products of its own.
+      // Normals transform by the cofactor matrix of a map; its columns are cross products of the
+      // map's columns.
       const Eigen::Matrix3d linear = placements[i].leftCols<3>();
       Eigen::Matrix3d cofactor;
       cofactor << linear.col(1).cross(linear.col(2)), linear.col(2).cross(linear.col(0)),

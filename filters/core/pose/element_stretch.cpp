@@ -1,12 +1,13 @@
-// The gradient of a tet is (posed edges) (rest edges)^-1. Its singular values are the lengths of
-// its columns once they have been turned until they are at right angles (one-sided Jacobi), which
-// is exact to round-off for collapsed tets, too.
+// The gradient of a tet is (posed edges) (rest edges)^-1. One-sided Jacobi rotates its columns
+// until they are orthogonal; their lengths are then the singular values. This is accurate to
+// round-off for collapsed tets, too.
 //
-// A triangle's gradient is 3 x 2, in a frame of its plane at rest, and has its singular values in
-// closed form.
+// The gradient of a triangle is 3 x 2, in a frame of its plane at rest, and its singular values
+// have a closed form.
 //
-// Eight elements go at once, lanes side by side. Their inverses at rest are kept: a tet's nine
-// numbers and the sign of its volume; of a triangle with edges a and b, and h its height over a,
+// Eight elements are processed together, one per lane. Their inverses at rest are stored. For a tet
+// these are nine numbers and the sign of its volume. For a triangle with edges a and b and height h
+// over a these are
 //     1 / |a|,   a.b / |a|^2,   1 / h,   the sign of its area in the plane z = const.
 #include "pose/element_stretch.h"
 
@@ -23,17 +24,18 @@ namespace bindpose
 namespace
 {
 constexpr Index block_size = 4096;
-/// An element whose volume (area) at rest is no more than this share of that of a cube (square) of
-/// its edges is degenerate: what it has of a shape is round-off.
+/// An element is degenerate if its volume (area) at rest is at most this fraction of that of a cube
+/// (square) with its edge lengths: its shape is then round-off.
 constexpr double degenerate_share = 1e-12;
-/// Of the diagonal: a shape as flat as this lies in a plane.
+/// Fraction of the bounding-box diagonal: a shape at most this thick in z is flat.
 constexpr double flat_tolerance = 1e-9;
-/// Elements that go at once; block_size is a multiple.
+/// Elements that are processed together; block_size is a multiple.
 constexpr Index lanes = 8;
-/// Numbers of an element at rest; the last is a sign, and all are zero of a degenerate one.
+/// Numbers stored per element at rest. The last one is a sign; all are zero for a degenerate
+/// element.
 constexpr Index triangle_numbers = 4, tet_numbers = 10;
-/// Squared cosine between two columns above which a sweep over them is not the last: the next one
-/// squares what is left.
+/// Squared cosine between two columns above which another sweep follows. Each sweep squares the
+/// remaining cosine.
 constexpr double right_angle = 1e-16;
 constexpr int most_sweeps = 12;
 
@@ -44,7 +46,7 @@ struct Block
   double smallest = std::numeric_limits<double>::infinity();
 };
 
-/// 3 x 3 matrices: column, row, lane.
+/// 3 x 3 matrices, indexed by column, row, lane.
 struct alignas(64) Batch
 {
   double at[3][3][lanes];
@@ -53,11 +55,12 @@ struct alignas(64) Batch
 struct alignas(64) BatchValues
 {
   double largest[lanes], smallest[lanes];
-  double area[lanes]; ///< less than zero: turned over, or inside out
+  double area[lanes]; ///< negative: turned over, or inside out
 };
 
-/// Turns columns p and q of each lane to a right angle; the largest squared cosine before, over
-/// 1e-16 of them: above zero when there is more to turn.
+/// Rotate columns p and q of each lane until they are orthogonal. Return the largest value of
+/// c^2 - right_angle * a * b over the lanes before the rotation, where a and b are the squared
+/// lengths and c is the dot product. It is positive if another sweep is needed.
 BINDPOSE_ALWAYS_INLINE double turn(double (*p)[lanes], double (*q)[lanes])
 {
   double open[lanes];
@@ -94,7 +97,7 @@ BINDPOSE_ALWAYS_INLINE void singular_values(Batch& f, BatchValues& values)
   {
     size[i] = 0.0;
   }
-  // Squares of huge and tiny entries must stay numbers.
+  // Scale the entries so that squares of huge and tiny entries neither overflow nor underflow.
   for (auto& column : f.at)
   {
     for (auto& row : column)
@@ -146,7 +149,7 @@ Vec3 edge(PointsView points, Index from, Index to)
   return Vec3(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
 }
 
-/// Takes one element's values; `flipped`: inside out.
+/// Add the values of one element; `flipped`: it is inside out.
 void count(Block& block, double limit, Index element, double largest, double smallest, bool flipped,
   ElementStretch& stretch)
 {
@@ -162,7 +165,7 @@ void count(Block& block, double limit, Index element, double largest, double sma
   }
 }
 
-/// Edges of posed elements, from their first corner: edge, coordinate, lane.
+/// Load the edges of posed elements, from their first corner: edge, coordinate, lane.
 template <int corners>
 BINDPOSE_ALWAYS_INLINE void load_edges(
   const double* posed, const Index* ids, double (&edges)[corners - 1][3][lanes])
@@ -232,7 +235,7 @@ BINDPOSE_SIMD_CLONES void measure_triangles(
   }
 }
 
-/// The numbers of an element at rest into a lane; none of a degenerate one.
+/// Write the numbers of an element at rest into a lane; a degenerate element writes none.
 void shape_of(PointsView rest, const Index* v, TetsView, double* shape)
 {
   const Vec3 a = edge(rest, v[0], v[1]), b = edge(rest, v[0], v[2]), c = edge(rest, v[0], v[3]);
@@ -281,7 +284,7 @@ Status check(const ElementStretchOptions& options, Index rest, PointsView posed)
   return {};
 }
 
-/// measure(begin, end, block) for all, and what the blocks found.
+/// Call measure(begin, end, block) for all elements and sum the blocks into a status.
 template <typename Measure>
 Status over_elements(
   ExecutionContext& context, Index elements, const char* what, const Measure& measure)
@@ -290,7 +293,7 @@ Status over_elements(
   const bool done = parallel_for(context, elements, block_size,
     [&](Index begin, Index end)
     {
-      Block block; // on this thread's stack: neighbours share no cache line
+      Block block; // on this thread's stack: avoids false sharing of cache lines
       measure(begin, end, block);
       blocks[static_cast<std::size_t>(begin / block_size)] = block;
     });

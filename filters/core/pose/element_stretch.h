@@ -11,40 +11,40 @@ namespace bindpose
 
 struct ElementStretchOptions
 {
-  /// An element is badly stretched when some direction in it becomes more than this many times as
-  /// long, or less than 1 / limit as long. At least 1; 2 by default.
+  /// An element is badly stretched if some direction in it becomes more than `limit` times as long,
+  /// or less than 1 / limit times as long. At least 1; 2 by default.
   double limit = 2.0;
-  /// Whether ElementStretch::largest and smallest are filled; else only the report is made.
+  /// Whether to fill ElementStretch::largest and smallest; otherwise only the report is made.
   bool values = false;
 };
 
-/// What a pose does to each element: how many times as long its directions become. 1 at rest; NaN
-/// for an element that is degenerate at rest.
+/// Factors by which a pose lengthens the directions in each element. 1 at rest; NaN for an element
+/// that is degenerate at rest.
 struct ElementStretch
 {
   std::vector<double> largest;
-  std::vector<double> smallest; ///< less than zero where the element is turned inside out
+  std::vector<double> smallest; ///< negative if the element is turned inside out
 };
 
-/// Singular values of the deformation gradient of each element, from rest to posed.
+/// Computes the singular values of the deformation gradient of each element, from rest to posed.
 ///
-/// A tet whose gradient has a determinant of less than zero is inverted: it was turned inside out,
-/// and no motion of a solid does that. Triangles in space have no such sign; those of a flat shape
-/// (z = const at rest and posed) are inverted when they look the other way.
+/// A tet whose gradient has a negative determinant is inverted: it is turned inside out, which no
+/// motion of a solid does. Triangles in space have no such sign. Triangles of a flat shape (z =
+/// const at rest and posed) are inverted if their orientation changes.
 ///
 /// Report: counts.elements, counts.inverted_elements, counts.stretched_elements, largest_stretch,
-/// smallest_stretch (the singular values, never less than zero); counts.degenerate_elements, which
-/// are without volume or area at rest and left out, where there are some. A warning with the
-/// numbers where an element is inverted. invalid_input for a limit out of range and for posed
-/// points that are not as many as those at rest; elements must be valid (check_mesh).
+/// smallest_stretch (the singular values, never negative). If there are degenerate elements,
+/// counts.degenerate_elements is their number; they have no volume or area at rest and are left
+/// out. If an element is inverted, a warning states the numbers. invalid_input for a limit out of
+/// range, or if the numbers of posed and rest points differ; elements must be valid (check_mesh).
 ///
-/// What is asked of the shape at rest is made once, for many poses:
+/// The data of the rest shape is computed once, for many poses:
 ///
 ///     const RestElements elements(rest, tets);
 ///     elements.stretch(context, options, posed, stretch);
 ///
-/// Cost with AVX-512: about 50 ns a tet, 10 ns a triangle (one core). Memory: 112 bytes a tet, 56 a
-/// triangle. The same bits for any number of threads and on any machine.
+/// Cost with AVX-512: about 50 ns per tet, 10 ns per triangle (one core). Memory: 112 bytes per
+/// tet, 56 per triangle. The result has the same bits for any number of threads and on any machine.
 class RestElements
 {
 public:
@@ -62,13 +62,13 @@ private:
   int corners_ = 3;
   Index points_ = 0;
   Index count_ = 0;
-  bool flat_ = false; ///< at rest, in a plane z = const
-  // In tiles of 8 elements, side by side.
-  std::vector<Index> ids_; ///< corner, lane
-  std::vector<double> shape_; ///< number, lane
+  bool flat_ = false; ///< whether the rest shape is in a plane z = const
+  // Tiles of 8 elements, one element per lane.
+  std::vector<Index> ids_; ///< indexed by corner, lane within a tile
+  std::vector<double> shape_; ///< indexed by number, lane within a tile
 };
 
-/// The same for a single pose.
+/// Compute the stretch for a single pose.
 Status element_stretch(ExecutionContext& context, const ElementStretchOptions& options,
   PointsView rest, PointsView posed, TetsView tets, ElementStretch& stretch);
 Status element_stretch(ExecutionContext& context, const ElementStretchOptions& options,

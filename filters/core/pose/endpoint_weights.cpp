@@ -1,5 +1,6 @@
-// Nothing is solved here: joints and bounded are bounded biharmonic weights of other handles, the
-// ends of the bones as points, or the two ends of one bone tied together by a cage's edge.
+// This file solves nothing itself. The methods `joints` and `bounded` use bounded biharmonic
+// weights of other handles: the ends of all bones as points, or the two ends of one bone joined by
+// a cage edge.
 #include "pose/endpoint_weights.h"
 
 #include "weights/bone_projection.h"
@@ -14,7 +15,7 @@ namespace bindpose
 
 namespace
 {
-/// How much of a weight the projection is where the joints' weights are made a ratio.
+/// Weight of the projection in the ratio of the joints' weights.
 constexpr double share_of_projection = 1e-4;
 
 Handle end_of_bone(const std::string& name, HandleKind kind, const Vec3& at)
@@ -26,7 +27,8 @@ Handle end_of_bone(const std::string& name, HandleKind kind, const Vec3& at)
   return handle;
 }
 
-/// Takes over what was said, each sentence once, and the first that did not converge.
+/// Merge a step's status: its warnings, each once, and its code and message if no earlier step
+/// failed to converge.
 void add_words(const Status& step, Status& status)
 {
   if (status.ok())
@@ -43,7 +45,7 @@ void add_words(const Status& step, Status& status)
   }
 }
 
-/// The ends of all bones, each place once.
+/// The ends of all bones, each position once.
 struct Joints
 {
   Handles handles;

@@ -9,31 +9,32 @@
 namespace bindpose
 {
 
-/// How a bone's endpoint weight, 0 at its head and 1 at its tail, goes on through the shape. The
-/// integers are those of vtkBoneEndpointWeights.
+/// Method that extends a bone's endpoint weight, 0 at its head and 1 at its tail, over the shape.
+/// The integers are those of vtkBoneEndpointWeights.
 enum class EndpointMethod : int
 {
-  projection = 0, ///< onto the bone, clamped (projected_endpoint): knows nothing of the shape
-  /// W_tail / (W_head + W_tail) of bounded biharmonic weights with all ends of bones as points:
+  /// Projection onto the bone, clamped (projected_endpoint); independent of the shape.
+  projection = 0,
+  /// W_tail / (W_head + W_tail) of bounded biharmonic weights with the ends of all bones as points:
   /// one problem for all bones.
   joints = 1,
-  /// Of least biharmonic energy between 0 and 1 while linear along the bone: a problem for each
-  /// bone. It is the weight of the tail in an open cage of one edge.
+  /// Minimal biharmonic energy between 0 and 1, linear along the bone: one problem per bone. This
+  /// is the weight of the tail in an open cage of one edge.
   bounded = 2
 };
 
-/// "projection", "joints", "bounded"
+/// Return "projection", "joints" or "bounded".
 const char* to_string(EndpointMethod method);
 
-/// Bounded biharmonic weights of these handles at the points, rows that sum to one.
+/// Compute bounded biharmonic weights of the handles at the points; the rows sum to one.
 using BoundedSolve = std::function<Status(const Handles&, ExecutionContext&, Weights&)>;
 
-/// Endpoint weights of stretchable, twistable bones (Jacobson and Sorkine 2011), see Skinning.
-/// Where both ends' weights vanish, joints counts as projection: that takes part with 1e-4 of a
-/// weight, so that nothing jumps.
-/// @param endpoints #V x #handles, 0 to 1; NaN in the columns of handles that are no bones.
-/// Report: method, counts.bones, counts.problems (solved). invalid_input without a bone; what
-/// `solve` returns otherwise, its warnings each once.
+/// Compute endpoint weights of stretchable, twistable bones (Jacobson and Sorkine 2011), see
+/// Skinning. In the method `joints`, the projection is blended in with a weight of 1e-4. Where the
+/// weights of both ends vanish, the result is therefore the projection, without a jump.
+/// @param endpoints #V x #handles, 0 to 1; NaN in the columns of handles that are not bones.
+/// @return invalid_input if there is no bone; otherwise the status of `solve`, with each warning
+/// once. Report: method, counts.bones, counts.problems (solved).
 Status endpoint_weights(PointsView points, const Handles& handles, EndpointMethod method,
   const BoundedSolve& solve, ExecutionContext& context, Weights& endpoints);
 

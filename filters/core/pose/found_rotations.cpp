@@ -15,7 +15,7 @@ bool is_translation(const Affine& transform)
   return (transform.leftCols<3>() - Eigen::Matrix3d::Identity()).norm() < tolerance;
 }
 
-/// @param size  of the lengths in the scene
+/// @param size magnitude of the lengths in the scene
 bool is_identity(const Affine& transform, double size)
 {
   return is_translation(transform) && transform.col(3).norm() <= tolerance * size;

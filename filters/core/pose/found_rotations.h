@@ -6,12 +6,13 @@
 namespace bindpose
 {
 
-/// Return the pose for a method that finds rotations (as-rigid-as-possible). A handle in mode
-/// `automatic` gets mode `position`, so that the method finds its rotation, if it is a point or a
-/// cage vertex that is at most translated, or a bone that is translated. It gets mode `full` if the
-/// pose rotates, scales, stretches or twists it, if it is a bone at rest or where its parent
-/// carries it, or if it is a region. A translation counts relative to the parent or in the world.
-/// Other modes stay.
+/// Return the pose for a method that finds rotations (as-rigid-as-possible). Only handles in mode
+/// `automatic` change their mode.
+/// - A point or a cage vertex that is at most translated gets mode `position`, so that the method
+///   finds its rotation. So does a bone that is translated.
+/// - A handle that the pose rotates, scales, stretches or twists gets mode `full`. So does a
+///   region, and a bone at rest or at the position that its parent carries it to.
+/// A translation counts if it is a translation relative to the parent or in the world.
 Pose with_found_rotations(const Handles& handles, const Pose& pose);
 
 } // namespace bindpose

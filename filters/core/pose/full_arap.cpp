@@ -3,16 +3,16 @@
 // With displacements D from rest and Q = R - I for the rotations, the energy is
 //     E(D, Q) = 1/2 <D, L D> - <Q, S0 + K D>,
 // because rest with R = I is a minimum: all constant and linear terms cancel. S0 + K D are the
-// covariances, K^T Q the force on the vertices. The local step fits R to the covariances, the
+// covariances, K^T Q is the force on the vertices. The local step fits R to the covariances. The
 // global step solves L D = K^T Q under the handles' constraints.
 //
-// Anderson acceleration looks at both steps as a function g of D whose fixed point is sought. All
-// iterates meet the constraints, so the extrapolated ones do. One is taken if its energy, with the
-// rotations that fit it, is no higher than that of the plain g(D).
+// Anderson acceleration treats both steps as one function g of D whose fixed point is sought. All
+// iterates satisfy the constraints, so the extrapolated iterates do, too. An extrapolated iterate
+// is accepted if its energy, with the best rotations for it, is at most that of the plain g(D).
 //
-// No step of exact numbers raises the energy. Where handles' constraints nearly depend on each
-// other the global step is only as good as their condition: once it raises the energy by more than
-// rounding does, the points before it are kept and the iterations end.
+// In exact arithmetic no step raises the energy. If the handles' constraints are nearly dependent,
+// the accuracy of the global step is limited by their condition. If it raises the energy by more
+// than rounding does, the points before it are kept and the iterations end.
 #include "pose/full_arap.h"
 
 #include "base/number_text.h"
@@ -30,11 +30,11 @@ namespace bindpose
 
 namespace
 {
-/// Below this share of the rest energy an energy counts as zero for the tolerance.
+/// Below this fraction of the rest energy an energy counts as zero for the tolerance.
 constexpr double nothing_bends = 1e-6;
-/// A rise of the energy by less than this share of its terms is rounding.
+/// A rise of the energy by less than this fraction of its terms is rounding.
 constexpr double rounding = 1e-12;
-/// Items of a block; their number fixes the bits, not the threads.
+/// Items per block. The block sizes determine the bits of the sums; the number of threads does not.
 constexpr Index groups_at_once = 512;
 constexpr Index vertices_at_once = 1024;
 constexpr Index numbers_at_once = 16384;
@@ -61,9 +61,9 @@ Status FullArap::prepare(const Pose& pose)
   return status;
 }
 
-/// A first guess without history: the linear parts of full handles' transforms, and for positions
-/// the rotation that fits all pivots, spread over the mesh by Laplace's equation, then made
-/// rotations.
+/// Compute initial rotations without history. The linear parts of full handles' transforms, and for
+/// position handles the rotation that best fits all pivots, are spread over the mesh by Laplace's
+/// equation and then projected to rotations.
 void FullArap::start_rotations(const Pose& pose)
 {
   const Eigen::Matrix3d common = pivot_rotation(this->handles_, pose, 0.3 * this->radius_);
@@ -115,7 +115,7 @@ void FullArap::start_rotations(const Pose& pose)
   }
 }
 
-/// Covariances of D, the rotations that fit them best, and what that makes of the energy.
+/// Compute the covariances of D, the rotations that fit them best, and the energy term `turned_`.
 bool FullArap::local_step(ExecutionContext& context, const Rows& d)
 {
   const Index count = this->groups_.count, stride = this->stride_;
@@ -160,7 +160,7 @@ bool FullArap::local_step(ExecutionContext& context, const Rows& d)
   return done;
 }
 
-/// The best D for the rotations.
+/// Compute the best D for the rotations.
 bool FullArap::global_step(ExecutionContext& context, Rows& d)
 {
   const Index count = this->groups_.count, stride = this->stride_;
@@ -211,7 +211,7 @@ bool FullArap::global_step(ExecutionContext& context, Rows& d)
   return done && !context.cancelled();
 }
 
-/// 1/2 <D, L D>
+/// Return 1/2 <D, L D>.
 double FullArap::quadratic(ExecutionContext& context, const Rows& d) const
 {
   return 0.5 *
@@ -270,8 +270,8 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   {
     this->start_rotations(pose);
   }
-  this->warm_ = false; // until this solve is through
-  double terms = 0.0; // what the last energy after a global step is the small difference of
+  this->warm_ = false; // until this solve has succeeded
+  double terms = 0.0; // sum of the terms whose small difference is the last energy
   const auto energy_after_global = [&](const Rows& g)
   {
     const double bent = this->quadratic(context, g);
@@ -279,7 +279,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
     terms = std::abs(bent) + std::abs(work) + std::abs(this->rest_turned_);
     return bent - work - this->rest_turned_;
   };
-  Rows g, d; // the plain iterate and the one that is tried
+  Rows g, d; // the plain iterate and the candidate iterate
   if (!this->global_step(context, g))
   {
     return Status::cancelled();

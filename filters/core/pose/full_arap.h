@@ -12,107 +12,115 @@ namespace bindpose
 struct FullArapOptions
 {
   ArapEnergy energy = ArapEnergy::automatic;
-  /// #V labels of the vertices (Handle::region_id; 0: none). Needed when a handle is a region.
+  /// #V labels of the vertices (Handle::region_id; 0: none). Required if a handle is a region.
   std::vector<Index> region_ids;
 };
 
-/// As-rigid-as-possible deformation of every vertex: no weights, no reduction. Sorkine and Alexa
-/// 2007, As-rigid-as-possible surface modeling; Liu et al. 2008; Chao et al. 2010.
+/// As-rigid-as-possible deformation of every vertex, without weights and without reduction. Sorkine
+/// and Alexa 2007, As-rigid-as-possible surface modeling; Liu et al. 2008; Chao et al. 2010.
 ///
 ///     FullArap arap;
 ///     arap.bind(context, points, tets, handles, options);  // once
-///     arap.solve(context, pose);                           // a factorisation when modes change
+///     arap.solve(context, pose);                           // a factorization if modes change
 ///     arap.posed();
 ///
-/// The energy is ReducedArap's, 1/2 sum_k sum c |e' - R_k e|^2, with a rotation for every vertex
-/// (spokes, spokes and rims) or element. A solve alternates between the best rotations (local step)
-/// and the best positions (global step, one sparse solve); neither can raise the energy. Between
-/// them Anderson acceleration extrapolates from the last iterates; where that would raise the
-/// energy, the plain iterate is taken (Peng et al. 2018, Anderson acceleration for geometry
-/// optimization and physics simulation).
+/// The energy is that of ReducedArap, 1/2 sum_k sum c |e' - R_k e|^2, with one rotation for every
+/// vertex (spokes, spokes and rims) or element. A solve alternates between the best rotations
+/// (local step) and the best positions (global step, one sparse solve). Neither step can raise the
+/// energy. Between the steps, Anderson acceleration extrapolates from the last iterates. If the
+/// extrapolated iterate would raise the energy, the plain iterate is used (Peng et al. 2018,
+/// Anderson acceleration for geometry optimization and physics simulation).
 ///
-/// A handle in mode `full` takes its vertices with it: a point or cage vertex the vertex at its
-/// place, a bone those along it, a region those of its label. In mode `position` its pivot goes
-/// where the transform takes it (of a region the middle of its vertices), in mode `free` nothing is
-/// asked. Where no vertex is, the point of the element there is held, exactly; beside the mesh, the
-/// mesh's nearest point. A vertex of several full handles goes to the mean of where they want it.
+/// Constraints by the mode of a handle:
+/// - `full`: the transform moves the handle's vertices. These are the vertex at a point or cage
+///   vertex, the vertices along a bone, or the vertices with the label of a region.
+/// - `position`: the pivot moves to its transformed position. The pivot of a region is the mean of
+///   its vertices.
+/// - `free`: no constraint.
+/// If there is no vertex at a handle, the point of the element at that position is held exactly. If
+/// the handle is not on the mesh, the nearest point of the mesh is held. A vertex of several full
+/// handles moves to the mean of their targets.
 ///
-/// Unknowns are displacements from rest, so that rest is exact. A connected part that no handle
-/// holds stays where it is, vertices that nothing uses as well; those in elements without area
-/// only move as a neighbour does.
+/// The unknowns are displacements from rest, so the rest pose is reproduced exactly. A connected
+/// part without constraints does not move, and neither do unused vertices. A vertex that only
+/// elements without area use moves with a neighbor.
 ///
-/// Cost: bind O(#V); a solve after a change of modes one sparse factorisation, and 8 bytes a vertex
-/// for each point held that is no vertex; an iteration a solve with the factor for three right
-/// sides and a rotation fit for each vertex or element. The same bits for any number of threads.
+/// Cost: bind O(#V). A solve after a change of modes needs one sparse factorization and 8 bytes per
+/// vertex for each held point that is not a vertex. An iteration needs one solve with the factor
+/// for three right-hand sides and one rotation fit per vertex or element. The result has the same
+/// bits for any number of threads.
 class FullArap
 {
 public:
   /// Report: counts.vertices, counts.triangles or counts.tets, counts.handles, counts.rotations,
-  /// method (the energy). Warnings: handles beside the mesh, elements too thin to count, edges that
-  /// spokes leave out, parts without a handle. invalid_input for numbers that are not finite, no
-  /// element with an area, a region without label or vertices.
+  /// method (the energy). Warnings: handles that are not on the mesh, elements too thin to have an
+  /// energy, edges that spokes leave out, parts without a handle. invalid_input for numbers that
+  /// are not finite, if no element has an area, and for a region without label or vertices.
   Status bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
     const Handles& handles, const FullArapOptions& options = {});
   Status bind(ExecutionContext& context, PointsView points, TetsView tets, const Handles& handles,
     const FullArapOptions& options = {});
 
-  /// The rotations that a solve begins with.
+  /// Initial rotations of a solve.
   enum class Start
   {
-    last, ///< those of the last solve (a guess in the first): few iterations, twists add up
-    guess, ///< those of full handles, spread over the mesh by a Laplace equation: depends on the
-           ///< pose only
-    rest ///< none
+    /// Rotations of the last solve (a guess in the first solve): few iterations, twists accumulate.
+    last,
+    /// Rotations of full handles, spread over the mesh by a Laplace equation; depends on the pose
+    /// only.
+    guess,
+    rest ///< identity
   };
   struct SolveOptions
   {
-    /// Ends when an iteration lowers the energy by no more than this share of it (or of 1e-6 of
-    /// the rest energy, a strain of a few 1e-6). 0: runs all iterations, cannot fail to converge.
+    /// The solve ends if an iteration lowers the energy by at most this fraction of the energy (or
+    /// of 1e-6 of the rest energy, which is a strain of a few 1e-6). 0: run all iterations; the
+    /// result is never not_converged.
     double tolerance = 1e-6;
     Index max_iterations = 500;
     Start start = Start::last;
-    /// Iterates that acceleration looks back on; 0: none.
+    /// Number of previous iterates that acceleration combines; 0: no acceleration.
     Index anderson_window = 5;
   };
 
-  /// Finds the vertices of a pose, one entry a handle. not_converged when max_iterations were not
-  /// enough, or when an iteration raised the energy by more than the tolerance (what holds the
-  /// handles nearly depends on each other; the points before it are kept, a warning says so); the
-  /// result is usable. Report: energy, iterations, microseconds_per_iteration,
-  /// constraint_residual (largest miss of what handles hold, in diagonals), counts.constrained
-  /// (vertices and points held). Warnings name position handles that are redundant and handles that
-  /// contradict each other.
+  /// Find the vertices of a pose, which has one entry per handle. Return not_converged if
+  /// max_iterations were not enough, or if an iteration raised the energy by more than the
+  /// tolerance. The energy can rise if the handles' constraints are nearly dependent; the points
+  /// before that iteration are kept, and a warning is added. The result of not_converged is usable.
+  /// Report: energy, iterations, microseconds_per_iteration, constraint_residual (largest violation
+  /// of a constraint, in bounding-box diagonals), counts.constrained (vertices and points held).
+  /// Warnings name redundant position handles and contradictory handles.
   Status solve(ExecutionContext& context, const Pose& pose, const SolveOptions& options);
   Status solve(ExecutionContext& context, const Pose& pose)
   {
     return this->solve(context, pose, SolveOptions());
   }
 
-  /// The next solve starts from a guess.
+  /// Make the next solve start from a guess.
   void forget() { this->warm_ = false; }
 
   /// The vertices in the last solved pose.
   const Points& posed() const { return this->posed_; }
-  /// Rotations of the last solve, one a group.
+  /// Rotations of the last solve, one per group.
   std::vector<Eigen::Matrix3d> rotations() const;
   const RotationGroups& groups() const { return this->groups_; }
   /// Energy after each half-step of the last solve: start, local, global, local, global, …
   const std::vector<double>& energies() const { return this->energies_; }
-  /// 1/2 tr(V^T L V): the unit of round-off in an energy.
+  /// 1/2 tr(V^T L V): the scale of round-off in an energy.
   double rest_energy() const { return this->rest_energy_; }
-  /// How often a system was factored: once for each choice of modes.
+  /// Number of factorizations: one for each choice of modes.
   Index factorisations() const { return this->factorisations_; }
 
 private:
   using Rows = ConstrainedStiffness::Rows;
 
-  /// Sums b d^T over (item, b): what vertices give to a group's covariance, and what groups give to
-  /// a vertex' force.
+  /// Sparse terms of sums of b d^T over (item, b). They map vertices to the covariance of a group,
+  /// and groups to the force on a vertex.
   struct Terms
   {
     std::vector<Index> begin; ///< offsets
     std::vector<int> item;
-    std::vector<double> b; ///< three a term
+    std::vector<double> b; ///< three per term
   };
 
   template <typename Elements>
@@ -129,13 +137,14 @@ private:
   Handles handles_;
   Points rest_;
   RotationGroups groups_;
-  std::vector<std::array<int, 4>> group_vertices_; ///< whose mean guess a group starts with
+  /// Vertices whose mean guess initializes each group.
+  std::vector<std::array<int, 4>> group_vertices_;
   SparseMatrix stiffness_;
   Terms of_group_, of_vertex_;
-  Components parts_; ///< by elements that count
-  std::vector<Index> leader_; ///< #V: whom a vertex of flat elements follows, or -1
+  Components parts_; ///< connected parts of the elements that have an energy
+  std::vector<Index> leader_; ///< #V: the vertex that a vertex of flat elements follows, or -1
   MeshGrips grips_;
-  double radius_ = 0.0; ///< root mean square distance of the vertices from their middle
+  double radius_ = 0.0; ///< root mean square distance of the vertices from their centroid
   double rest_energy_ = 0.0;
 
   // ---- per choice of modes
@@ -144,13 +153,13 @@ private:
   Index factorisations_ = 0;
 
   // ---- per pose
-  Rows given_, held_; ///< displacements wanted
+  Rows given_, held_; ///< target displacements of given vertices and held points
 
-  // ---- state; planes (3 i + j) * stride_ + k hold entry (i, j) of matrix k
+  // ---- state; entry (i, j) of matrix k is at (3 i + j) * stride_ + k
   Index stride_ = 0;
   std::vector<double> rest_covariance_, covariance_, rotations_;
-  std::vector<double> turn_; ///< R - I, nine a group, row by row
-  Rows force_; ///< sums of turns, of the last global step
+  std::vector<double> turn_; ///< R - I, nine per group, row by row
+  Rows force_; ///< K^T Q of the last global step, #V x 3
   double turned_ = 0.0; ///< <R - I, S> of the last local step
   double rest_turned_ = 0.0; ///< <R - I, S at rest>
   bool warm_ = false;

@@ -1,5 +1,5 @@
-// Bind time of full as-rigid-as-possible: which elements count, and the sums that make covariances
-// out of displacements and forces out of rotations.
+// Bind time of full as-rigid-as-possible: selects the elements that have an energy, and sets up the
+// sums that map displacements to covariances and rotations to forces.
 #include "pose/full_arap.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace bindpose
 
 namespace
 {
-/// An element whose cotangents exceed this is flat: its energy would be round-off.
+/// An element is flat if its largest cotangent exceeds this value: its energy would be round-off.
 constexpr double steepest = 1e7;
 
-/// What a cotangent weight of the element is compared with: those of tets are lengths.
+/// Return the unit of an element's cotangent weights: 1 for triangles, a length for tets.
 double weight_unit(PointsView, const TrianglesView&, Index)
 {
   return 1.0;
@@ -48,7 +48,7 @@ const char* element_word(const TrianglesView&)
   return "triangle";
 }
 
-/// Vertices in elements that do not count follow a neighbour that does.
+/// Return for each vertex that only flat elements use a neighbor that it follows.
 template <typename Elements>
 std::vector<Index> leaders(const Elements& elements, const std::vector<Index>& part_of_vertex)
 {
@@ -91,7 +91,7 @@ void FullArap::take_covariance(const SparseMatrix& covariance)
     t->item.resize(terms);
     t->b.resize(3 * terms);
   }
-  // A column has the first coordinates of its groups, then the second, then the third.
+  // A column stores the first coordinates of its groups, then the second, then the third.
   Index at = 0;
   for (Index v = 0; v < n; ++v)
   {
@@ -149,7 +149,7 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   this->handles_ = handles;
   this->rest_ = points;
 
-  // Elements that count, in their order.
+  // Elements that are not flat, in their order.
   auto kept = owned(elements);
   Index count = 0;
   {

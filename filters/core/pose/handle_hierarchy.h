@@ -6,8 +6,8 @@
 namespace bindpose
 {
 
-/// Return the indices of all handles, each one after its parent. In a cycle of parents, which
-/// check_handles() refuses, the order is that of the list.
+/// Return the indices of all handles, each one after its parent. If the parents form a cycle, which
+/// check_handles() rejects, the order is that of the list.
 std::vector<Index> parents_first(const Handles& handles);
 
 /// Return the transform that a child attached at `place` (rest position) inherits from its posed
@@ -15,7 +15,7 @@ std::vector<Index> parents_first(const Handles& handles);
 /// cross-section at `place`, as in Skinning::stretchable_bones(): a child at the tail inherits the
 /// whole stretch and the tail's twist, a child at the head only the head's twist.
 Affine transform_for_child(const Handle& parent, const HandlePose& posed, const Vec3& place);
-/// Return that transform for a handle and its parent, or the identity for a root.
+/// Return the transform that a handle inherits from its parent, or the identity for a root.
 Affine inherited_transform(const Handles& handles, const Pose& pose, Index handle);
 
 /// Convert world transforms to transforms relative to the parents, and back:

@@ -1,4 +1,4 @@
-// Which points of the mesh handles hold: found once, chosen anew when modes change.
+// The points of the mesh that handles can constrain are found once, and selected when modes change.
 #include "pose/mesh_grips.h"
 
 #include "base/simplex_locator.h"
@@ -12,15 +12,15 @@ namespace bindpose
 
 namespace
 {
-/// Handles this close to a vertex, in diagonals, hold the vertex.
+/// Handles within this distance of a vertex, in diagonals, constrain the vertex.
 constexpr double same_place = 1e-9;
-/// Handles this close to the mesh, in diagonals, lie on it.
+/// Handles within this distance of the mesh, in diagonals, are on the mesh.
 constexpr double on_mesh = 1e-6;
-/// A point with this share of a vertex is the vertex.
+/// A point is a vertex if its barycentric weight there is at least this.
 constexpr double whole = 1.0 - 1e-9;
-/// Places along a bone that has no vertices, at most.
+/// Largest number of intervals between points along a bone without vertices.
 constexpr double most_places = 16.0;
-/// What handles hold and is missed by more than this share of the diagonal contradicts.
+/// Constraints violated by more than this fraction of the diagonal are reported as contradictory.
 constexpr double contradiction = 1e-9;
 
 MeshPoint vertex_point(Index v)
@@ -192,8 +192,8 @@ Vec3 MeshGrips::at_rest(const MeshPoint& point) const
   return sum;
 }
 
-/// The displacement that a handle wants of a point that it holds. Those of a full handle turn with
-/// it; what stands for a pivot beside the mesh only moves as the pivot does.
+/// Return the target displacement of a constrained point. The points of a full handle rotate with
+/// it; a mesh point that represents a pivot next to the mesh has the displacement of the pivot.
 Vec3 MeshGrips::wanted(const Hold& hold, const HandlePose& pose) const
 {
   const Eigen::Matrix3d linear = pose.transform.leftCols<3>() - Eigen::Matrix3d::Identity();
@@ -236,9 +236,9 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
       }
     }
   }
-  // A vertex is given by full handles if there are any on it, then a position there is redundant.
-  // Of positions at one vertex all but the first are, though they count in the mean.
-  std::map<Index, bool> given; // vertex -> by a full handle
+  // If full handles constrain a vertex, a position handle there is redundant. If several position
+  // handles are at one vertex, all but the first are redundant, but all count in the mean.
+  std::map<Index, bool> given; // vertex -> whether a full handle constrains it
   for (const Hold& hold : this->holds_)
   {
     if (hold.point.size() == 1)
@@ -292,7 +292,7 @@ void MeshGrips::targets(const Pose& pose, Rows& given, Rows& held) const
     const Vec3 move = this->wanted(hold, pose[hold.handle]);
     if (hold.given >= 0)
     {
-      // A running mean: what all owners agree on is met to the bit.
+      // A running mean: if all handles agree, the target is exact to the bit.
       owners[hold.given] += 1.0;
       given.row(hold.given) += (move.transpose() - given.row(hold.given)) / owners[hold.given];
     }

@@ -8,57 +8,64 @@
 namespace bindpose
 {
 
-/// What of a mesh its handles hold, and where a pose wants it. For deformations in which every
-/// vertex is an unknown.
+/// The points of a mesh that its handles constrain, and their target positions in a pose. Used by
+/// deformations in which every vertex is an unknown.
 ///
-/// A handle in mode `full` takes its vertices with it: a point or cage vertex the vertex at its
-/// place, a bone those along it, a region those of its label. In mode `position` its pivot goes
-/// where the transform takes it (of a region the middle of its vertices), in mode `free` nothing is
-/// asked; in the modes of bones' ends these are held as pivots are. Where no vertex is, the point
-/// of the element there is held, exactly; beside the mesh, the mesh's nearest point. A vertex of
-/// several full handles goes to the mean of where they want it.
+/// Constraints by the mode of a handle:
+/// - `full`: the transform moves the handle's vertices. These are the vertex at a point or cage
+///   vertex, the vertices along a bone, or the vertices with the label of a region.
+/// - `position`: the pivot moves to its transformed position. The pivot of a region is the mean of
+///   its vertices.
+/// - `tail`, `ends`: the tail, or both ends of a bone, are constrained as pivots are.
+/// - `free`: no constraint.
+/// If there is no vertex at a handle, the point of the element at that position is held exactly. If
+/// the handle is not on the mesh, the nearest point of the mesh is held. A vertex of several full
+/// handles moves to the mean of their targets.
 class MeshGrips
 {
 public:
   using Rows = ConstrainedStiffness::Rows;
 
-  /// One point that a handle holds in the modes chosen.
+  /// One point that a handle constrains in the chosen modes.
   struct Hold
   {
     Index handle;
     MeshPoint point;
-    Index given = -1; ///< place among the given vertices, else
-    Index held = -1; ///< among the held points
-    bool tail = false; ///< of a bone, in the modes of ends
+    Index given = -1; ///< index among the given vertices, or -1
+    Index held = -1; ///< index among the held points, or -1
+    bool tail = false; ///< whether the point is the tail of a bone, in the modes of ends
   };
 
-  /// @param elements those that count; parts: their connected parts.
-  /// A warning names handles beside the mesh. invalid_input for a region without label or vertices.
+  /// Find the points of the mesh at each handle.
+  /// @param elements elements that have an energy.
+  /// @param parts connected parts of the elements.
+  /// @return a warning that names handles that are not on the mesh; invalid_input for a region
+  /// without label or vertices.
   Status find(PointsView points, TrianglesView elements, const Components& parts,
     const Handles& handles, const std::vector<Index>& region_ids);
   Status find(PointsView points, TetsView elements, const Components& parts, const Handles& handles,
     const std::vector<Index>& region_ids);
 
-  /// Takes a pose's modes.
-  /// @param staying vertices that are given as well, at rest unless a handle holds them.
+  /// Select the constraints of a pose's modes.
+  /// @param staying vertices that are also given: at rest unless a handle constrains them.
   void choose(const Pose& pose, const std::vector<Index>& staying = {});
 
-  /// Vertices, ascending, and points that are none, whose displacements are given.
+  /// Constrained vertices, ascending, and constrained points that are not vertices.
   const std::vector<Index>& given() const { return this->given_; }
   const std::vector<MeshPoint>& held() const { return this->held_; }
   const std::vector<Hold>& holds() const { return this->holds_; }
 
-  /// The displacements that a pose of these modes wants: rows of given() and of held().
+  /// Compute the target displacements of a pose of these modes: rows of given() and of held().
   void targets(const Pose& pose, Rows& given, Rows& held) const;
-  /// A warning about position handles that others determine, or none.
-  /// @param points of held(), as ConstrainedStiffness found them.
+  /// Return a warning about redundant position handles, or an empty list.
+  /// @param points redundant points of held(), as ConstrainedStiffness found them.
   std::vector<std::string> redundancy(const Pose& pose, const std::vector<Index>& points) const;
-  /// How far displacements (#V x 3) miss a pose, in diagonals, at most; handles that contradict
-  /// each other get a warning.
+  /// Return the largest violation of a constraint by the displacements (#V x 3), in bounding-box
+  /// diagonals. Add a warning for handles that contradict each other.
   double residual(
     const Pose& pose, const Rows& displacements, std::vector<std::string>& warnings) const;
 
-  /// Of the box of the vertices that elements use.
+  /// Diagonal of the bounding box of the vertices that elements use.
   double diagonal() const { return this->diagonal_; }
 
 private:
@@ -82,7 +89,7 @@ private:
   std::vector<Index> given_;
   std::vector<MeshPoint> held_;
   std::vector<Index> holder_; ///< handle of each held point
-  std::vector<Index> doubled_; ///< position handles at a vertex that another one holds
+  std::vector<Index> doubled_; ///< position handles at a vertex that another handle constrains
 };
 
 } // namespace bindpose

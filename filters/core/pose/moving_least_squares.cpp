@@ -1,16 +1,16 @@
-// At a vertex v each place p of a handle counts by w = (r / |p - v|)^(2 exponent), r being the
-// distance of the nearest handle, so that no number is too large or small. With p* and q* the means
-// of rest and posed places, the rotation R maximises the sum of w (q - q*) . R (p - p*), and
-// v' = R (v - p*) + q*.
+// At a vertex v each position p of a handle has the weight w = (r / |p - v|)^(2 exponent), where r
+// is the distance of the nearest handle. The factor r avoids overflow and underflow. Let p* and q*
+// be the weighted means of rest and posed positions. The rotation R maximizes the sum of
+// w (q - q*) . R (p - p*), and v' = R (v - p*) + q*.
 //
-// Along a bone p(t) and q(t) are linear, so all that a warp needs of it are three integrals of
-// w(t): its amount, mean and variance. They depend on the rest pose only and are the bind. Near the
-// bone w has a sharp peak; the integral is cut at the place nearest to v into pieces that begin
-// with the distance's length and double, each with eight Gauss points: nine digits however near v
-// is.
+// Along a bone p(t) and q(t) are linear, so a warp needs three integrals of w(t) only: its amount,
+// mean and variance. They depend on the rest pose only and are computed by bind(). Near the bone w
+// has a sharp peak. The integral is therefore split at the position nearest to v into pieces. The
+// first piece on either side is as long as the distance, and each next piece is twice as long. Each
+// piece has eight Gauss points, which gives nine digits at any distance of v.
 //
-// A vertex on a handle is taken as 1e-12 of the handles' extent away from it: it then follows that
-// handle to twelve digits, and nothing has to be divided by zero.
+// A vertex on a handle is treated as if it were 1e-12 of the handles' extent away. It then follows
+// that handle to twelve digits, and no division by zero occurs.
 #include "pose/moving_least_squares.h"
 
 #include "base/parallel.h"
@@ -26,9 +26,9 @@ namespace bindpose
 namespace
 {
 constexpr Index block_size = 512;
-/// Of the handles' extent: no distance counts as less.
+/// Smallest distance, as a fraction of the handles' extent.
 constexpr double nearest_distance = 1e-12;
-/// Of the diagonal: heights that differ less are one plane.
+/// Fraction of the diagonal: heights that differ by less are one plane.
 constexpr double flat_tolerance = 1e-9;
 
 constexpr double gauss_at[4] = { 0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
@@ -36,7 +36,7 @@ constexpr double gauss_at[4] = { 0.1834346424956498, 0.5255324099163290, 0.79666
 constexpr double gauss_weight[4] = { 0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
   0.1012285362903763 };
 
-/// The parameter of the segment's place nearest to v; 0 for a point.
+/// Return the parameter of the point of the segment that is nearest to v; 0 for a point.
 double nearest_parameter(const Handle& handle, const Vec3& v)
 {
   const Vec3 along = handle.tail - handle.head;
@@ -54,10 +54,11 @@ double falloff(double squared_ratio, double exponent)
   return exponent == 1.0 ? squared_ratio : std::pow(squared_ratio, exponent);
 }
 
-/// Integrals of w(t), t w(t), t^2 w(t) over a bone, as amount, mean and variance. Places along it
-/// are counted from the nearest one, where the numbers are small.
-/// @param nearest distance of v to the nearest handle of all, @param own to this bone
-/// A bone as long as the handles' extent counts as one point.
+/// Compute the integrals of w(t), t w(t), t^2 w(t) over a bone, as amount, mean and variance.
+/// Parameters are relative to the point nearest to v, where the numbers are small. A bone as long
+/// as the handles' extent counts as one point.
+/// @param nearest distance of v to the nearest handle.
+/// @param own distance of v to this bone.
 MovingLeastSquares::Share bone_share(const Handle& bone, const Vec3& v, double nearest, double own,
   double floor, double exponent, double extent)
 {
@@ -84,7 +85,8 @@ MovingLeastSquares::Share bone_share(const Handle& bone, const Vec3& v, double n
         sums[1] += w * s;
         sums[2] += w * s * s;
       }
-      // The last piece reaches the end exactly, or rounding could leave a piece of no length.
+      // The last piece ends exactly at the end: rounding could otherwise leave a piece of no
+      // length.
       from = width >= end - from ? end : from + width;
     }
   }
@@ -92,13 +94,13 @@ MovingLeastSquares::Share bone_share(const Handle& bone, const Vec3& v, double n
   return { length / extent * sums[0], at + mean, std::max(0.0, sums[2] / sums[0] - mean * mean) };
 }
 
-/// Within a plane z = const up to rounding.
+/// Report whether the points are in a plane z = const up to the tolerance.
 bool is_flat(PointsView points, double tolerance)
 {
   return points.rows() == 0 || points.col(2).maxCoeff() - points.col(2).minCoeff() <= tolerance;
 }
 
-/// Ends of all handles, heads first.
+/// Return the ends of all handles, heads first, 2 #handles x 3.
 Points places(const Handles& handles, const std::vector<Affine>* transforms)
 {
   const auto count = static_cast<Index>(handles.size());
@@ -120,7 +122,8 @@ Points places(const Handles& handles, const std::vector<Affine>* transforms)
   return result;
 }
 
-/// Between any two of the points: unlike a box's diagonal it does not change when they turn.
+/// Return the largest distance between two points. It is invariant under rotation, unlike the
+/// diagonal of a bounding box.
 double largest_distance(const Points& points)
 {
   double squared = 0.0;
@@ -132,7 +135,7 @@ double largest_distance(const Points& points)
   return std::sqrt(squared);
 }
 
-/// Rows of the handles that count.
+/// Return the head and tail rows of the listed handles.
 Points rows_of(const Points& places, const std::vector<Index>& counting)
 {
   const Index count = places.rows() / 2;
@@ -159,7 +162,8 @@ Status MovingLeastSquares::bind(ExecutionContext& context, const MovingLeastSqua
   {
     return status;
   }
-  // Lengths are measured by the handles' own extent, so that a vertex's motion is its own affair.
+  // Lengths are relative to the extent of the handles, so that the motion of a vertex does not
+  // depend on other vertices.
   const double extent = largest_distance(places(handles, nullptr));
   const double floor = std::max(nearest_distance * extent, 1e-150);
   const double exponent = options.exponent;
@@ -223,7 +227,7 @@ Status MovingLeastSquares::warp(
   {
     return status;
   }
-  status.warnings.clear(); // of free handles: here they are what they say
+  status.warnings.clear(); // the warnings about free handles: here a free handle has no effect
   if (counting.empty())
   {
     posed = this->rest_;
@@ -247,7 +251,8 @@ Status MovingLeastSquares::warp(
       const Index size = end - begin;
       Points rest_means(size, 3);
       Points posed_means(size, 3);
-      // Matrices in planes, as fit_rotations() takes them; identity is where rotations start from.
+      // Matrices in planar layout, as fit_rotations() expects them; the fits start from the
+      // identity.
       Eigen::MatrixXd s = Eigen::MatrixXd::Zero(size, 9);
       Eigen::MatrixXd rotations = Eigen::MatrixXd::Zero(size, 9);
       rotations.col(0).setOnes();
@@ -268,8 +273,8 @@ Status MovingLeastSquares::warp(
             shares[j].mean * posed_places.row(count + j))
                         .transpose());
         };
-        // Means are counted from the place that counts most: where it counts alone they are exactly
-        // it, and no rotation is made of rounding.
+        // Means are computed relative to the position with the largest weight. If no other handle
+        // counts, they equal this position exactly, and no rotation results from rounding.
         Index main = counting[0];
         double amount = 0.0;
         for (const Index j : counting)

@@ -10,47 +10,50 @@ namespace bindpose
 
 struct MovingLeastSquaresOptions
 {
-  /// Handles count by 1 / distance^(2 exponent): more makes them rule their surroundings more
-  /// rigidly. 1 to 8, 1 by default. (Below 1 a bone would not hold what lies on it.)
+  /// Handles are weighted by 1 / distance^(2 exponent): a larger exponent makes the surroundings of
+  /// a handle more rigid. 1 to 8, 1 by default. (Below 1 a bone would not constrain the points on
+  /// it.)
   double exponent = 1.0;
 };
 
-/// The rigid warp by moving least squares (Schaefer, McPhail, Warren: Image Deformation Using
-/// Moving Least Squares, 2006): every point of space moves by the rigid motion that takes the
-/// handles nearest to where they are posed, near handles counting more. Needs no mesh and no
-/// weights, and knows nothing of the shape: what is near moves along, connected or not.
+/// Rigid warp by moving least squares (Schaefer, McPhail, Warren: Image Deformation Using Moving
+/// Least Squares, 2006). Every point of space moves by the rigid motion that best fits the motion
+/// of the handles, with larger weights for near handles. The warp needs no mesh and no weights and
+/// does not depend on the shape: near points move along, whether they are connected or not.
 ///
 ///     MovingLeastSquares warp;
 ///     warp.bind(context, options, rest, handles);
 ///     warp.warp(context, handles, pose, posed);
 ///
-/// Points, cage vertices and the pivots of regions count by where they go: how they turn is not
-/// asked. Bones count by where their segment goes (as lines of section 3 of the paper): the
-/// integral over all points of the bone, where a bone as long as the handles' extent (the largest
-/// distance between two ends) counts as one point; a turn about the bone itself is not seen. A
-/// handle in mode free does not count. A pose that moves all handles by one rigid motion moves
-/// everything by it, where the handles tell a motion from others: two points (in a plane) or three
-/// not on a line; of the rotations that are left the smallest is taken.
+/// Points, cage vertices and the pivots of regions count with their positions; their rotations are
+/// ignored. Bones count with their segments (as lines of section 3 of the paper). The weight of a
+/// bone is an integral over the bone, scaled so that a bone as long as the handles' extent (the
+/// largest distance between two ends) counts as one point. A rotation about the bone itself has no
+/// effect. A handle in mode free does not count. If a pose moves all handles by one rigid motion,
+/// everything moves by it, provided that the handles determine the motion: two points in a plane,
+/// or three points not on a line. Otherwise the smallest of the possible rotations is used.
 ///
-/// A flat rest shape (z = const) with handles at one z, whose pose keeps theirs equal, is turned
-/// within its plane; everything else in space.
+/// If the rest shape is flat (z = const), the handles are at one z, and the posed handles are at
+/// one z, the rotation is within the plane. Otherwise it is in space.
 ///
-/// Memory: 24 bytes for each vertex and handle. Bind: one integral for each vertex and bone; a
-/// warp: one rotation fit a vertex. The same bits for any number of threads.
+/// Memory: 24 bytes for each vertex and handle. Cost: a bind needs one integral for each vertex and
+/// bone, a warp one rotation fit per vertex. The result has the same bits for any number of
+/// threads.
 class MovingLeastSquares
 {
 public:
-  /// Weighs handles at each vertex. invalid_input for an exponent out of range and
-  /// check_handles()'s reasons. Keeps the points.
+  /// Compute the weights of the handles at each vertex and copy the points. invalid_input for an
+  /// exponent out of range, and for the reasons of check_handles().
   Status bind(ExecutionContext& context, const MovingLeastSquaresOptions& options, PointsView rest,
     const Handles& handles);
 
-  /// Where the bound points go. Report: planar (1 or 0). A warning where no handle counts.
+  /// Compute the posed positions of the bound points. Report: planar (1 or 0). A warning is added
+  /// if all handles are free.
   Status warp(
     ExecutionContext& context, const Handles& handles, const Pose& pose, Points& posed) const;
 
-  /// What a handle is to a vertex: how much it counts (1 for the nearest of points), where along
-  /// the bone (0 head, 1 tail) the mean of what counts is, and its variance.
+  /// Weight of a handle at a vertex: its amount (1 for the nearest handle if it is a point), the
+  /// weighted mean of the positions along the bone (0 head, 1 tail), and their variance.
   struct Share
   {
     double amount = 0.0, mean = 0.0, variance = 0.0;

@@ -7,8 +7,9 @@
 namespace bindpose
 {
 
-/// The rotation that fits best how all pivots move that are not free, and how the frames of full
-/// handles turn, each as large as `reach`. The identity when nothing says more.
+/// Return the rotation that best fits the motion of all constrained pivots and tails and the linear
+/// parts of full handles, each weighted as a frame of size `reach`. Return the identity if nothing
+/// determines the rotation.
 Eigen::Matrix3d pivot_rotation(const Handles& handles, const Pose& pose, double reach);
 
 } // namespace bindpose

@@ -1,18 +1,21 @@
-// With v = -Laplacian u, w = -Laplacian v the equations of order 3 need first derivatives only, so
-// that piecewise linear elements do:
+// With v = -Laplacian u, w = -Laplacian v the equations of order 3 contain first derivatives only,
+// so piecewise linear elements suffice:
 //     M v = K u - f,    M w = K v,    K_i w = M_i load  at free vertices i,
-// f the flux through the edge of the patch; order 2 ends with K_i v = M_i load, order 1 is K_i u.
-// As the mass M is lumped, v and w can be eliminated: K M^-1 K M^-1 K u = M load + K M^-1 K M^-1 f,
-// symmetric and positive definite, for one Cholesky factorisation. Its rounding errors grow as
-// h^(-2 k), those of the mixed system above only as h^-2 a step; but that one is indefinite, three
-// times as large and needs an LU with pivoting. So both are taken: the factor is of the condensed
-// matrix, and a few steps of refinement take the residual from the chain of mixed equations, which
-// brings its accuracy.
+// where f is the flux through the edge of the patch. Order 2 ends with K_i v = M_i load; order 1 is
+// K_i u = M_i load.
 //
-// Which triangles and which v count is what boundary conditions are. Region: u is known in a band
-// of k one-ring layers, and v in it where all triangles around a vertex are there. Curve: v (and w)
-// live on free vertices only, zero at given ones. Tangent: only triangles of the patch count, v
-// lives on its edge, too, and f is given.
+// The mass M is lumped, so v and w can be eliminated: K M^-1 K M^-1 K u = M load + K M^-1 K M^-1 f.
+// This condensed matrix is symmetric and positive definite and needs one Cholesky factorization.
+// Its rounding errors grow as h^(-2 k). Those of the mixed system grow as h^-2 per step only, but
+// the mixed system is indefinite, three times as large, and needs an LU with pivoting. Both are
+// therefore combined: the condensed matrix is factored, and a few steps of refinement use the
+// residual of the mixed equations, which gives their accuracy.
+//
+// The boundary conditions determine the triangles that count and the vertices with an unknown v.
+// Region: u is known in a band of k one-ring layers, and v at those vertices of the band whose
+// triangles are all present. Curve: v (and w) are defined on free vertices only and are zero at
+// given ones. Tangent: only triangles of the patch count, v is also defined on its edge, and f is
+// given.
 #include "pose/polyharmonic.h"
 
 #include "base/side_flux.h"
@@ -28,14 +31,15 @@ namespace
 {
 /// A triangle whose cotangents exceed this is flat.
 constexpr double steepest = 1e7;
-/// Refinement ends when a step, whose size is about how much a step leaves of the error, leaves
-/// nothing, or does not get smaller.
+/// Refinement ends if a step is at most this fraction of the solution, or does not get smaller. The
+/// size of a step is about the fraction of the error that remains.
 constexpr int most_refinements = 8;
 constexpr double enough = 1e-9;
-/// Steps of the power iterations for the condition.
+/// Number of power iterations for the condition.
 constexpr int power_steps = 12;
 
-/// One-ring layers from the free vertices, up to `most`; -1: farther.
+/// Return the one-ring layer of each vertex, counted from the free vertices, up to `most`; -1:
+/// farther.
 std::vector<int> layers_from_free(
   const Triangles& triangles, const std::vector<char>& is_free, int most)
 {
@@ -107,7 +111,7 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
     this->is_free_[v] = 0;
   }
 
-  // The triangles that count.
+  // Select the triangles that count.
   const bool region = this->boundary_ == PatchBoundary::region;
   const std::vector<int> layer =
     layers_from_free(this->triangles_, this->is_free_, region ? this->order_ : 1);
@@ -121,8 +125,8 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
       counts[t] = counts[t] || (at >= 0 && at <= deepest);
     }
   }
-  // Ears of a patch, such as the corners of a square, have no free vertex: all their neighbours are
-  // of the patch.
+  // Ears of a patch, such as the corners of a square, have no free vertex, but all their neighbors
+  // belong to the patch.
   const std::vector<TriangleSide> sides = sides_by_edge(this->triangles_);
   if (this->boundary_ == PatchBoundary::tangent)
   {
@@ -147,7 +151,7 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
     }
   }
 
-  // What cannot be, and the edge of the patch.
+  // Reject invalid patches, and collect the sides of the patch's edge.
   std::vector<TriangleSide> edge, across;
   this->layers_ = this->order_;
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
@@ -255,8 +259,9 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
   return context.cancelled() ? Status::cancelled() : status;
 }
 
-/// Largest and smallest eigenvalue of the system, with ones on its diagonal, by power iterations:
-/// of D^-1 A, D the diagonal of A, which is symmetric in D's inner product.
+/// Estimate the largest and the smallest eigenvalue of the system, with ones on its diagonal, by
+/// power iterations. The iterations use D^-1 A, where D is the diagonal of A; D^-1 A is symmetric
+/// in D's inner product.
 void Polyharmonic::estimate_condition(Report& report) const
 {
   const Index n = this->parameters_.rows();
@@ -307,7 +312,7 @@ double Polyharmonic::solve(
   {
     weights = (std::pow(this->unit_, this->order_) * this->mass_).asDiagonal() * load;
   }
-  // What the chain of mixed equations leaves at free vertices.
+  // Residual of the chain of mixed equations at free vertices.
   const auto residual = [&](const Rows& u)
   {
     Rows v = this->stiffness_ * u;

@@ -7,63 +7,67 @@
 namespace bindpose
 {
 
-/// What holds of a solution at the edge of its patch, besides its values. The integers are those of
-/// vtkVariationalSurface.
+/// Conditions on a solution at the edge of its patch, in addition to its values. The integers are
+/// those of vtkVariationalSurface.
 enum class PatchBoundary : int
 {
-  /// The mesh goes on: values are given in a band of `order` one-ring layers, and the solution
-  /// continues them smoothly (C0, C1, C2 for order 1, 2, 3). Where the mesh ends before, slopes
-  /// across its border are zero.
+  /// The mesh continues beyond the edge. Values are given in a band of `order` one-ring layers, and
+  /// the solution continues them smoothly (C0, C1, C2 for order 1, 2, 3). If the mesh ends before
+  /// the band does, slopes across its border are zero.
   region = 0,
-  /// Values alone; the Laplacian (of order 3 its Laplacian as well) is zero: simply supported.
+  /// Values only. The Laplacian is zero (for order 3 also the Laplacian of the Laplacian): simply
+  /// supported.
   curve = 1,
-  /// Values and derivatives across the edge, outwards.
+  /// Values and outward derivatives across the edge.
   tangent = 2
 };
 
-/// "region", "curve", "tangent"
+/// Return "region", "curve" or "tangent".
 const char* to_string(PatchBoundary boundary);
 
 /// Solves (-Laplacian)^k u = load, k = 1, 2, 3, on the free vertices of a triangle mesh, by mixed
 /// finite elements. Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite elements for variational
 /// surface modeling.
 ///
-/// Factored once for a choice of given vertices, solved for any values. #V x m values are solved
-/// side by side.
+/// The matrix is factored once for a choice of given vertices and solved for any values, #V x m.
 class Polyharmonic
 {
 public:
   using Rows = ConstrainedStiffness::Rows;
 
-  /// @param parameters places of the vertices in the parameter domain.
+  /// @param parameters positions of the vertices in the parameter domain, #V x 3.
   /// @param order 1, 2 or 3.
   void bind(PointsView parameters, TrianglesView triangles, int order, PatchBoundary boundary);
 
-  /// @param given vertices, ascending; held: points of the mesh whose values are given as well.
-  /// invalid_input, naming the first offender: a triangle at a free vertex (of the region, also one
-  /// that the band needs) without area, an edge there of three triangles or more. unavailable: the
-  /// system has no factor in double precision. Report: counts.free, condition (of the matrix with
-  /// ones on its diagonal, estimated from below).
+  /// @param given vertices, ascending.
+  /// @param held points of the mesh whose values are also given.
+  /// @return invalid_input, naming the first offender, if a triangle at a free vertex has no area
+  /// or an edge there has three triangles or more. For a region, the band's triangles are checked,
+  /// too. Return unavailable if the system cannot be factored in double precision. Report:
+  /// counts.free, condition (a lower bound of the condition number of the matrix with ones on its
+  /// diagonal).
   Status prepare(ExecutionContext& context, const Components& parts,
     const std::vector<Index>& given, const std::vector<MeshPoint>& held);
 
-  /// @param flux integrals of phi_i du/dn along the edge of the patch, from below; empty: zero.
+  /// @param flux integrals of phi_i du/dn along the edge of the patch, from one of the functions
+  /// below; empty: zero.
   /// @param load #V x m; empty: zero.
-  /// @return the last correction of the refinement, as a share of the largest |x|.
+  /// @return the last correction of the refinement, as a fraction of the largest |x|.
   double solve(
     const Rows& given, const Rows& held, const Rows& flux, const Rows& load, Rows& x) const;
 
-  /// Flux of derivatives du/dn (#V x m) given at the vertices of the patch's edge.
+  /// Return the flux of derivatives du/dn (#V x m) given at the vertices of the patch's edge.
   Rows flux_of_derivatives(const Rows& derivatives) const;
-  /// Flux of values on the triangles across the edge, outside of the patch; where there are none,
-  /// zero.
+  /// Return the flux of values on the triangles across the edge, outside of the patch; zero where
+  /// there is no such triangle.
   Rows flux_of_surroundings(const Rows& values) const;
-  /// Flux of values on the patch's own triangles at its edge.
+  /// Return the flux of values on the patch's own triangles at its edge.
   Rows flux_of_patch(const Rows& values) const;
 
-  /// One-ring layers between free vertices and where the mesh ends, at most `order`.
+  /// Return the number of one-ring layers between the free vertices and the border of the mesh, at
+  /// most `order`.
   int layers() const { return this->layers_; }
-  /// Which of the held points others determine.
+  /// Held points that depend linearly on other held points.
   const std::vector<Index>& redundant() const { return this->system_.redundant(); }
 
 private:
@@ -77,10 +81,10 @@ private:
   Index given_count_ = 0, held_count_ = 0;
   std::vector<char> is_free_;
   int layers_ = 0;
-  SparseMatrix stiffness_; ///< K of the triangles that count
-  Eigen::VectorXd mass_; ///< M of these, mean 1
+  SparseMatrix stiffness_; ///< K of the triangles of the patch
+  Eigen::VectorXd mass_; ///< M of these triangles, scaled to mean 1
   Eigen::VectorXd inverse_mass_; ///< 0 where the Laplacian is zero
-  double unit_ = 1.0; ///< of mass
+  double unit_ = 1.0; ///< unit of mass_
   SparseMatrix matrix_; ///< K (M^-1 K)^(k-1)
   SparseMatrix edge_mass_, outside_flux_, inside_flux_;
   ConstrainedStiffness system_;

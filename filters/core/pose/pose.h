@@ -8,21 +8,22 @@
 namespace bindpose
 {
 
-/// What of a handle the user fixes. The integers are those of the cell array Mode.
+/// The constraint that the user puts on a handle. The integers are those of the cell array Mode.
 enum class HandleMode : int
 {
   full = 0, ///< the whole transform
-  position = 1, ///< where the pivot goes; rotation and scale are found
-  free = 2, ///< nothing
-  tail = 3, ///< bones: where the tail goes
-  ends = 4, ///< bones: where both ends go
-  automatic = 5 ///< full, or for methods that find rotations what with_found_rotations() chooses
+  position = 1, ///< position of the pivot; rotation and scale are found
+  free = 2, ///< no constraint
+  tail = 3, ///< bones: position of the tail
+  ends = 4, ///< bones: positions of both ends
+  /// Full; methods that find rotations use the mode that with_found_rotations() chooses.
+  automatic = 5
 };
 
-/// The words of the modes, in the order of their numbers.
+/// Names of the modes, in the order of their integers.
 inline constexpr const char* handle_mode_words[] = { "full", "position", "free", "tail", "ends",
   "auto" };
-/// One of handle_mode_words.
+/// Return one of handle_mode_words.
 const char* to_string(HandleMode mode);
 
 /// x -> linear * x + translation as 3 x 4, rest to posed, absolute.
@@ -43,12 +44,12 @@ struct HandlePose
   Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< bones: degrees at head and tail
 };
 
-/// Whether a mode fixes the whole transform.
+/// Report whether a mode constrains the whole transform.
 inline bool holds_transform(HandleMode mode)
 {
   return mode == HandleMode::full || mode == HandleMode::automatic;
 }
-/// Whether a mode that is not full fixes where the pivot goes, or the tail.
+/// Report whether a mode other than full constrains the pivot, or the tail.
 inline bool holds_pivot(HandleMode mode)
 {
   return mode == HandleMode::position || mode == HandleMode::ends;
@@ -58,28 +59,30 @@ inline bool holds_tail(HandleMode mode)
   return mode == HandleMode::tail || mode == HandleMode::ends;
 }
 
-/// Where a pose takes a handle's pivot, or its tail: along the posed bone, as far as it stretches.
+/// Return the posed position of a handle's pivot, or of its tail. The tail is at the end of the
+/// stretched bone.
 Vec3 posed_pivot(const Handle& handle, const HandlePose& pose);
 Vec3 posed_tail(const Handle& handle, const HandlePose& pose);
 
 /// One HandlePose for each handle, in the order of the columns.
 using Pose = std::vector<HandlePose>;
 
-/// invalid_input for another number of entries than of handles, for none, and, naming the handle,
-/// for numbers that are not finite and for a mode of bones' ends at another handle.
+/// Return invalid_input if the numbers of entries and handles differ or are zero. Return
+/// invalid_input, naming the handle, for numbers that are not finite and for a mode of bone ends at
+/// a handle that is not a bone.
 Status check_pose(const Handles& handles, const Pose& pose);
 
-/// What can be bound: invalid_input for check_mesh()'s reasons, a point that is not finite, no
-/// element, and for check_handles()'s reasons.
+/// Check whether a mesh and its handles can be bound. Return invalid_input for the reasons of
+/// check_mesh() and check_handles(), for a point that is not finite, and if there is no element.
 Status check_bendable(PointsView points, TrianglesView triangles, const Handles& handles);
 Status check_bendable(PointsView points, TetsView tets, const Handles& handles);
 
-/// What a method does with the stretch and the twist of a bone. Every method uses the stretch of a
-/// bone in mode tail.
+/// Use of the stretch and the twist of a bone by a method. Every method uses the stretch of a bone
+/// in mode tail.
 enum class StretchUse : int
 {
-  tails, ///< nothing else: skinning with one transform per bone
-  ends, ///< the stretch in mode ends: methods that find transforms
+  tails, ///< only that: skinning with one transform per bone
+  ends, ///< also the stretch in mode ends: methods that find transforms
   all ///< stretch and twist: stretchable bones
 };
 
@@ -89,7 +92,7 @@ enum class StretchUse : int
 std::string unused_stretch(const Pose& pose, StretchUse use);
 
 std::vector<HandleMode> modes_of(const Pose& pose);
-/// Whether these are the modes of the pose.
+/// Report whether these are the modes of the pose.
 bool same_modes(const std::vector<HandleMode>& modes, const Pose& pose);
 
 } // namespace bindpose

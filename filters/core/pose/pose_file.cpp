@@ -1,7 +1,7 @@
-// The JSON library reads the text; everything it would let pass (keys nobody knows, keys given
-// twice, numbers out of range) is refused here, because a pose that is half understood moves the
-// wrong thing. Names are resolved while reading, transforms are built afterwards, parents first,
-// wherever they stand in the file.
+// The JSON library parses the text. This file rejects everything that the library would accept
+// silently (unknown keys, duplicate keys, numbers out of range), because a pose that is partly
+// understood would move the wrong handles. Names are resolved during reading. Transforms are built
+// afterwards, parents first, so the order of handles in the file does not matter.
 #include "pose/pose_file.h"
 
 #include "base/number_text.h"
@@ -24,7 +24,7 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-/// One sentence about what is wrong; becomes invalid_input in parse_pose_file().
+/// One sentence about an error in the file; becomes invalid_input in parse_pose_file().
 struct PoseFileError : std::runtime_error
 {
   using std::runtime_error::runtime_error;
@@ -116,7 +116,7 @@ Eigen::Matrix<double, Size, 1> numbers(const Json& value, const std::string& whe
   return result;
 }
 
-/// Which of some words it is.
+/// Return the index of the value in a list of words.
 template <std::size_t Count>
 std::size_t word(const Json& value, const std::string& where, const char* const (&known)[Count])
 {
@@ -146,7 +146,7 @@ Eigen::Matrix3d read_rotation(const Json& value, const std::string& where)
   {
     fail(where, ".axis has length zero");
   }
-  axis = (axis / largest).normalized(); // the largest first: squares of 1e-200 are zero
+  axis = (axis / largest).normalized(); // divide by the largest first: squares of 1e-200 are zero
   return Eigen::AngleAxisd(degrees * (EIGEN_PI / 180.0), axis).toRotationMatrix();
 }
 
@@ -226,20 +226,21 @@ HandleEdit read_handle(
   return edit;
 }
 
-/// Whether a text in a handle's entry stands for a number: all but the words do.
+/// Report whether a value in a handle's entry is an expression: any string except those of "mode"
+/// and "space".
 bool is_expression(const std::string& key, const Json& value)
 {
   return value.is_string() && key != "mode" && key != "space";
 }
 
-/// Expressions at a time, and whether there were any.
+/// Evaluates expressions at one time and records whether there were any.
 struct Expressions
 {
   const PoseExpression& value_of;
   double time;
   bool found = false;
 
-  /// Puts numbers in the place of texts.
+  /// Replace strings by numbers.
   void replace(Json& value, const std::string& key, const std::string& where)
   {
     if (is_expression(key, value) && this->value_of)
@@ -276,7 +277,7 @@ struct Expressions
   }
 };
 
-/// Versions 1 to this one are read; this one is written.
+/// Versions 1 to newest_version can be read; newest_version is written.
 constexpr int newest_version = 2;
 
 int read_version(const Json& root)
@@ -326,7 +327,7 @@ PoseEdits read_pose(const Json& value, const std::string& where,
   return edits;
 }
 
-/// Return whether version 2 would pose a handle differently: a pose moves a parent and has no
+/// Report whether version 2 would pose a handle differently: a pose moves a parent and has no
 /// "space" for a child.
 bool leaves_a_child(const Json& root, const Handles& handles)
 {
@@ -349,7 +350,7 @@ bool leaves_a_child(const Json& root, const Handles& handles)
   return std::any_of(root["frames"].begin(), root["frames"].end(), leaves);
 }
 
-/// The library keeps the last of equal keys without a word; this refuses them.
+/// Parse JSON and reject duplicate keys; the library alone would silently keep the last of them.
 Json parse_without_doubled_keys(const std::string& text)
 {
   std::vector<std::set<std::string>> keys;
@@ -441,7 +442,8 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
   catch (const nlohmann::json::exception& error)
   {
     sequence = PoseSequence();
-    // "[json.exception.parse_error.101] parse error at line 1, …": the part for people.
+    // Example: "[json.exception.parse_error.101] parse error at line 1, …". Drop the technical
+    // prefix.
     const std::string what = error.what();
     const std::size_t end = what.find("] ");
     return Status::invalid_input("the pose file is not valid JSON: " +
@@ -506,7 +508,7 @@ Eigen::Matrix3d minimal_arc(const Vec3& from, const Vec3& to)
   const Vec3 half = a + b;
   if (half.norm() > 1e-12)
   {
-    // Two reflections: about a's plane, then about that of the bisector.
+    // The product of two reflections: about a, then about the bisector.
     const Vec3 h = half.normalized();
     return (2.0 * h * h.transpose() - Eigen::Matrix3d::Identity()) *
       (2.0 * a * a.transpose() - Eigen::Matrix3d::Identity());
@@ -541,7 +543,7 @@ void place_handle(const HandleEdit& edit, const Handle& rest, const Affine& up, 
   const Vec3 head = edit.head.value_or(carried_head);
   const Vec3 bone = edit.tail.value_or(carried_tail) - head;
   // Both ends may coincide up to rounding, because one of them follows the parent. The bone then
-  // has no direction and keeps its own.
+  // has no direction and keeps the inherited one.
   constexpr double round_off = 1e-13;
   const double least =
     edit.head && edit.tail ? 0.0 : round_off * (head.stableNorm() + carried.stableNorm());
@@ -580,7 +582,8 @@ void pose_handle(const HandleEdit* edit, bool children_follow, const Handles& ha
   }
   if (edit)
   {
-    // A rotation that an expression takes through zero is fixed there, too.
+    // The mode depends on the keys, not on the values: an expression for a rotation may be zero at
+    // this time.
     const bool turns =
       edit->rotation || edit->scale || edit->head || edit->tail || edit->stretch || edit->twist;
     const bool full = turns && posed.mode == HandleMode::automatic;
@@ -643,7 +646,7 @@ TransformNumbers numbers_of(const Affine& transform, const Vec3& pivot)
   return numbers;
 }
 
-/// @param exact set to false if the nearest rotation and scale were written.
+/// @param exact set to false if only the nearest rotation and scale were written.
 Json format_handle(const Pose& pose, const Handles& handles, std::size_t h, bool& exact)
 {
   const HandlePose& posed = pose[h];
@@ -692,7 +695,7 @@ Json format_handle(const Pose& pose, const Handles& handles, std::size_t h, bool
   return entry;
 }
 
-/// One warning for all handles and poses.
+/// Add one warning for all handles and poses.
 void warn_of_inexact(const Handles& handles, const std::vector<char>& is_exact, Index inexact_poses,
   std::size_t pose_count, Status& status)
 {
@@ -740,7 +743,7 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
     frame["handles"] = Json::object();
     for (std::size_t h = 0; h < handles.size(); ++h)
     {
-      // JSON has no words for infinity: what is written must be readable.
+      // JSON cannot represent infinity or NaN, and the text must be readable.
       const Vec3 pivot = pose[h].transform * handles[h].head.homogeneous();
       if (!pose[h].transform.allFinite() || !pivot.allFinite() || !std::isfinite(pose[h].stretch) ||
         !pose[h].twist.allFinite())

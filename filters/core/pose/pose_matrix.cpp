@@ -1,5 +1,5 @@
-// Sizes tell the kinds apart: four handles of a plane and three of space have other columns, and
-// rotations have only one.
+// The size determines the layout: transforms in a plane have two columns, transforms in space
+// three, rotations one.
 #include "pose/pose_matrix.h"
 
 #include "pose/handle_hierarchy.h"
@@ -14,7 +14,7 @@ namespace bindpose
 
 namespace
 {
-/// Transposed transforms, one below the other.
+/// Read transposed transforms, one below the other.
 void take_transforms(WeightsView matrix, Pose& pose)
 {
   const Index d = matrix.cols();
@@ -27,7 +27,8 @@ void take_transforms(WeightsView matrix, Pose& pose)
   }
 }
 
-/// The handle that a bone hangs on, or -1.
+/// Return the parent of a bone, or -1. A bone without a parent gets the first bone whose tail is at
+/// its head.
 Index parent_of(const Handles& handles, std::size_t h)
 {
   if (handles[h].parent >= 0 || handles[h].kind != HandleKind::bone)
@@ -40,8 +41,8 @@ Index parent_of(const Handles& handles, std::size_t h)
   return above != handles.end() ? above - handles.begin() : -1;
 }
 
-/// The transform of a bone and, after it, of its parents. Of bones in a ring none is the first:
-/// the one that is asked for is.
+/// Compute the transform of a bone, followed by the transforms of its parents. In a cycle of bones,
+/// the bone of the first call counts as the root.
 const Affine& follow(const std::vector<Eigen::Matrix3d>& rotations, const Handles& handles,
   std::size_t h, std::vector<char>& done, Pose& pose)
 {

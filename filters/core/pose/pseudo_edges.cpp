@@ -1,6 +1,6 @@
-// Rotations at point handles from where they are dragged (Jacobson et al. 2011, Bounded Biharmonic
-// Weights, section 5): a person drags points, and edges between them, which bend nothing, tell how
-// far each of its ends turns.
+// Rotations at point handles from their dragged positions (Jacobson et al. 2011, Bounded Biharmonic
+// Weights, section 5). The user drags points. Virtual edges between them, which do not deform the
+// shape, determine the rotations of their ends.
 #include "pose/pseudo_edges.h"
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace bindpose
 
 namespace
 {
-/// Vertices side by side with their neighbours: those of v are to[start[v]] to to[start[v + 1]].
+/// Adjacency of the vertices: the neighbors of v are to[start[v]] to to[start[v + 1] - 1].
 struct Neighbours
 {
   std::vector<Index> start, to;
 };
 
-/// Each edge as often as elements use it; that changes no shortest way.
+/// List each edge once per element that uses it; duplicates do not change shortest paths.
 template <typename Elements>
 Neighbours neighbours_of(Index vertices, const Elements& elements)
 {
@@ -52,7 +52,7 @@ Neighbours neighbours_of(Index vertices, const Elements& elements)
   return list;
 }
 
-/// The nearest vertex that an element uses; -1: there is none.
+/// Return the nearest vertex that an element uses, or -1 if there is none.
 Index nearest_vertex(PointsView points, const Neighbours& neighbours, const Vec3& to)
 {
   Index nearest = -1;
@@ -70,7 +70,7 @@ Index nearest_vertex(PointsView points, const Neighbours& neighbours, const Vec3
   return nearest;
 }
 
-/// A way from one handle to another, first by its length.
+/// A path between two handles, ordered by its length first.
 using Way = std::tuple<double, Index, Index>;
 
 Way way(double length, Index a, Index b)
@@ -78,7 +78,7 @@ Way way(double length, Index a, Index b)
   return { length, std::min(a, b), std::max(a, b) };
 }
 
-/// The shortest ways that join all that can be joined (Kruskal).
+/// Return the shortest paths that join all handles that can be joined (Kruskal).
 PseudoEdges spanning_tree(std::vector<Way> ways, std::size_t handles)
 {
   std::sort(ways.begin(), ways.end());
@@ -137,7 +137,7 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
     const auto at = static_cast<std::size_t>(v);
     if (owner[at] >= 0)
     {
-      if (owner[at] != handle) // two handles at one vertex, or met on the way
+      if (owner[at] != handle) // two handles at one vertex, or their paths meet
       {
         ways.push_back(way(distance[at] + length, owner[at], handle));
       }
@@ -185,7 +185,7 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
   return status;
 }
 
-/// What the edges at a handle say.
+/// Sums over the edges at a handle.
 struct Turn
 {
   Eigen::Vector4d quaternion = Eigen::Vector4d::Zero(); // sum
@@ -197,7 +197,7 @@ struct Turn
     const double from = rest.stableNorm(), to = posed.stableNorm();
     if (!(from > 0.0 && to > 0.0))
     {
-      return; // an edge without length looks nowhere
+      return; // an edge of length zero has no direction
     }
     const Eigen::Vector4d q = least_rotation(rest, posed).coeffs();
     this->quaternion += this->edges > 0 && q.dot(this->first) < 0.0 ? Eigen::Vector4d(-q) : q;
@@ -264,7 +264,7 @@ Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to)
     }
     axis = Vec3::Unit(farthest) - u[farthest] * u;
   }
-  // Half the angle's cosine and sine are half the sum's and half the difference's length.
+  // The cosine and sine of half the angle are half the lengths of the sum and of the difference.
   Eigen::Quaterniond q;
   q.w() = 0.5 * sum.norm();
   q.vec() = 0.5 * (u - v).norm() * axis.stableNormalized();
@@ -298,7 +298,7 @@ void turn_by_pseudo_edges(
     {
       continue;
     }
-    // No sum is zero: all quaternions are within a right angle of the first.
+    // The sum is not zero, because all quaternions are within a right angle of the first.
     const Eigen::Quaterniond q(Eigen::Vector4d(turn.quaternion.normalized()));
     Eigen::Matrix3d linear = q.toRotationMatrix();
     linear *= stretch ? turn.ratio / static_cast<double>(turn.edges) : 1.0;

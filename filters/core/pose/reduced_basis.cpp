@@ -1,22 +1,23 @@
-// The sturdy way. Positions A D = g: a pivoted QR of A^T tells which are redundant, and the tail Z
-// of its orthogonal factor spans what they leave open. B = Z L^-T with L L^T = Z^T H Z, or, when L
-// is ill-conditioned, with the eigenvectors that H sees.
+// Robust method. For positions A D = g, a pivoted QR of A^T finds the redundant ones, and the tail
+// Z of its orthogonal factor spans the displacements that they leave open. B = Z L^-T with L L^T =
+// Z^T H Z. If L is ill-conditioned, B is made from the eigenvectors of nonzero energy instead.
 //
-// The quick way. Whatever the modes, H is the same. With L L^T = H once for all unknowns, D = E z,
-// E = L^-T, and the energy is |z|^2 / 2: all that is left of a choice of modes is its constraints
-// G z = g, G = A E, whose rows are the held positions and the unknowns of full handles. The tail Z
-// of the orthogonal factor of G^T gives B = E Z and C = (K E) Z, a product of reflections with K E.
-// No energy sees a common translation u: H u = 0 and K u = 0. One unknown is left out for it, so
-// that D = u t + E z, and as t costs nothing, constraints determine it: a reflection of the
-// constraints leaves t in the first of them alone, and the others are those of z.
+// Quick method. H does not depend on the modes. With L L^T = H once for all unknowns, D = E z, E =
+// L^-T, and the energy is |z|^2 / 2. A choice of modes then affects only its constraints G z = g,
+// with G = A E. The rows of A are the constrained positions and the unknowns of full handles. The
+// tail Z of the orthogonal factor of G^T gives B = E Z and C = (K E) Z, a product of reflections
+// with K E. A common translation u has no energy: H u = 0 and K u = 0. One unknown is left out for
+// it, so that D = u t + E z. Because t has no energy, the constraints determine it: a reflection of
+// the constraints leaves t in the first constraint only, and the others are constraints of z.
 //
-// The quick way's doubts. Unless all of this is certain it declines, and the sturdy way decides.
-//  - L is well-conditioned. A basis in fewer unknowns, or under constraints, then is as well: the
-//    sturdy way would drop no direction either.
-//  - A A^T of the positions has a condition of no more than 1e6. No diagonal entry of a triangular
-//    factor is smaller than the least singular value, so that the pivots of the sturdy way's QR
-//    would all be above a thousandth of the first: no position is redundant.
-//  - The triangular factor of G^T is well-conditioned, and u's share in the constraints not small.
+// The quick method returns false unless all of the following holds; the robust method is used then.
+// - L is well-conditioned. A basis in fewer unknowns, or under constraints, is then
+//   well-conditioned, too: the robust method would drop no direction either.
+// - A A^T of the positions has a condition of at most 1e6. No diagonal entry of a triangular factor
+//   is smaller than the smallest singular value. All pivots of the robust method's QR would
+//   therefore exceed a thousandth of the first one, so no position is redundant.
+// - The triangular factor of G^T is well-conditioned, and the component of u in the constraints is
+//   not small.
 #include "pose/reduced_basis.h"
 
 #include "base/dense_product.h"
@@ -32,15 +33,15 @@ namespace bindpose
 
 namespace
 {
-/// Directions below this share of the largest eigenvalue count as seen by no energy.
+/// Directions whose eigenvalue is below this fraction of the largest one have no energy.
 constexpr double energy_rank = 1e-12;
-/// Positions below this share of the largest pivot count as redundant.
+/// Positions whose pivot is below this fraction of the largest one are redundant.
 constexpr double position_rank = 1e-9;
-/// What the quick way takes for well-conditioned: reciprocal conditions of A A^T and of R.
+/// Reciprocal conditions of A A^T and of R above which the quick method accepts a matrix.
 constexpr double beyond_doubt = 1e-6;
-/// From this many constraints on, as a share of the unknowns, the sturdy way is quicker.
+/// The robust method is faster if there is more than one constraint per this many unknowns.
 constexpr Index unknowns_per_constraint = 4;
-/// Columns of a triangular factor that are multiplied at a time.
+/// Number of columns of a triangular factor that are multiplied together.
 constexpr Index triangle_columns = 192;
 
 double norm_of_rows(const Eigen::MatrixXd& m)
@@ -116,8 +117,8 @@ void ReducedBasis::factor_whole(const ReducedSpace& space, const Eigen::MatrixXd
       whole.rows.push_back(i);
     }
   }
-  // Handles' weights sum to one, extra weights are added to them. The unknown that a translation
-  // moves most is the one to leave out.
+  // The weights of handles sum to one, and extra weights are added to them. The unknown that a
+  // translation changes most is left out.
   const auto handles = static_cast<Index>(space.handles.size());
   const auto shift_of = [&](Index i)
   { return i % 4 == 3 && i < 4 * handles ? 1.0 / space.basis_scale[i] : 0.0; };
@@ -267,13 +268,13 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
   this->quick_ = false;
   this->open_ = open;
   this->redundant_.clear();
-  // Unknowns in units in which a column of M has size one; an empty column drops out.
+  // Unknowns are in units in which a column of M has size one; an empty column has scale 0.
   const auto size = static_cast<Index>(open.size()), asked = held.rows();
   const Eigen::VectorXd scale = space.basis_scale(open);
   Eigen::MatrixXd reduced = scale.asDiagonal() * stiffness(open, open) * scale.asDiagonal();
   Eigen::MatrixXd covariance = space.covariance(Eigen::all, open) * scale.asDiagonal();
 
-  // Positions: D = particular b + Z z with rows Z = 0; Z is the tail of the orthogonal factor.
+  // Positions: D = particular b + Z y with rows Z = 0; Z is the tail of the orthogonal factor.
   this->particular_ = Eigen::MatrixXd::Zero(size, asked);
   Eigen::MatrixXd free_space;
   Index rank = 0;
@@ -306,8 +307,8 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
   {
     free_space = Eigen::MatrixXd::Identity(size, size);
   }
-  // B = Z L^-T, C = K B; in single precision that would do for C, but not for directions that are
-  // nearly the same.
+  // B = Z L^-T, C = K B. Single precision would suffice for C, but not for nearly parallel
+  // directions.
   this->basis_.resize(size, 0);
   if (reduced.rows() > 0)
   {
@@ -322,7 +323,8 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
     {
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
       const double largest = std::max(eigen.eigenvalues().maxCoeff(), 0.0);
-      const Index seen = (eigen.eigenvalues().array() > energy_rank * largest).count(); // the last
+      // Eigenvalues are in ascending order, so these directions are the last ones.
+      const Index seen = (eigen.eigenvalues().array() > energy_rank * largest).count();
       const Eigen::MatrixXd directions = eigen.eigenvectors().rightCols(seen) *
         eigen.eigenvalues().tail(seen).cwiseSqrt().cwiseInverse().asDiagonal();
       this->basis_ = dense_product(free_space, directions);
@@ -360,7 +362,8 @@ ReducedBasis::Unturned ReducedBasis::unturned_sturdily(const ReducedSpace& space
   const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
   const Coordinates& missing) const
 {
-  // The positions met, then the given blocks, that and the load answered.
+  // First meet the positions with the given blocks, then respond to the resulting force and the
+  // load.
   Unturned result;
   result.given = given;
   Coordinates& star = result.given;
@@ -368,7 +371,7 @@ ReducedBasis::Unturned ReducedBasis::unturned_sturdily(const ReducedSpace& space
   const Coordinates bent = thin_product(stiffness, star);
   const Coordinates force = bent - load;
   const Coordinates answer = transposed_thin_product(this->basis_, force(this->open_, Eigen::all));
-  // The answer takes half its square from the energy: H is the identity for it.
+  // The response lowers the energy by half its square, because B^T H B = I.
   result.energy = 0.5 * (star.array() * bent.array()).sum() - (star.array() * load.array()).sum() -
     0.5 * answer.squaredNorm();
   this->add_open(-thin_product(this->basis_, answer), star);
@@ -390,8 +393,8 @@ ReducedBasis::Unturned ReducedBasis::unturned(const ReducedSpace& space,
   {
     return this->unturned_sturdily(space, stiffness, load, given, missing);
   }
-  // z = Q (what constraints ask for, what answers the given blocks and the load): the first part
-  // is at right angles to what B spans, and costs no answer.
+  // z = Q (part that meets the constraints, part that responds to the given blocks and the load).
+  // The first part is orthogonal to the directions of B, so it causes no response.
   const Whole& whole = this->whole_;
   const Index unknowns = whole.directions.rows(), rank = this->reflections_.rank();
   const bool shifts = rank < this->constraints_;

@@ -1,9 +1,10 @@
 // One step of implicit Euler. With mass matrix M, displacement D_n and velocity V_n the next
-// displacement D minimises
+// displacement D minimizes
 //     E(D) + u / (2 h^2) |D - D_n - h V_n|^2_M + u c / (2 h) |D - D_n|^2_M - u <M g, D>,
-// u = density / stiffness, h the time step, c the damping, g the gravity: the energy's quadratic
-// form L becomes L + u (1 / h^2 + c / h) M, and the rest is a load. Its constant is chosen so that
-// what the solver watches is the energy and small terms, not squares of how far the body has come.
+// where u = density / stiffness, h is the time step, c the damping, g the gravity. The energy's
+// quadratic form L becomes L + u (1 / h^2 + c / h) M, and the other terms are a load. The constant
+// is chosen so that the solver's energies contain the energy and small terms only, and no squares
+// of the distance that the body has traveled.
 #include "pose/reduced_dynamics.h"
 
 #include "pose/rotation_fit.h"
@@ -174,7 +175,7 @@ double ReducedDynamics::elastic_energy() const
     {
       for (Index k = 0; k < space.groups.count; ++k)
       {
-        // Row i of S goes with column i of the rotations.
+        // Row i of S is paired with column i of the rotations.
         const double q = this->state_.rotations[(3 * j + i) * space.stride + k] - (i == j ? 1 : 0);
         turned += q *
           (space.rest_covariance[(3 * i + j) * space.stride + k] +

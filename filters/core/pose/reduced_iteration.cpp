@@ -1,12 +1,13 @@
-// One pass over C makes Y and S: while four columns are in the nearest cache, they are multiplied
-// with Q, which is four rows of Y, and these are added to S. An iterate carries S along, so that an
-// extrapolated Y costs no product, unless it comes from so far that S would be of noise.
+// Y and S are computed in one pass over C. While four columns are in the first-level cache, they
+// are multiplied by Q, which gives four rows of Y, and these rows are applied to S. An iterate
+// carries S along, so an extrapolated Y needs no product, unless the extrapolation is so large that
+// S would be mostly round-off.
 //
-// Energies, with E* for what does not depend on Q, are
+// With E* for the terms that do not depend on Q, the energies are
 //     after a local step   E* + 1/2 |Y|^2 - <Q, S>,
 //     after a global step  E* - 1/2 |Y|^2 - <Q, S*>.
-// In single precision both are wrong by about a millionth of |Y|^2 and <Q, S*>; a change below that
-// says nothing any more.
+// In single precision both have an error of about a millionth of |Y|^2 and <Q, S*>; a smaller
+// change is not significant.
 #include "pose/reduced_iteration.h"
 
 #include "base/packs.h"
@@ -20,21 +21,21 @@ namespace bindpose
 
 namespace
 {
-/// In single precision energies are known to this share of their parts.
+/// Relative error of energies in single precision, as a fraction of their terms.
 template <typename Scalar>
 constexpr double energy_noise = sizeof(Scalar) == 4 ? 2e-7 : 0.0;
 
-/// Extrapolations that reach farther than this carry too much round-off along.
+/// Largest sum of |coefficients| for which the carried S is accurate enough.
 template <typename Scalar>
 constexpr double farthest_reach = sizeof(Scalar) == 4 ? 3.0 : 1e4;
 
 constexpr Index columns_at_once = 4;
 
-/// Rows are padded to whole tiles, a pack of AVX-512, two of AVX2 or four of SSE.
+/// Rows are padded to whole tiles: one pack of AVX-512, two of AVX2 or four of SSE.
 template <typename Scalar>
 constexpr Index tile_rows = 64 / sizeof(Scalar);
 
-/// y_j = A^T q_j for a few columns of A and j = 0, 1, 2.
+/// Compute y_j = A^T q_j for a few columns of A and j = 0, 1, 2.
 template <Index count, int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void dot_columns(
   Index rows, const Scalar* a, const Scalar* q, Scalar* y, Index length)
@@ -68,7 +69,7 @@ BINDPOSE_ALWAYS_INLINE void dot_columns(
   }
 }
 
-/// Y = C^T Q and S = S* + C Y.
+/// Compute Y = C^T Q and S = S* + C Y.
 template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void multiply_both(Index rows, Index columns, const Scalar* covariance,
   const Scalar* q, const Scalar* star, Scalar* y, Index length, Scalar* s)
@@ -86,7 +87,7 @@ BINDPOSE_ALWAYS_INLINE void multiply_both(Index rows, Index columns, const Scala
   }
 }
 
-/// S = S* + C Y.
+/// Compute S = S* + C Y.
 template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void multiply_once(Index rows, Index columns, const Scalar* covariance,
   const Scalar* star, const Scalar* y, Index length, Scalar* s)
@@ -128,7 +129,8 @@ void ReducedIteration<Scalar>::set_size(Index clusters, Index columns)
   this->rows_ = padded(3 * clusters, tile);
   this->anderson_.reset();
   this->length_ = padded(columns, tile);
-  // Not zeroed as a whole: of a change of modes that would be a large part.
+  // Only the padding is set to zero, because zeroing everything would take much of a change of
+  // modes.
   this->covariance_.resize(
     static_cast<std::size_t>(this->rows_ * padded(columns, columns_at_once)));
   Scalar* to = this->covariance_.data() + 3 * clusters;
@@ -259,7 +261,8 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
   {
     energies.push_back(star_energy + unit * this->global_step(this->plain_));
   }
-  // A single iteration, the usual one in double precision, has nothing to extrapolate to.
+  // A single iteration, the usual case in double precision, has no previous iterate to extrapolate
+  // from.
   const bool accelerates = window > 0 && limits.iterations > 1;
   if (accelerates && (!this->anderson_ || this->anderson_->window() != window))
   {
@@ -312,7 +315,7 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
       energies.resize(first);
       return false;
     }
-    // The first energy after another precision's last one says nothing about the fall.
+    // The first energy after a change of precision cannot be compared with the one before it.
     if (iterations > 1 || !this->has_iterate_)
     {
       progress.change = energy_before - energy;
@@ -320,7 +323,7 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
       progress.converged = limits.tolerance > 0.0 && can_see &&
         progress.change <= limits.tolerance * std::max(energy, limits.least_energy);
     }
-    // A look at the clock costs as much as a fit of some rotations.
+    // Reading the clock costs as much as fitting some rotations.
     progress.in_time = limits.deadline == limits.deadline.max() ||
       std::chrono::steady_clock::now() < limits.deadline;
   }

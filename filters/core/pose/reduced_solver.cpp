@@ -1,25 +1,25 @@
 // Pose time of reduced as-rigid-as-possible.
 //
-// With displacements D from rest (V' = V + M D) and Q = R - I for the rotations, what is minimised
-// is
+// With displacements D from rest (V' = V + M D) and Q = R - I for the rotations, the solver
+// minimizes
 //     E(D, Q) = 1/2 <D, H D> - <P, D> - <Q, S0 + K D>,   H, K, S0 projected at bind time,
 // because rest with R = I is a minimum of the energy: all its constant and linear terms cancel. The
-// unknowns are split into given ones (blocks of full handles) and open ones D = D* + B Y, where D*
-// is the best that meets the positions with Q = 0, and the columns of B keep them met and are
-// orthonormal in H (B^T H B = I; B spans what the positions leave open). With C = K B one iteration
-// is
+// given unknowns are the blocks of full handles. The open ones are D = D* + B Y. D* is the best
+// displacement that meets the positions with Q = 0. The columns of B span the displacements that
+// keep the positions met. They are orthonormal in H (B^T H B = I). With C = K B one iteration is
 //     S = S* + C Y                   covariances
 //     Q = best rotations of S - I    the local step
 //     Y = C^T Q                      the global step
-// a product each with one dense matrix, and the energies after both half-steps are
+// S and Y are one product each with the same dense matrix. The energies after both half-steps are
 //     after a local step   E = E* + 1/2 |Y|^2 - <Q, S>,
 //     after a global step  E = E* - 1/2 |Y|^2 - <Q, S*>,   E* = 1/2 <D*, H D*> - <P, D*>.
 //
-// Anderson acceleration works on Y, whose length is the energy's own; C Y is carried along, so that
-// an extrapolated Y costs no product. It is taken if its energy, with the rotations that fit it, is
-// no higher than that of the plain Y. The last iterate is a plain one.
+// Anderson acceleration extrapolates Y, whose squared length is in units of the energy. C Y is
+// carried along, so an extrapolated Y needs no product. It is accepted if its energy, with the best
+// rotations for it, is at most that of the plain Y. The last iterate is a plain one.
 //
-// B is made in reduced_basis.cpp. What neither energy nor constraints see stays at rest.
+// reduced_basis.cpp computes B. Directions that affect neither the energy nor a constraint stay at
+// rest.
 #include "pose/reduced_solver.h"
 
 #include "base/number_text.h"
@@ -37,12 +37,12 @@ namespace
 {
 using Rows = ReducedSpace::Rows;
 
-/// A position missed by more than this share of the diagonal contradicts others.
+/// Positions missed by more than this fraction of the diagonal are reported as contradictory.
 constexpr double contradiction = 1e-9;
-/// Below this share of the rest energy an energy counts as zero for the tolerance.
+/// Below this fraction of the rest energy an energy counts as zero for the tolerance.
 constexpr double nothing_bends = 1e-6;
 
-/// Energies this share of the rest energy apart are equal but for round-off.
+/// Energies that differ by at most this fraction of the rest energy are equal up to round-off.
 constexpr double same_energy = 1e-15;
 } // namespace
 
@@ -103,8 +103,9 @@ void ReducedSolver::factor(
   }
 }
 
-/// A first guess without history: each cluster turns as the full handles near it do; what is near
-/// other handles takes the rotation that fits all pivots, and the full handles' frames, best.
+/// Compute initial rotations without history. The rotation of a cluster is a blend of those of the
+/// full handles near it. Near other handles it is the rotation that best fits all pivots and the
+/// frames of full handles.
 void ReducedSolver::start_rotations(const ReducedSpace& space, const Pose& pose)
 {
   const double reach = 0.3 * space.radius; // the size of a full handle's frame
@@ -146,7 +147,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
       quoted_names(space.handles, this->redundant_));
   }
 
-  // What this pose gives: blocks of full handles, targets of positions.
+  // The constraints of this pose: blocks of full handles, targets of positions.
   const Index clusters = space.groups.count, stride = space.stride;
   d = Rows::Zero(4 * space.columns, 3);
   for (std::size_t h = 0; h < pose.size(); ++h)
@@ -219,11 +220,11 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
       this->iteration_.go_on(this->single_iteration_);
       single_iterations = progress.iterations;
     }
-    progress.in_time = true; // for one in double precision
+    progress.in_time = true; // in time for one iteration in double precision
   }
   if (!progress.cancelled)
   {
-    // What has converged needs one more for its last digits.
+    // A converged result needs one more iteration for its last digits.
     const bool converged = progress.converged;
     limits.iterations = converged ? 1 : options.max_iterations - progress.iterations;
     this->iteration_.run(context, limits, options.anderson_window, star_energy, progress);

@@ -8,56 +8,65 @@
 namespace bindpose
 {
 
-/// The rotations that a solve begins with.
+/// Initial rotations of a solve.
 enum class ReducedStart
 {
-  last, ///< those of the last solve (a guess in the first): few iterations, twists add up
-  guess, ///< near full handles theirs, elsewhere one that fits all pivots: depends on the pose only
-  rest ///< none
+  /// Rotations of the last solve (a guess in the first solve): few iterations, twists accumulate.
+  last,
+  /// Rotations of the full handles nearby, elsewhere the rotation that best fits all pivots;
+  /// depends on the pose only.
+  guess,
+  rest ///< identity
 };
 
 struct ReducedSolveOptions
 {
-  /// Ends when an iteration lowers the energy by no more than this share of it (or of 1e-6 of
-  /// the rest energy, a strain of a few 1e-6). 0: runs all iterations, cannot fail to converge.
+  /// The solve ends if an iteration lowers the energy by at most this fraction of the energy (or of
+  /// 1e-6 of the rest energy, which is a strain of a few 1e-6). 0: run all iterations; the result
+  /// is never not_converged.
   double tolerance = 1e-6;
   Index max_iterations = 100;
   ReducedStart start = ReducedStart::last;
-  /// Iterates that acceleration looks back on, at most largest_anderson_window; 0: none.
+  /// Number of previous iterates that acceleration combines, at most largest_anderson_window; 0: no
+  /// acceleration.
   Index anderson_window = 5;
-  /// Ends after the iteration in which this much time has passed; 0: no limit. How many iterations
-  /// that allows depends on the machine: as max_iterations they give the same bits again.
+  /// The solve ends after the iteration in which this much time has passed; 0: no limit. The number
+  /// of iterations then depends on the machine. A solve with this number as max_iterations gives
+  /// the same bits.
   double budget_microseconds = 0.0;
-  /// Iterates in single precision until its round-off hides whether the energy falls, and from
-  /// there, at least once, in double precision. Off: in double precision from the start.
+  /// If true, iterate in single precision until its round-off hides whether the energy still falls.
+  /// Then continue in double precision for at least one iteration. If false, use double precision
+  /// only.
   bool mixed_precision = true;
 };
 
-/// Minimises 1/2 <D, H D> - <P, D> - (what rotations gain) over displacements D of a ReducedSpace
-/// and rotations of its clusters, under the constraints of a pose. For reduced as-rigid-as-possible
-/// H is the stiffness and P zero; a step in time adds masses to H and their momentum to P.
+/// Minimizes 1/2 <D, H D> - <P, D> - <Q, S0 + K D> over displacements D of a ReducedSpace and
+/// rotations R = I + Q of its clusters, under the constraints of a pose. In reduced
+/// as-rigid-as-possible H is the stiffness and P is zero. In a time step, masses are added to H and
+/// their momentum to P.
 class ReducedSolver
 {
 public:
-  /// What is minimised besides the space's own part.
+  /// The terms of the minimization that do not depend on rotations.
   struct Quadratic
   {
     const Eigen::MatrixXd& stiffness; ///< H, 4 #columns x 4 #columns
-    const ReducedSpace::Rows& load; ///< P, as D
-    double constant = 0.0; ///< added to energies
+    const ReducedSpace::Rows& load; ///< P, in the layout of D
+    double constant = 0.0; ///< added to all energies
   };
 
-  /// Forgets factors: H is another one, or the space is.
+  /// Discard the factors. Call it if H or the space has changed.
   void reset();
 
-  /// See ReducedArap::solve(). D and transforms() are the result.
+  /// Solve as ReducedArap::solve() does; the result is D.
   Status solve(ExecutionContext& context, const ReducedSpace& space, const Quadratic& quadratic,
     const Pose& pose, const ReducedSolveOptions& options, ReducedSpace::Rows& d);
 
-  /// The next solve starts from a guess.
+  /// Make the next solve start from a guess.
   void forget() { this->warm_ = false; }
 
-  /// Rotations of the last solve in the space's planes, to be kept and given back.
+  /// Rotations of the last solve in the space's planes. The caller can store them and restore them
+  /// later.
   const std::vector<double>& rotations() const { return this->rotations_; }
   void set_rotations(std::vector<double> rotations);
 
@@ -70,12 +79,12 @@ private:
 
   // ---- per choice of modes
   std::vector<HandleMode> modes_;
-  std::vector<Index> positions_; ///< pivots and tails that are held: rows of pivot_rows
+  std::vector<Index> positions_; ///< constrained pivots and tails: rows of pivot_rows
   std::vector<Index> redundant_;
-  Eigen::MatrixXd position_rows_; ///< positions x 4 #columns: their displacements
-  ReducedBasis basis_; ///< B and what goes with it
-  ReducedIteration<double> iteration_; ///< with C = K M B
-  ReducedIteration<float> single_iteration_; ///< where single precision can hold C
+  Eigen::MatrixXd position_rows_; ///< positions x 4 #columns: displacements of the positions
+  ReducedBasis basis_; ///< B
+  ReducedIteration<double> iteration_; ///< uses C = K M B
+  ReducedIteration<float> single_iteration_; ///< valid if single precision can represent C
   bool has_single_ = false;
 
   // ---- state

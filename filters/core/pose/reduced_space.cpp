@@ -1,7 +1,8 @@
 // Bind time of reduced as-rigid-as-possible: the mesh's stiffness L and covariance sums K are
-// projected on the skinning space V' = V + M D, once. Column block j of M is w_j ((x - c_j) / s_j,
-// 1), in a frame of the column's own, because a handle of small reach sees its coordinates as
-// nearly constant and would spoil the conditioning in a common frame.
+// projected once on the skinning space V' = V + M D. Column block j of M is
+// w_j ((x - c_j) / s_j, 1), in a separate frame per column. In a common frame the coordinates would
+// be nearly constant over a handle that moves a small part of the mesh, which would spoil the
+// conditioning.
 #include "pose/reduced_space.h"
 
 #include "base/dense_product.h"
@@ -19,15 +20,17 @@ namespace bindpose
 
 namespace
 {
-/// Strips whose partial sums are added in order; their number fixes the bits, not the threads.
+/// Strips whose partial sums are added in order. Their number determines the bits of the sums; the
+/// number of threads does not.
 constexpr Index strips = 16;
 constexpr Index rows_at_once = 256;
-/// A pivot this close to a vertex, in diagonals, is the vertex.
+/// A pivot within this distance of a vertex, in diagonals, is the vertex.
 constexpr double same_place = 1e-9;
-/// A pivot this close to a triangle, in diagonals, lies on it.
+/// A pivot within this distance of a triangle, in diagonals, is on it.
 constexpr double on_surface = 1e-6;
 
-/// Barycentric coordinates in a tet; false when outside or flat.
+/// Compute barycentric coordinates in a tet. Return false if the point is outside or the tet is
+/// flat.
 bool locate(
   PointsView points, const TetsView& tets, Index e, const Vec3& p, double, Eigen::Vector4d& lambda)
 {
@@ -46,7 +49,8 @@ bool locate(
   return lambda.allFinite() && lambda.minCoeff() >= -1e-9;
 }
 
-/// Barycentric coordinates of the foot point in a triangle; false when it or the distance is off.
+/// Compute barycentric coordinates of the foot point in a triangle. Return false if it is outside
+/// or the distance is too large.
 bool locate(PointsView points, const TrianglesView& triangles, Index e, const Vec3& p,
   double diagonal, Eigen::Vector4d& lambda)
 {
@@ -106,13 +110,13 @@ void ReducedSpace::find_pivots(PointsView points, const Elements& elements, Weig
     {
       continue;
     }
-    // What holds when the mesh does not hold the place: the handle's own transform.
+    // The default, used if the position is not on the mesh: the handle's own transform.
     Eigen::VectorXd unit = Eigen::VectorXd::Unit(this->columns, end % count);
     this->basis_row(unit.data(), place(end), row.data());
     this->pivot_rows.row(end) = row;
     if (handle.kind == HandleKind::region)
     {
-      continue; // its vertices move as one, wherever their middle lies
+      continue; // the vertices of a region move as one, so its pivot needs no point of the mesh
     }
     Index nearest = 0;
     const double distance = std::sqrt(
@@ -164,7 +168,7 @@ bool ReducedSpace::project_stiffness(ExecutionContext& context, PointsView point
   const Index strip = (n + strips - 1) / strips;
   std::vector<Weights> sums(static_cast<std::size_t>(strips));
   std::vector<Eigen::VectorXd> squares(static_cast<std::size_t>(strips));
-  // M is made in pieces: all of it would be the largest thing in memory.
+  // M is computed in pieces, because the whole of it would be the largest object in memory.
   const bool done = parallel_for(context, strips, 1,
     [&](Index s, Index)
     {
@@ -210,7 +214,7 @@ bool ReducedSpace::project_stiffness(ExecutionContext& context, PointsView point
     square += squares[s];
   }
   this->stiffness = Eigen::MatrixXd(sums[0].selfadjointView<Eigen::Lower>());
-  // A column is empty when nothing of it would be seen: 1e-12 of a diagonal everywhere.
+  // A column is empty if its effect is invisible: at most 1e-12 diagonals (root mean square).
   const double count = static_cast<double>(std::max<Index>(n, 1));
   this->basis_scale =
     (square / count)
@@ -246,7 +250,7 @@ void ReducedSpace::project_covariance(
   const Index clusters = this->groups.count;
   this->stride = (clusters + 7) / 8 * 8;
   this->covariance = Eigen::MatrixXd::Zero(3 * clusters, 4 * this->columns);
-  // Rows are written while vertices pass by: row-major until the end.
+  // The vertex loop adds to whole rows, so the product is row-major until the end.
   Weights product = Weights::Zero(3 * clusters, 4 * this->columns);
   this->cluster_weights = Eigen::MatrixXd::Zero(clusters, handle_count);
   this->rest_covariance.assign(static_cast<std::size_t>(9 * this->stride), 0.0);
@@ -266,7 +270,8 @@ void ReducedSpace::project_covariance(
         this->rest_covariance[static_cast<std::size_t>((3 * i + j) * this->stride + k)] +=
           it.value() * (p[j] - middle[j]);
       }
-      // Squares of edge sums: what a vertex matters to a cluster, in any coordinate frame.
+      // The squared edge sums measure the influence of a vertex on a cluster in any coordinate
+      // frame.
       const double square = it.value() * it.value();
       this->cluster_weights.row(k) += square * weights.row(v).head(handle_count).cwiseAbs();
       cluster_mass[k] += square;

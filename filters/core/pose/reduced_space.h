@@ -11,35 +11,37 @@
 namespace bindpose
 {
 
-/// What widens the space of deformations beyond the handles' weights.
+/// Type of the weights that extend the space of deformations beyond the handles' weights.
 enum class ExtraWeights : int
 {
-  bumps = 0, ///< spline_bumps(): each bends the shape around one place
-  eigenmodes = 1 ///< skinning_eigenmodes(): the first ones bend all of it, smoothly
+  bumps = 0, ///< spline_bumps(): each bends the shape around one point
+  eigenmodes = 1 ///< skinning_eigenmodes(): the first ones bend the whole shape smoothly
 };
 
 struct ReducedArapOptions
 {
   ArapEnergy energy = ArapEnergy::automatic;
-  /// Rotations to fit in an iteration; 0: four a handle. As many as there are vertices or more:
-  /// every vertex (element) has its own.
+  /// Number of rotations to fit per iteration; 0: four per column of weights (handles and extra
+  /// weights). If it is at least the number of vertices, every vertex (element) has its own
+  /// rotation.
   Index clusters = 0;
-  /// Extra weights that widen the space of deformations; they vanish at handles.
+  /// Number of extra weights that extend the space of deformations. They vanish at handles.
   Index extra_weights = 0;
   ExtraWeights extra_kind = ExtraWeights::bumps;
-  SkinningOptions skinning = {}; ///< how deform() keeps weights
-  /// Also projects the mass (ReducedSpace::mass): for dynamics.
+  SkinningOptions skinning = {}; ///< how deform() stores weights
+  /// Whether to also project the mass (ReducedSpace::mass), for dynamics.
   bool mass = false;
 };
 
-/// What reduced as-rigid-as-possible needs of a mesh: energy and constraints projected on the space
-/// of skinning transforms V' = V + M D, once. Nothing in it depends on a pose, and its size not on
-/// the mesh's (but for the weights that deform()).
+/// The data of a mesh that reduced as-rigid-as-possible uses: energy and constraints, projected
+/// once on the space of skinning transforms V' = V + M D. The data does not depend on a pose. Its
+/// size does not depend on the size of the mesh, except for the weights of deform().
 ///
-/// D has four rows a column of the weights: a displacement of w_j ((x - center_j) / size_j, 1).
+/// D has a 4 x 3 block per column j of the weights. The block contributes the displacement
+/// w_j ((x - center_j) / size_j, 1) block.
 struct ReducedSpace
 {
-  /// What D is: 4 #columns x 3.
+  /// Type of D: 4 #columns x 3.
   using Rows = Coordinates;
 
   /// See ReducedArap::bind().
@@ -47,31 +49,33 @@ struct ReducedSpace
   Status bind(ExecutionContext& context, PointsView points, const Elements& elements,
     WeightsView weights, const Handles& their_handles, const ReducedArapOptions& options);
 
-  /// Displacement block of a column's transform, and back.
+  /// Convert a column's transform to its displacement block, or back.
   Eigen::Matrix<double, 4, 3> block_of(const Affine& transform, Index column) const;
   Affine affine_of(const Eigen::Ref<const Eigen::Matrix<double, 4, 3>>& block, Index column) const;
-  /// The transforms of all columns; those of full handles are the pose's own to the bit.
+  /// Return the transforms of all columns. Those of full handles equal the pose's transforms to the
+  /// bit.
   std::vector<Affine> transforms_of(const Rows& d, const Pose& pose) const;
 
   Handles handles;
-  Skinning skinning; ///< by all columns
+  Skinning skinning; ///< with all columns
   RotationGroups groups;
   double diagonal = 0.0;
-  double radius = 0.0; ///< root mean square distance of the vertices from their middle
+  double radius = 0.0; ///< root mean square distance of the vertices from their centroid
   double rest_energy = 0.0; ///< 1/2 tr(V^T L V)
   Index columns = 0; ///< handles and extra weights
-  std::vector<Vec3> centers; ///< a column's frame: (x - center) / size
+  std::vector<Vec3> centers; ///< frame of each column: (x - center) / size
   std::vector<double> sizes;
   Eigen::VectorXd basis_scale; ///< 1 / root mean square of a column of M, 0 for an empty one
   Eigen::MatrixXd stiffness; ///< M^T L M
-  Eigen::MatrixXd mass; ///< M^T M_L M, M_L lumped, of density 1; only when asked for
+  Eigen::MatrixXd mass; ///< M^T M_L M with lumped M_L, for density 1; only if requested
   Eigen::VectorXd mass_sums; ///< M^T M_L 1
   Eigen::MatrixXd covariance; ///< K M, rows i * clusters + k
-  /// Displacements of the handles' pivots, then of their tails: 2 #handles x 4 columns.
+  /// Maps D to the displacements of the handles' pivots, then of their tails: 2 #handles x
+  /// 4 #columns.
   Eigen::MatrixXd pivot_rows;
   Eigen::MatrixXd cluster_weights; ///< #clusters x #handles, mean |weights|
-  /// Matrices of clusters lie in planes: (3 i + j) * stride + k holds entry (i, j) of matrix k, and
-  /// the stride is in whole tiles of 8.
+  /// Matrices of clusters are stored in planes: entry (i, j) of matrix k is at
+  /// (3 i + j) * stride + k. The stride is a multiple of 8.
   Index stride = 0;
   std::vector<double> rest_covariance; ///< K V in planes
 

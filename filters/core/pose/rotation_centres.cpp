@@ -1,11 +1,12 @@
-// Similarity is a sum over pairs of handles, and a pair's term depends on two weights only and is
-// smooth in them. So elements in which these two are nearly the same are one term of the pair's
-// sum, whatever their other weights are: the plane of both weights is halved, along the one that
-// differs more, until no box is larger than the group size. Twenty handles that are all felt
-// everywhere leave hardly two elements alike, but hundreds in each plane.
+// Similarity is a sum over pairs of handles. The term of a pair depends smoothly on two weights
+// only. Elements in which these two weights are nearly the same are therefore one term of the
+// pair's sum, whatever their other weights are. The plane of both weights is halved, along the
+// weight with the larger range, until no box is larger than the group size. With twenty handles of
+// global influence, hardly two elements have similar rows of weights, but hundreds of elements are
+// similar in each plane.
 //
-// Each pair has its groups side by side, and a vertex that has the pair runs over them, eight at
-// once. Pairs are made one by one, all from the elements that have both handles.
+// The groups of each pair are contiguous. A vertex that has both handles of the pair loops over
+// them, eight per step. The groups of a pair are computed from all elements that have both handles.
 #include "pose/rotation_centres.h"
 
 #include "base/parallel.h"
@@ -21,23 +22,23 @@ namespace bindpose
 
 namespace
 {
-constexpr Index block_size = 16; // vertices: a cancel is seen soon
+constexpr Index block_size = 16; // vertices; small, for a quick response to a cancel
 constexpr Index element_block = 4096;
 constexpr Index lanes = 8;
 
 /// An element that has both handles of a pair.
 struct PairElement
 {
-  double weights[2]; ///< means of its corners'
-  double amount; ///< size * both weights
+  double weights[2]; ///< means over the corners
+  double amount; ///< size * weights[0] * weights[1]
   Index element;
 };
 
-/// The groups of elements that have both handles of a pair; the arrays are padded to whole lanes by
-/// groups of amount zero.
+/// The groups of elements that have both handles of a pair. The arrays are padded to whole lanes
+/// with groups of amount zero.
 struct PairGroups
 {
-  std::vector<double> first, second; ///< mean weights, over the width
+  std::vector<double> first, second; ///< mean weights, divided by the width
   std::vector<double> amount; ///< sum of size * first * second
   std::vector<double> x, y, z; ///< sum of amount * centroid
   Index count = 0;
@@ -61,19 +62,19 @@ struct PairGroups
   }
 };
 
-/// amount and moment of what is similar.
+/// Sums of amount and moment, weighted by similarity.
 struct Sums
 {
   double amount = 0.0;
   Vec3 moment = Vec3::Zero();
 };
 
-/// exp(-u) for u >= 0, to about 1e-13 of itself; 0 where it is less than 1e-300.
+/// Return exp(-u) for u >= 0 with a relative error of about 1e-13; 0 if u >= 690 (about 1e-300).
 BINDPOSE_ALWAYS_INLINE double decay(double u)
 {
   constexpr double log2_e = 1.4426950408889634, ln2_high = 6.93145751953125e-1,
                    ln2_low = 1.42860682030941723212e-6;
-  constexpr double rounder = 0x1.8p52; // its sum's low bits are the nearest whole number
+  constexpr double rounder = 0x1.8p52; // adding it leaves the nearest integer in the low bits
   const double x = u < 690.0 ? -u : -690.0;
   const double shifted = x * log2_e + rounder;
   const double whole = shifted - rounder;
@@ -91,7 +92,7 @@ BINDPOSE_ALWAYS_INLINE double decay(double u)
   p = p * r + 0.5;
   p = p * r + 1.0;
   p = p * r + 1.0;
-  std::uint64_t bits; // unsigned: what is shifted out is not missed
+  std::uint64_t bits; // unsigned, so that a left shift that drops bits is defined
   std::memcpy(&bits, &shifted, sizeof(bits));
   bits = (bits + 1023) << 52; // 2^whole
   double scale;
@@ -99,8 +100,8 @@ BINDPOSE_ALWAYS_INLINE double decay(double u)
   return u < 690.0 ? p * scale : 0.0;
 }
 
-/// Adds the groups of a pair of handles to what is similar to weights a and b, over the width, of
-/// these.
+/// Add the groups of a pair of handles, weighted by their similarity to the weights a and b of a
+/// vertex. The groups' weights are divided by the width.
 BINDPOSE_SIMD_CLONES void add_similar(
   const PairGroups& groups, double a, double b, double factor, Sums& sums)
 {
@@ -135,8 +136,8 @@ double size_of(PointsView points, const Index* v, int corners)
                       : std::abs(tet_volume(a, b, c, Vec3(points.row(v[3]))));
 }
 
-/// Where the second half of a range begins, halved along the weight that differs more; begin: there
-/// is none, the range is a group.
+/// Halve a range along the weight with the larger range, and return the start of the second half.
+/// Return `begin` if the range is one group.
 std::size_t split(
   std::vector<PairElement>& elements, std::size_t begin, std::size_t end, double limit)
 {
@@ -155,7 +156,8 @@ std::size_t split(
   {
     return begin;
   }
-  // Below the upper end even where both are neighbours, so that each half has an element.
+  // If both ends are adjacent numbers, the mean may equal the upper end. The cut is below it, so
+  // that each half has an element.
   const double half = 0.5 * (lower[axis] + upper[axis]);
   const double cut = half < upper[axis] ? half : lower[axis];
   const auto first = elements.begin();
@@ -166,7 +168,7 @@ std::size_t split(
     first);
 }
 
-/// What is the same of elements whose two weights are nearly the same.
+/// Group elements whose two weights are nearly the same, and sum each group.
 PairGroups groups_of(std::vector<PairElement>& elements, const Points& centroids,
   const RotationCentresOptions& options)
 {
@@ -224,7 +226,7 @@ Status check(const RotationCentresOptions& options, PointsView points, WeightsVi
   return weights.allFinite() ? Status() : Status::invalid_input("a weight is not a finite number");
 }
 
-/// Pairs of handles j < k in a row.
+/// Return the index of the pair of handles j < k.
 Index pair_of(Index j, Index k, Index handles)
 {
   return j * handles - j * (j + 1) / 2 + k - j - 1;
@@ -266,7 +268,7 @@ Status find_centres(ExecutionContext& context, const RotationCentresOptions& opt
       return Status::cancelled();
     }
   }
-  // The elements that each handle is felt in.
+  // The elements in which each handle has a weight.
   std::vector<std::vector<Index>> felt(static_cast<std::size_t>(handles));
   for (Index e = 0; e < count; ++e)
   {

@@ -1,15 +1,18 @@
-// Horn's form: tr(R S) of the rotation with unit quaternion q is q^T N q with a symmetric traceless
-// 4x4 matrix N of S, so the best rotation is N's top eigenvector.
+// Horn's form: tr(R S) of the rotation with unit quaternion q is q^T N q, where N is a symmetric
+// traceless 4x4 matrix of S. The best rotation is therefore the eigenvector of N's largest
+// eigenvalue.
 //
-// Fast path, without branches so that several matrices go through at once: the top eigenvalue is
-// the largest root of N's characteristic quartic, whose roots are all real; Laguerre's iteration
-// from an upper bound falls on it from above, with third order. The eigenvector is a column of the
-// adjugate of N - lambda, which for a simple eigenvalue is p'(lambda) q q^T. One more step at the
-// Rayleigh quotient takes away what the quartic's rounding left.
+// The fast path has no branches, so that several matrices are processed together. The largest
+// eigenvalue is the largest root of N's characteristic quartic, whose roots are all real.
+// Laguerre's iteration converges to it from above, starting from an upper bound, with third order.
+// The eigenvector is a column of the adjugate of N - lambda, which for a simple eigenvalue is
+// p'(lambda) q q^T. One more step with the Rayleigh quotient removes the error of the quartic's
+// rounding.
 //
-// p'(lambda) is the product of the gaps to the other eigenvalues. When it is small the best
-// rotation is nearly not unique (S of rank 1, a reflection of equal sizes); then an eigenvalue
-// solver finds the whole top eigenspace, and the previous quaternion is projected on it.
+// p'(lambda) is the product of the gaps to the other eigenvalues. If it is small, the best rotation
+// is nearly not unique (S of rank 1, a reflection with equal singular values). An eigenvalue solver
+// then finds the whole eigenspace of the largest eigenvalue, and the previous quaternion is
+// projected on it.
 #include "pose/rotation_fit.h"
 
 #include "base/simd.h"
@@ -24,21 +27,21 @@ namespace bindpose
 
 namespace
 {
-/// Eigenvalues closer than this share of |S| to the top count as equal to it.
+/// Eigenvalues within this fraction of |S| of the largest one count as equal to it.
 constexpr double same_eigenvalue = 1e-12;
 
-/// The fast path in a precision.
+/// Parameters of the fast path in a precision.
 template <typename Scalar>
 struct Fast;
 template <>
 struct Fast<double>
 {
-  static constexpr int lanes = 8; ///< matrices that go through together
-  static constexpr int steps = 5; ///< of Laguerre's iteration
-  static constexpr double last_step = 1e-5; ///< a longer one has not arrived
-  static constexpr double slope = 1e-3; ///< p'(lambda) / |S|^3 below which it is not trusted
+  static constexpr int lanes = 8; ///< matrices that are processed together
+  static constexpr int steps = 5; ///< iterations of Laguerre's method
+  static constexpr double last_step = 1e-5; ///< a longer last step has not converged
+  static constexpr double slope = 1e-3; ///< smallest trusted p'(lambda) / |S|^3
   static constexpr double tiny = 1e-300; ///< keeps quotients finite
-  static constexpr double least = 1e-200, most = 1e200; ///< of |S|^2
+  static constexpr double least = 1e-200, most = 1e200; ///< limits of |S|^2
 };
 template <>
 struct Fast<float>
@@ -72,7 +75,7 @@ BINDPOSE_ALWAYS_INLINE Horn<Scalar> horn(Scalar s00, Scalar s01, Scalar s02, Sca
     s11 - s00 - s22, s12 + s21, s22 - s00 - s11 };
 }
 
-/// The column of the adjugate of N - lambda whose diagonal entry is the largest.
+/// Return the column of the adjugate of N - lambda whose diagonal entry is the largest.
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE Quaternion<Scalar> eigenvector(const Horn<Scalar>& n, Scalar lambda)
 {
@@ -91,7 +94,7 @@ BINDPOSE_ALWAYS_INLINE Quaternion<Scalar> eigenvector(const Horn<Scalar>& n, Sca
   const Scalar yy = a * (b * d - t * t) - p * (p * d - t * r) + r * pt;
   const Scalar yz = -(a * (b * u - s * t) - p * (p * u - s * r) + q * pt);
   const Scalar zz = a * (b * c - s * s) - p * (p * c - s * q) + q * (p * s - b * q);
-  // Selects, not branches.
+  // Conditional moves, no branches.
   Scalar w0 = ww, x0 = wx, y0 = wy, z0 = wz, size = std::abs(ww);
   const bool use_x = std::abs(xx) > size;
   w0 = use_x ? wx : w0;
@@ -129,23 +132,25 @@ BINDPOSE_ALWAYS_INLINE Scalar rayleigh(const Horn<Scalar>& n, const Quaternion<S
     square_of(v);
 }
 
-/// Groups of lanes that go through the fast path together, step by step: the roots and quotients of
-/// one are waited for while others are worked on.
+/// Groups of lanes that go through each step of the fast path together. The latency of one group's
+/// roots and quotients overlaps with the work on the others.
 constexpr int groups_at_once = 4;
 
-/// What the steps hand on.
+/// Data that one step passes to the next.
 template <typename Scalar>
 struct FitBlock
 {
   static constexpr int lanes = Fast<Scalar>::lanes;
-  int groups; ///< that are there
-  Index begin[groups_at_once]; ///< first matrix of each
-  int skipped[groups_at_once]; ///< lanes of each that another one has done
+  int groups; ///< number of groups in use
+  Index begin[groups_at_once]; ///< first matrix of each group
+  /// Leading lanes of each group that another group has already processed.
+  int skipped[groups_at_once];
   Scalar horn[10][groups_at_once * lanes];
-  Scalar linear[groups_at_once * lanes], constant[groups_at_once * lanes]; ///< of the quartic
+  /// Coefficients of the quartic.
+  Scalar linear[groups_at_once * lanes], constant[groups_at_once * lanes];
   Scalar norm2[groups_at_once * lanes];
   Scalar eigenvalue[groups_at_once * lanes];
-  Scalar slope[groups_at_once * lanes]; ///< says how far a lane can be trusted
+  Scalar slope[groups_at_once * lanes]; ///< reliability of a lane: p'(lambda), or 0
   Scalar rotation[9][groups_at_once * lanes];
 
   BINDPOSE_ALWAYS_INLINE Horn<Scalar> horn_of(int k) const
@@ -156,7 +161,7 @@ struct FitBlock
   }
 };
 
-/// N and its quartic p(x) = x^4 - 2 x^2 + c1 x + c0 for S of norm 1: c1 = -8 det S and
+/// Compute N and its quartic p(x) = x^4 - 2 x^2 + c1 x + c0 for S of norm 1: c1 = -8 det S and
 /// c0 = 1 - 4 |cofactors of S|^2.
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void set_quartics(
@@ -205,7 +210,7 @@ BINDPOSE_ALWAYS_INLINE void set_quartics(
   }
 }
 
-/// The quartics' largest roots.
+/// Find the largest roots of the quartics.
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void find_eigenvalues(FitBlock<Scalar>& __restrict block)
 {
@@ -215,7 +220,8 @@ BINDPOSE_ALWAYS_INLINE void find_eigenvalues(FitBlock<Scalar>& __restrict block)
     for (int k = g * Limits::lanes; k < (g + 1) * Limits::lanes; ++k)
     {
       const Scalar c1 = block.linear[k], c0 = block.constant[k], norm2 = block.norm2[k];
-      Scalar x = Scalar(1.7320508075688772); // the sum of three singular values of |S| = 1 at most
+      // Upper bound: the sum of the three singular values for |S| = 1.
+      Scalar x = Scalar(1.7320508075688772);
       Scalar step = 0;
       for (int i = 0; i < Limits::steps; ++i)
       {
@@ -228,8 +234,8 @@ BINDPOSE_ALWAYS_INLINE void find_eigenvalues(FitBlock<Scalar>& __restrict block)
         step = 4 * value / (below > Scalar(1e-30) ? below : Scalar(1e-30));
         x -= step;
       }
-      // Not there yet (a double root draws the iteration in slowly), or S out of the squares'
-      // range: the careful way.
+      // A lane is not trusted if the iteration has not converged (convergence to a double root is
+      // slow), or if |S|^2 is out of range. fit_carefully() then handles it.
       const Scalar slope = (4 * x * x - 4) * x + c1;
       block.slope[k] =
         std::abs(step) < Limits::last_step && norm2 > Limits::least && norm2 < Limits::most
@@ -240,7 +246,7 @@ BINDPOSE_ALWAYS_INLINE void find_eigenvalues(FitBlock<Scalar>& __restrict block)
   }
 }
 
-/// Eigenvalues once more, as what N makes of the vectors that belong to them.
+/// Refine each eigenvalue by the Rayleigh quotient of its eigenvector.
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void refine_eigenvalues(FitBlock<Scalar>& __restrict block)
 {
@@ -255,7 +261,7 @@ BINDPOSE_ALWAYS_INLINE void refine_eigenvalues(FitBlock<Scalar>& __restrict bloc
   }
 }
 
-/// R - I, with `diagonal` added to its diagonal.
+/// Compute R - I, with `diagonal` added to its diagonal.
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void make_rotations(Scalar diagonal, FitBlock<Scalar>& __restrict block)
 {
@@ -280,7 +286,8 @@ BINDPOSE_ALWAYS_INLINE void make_rotations(Scalar diagonal, FitBlock<Scalar>& __
   }
 }
 
-/// Puts the rotations that can be trusted where they belong. @return how many cannot be.
+/// Write the rotations that can be trusted.
+/// @return the number of the others.
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE int put_rotations(
   const MatrixPlanes<Scalar>& rotations, FitBlock<Scalar>& __restrict block)
@@ -294,7 +301,7 @@ BINDPOSE_ALWAYS_INLINE int put_rotations(
     {
       const int k = g * lanes + i;
       block.slope[k] = i < block.skipped[g] ? Scalar(1) : block.slope[k];
-      // not a number goes the careful way
+      // NaN also counts as not trusted
       careful += block.slope[k] > Fast<Scalar>::slope ? 0 : 1;
       take[i] = i >= block.skipped[g] && block.slope[k] > Fast<Scalar>::slope;
     }
@@ -333,13 +340,13 @@ BINDPOSE_SIMD_CLONES int fit_block(const MatrixPlanes<const float>& s,
   return fit_groups(s, rotations, diagonal, block);
 }
 
-/// The best rotation nearest to the previous one, for any S.
+/// Compute the best rotation nearest to the previous one, for any S.
 void fit_carefully(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotation)
 {
   const double largest = matrix.cwiseAbs().maxCoeff();
   if (!(largest > 0.0) || !matrix.allFinite())
   {
-    return; // nothing to go by
+    return; // S has no information
   }
   const Eigen::Matrix3d s = (matrix / largest).normalized();
   const Horn n =
@@ -364,7 +371,7 @@ void fit_carefully(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotation)
   rotation = Eigen::Quaterniond(best[0], best[1], best[2], best[3]).toRotationMatrix();
 }
 
-/// A block's matrices that the fast path could not do, one by one.
+/// Fit the matrices of a block that the fast path could not fit, one by one.
 template <typename Scalar>
 void fit_rest(const FitBlock<Scalar>& block, const MatrixPlanes<const Scalar>& s,
   const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
@@ -393,7 +400,7 @@ void fit_rest(const FitBlock<Scalar>& block, const MatrixPlanes<const Scalar>& s
   }
 }
 
-/// What is written is R - I with `diagonal` added to its diagonal: 0, or 1 for R.
+/// Fit all matrices. The result is R - I with `diagonal` added to its diagonal: 0, or 1 for R.
 template <typename Scalar>
 void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
@@ -409,7 +416,7 @@ void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   };
   if (count < lanes)
   {
-    // Zeros before them make a group.
+    // Pad with leading zeros to a whole group.
     const Index missing = lanes - count;
     Scalar in[9 * lanes] = {}, out[9 * lanes] = {};
     for (int e = 0; e < 9; ++e)
@@ -431,7 +438,7 @@ void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   {
     for (block.groups = 0; block.groups < groups_at_once && done < count; ++block.groups)
     {
-      // The last group goes over some again, and leaves them.
+      // The last group overlaps the one before it and skips the lanes that are done.
       const Index begin = std::min(done, count - lanes);
       block.begin[block.groups] = begin;
       block.skipped[block.groups] = static_cast<int>(done - begin);

@@ -1,8 +1,9 @@
-// Weights are kept by tiles of vertices, without columns that are zero all over a tile. A vertex
-// blends the handles' 3x4 matrices (or dual quaternions) first and moves once, so the cost a weight
-// is 12 (or 8) multiply-adds, of as many vertices at once as a register holds.
+// Weights are stored in tiles of vertices, without the columns that are zero in the whole tile. A
+// vertex blends the handles' 3x4 matrices (or dual quaternions) first and is moved once. The cost
+// of a weight is therefore 12 (or 8) multiply-adds, for as many vertices together as a register
+// contains.
 //
-// Linear blending works on T - identity: what does not move adds exactly nothing.
+// Linear blending uses T - identity: a handle that does not move adds exactly zero.
 #include "pose/skinning.h"
 
 #include "base/parallel.h"
@@ -18,11 +19,11 @@ namespace bindpose
 
 namespace
 {
-constexpr Index block_size = 2048; // whole tiles
-/// Row sums further from one than this are worth a warning.
+constexpr Index block_size = 2048; // a multiple of the tile sizes
+/// A row sum with a larger difference from one causes a warning.
 constexpr double row_sum_tolerance = 1e-6;
 
-/// The transforms less the identity, of points less the centre, for a blend.
+/// Return the transforms minus the identity, for points relative to the center.
 template <typename Scalar>
 BlendValues<Scalar, 12> displacements(const std::vector<Affine>& transforms, const Vec3& centre)
 {
@@ -41,7 +42,8 @@ BlendValues<Scalar, 12> displacements(const std::vector<Affine>& transforms, con
   return moves;
 }
 
-/// About the middle of the points, where floats are dense: the mean of a few.
+/// Return a point near the middle of the points, the mean of a few of them. Floats relative to it
+/// are most accurate.
 Vec3 centre_of(PointsView points)
 {
   const Index few = std::min<Index>(points.rows(), 64);
@@ -66,7 +68,7 @@ void add(const TilePoints<Scalar>& what, TilePoints<Scalar>& to)
   }
 }
 
-/// 3 x 4 of a vertex out of its tile's.
+/// Return the 3 x 4 matrix of a vertex from its tile.
 template <typename Scalar>
 Affine affine_of(const BlendedTile<Scalar, 12>& blended, Index lane)
 {
@@ -78,7 +80,7 @@ Affine affine_of(const BlendedTile<Scalar, 12>& blended, Index lane)
   return a;
 }
 
-/// adj(A)^T: takes normals (areas) along when A takes points.
+/// Return adj(A)^T: it transforms normals (areas) if A transforms points.
 Eigen::Matrix3d cofactors(const Eigen::Matrix3d& a)
 {
   Eigen::Matrix3d c;
@@ -94,8 +96,9 @@ Vec3 unit_or(const Vec3& n, const Vec3& fallback)
   return length > 1e-300 ? Vec3(n / length) : fallback;
 }
 
-/// The unit normal under a linear map, the old one where it collapses. Only the map's direction
-/// matters: it is scaled, exactly, so that squares of huge and tiny entries stay numbers.
+/// Return the unit normal under a linear map, or the old normal if it collapses. Only the map's
+/// direction matters. The map is scaled exactly, by a power of two, so that squares of huge and
+/// tiny entries neither overflow nor underflow.
 Vec3 turned_normal(const Eigen::Matrix3d& linear, const Vec3& n)
 {
   const double largest = linear.cwiseAbs().maxCoeff();
@@ -135,11 +138,12 @@ DualQuaternion dual_quaternion_of(const Eigen::Matrix3d& rotation, const Vec3& t
   return d;
 }
 
-/// A linear map as a rotation after a shear; without shear the rotation is the map, bit for bit.
+/// A linear map as a shear followed by a rotation; without shear the rotation equals the map, bit
+/// for bit.
 struct SplitMap
 {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d shear; ///< less the identity
+  Eigen::Matrix3d shear; ///< minus the identity
 };
 
 SplitMap split(const Eigen::Matrix3d& linear)
@@ -150,12 +154,12 @@ SplitMap split(const Eigen::Matrix3d& linear)
   if (map.shear.norm() <= 1e-14)
   {
     map.shear.setZero();
-    map.rotation = linear; // rigid already; the fit would only round it
+    map.rotation = linear; // the map is already rigid; the fit would only round it
   }
   return map;
 }
 
-/// Signs by which quaternions are blended as their references'; left empty where all agree.
+/// Set the signs that align each quaternion to each reference; empty if all agree.
 template <typename Scalar>
 void set_signs(const std::vector<DualQuaternion>& motions, BlendValues<Scalar, 8>& quaternions)
 {
@@ -175,7 +179,7 @@ void set_signs(const std::vector<DualQuaternion>& motions, BlendValues<Scalar, 8
   }
 }
 
-/// What is kept of a row, and what it is multiplied by.
+/// The kept weights of a row, and the factor that they are multiplied by.
 class KeptRow
 {
 public:
@@ -228,7 +232,7 @@ private:
   double factor_ = 1.0, row_sum_ = 0.0, share_ = 0.0;
   Index dropped_ = 0;
 };
-/// A tile's points under an affine map.
+/// Transform the points of a tile by an affine map.
 void place(const Affine& placement, const TilePoints<float>& points, TilePoints<float>& placed)
 {
   constexpr Index lanes = WeightTiles<float>::lanes;
@@ -255,7 +259,7 @@ const WeightTiles<double>& Skinning::tiles() const
   return this->doubles_;
 }
 
-/// Copies what is kept into tiles: which columns each has, then the weights.
+/// Copy the kept weights into tiles: first the columns of each tile, then the weights.
 template <typename Scalar>
 bool Skinning::pack(ExecutionContext& context, WeightsView weights, const SkinningOptions& options,
   WeightTiles<Scalar>& tiles)
@@ -642,7 +646,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
   const Vec3 centre = normals ? Vec3::Zero() : centre_of(rest);
-  // x -> L x + t is the scale and shear x -> c + P (x - c), then the rigid y -> R y + u.
+  // x -> L x + t is the scale and shear x -> c + P (x - c), followed by the rigid y -> R y + u.
   std::vector<Affine> shears(transforms.size());
   std::vector<DualQuaternion> motions(transforms.size());
   BlendValues<Scalar, 8> quaternions;
@@ -672,7 +676,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
       BlendedTile<Scalar, 12> sheared;
       BlendedTile<Scalar, 8> blended;
       TilePoints<Scalar> points, moved, first;
-      Points turned; // normals under the shears
+      Points turned; // normals after the shears
       for (Index v = begin; v < end; v += lanes)
       {
         const Index count = std::min(lanes, end - v);
@@ -746,7 +750,7 @@ Status Skinning::dual_quaternion_normals(ExecutionContext& context, PointsView r
   return done ? status : Status::cancelled();
 }
 
-/// @param centres null: rest are normals.
+/// @param centres null: `rest` contains normals.
 template <typename Scalar>
 bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
   const std::vector<Affine>& transforms, const PointsView* centres, Points& posed) const
@@ -757,7 +761,7 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
   const auto moves = displacements<Scalar>(transforms, middle);
   std::vector<Affine> shears;
   std::vector<DualQuaternion> motions;
-  BlendValues<Scalar, 8> quaternions; // without their dual parts
+  BlendValues<Scalar, 8> quaternions; // the dual parts are zero
   bool any_shear = false;
   for (const Affine& transform : transforms)
   {
@@ -808,7 +812,7 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
             posed.row(v + i) = turned_normal(linear, Vec3(rest.row(v + i))).transpose();
             continue;
           }
-          // Displacements all along: what does not move adds exactly nothing.
+          // Only displacements are added: a handle that does not move adds exactly zero.
           const Vec3 centre = centres->row(v + i);
           const Affine move = affine_of(moved, i);
           const Vec3 arm = rest.row(v + i).transpose() - centre;

@@ -1,8 +1,9 @@
-// With free vertices only, S = M^(1/2) and a small shift s, L w = lambda M w is
-//     S (L + s M)^-1 S x = x / (lambda + s),   x = S w,
-// symmetric, its largest eigenvalues those that are wanted, and each product one solve with a
-// sparse factor. The shift keeps L + s M definite where a part has no vertex held; it is far below
-// any eigenvalue that bends. Lanczos' method (Spectra) from a start that is always the same.
+// For free vertices only, with S = M^(1/2) and a small shift s, L w = lambda M w is
+//     S (L + s M)^-1 S x = x / (lambda + s),   x = S w.
+// The operator is symmetric, the largest eigenvalues are the required ones, and each product is one
+// solve with a sparse factor. The shift makes L + s M definite if a part has no fixed vertex. It is
+// far below any eigenvalue of a bending mode. Lanczos' method (Spectra) always starts from the same
+// vector, so the result is reproducible.
 #include "pose/skinning_eigenmodes.h"
 
 #include "base/sparse_solver.h"
@@ -19,11 +20,11 @@ namespace bindpose
 
 namespace
 {
-/// The shift, of the mean eigenvalue.
+/// The shift as a fraction of the mean eigenvalue.
 constexpr double shift_share = 1e-9;
-/// Rows of weights this close are one place.
+/// Rows of weights within this distance are one point in weight space.
 constexpr double same_place = 1e-9;
-/// Fewer free vertices are handed to the dense solver.
+/// If there are at most this many free vertices, the dense solver is used.
 constexpr Index dense_size = 100;
 constexpr double tolerance = 1e-10;
 constexpr Index most_restarts = 300;
@@ -32,7 +33,7 @@ struct Cancelled
 {
 };
 
-/// x -> S (L + s M)^-1 S x, as Spectra wants it.
+/// The operator x -> S (L + s M)^-1 S x with the interface that Spectra requires.
 class Operator
 {
 public:

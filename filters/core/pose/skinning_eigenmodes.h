@@ -15,27 +15,30 @@ struct Eigenmodes
   Eigen::VectorXd eigenvalues; ///< ascending, 1 / length^2
 };
 
-/// Skinning eigenmodes: the weights w of least energy for their size, L w = lambda M w, zero at
-/// some vertices. As weights of more transforms they span the smoothest, cheapest deformations that
-/// leave these vertices alone. Benchekroun et al. 2023, Fast complementary dynamics via skinning
-/// eigenmodes.
+/// Compute skinning eigenmodes: weights w with the least energy for their size, L w = lambda M w,
+/// that are zero at some vertices. As weights of additional transforms they span the smoothest
+/// deformations of lowest energy that do not move these vertices. Benchekroun et al. 2023, Fast
+/// complementary dynamics via skinning eigenmodes.
 ///
-/// The paper makes modes orthogonal to what the rig can do, so that they never compete with it.
-/// Here they vanish where handles are, as all extra weights do: handles in mode full then have
-/// their transform to the letter, and what modes and handles share is settled by the energy.
+/// The paper makes modes orthogonal to the deformations of the rig, so that they never compete with
+/// it. Here they vanish at handles, as all extra weights do. Handles in mode full then have exactly
+/// their transform, and the energy distributes the motion that modes and handles could both
+/// produce.
 ///
-/// @param stiffness L, positive semi-definite; @param mass diagonal of M, vertices without any stay
-/// out; @param zero vertices where modes vanish. A part of the mesh without such a vertex has a
-/// constant mode of eigenvalue 0: it may move as a whole.
+/// @param stiffness L, positive semi-definite.
+/// @param mass diagonal of M; vertices without mass are left out.
+/// @param zero vertices where modes vanish. A part of the mesh without such a vertex has a constant
+/// mode of eigenvalue 0, because it can move as a whole.
 ///
-/// Fewer modes come back when there are fewer free vertices. not_converged when the eigenvalue
-/// solver gave up; the modes that it found are there. Cost: one sparse factorisation, a few solves
-/// a mode. The same bits whatever the threads.
+/// The result has fewer modes if there are fewer free vertices. The status is not_converged if the
+/// eigenvalue solver did not find all modes; the result contains those that it found. Cost: one
+/// sparse factorization and a few solves per mode. The result has the same bits for any number of
+/// threads.
 Status skinning_eigenmodes(ExecutionContext& context, const SparseMatrix& stiffness,
   const Eigen::VectorXd& mass, const std::vector<Index>& zero, Index count, Eigenmodes& result);
 
-/// The vertices that share a handle's place in weight space: their row is that of the handle's
-/// largest weight.
+/// Return the vertices at a handle's point in weight space: their row of weights equals the row of
+/// the handle's largest weight.
 std::vector<Index> handle_vertices(WeightsView weights);
 
 } // namespace bindpose

@@ -6,11 +6,12 @@
 namespace bindpose
 {
 
-/// The affine map x -> pivot + translation + linear * (x - pivot).
+/// Return the affine map x -> pivot + translation + linear * (x - pivot).
 Affine affine_about(const Vec3& pivot, const Eigen::Matrix3d& linear, const Vec3& translation);
 
-/// A transform taken apart about a pivot c as x -> c + translation + rotation * scale * (x - c):
-/// the nearest rotation and a symmetric scale (polar decomposition). A reflection is in the scale.
+/// The parts of a transform about a pivot c: x -> c + translation + rotation * scale * (x - c),
+/// with the nearest rotation and a symmetric scale (polar decomposition). A reflection is part of
+/// the scale.
 struct TransformParts
 {
   Vec3 translation = Vec3::Zero();
@@ -20,7 +21,7 @@ struct TransformParts
 TransformParts parts_of(const Affine& transform, const Vec3& pivot);
 Affine affine_of(const TransformParts& parts, const Vec3& pivot);
 
-/// The axis of a rotation times its angle in degrees, 0 to 180.
+/// Return the axis of a rotation times its angle in degrees, 0 to 180.
 Vec3 rotation_vector(const Eigen::Matrix3d& rotation);
 
 } // namespace bindpose

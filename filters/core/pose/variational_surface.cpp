@@ -1,6 +1,7 @@
-// The patch is what no handle and no flag holds. What is known, positions or displacements at given
-// vertices, goes into Polyharmonic coordinate by coordinate; tangents become its flux.
-// Displacements get the difference of the flux that is wanted and the one at rest.
+// The patch consists of the vertices that no handle and no flag constrains. Positions or
+// displacements at given vertices are passed to Polyharmonic coordinate by coordinate. Tangents are
+// passed as its flux; for displacements, as the difference of the required flux and the flux at
+// rest.
 #include "pose/variational_surface.h"
 
 #include <cmath>
@@ -11,7 +12,7 @@ namespace bindpose
 
 namespace
 {
-/// A last correction above this leaves less than six digits.
+/// A last correction above this fraction leaves fewer than six correct digits.
 constexpr double uncertain = 1e-6;
 
 Status check_length(const char* what, Index count, Index vertices)
@@ -161,7 +162,7 @@ Status VariationalSurface::prepare(ExecutionContext& context, const Pose& pose)
   return status;
 }
 
-/// #V rows with these at given vertices, zero elsewhere.
+/// Return #V rows with the given rows at given vertices and zero elsewhere.
 VariationalSurface::Rows VariationalSurface::known(const Rows& given) const
 {
   Rows all = Rows::Zero(this->rest_.rows(), 3);

@@ -8,13 +8,13 @@
 namespace bindpose
 {
 
-/// Where the derivatives across the edge of a patch come from, for PatchBoundary::tangent. The
-/// integers are those of vtkVariationalSurface.
+/// Source of the derivatives across the edge of a patch, for PatchBoundary::tangent. The integers
+/// are those of vtkVariationalSurface.
 enum class PatchTangents : int
 {
-  surroundings = 0, ///< the triangles across the edge; where the mesh ends, zero
+  surroundings = 0, ///< the triangles across the edge; zero where the mesh ends
   given = 1, ///< VariationalSurfaceOptions::tangents
-  clamped = 2 ///< zero: of displacements, the tangents at rest; of positions, a cusp
+  clamped = 2 ///< zero: displacements keep the tangents at rest, positions get a cusp
 };
 
 struct VariationalSurfaceOptions
@@ -23,58 +23,64 @@ struct VariationalSurfaceOptions
   int order = 2;
   PatchBoundary boundary = PatchBoundary::region;
   PatchTangents tangent_source = PatchTangents::surroundings;
-  /// What is solved for: displacements from rest (details stay), or positions (the patch is made
-  /// anew from what is around it, whatever it was).
+  /// The unknowns: displacements from rest (details are kept) if false, or positions (the patch is
+  /// replaced by a surface that fits its surroundings) if true.
   bool fair = false;
-  /// #V x 3 places of the vertices in the parameter domain; empty: at rest.
+  /// #V x 3 positions of the vertices in the parameter domain; empty: the rest positions.
   Points parameters;
-  /// #V flags of vertices that stay, besides those that handles hold; empty: none.
+  /// #V flags of fixed vertices, in addition to those that handles constrain; empty: none.
   std::vector<char> fixed;
   /// #V x 3 derivatives of the position across the edge, outwards, per unit of the parameter
-  /// domain: a unit vector away from the patch where it is to be isometric. For `given`.
+  /// domain. A unit vector that points away from the patch makes it isometric. Used by
+  /// PatchTangents::given.
   Points tangents;
-  /// #V x 3: what (-Laplacian)^order of the position (fair) or displacement is to be; empty: zero.
+  /// #V x 3: required values of (-Laplacian)^order of the position (fair) or displacement; empty:
+  /// zero.
   Points load;
-  /// #V labels of the vertices (Handle::region_id; 0: none). Needed when a handle is a region.
+  /// #V labels of the vertices (Handle::region_id; 0: none). Required if a handle is a region.
   std::vector<Index> region_ids;
 };
 
-/// Smooth surfaces between what is fixed: each coordinate of the free vertices solves Laplace's
+/// Smooth surfaces between constraints. Each coordinate of the free vertices solves Laplace's
 /// equation of order 1, 2 or 3, with the operator frozen on a parameter domain. Jacobson, Tosun,
 /// Sorkine, Zorin 2010, Mixed finite elements for variational surface modeling.
 ///
 ///     VariationalSurface surface;
 ///     surface.bind(context, points, triangles, handles, options);  // once
-///     surface.solve(context, pose);            // a factorisation when modes change, else a solve
+///     surface.solve(context, pose);            // factors if modes change, then solves
 ///     surface.posed();
 ///
-/// Handles hold the mesh as in FullArap (see MeshGrips); there may be none. Linear: large rotations
-/// shear details, and nothing is kept rigid.
+/// Handles constrain the mesh as in FullArap (see MeshGrips); there may be no handle. The method is
+/// linear: large rotations shear details, and nothing is kept rigid.
 ///
-/// Displacements: a part that nothing holds stays. Positions: it is an error, as it has no shape.
+/// A connected part without constraints does not move if displacements are solved for. It is an
+/// error if positions are solved for, because the part has no shape then.
 ///
-/// Cost: bind O(#V); a solve after a change of modes one sparse factorisation of the free vertices'
-/// matrix (7, 19 or 37 entries a row), then a few solves with it for three right sides.
+/// Cost: bind O(#V). A solve after a change of modes needs one sparse factorization of the free
+/// vertices' matrix (7, 19 or 37 entries per row). Every solve needs a few solves with the factor
+/// for three right-hand sides.
 class VariationalSurface
 {
 public:
   /// Report: counts.vertices, counts.triangles, counts.handles, method, order, boundary. A warning
-  /// for handles beside the mesh. invalid_input for numbers that are not finite, arrays of another
-  /// length, an order that is not there, no triangle, a region without label or vertices.
+  /// names handles that are not on the mesh. invalid_input for numbers that are not finite, arrays
+  /// of the wrong length, an order other than 1 to 3, no triangle, and a region without label or
+  /// vertices.
   Status bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
     const Handles& handles, const VariationalSurfaceOptions& options = {});
 
-  /// Finds the vertices of a pose, one entry a handle. Report: counts.free, counts.constrained
-  /// (vertices and points held), condition (of the factored matrix with ones on its diagonal,
-  /// estimated from below), refinement (the last correction, as a share of the largest coordinate),
-  /// constraint_residual (in diagonals). Errors: see Polyharmonic::prepare; positions with nothing
-  /// fixed. Warnings name handles that contradict each other or are redundant, a refinement that
-  /// leaves few digits, and boundary conditions that are less than they seem.
+  /// Find the vertices of a pose, which has one entry per handle. Report: counts.free,
+  /// counts.constrained (vertices and points held), condition (a lower bound of the condition
+  /// number of the factored matrix with ones on its diagonal), refinement (the last correction, as
+  /// a fraction of the largest coordinate), constraint_residual (in bounding-box diagonals).
+  /// Errors: see Polyharmonic::prepare; in addition, positions without any constraint. Warnings
+  /// name contradictory or redundant handles, a refinement that leaves few correct digits, and
+  /// boundary conditions that have less effect than expected.
   Status solve(ExecutionContext& context, const Pose& pose);
 
   /// The vertices in the last solved pose.
   const Points& posed() const { return this->posed_; }
-  /// How often a system was factored: once for each choice of modes.
+  /// Number of factorizations: one for each choice of modes.
   Index factorisations() const { return this->factorisations_; }
 
 private:
@@ -94,7 +100,7 @@ private:
   bool prepared_ = false;
   std::vector<HandleMode> modes_;
   Polyharmonic system_;
-  Status prepared_status_; ///< its report and warnings stand on every solve
+  Status prepared_status_; ///< its report and warnings are part of every solve's status
   Index factorisations_ = 0;
 
   Points posed_;

@@ -1,5 +1,5 @@
-// Distances go by |x|^2 - 2 x.c + |c|^2, one matrix product a block of rows. Everything that could
-// depend on the order of threads (means, ties, what an empty cluster does) is done in row order.
+// Distances are computed as |x|^2 - 2 x.c + |c|^2, with one matrix product per block of rows. Every
+// step that could depend on the order of threads (means, ties, empty clusters) runs in row order.
 #include "pose/weight_clusters.h"
 
 #include "base/dense_product.h"
@@ -15,12 +15,12 @@ namespace
 {
 constexpr Index block_size = 512;
 constexpr Index lloyd_rounds = 100;
-/// Rows that means are found from, a cluster; all rows are assigned in the end.
+/// Number of sampled rows per cluster for the means; all rows are assigned at the end.
 constexpr Index rows_a_cluster = 25;
-/// Rows closer than this are one point of weight space.
+/// Rows within this distance are one point of weight space.
 constexpr double same_row = 1e-12;
 
-/// A number that looks random, the same on every machine (splitmix64).
+/// Return a pseudo-random number that is the same on every machine (splitmix64).
 std::uint64_t scramble(std::uint64_t x)
 {
   x += 0x9e3779b97f4a7c15ull;
@@ -29,7 +29,7 @@ std::uint64_t scramble(std::uint64_t x)
   return x ^ (x >> 31);
 }
 
-/// Labels by nearest mean (the lowest of equals). False when cancelled.
+/// Label rows by the nearest mean (the lowest of equally near ones). Return false if canceled.
 bool assign_rows(
   ExecutionContext& context, WeightsView rows, const Weights& means, std::vector<Index>& labels)
 {
@@ -144,7 +144,8 @@ bool cluster_rows(ExecutionContext& context, WeightsView rows, Index count, Clus
   Weights sample((rows.rows() + step - 1) / step, rows.cols());
   for (Index i = 0; i < sample.rows(); ++i)
   {
-    // One of each step rows, which one at random: meshes repeat themselves at regular strides.
+    // One random row of each `step` rows, because the numbering of meshes repeats at regular
+    // strides.
     const auto offset = static_cast<Index>(scramble(static_cast<std::uint64_t>(i)) %
       static_cast<std::uint64_t>(std::min(step, rows.rows() - i * step)));
     sample.row(i) = rows.row(i * step + offset);
@@ -177,7 +178,7 @@ bool cluster_rows(ExecutionContext& context, WeightsView rows, Index count, Clus
     }
     for (Index c = 0; c < means.rows(); ++c)
     {
-      if (sizes[static_cast<std::size_t>(c)] > 0) // an empty one waits where it is
+      if (sizes[static_cast<std::size_t>(c)] > 0) // an empty cluster keeps its mean
       {
         means.row(c) = sums.row(c) / static_cast<double>(sizes[static_cast<std::size_t>(c)]);
       }

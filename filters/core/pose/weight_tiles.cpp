@@ -1,6 +1,7 @@
-// Loops over tiles, a vertex a lane. Each is written for packs of a register's size, a tile in one
-// part or in several, and compiled for several instruction sets, for floats and for doubles; no
-// operation mixes lanes, so that all with fused operations agree to the bit.
+// Loops over tiles, one vertex per lane. Each loop is written for packs of one register, so a tile
+// has one or several parts. The loops are compiled for several instruction sets, for floats and for
+// doubles. No operation mixes lanes, so all instruction sets with fused operations give the same
+// bits.
 #include "pose/weight_tiles.h"
 
 #include "base/packs.h"
@@ -12,7 +13,7 @@ namespace bindpose
 
 namespace
 {
-/// Whole numbers as large as Scalars, as many as there are in a pack.
+/// A pack of integers of the size of Scalar.
 template <typename Scalar, int bytes>
 struct BitsOf
 {
@@ -27,16 +28,16 @@ using Bit = typename BlendValues<Scalar, 8>::Bits;
 
 template <typename Scalar>
 constexpr Index tile_lanes = WeightTiles<Scalar>::lanes;
-/// Lanes of a part of a tile.
+/// Number of lanes in a part of a tile.
 template <typename Scalar, int bytes>
 constexpr int part_lanes = PackOf<Scalar, bytes>::lanes;
 
-/// The references of a part of a tile, each once, and which lanes have it.
+/// The distinct references of a part of a tile, with a mask of the lanes of each.
 template <typename Scalar, int bytes>
 struct PartReferences
 {
   static constexpr int lanes = part_lanes<Scalar, bytes>;
-  Bits<Scalar, bytes> where[lanes]; // all bits where a lane has the reference
+  Bits<Scalar, bytes> where[lanes]; // all bits set in the lanes of the reference
   std::int32_t handles[lanes];
   int count = 0;
 
@@ -62,7 +63,7 @@ struct PartReferences
   }
 };
 
-/// Sums of a part of a tile; its first weight, its first sum.
+/// Compute the sums of a part of a tile. `weights` and `blended` point to the part's first lane.
 template <int entries, int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void blend_part(const std::int32_t* columns, const Scalar* weights,
   Index count, const Scalar* values, const Bit<Scalar>* signs, Index handles,
@@ -102,7 +103,7 @@ BINDPOSE_ALWAYS_INLINE void blend_part(const std::int32_t* columns, const Scalar
   }
 }
 
-/// Lane i of `a` becomes lane mask[i] of `a` followed by `b`.
+/// Set lane i of `a` to lane mask[i] of `a` followed by `b`.
 template <typename Scalar, int bytes>
 BINDPOSE_ALWAYS_INLINE void shuffle(
   Pack<Scalar, bytes>& a, const Pack<Scalar, bytes>& b, const Bits<Scalar, bytes>& mask)
@@ -119,7 +120,7 @@ BINDPOSE_ALWAYS_INLINE void shuffle(
 #endif
 }
 
-/// From a part's points, in the order of memory, their coordinates side by side.
+/// Transpose the points of a part: from x y z per point to one row per coordinate.
 template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void take_apart(const Scalar* line, Scalar* points)
 {
@@ -144,7 +145,7 @@ BINDPOSE_ALWAYS_INLINE void take_apart(const Scalar* line, Scalar* points)
   }
 }
 
-/// The other way round.
+/// Transpose back: from one row per coordinate to x y z per point.
 template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void put_together(const Scalar* points, Scalar* line)
 {
@@ -229,7 +230,7 @@ BINDPOSE_ALWAYS_INLINE void dual_part(
   const Lanes square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   alignas(64) Scalar inverses[part_lanes<Scalar, bytes>];
   pack_at<bytes>(inverses) = square;
-#pragma GCC unroll 1 // as a loop it is vectorised
+#pragma GCC unroll 1 // a loop, so that the compiler vectorizes it
   for (int i = 0; i < part_lanes<Scalar, bytes>; ++i)
   {
     const Scalar length = std::sqrt(inverses[i]);
@@ -259,7 +260,7 @@ BINDPOSE_ALWAYS_INLINE void store_tile(
   constexpr Index lanes = tile_lanes<Scalar>, part = part_lanes<Scalar, bytes>;
   if (count == lanes)
   {
-    // First into the order of memory, then all numbers alike.
+    // Transpose first; then one loop adds all numbers.
     alignas(64) Scalar line[3 * lanes];
     for (Index p = 0; p < lanes; p += part)
     {
@@ -280,7 +281,7 @@ BINDPOSE_ALWAYS_INLINE void store_tile(
   }
 }
 
-/// Sums of a tile without signs.
+/// Compute the sums of a tile without signs.
 template <int entries, int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void blend_parts(const std::int32_t* columns, const Scalar* weights,
   Index count, const Scalar* values, Scalar* blended)
@@ -301,7 +302,8 @@ BINDPOSE_ALWAYS_INLINE void affine_parts(const Scalar* blended, const Scalar* po
   }
 }
 
-// What follows is what is compiled for several instruction sets: templates cannot be.
+// The following functions are compiled for several instruction sets, which is not possible for
+// templates.
 #define BINDPOSE_OF_SCALAR(version, bytes, Scalar)                                                 \
   version void blend_12(const std::int32_t* columns, const Scalar* weights, Index count,           \
     const Scalar* values, Scalar* blended)                                                         \
@@ -396,7 +398,7 @@ BINDPOSE_ALWAYS_INLINE void pose_parts(const std::int32_t* columns, const float*
 BINDPOSE_SIMD_WIDTHS(BINDPOSE_POSE_FLOATS, float)
 #undef BINDPOSE_POSE_FLOATS
 
-/// A sum of quaternions that is no longer than this has no direction.
+/// Length below which a sum of quaternions has no direction.
 constexpr float no_length(float)
 {
   return 1e-30f;

@@ -10,10 +10,10 @@
 namespace bindpose
 {
 
-/// Weights by tiles of consecutive vertices: for each column that any vertex of the tile has, a
-/// weight for each of them, zeros among them. A tile is what the machine's widest registers hold,
-/// so that a blend is a product of a few numbers a column with whole registers.
-/// Scalar: float (tiles of 16) or double (of 8).
+/// Weights in tiles of consecutive vertices. A tile stores, for each column that any of its
+/// vertices has, one weight per vertex, including zeros. A tile is as wide as the widest registers,
+/// so a blend multiplies whole registers by a few numbers per column.
+/// Scalar: float (tiles of 16) or double (tiles of 8).
 template <typename Scalar>
 struct WeightTiles
 {
@@ -21,15 +21,15 @@ struct WeightTiles
 
   std::vector<Index> start{ 0 }; ///< #tiles + 1, into columns
   std::vector<std::int32_t> columns; ///< ascending within a tile
-  std::vector<Scalar> weights; ///< lanes of them for each column
+  std::vector<Scalar> weights; ///< `lanes` weights for each column
 
-  /// Tile of a vertex, and its place in it.
+  /// Tile of a vertex, and its position in the tile.
   static Index tile_of(Index vertex) { return vertex / lanes; }
   static Index lane_of(Index vertex) { return vertex % lanes; }
   Index weight_of(Index k, Index lane) const { return k * lanes + lane; }
 };
 
-/// What a tile's vertices blend: `entries` numbers a handle.
+/// The values that the vertices of a tile blend: `entries` numbers per handle.
 template <typename Scalar, int entries>
 struct BlendValues
 {
@@ -37,59 +37,62 @@ struct BlendValues
   /// The sign bit of a Scalar.
   static constexpr Bits sign_bit = std::numeric_limits<Bits>::min();
 
-  std::vector<Scalar> values; ///< entries for each handle
-  /// 0, or sign_bit where the weight counts with the other sign, for each pair of handles: of the
-  /// column, then of the vertex's reference. Empty: all 0.
+  std::vector<Scalar> values; ///< `entries` numbers for each handle
+  /// One entry for each pair of handles, the column and the vertex's reference: sign_bit if the
+  /// weight counts with the opposite sign, else 0. Empty: all 0.
   std::vector<Bits> signs;
 };
 
-/// A tile's sums, entry by entry, lanes side by side.
+/// The sums of a tile: one row per entry, one lane per vertex.
 template <typename Scalar, int entries>
 struct alignas(64) BlendedTile
 {
   Scalar sums[entries][WeightTiles<Scalar>::lanes];
 };
 
-/// sum_j w_j values_j of each vertex of the tile, in the order of the columns.
-/// @param references handle of each vertex of the tile that signs refer to; null without signs.
+/// Compute sum_j w_j values_j for each vertex of the tile, in the order of the columns.
+/// @param references reference handle of each vertex of the tile, for the signs; null without
+/// signs.
 template <typename Scalar, int entries>
 void blend_tile(const WeightTiles<Scalar>& weights, Index tile,
   const BlendValues<Scalar, entries>& values, const std::int32_t* references,
   BlendedTile<Scalar, entries>& blended);
 
-/// Coordinates of a tile's vertices, lanes side by side.
+/// Coordinates of a tile's vertices, one lane per vertex.
 template <typename Scalar>
 struct alignas(64) TilePoints
 {
   Scalar at[3][WeightTiles<Scalar>::lanes];
 };
 
-/// Points less the centre; what is beyond `count` is the first point.
+/// Load points relative to the center; lanes beyond `count` repeat the first point.
 template <typename Scalar>
 void load_points(const double* rest, Index count, const Vec3& centre, TilePoints<Scalar>& points);
 
-/// By how much x -> x + A x + b moves points, A and b a vertex's own (3 x 4, row by row).
+/// Compute the displacements of points by x -> x + A x + b, where A and b differ per vertex (3 x 4,
+/// row by row).
 template <typename Scalar>
 void affine_moves(const BlendedTile<Scalar, 12>& blended, const TilePoints<Scalar>& points,
   TilePoints<Scalar>& moves);
 
-/// The same of the rigid motions that sums of dual quaternions (real x, y, z, w, then dual) are
-/// once they are divided by their length; nothing where that is zero.
+/// Compute the displacements of points by rigid motions. These are sums of dual quaternions (real
+/// x, y, z, w, then dual), divided by their length; a sum of length zero gives no displacement.
 template <typename Scalar>
 void dual_quaternion_moves(const BlendedTile<Scalar, 8>& blended, const TilePoints<Scalar>& points,
   TilePoints<Scalar>& moves);
 
-/// posed = rest + moves for the first `count` vertices.
+/// Write posed = rest + moves for the first `count` vertices.
 template <typename Scalar>
 void store_moved(const double* rest, Index count, const TilePoints<Scalar>& moves, double* posed);
 
-/// blend_tile, load_points, affine_moves and store_moved in one.
+/// Combine blend_tile, load_points, affine_moves and store_moved in one call.
 template <typename Scalar>
 void blend_points_of_tile(const WeightTiles<Scalar>& weights, Index tile,
   const BlendValues<Scalar, 12>& values, const Vec3& centre, const double* rest, Index count,
   double* posed);
 
-/// blend_tile, affine_moves and posed = rest + moves for the first `count` vertices, in one.
+/// Combine blend_tile, affine_moves and posed = rest + moves for the first `count` vertices in one
+/// call.
 void pose_tile(const WeightTiles<float>& weights, Index tile, const BlendValues<float, 12>& values,
   const TilePoints<float>& points, const TilePoints<float>& rest, Index count, float* posed);
 

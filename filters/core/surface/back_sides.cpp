@@ -12,21 +12,22 @@ namespace bindpose
 
 namespace
 {
-constexpr double most_open = 0.25; ///< sum of the area vectors over the area
+/// Largest sum of the area vectors of a closed patch, relative to its area.
+constexpr double most_open = 0.25;
 
-/// All copies of one triangle, which cancel.
+/// All copies of one triangle. Their orientations cancel.
 struct Copies
 {
-  Index forward = -1; ///< the first that runs as `corners`
+  Index forward = -1; ///< first copy with the orientation of the sorted corners
   Index backward = -1;
   std::vector<Index> all;
 };
 
-/// Copies that cancel, and their corners in ascending order of the first.
+/// Triangles whose copies cancel, sorted by their corners.
 struct CancellingTriangles
 {
   std::vector<Copies> copies;
-  Triangles triangles; ///< as the forward copies run
+  Triangles triangles; ///< with the orientation of the forward copies
 };
 
 CancellingTriangles find_cancelling(TrianglesView triangles)
@@ -35,7 +36,7 @@ CancellingTriangles find_cancelling(TrianglesView triangles)
   {
     std::array<Index, 3> key;
     Index triangle;
-    bool forward; ///< runs as the key
+    bool forward; ///< oriented like the key
   };
   std::vector<Item> items;
   for (Index t = 0; t < triangles.rows(); ++t)

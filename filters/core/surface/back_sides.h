@@ -8,14 +8,14 @@
 namespace bindpose
 {
 
-/// Triangles that are the back of others. Models that are to be seen from both sides often have
-/// every triangle twice, once each way; their winding number is 0 everywhere, whatever they
-/// enclose.
+/// Find triangles that are the back sides of others. Models for viewing from both sides often
+/// contain every triangle twice, with opposite orientations. Their winding number is 0 everywhere,
+/// even inside.
 ///
-/// Looked at are patches of triangles whose copies cancel, joined by edges that two of them use. If
-/// a patch closes around something (the sum of its area vectors is at most a quarter of its area),
-/// all copies but one are backs, and those that stay are the ones that look outwards. Flat patches,
-/// like leaves, enclose nothing and stay as they are. O(n log n).
+/// The function examines patches of triangles whose copies cancel, connected by edges that two of
+/// them use. A patch is closed if the sum of its area vectors is at most a quarter of its area. In
+/// a closed patch, all copies but one are backs; the copy that faces outwards is kept. Flat
+/// patches, like leaves, enclose nothing and are not changed. O(n log n).
 /// @param triangles of a surface whose equal points are welded
 /// @return triangle ids, ascending
 std::vector<Index> back_sides(PointsView points, TrianglesView triangles);

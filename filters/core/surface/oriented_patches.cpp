@@ -45,7 +45,7 @@ std::vector<Neighbors> neighbors_of(TrianglesView triangles)
 std::vector<OrientedPatch> oriented_patches(TrianglesView triangles)
 {
   const std::vector<Neighbors> neighbors = neighbors_of(triangles);
-  std::vector<signed char> turned(neighbors.size(), -1); // -1: in no patch yet
+  std::vector<signed char> turned(neighbors.size(), -1); // -1: not yet in a patch
   std::vector<OrientedPatch> patches;
   for (Index start = 0; start < triangles.rows(); ++start)
   {

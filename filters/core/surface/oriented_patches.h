@@ -8,17 +8,18 @@
 namespace bindpose
 {
 
-/// Triangles joined by edges that two of them use.
+/// Triangles connected by edges that two of them use.
 struct OrientedPatch
 {
-  std::vector<Index> triangles; ///< each but the first is a neighbor of one before it
-  /// Per triangle: 1 where it runs against the first one, when it is seen across the edges.
+  std::vector<Index> triangles; ///< each except the first is a neighbor of an earlier one
+  /// Per triangle: 1 if its orientation, carried across the edges, is opposite to the first
+  /// triangle's.
   std::vector<signed char> turned;
-  bool orientable = true; ///< false: one-sided, like a Moebius strip; `turned` is then one of many
+  bool orientable = true; ///< false: one-sided, like a Moebius strip; `turned` is then not unique
 };
 
-/// The patches of a surface, ascending by their smallest triangle, which is their first. Every
-/// triangle is in one. O(n log n).
+/// Return the patches of a surface, ascending by their smallest triangle, which is their first.
+/// Every triangle is in exactly one patch. O(n log n).
 std::vector<OrientedPatch> oriented_patches(TrianglesView triangles);
 
 } // namespace bindpose

@@ -1,6 +1,6 @@
-// Boxes that hold triangles of one group only are known by their group: a search for what is
-// nearest outside of a group does not enter its own. The best that a group has found so far bounds
-// the search of its next triangle.
+// Boxes that contain triangles of only one group are labeled with that group. A search for the
+// nearest triangle outside a group skips the group's own boxes. The best distance that a group has
+// found so far bounds the search of its next triangle.
 #include "surface/part_links.h"
 
 #include "base/disjoint_sets.h"
@@ -21,18 +21,18 @@ namespace bindpose
 namespace
 {
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr Index several = -1; ///< instead of a box's group: triangles of more than one
+constexpr Index several = -1; ///< label of a box with triangles of more than one group
 
 using Corners = std::array<Vec3, 3>;
 
-/// Two triangles of different groups, and how near they are.
+/// Two triangles of different groups and their distance.
 struct Pair
 {
   double distance = infinite;
   PartLink link;
 };
 
-/// Parameters of the nearest points of the segments p0 p1 and q0 q1.
+/// Return the parameters of the nearest points of the segments p0 p1 and q0 q1.
 std::array<double, 2> nearest_on_segments(
   const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1)
 {
@@ -46,7 +46,7 @@ std::array<double, 2> nearest_on_segments(
   return { s, t };
 }
 
-/// The place where an edge of triangle a meets triangle b.
+/// Find the point where an edge of triangle a meets triangle b.
 bool edge_meets(const Corners& a, const Corners& b, Vec3& place)
 {
   for (int k = 0; k < 3; ++k)
@@ -101,8 +101,8 @@ private:
     return { this->points_.row(this->triangles_(f, 0)), this->points_.row(this->triangles_(f, 1)),
       this->points_.row(this->triangles_(f, 2)) };
   }
-  /// The label of every box's triangles, `several` where they differ. Triangles of no part count as
-  /// none.
+  /// Label every box with the label of its triangles, or `several` if the labels differ. Triangles
+  /// of no part have the label `none`.
   void label_boxes(const std::vector<Index>& label_of_part)
   {
     const auto& nodes = this->tree_.nodes();
@@ -128,8 +128,8 @@ private:
     return a == none || a == b ? b : b == none ? a : several;
   }
 
-  /// Calls at_triangle(g) for triangles in boxes that hold other labels and are no farther than
-  /// `limit`, which at_triangle() may lower; nearer boxes first.
+  /// Call at_triangle(g) for triangles in boxes that contain other labels and are at most `limit`
+  /// away. at_triangle() may lower `limit`. Nearer boxes are visited first.
   template <typename AtTriangle>
   void visit_others(const Box& box, Index label, const double& limit, const AtTriangle& at_triangle)
   {
@@ -175,7 +175,7 @@ private:
     }
   }
 
-  /// The nearest pair of a triangle of the group and one of another group.
+  /// Return the nearest pair of a triangle of the group and one of another group.
   Pair nearest_to(const std::vector<Index>& members, Index group)
   {
     Pair best;
@@ -211,7 +211,7 @@ private:
   bool link_nearest(std::vector<PartLink>& links)
   {
     const auto parts = static_cast<Index>(this->held_.size());
-    std::vector<char> held = this->held_; // of groups, by their smallest part
+    std::vector<char> held = this->held_; // whether a group is held, stored at its smallest part
     for (bool again = true; again;)
     {
       again = false;
@@ -223,7 +223,8 @@ private:
       std::vector<std::vector<Index>> members(this->held_.size());
       for (Index i = 0; i < this->triangles_.rows(); ++i)
       {
-        const Index f = this->tree_.order()[i]; // neighbors in space follow each other
+        // In the order of the tree, so that consecutive triangles are near each other.
+        const Index f = this->tree_.order()[i];
         const Index group = this->parts_[f] < 0 ? -1 : this->group_of_part_[this->parts_[f]];
         if (group >= 0 && !held[group])
         {
@@ -260,7 +261,7 @@ private:
     return true;
   }
 
-  /// Links loose parts to all that they touch, one in each cube of a grid.
+  /// Link loose parts to all parts that they touch, with one link per cube of a grid.
   bool link_touching(std::vector<PartLink>& links)
   {
     std::vector<Index> own(this->held_.size());
@@ -337,7 +338,8 @@ private:
     return true;
   }
 
-  /// Corners of a triangle and points of it, not much farther than the spacing from each other.
+  /// Call at_place for the corners of a triangle and points on it, at distances of about the
+  /// spacing or less.
   template <typename AtPlace>
   void for_samples(Index f, const AtPlace& at_place) const
   {
@@ -360,7 +362,7 @@ private:
     }
   }
 
-  static constexpr Index none = -2; ///< instead of a box's group: no triangle of a part
+  static constexpr Index none = -2; ///< label of a box without triangles of a part
 
   PointsView points_;
   TrianglesView triangles_;
@@ -371,7 +373,7 @@ private:
   TriangleTree tree_;
   DisjointSets<Index> groups_;
   std::vector<Index> group_of_part_;
-  std::vector<Index> labels_; ///< of the tree's boxes
+  std::vector<Index> labels_; ///< label of each box of the tree
   std::vector<std::pair<double, Index>> stack_;
 };
 } // namespace

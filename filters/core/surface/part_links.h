@@ -10,36 +10,38 @@
 namespace bindpose
 {
 
-/// A straight line between two places of a surface that holds them together.
+/// A straight line that connects two points of a surface.
 struct PartLink
 {
   std::array<Index, 2> triangles{ -1, -1 };
-  std::array<Vec3, 2> places{ Vec3::Zero(), Vec3::Zero() }; ///< on the triangles; may be equal
+  /// Points on the triangles; may be equal.
+  std::array<Vec3, 2> places{ Vec3::Zero(), Vec3::Zero() };
 };
 
 struct PartLinkOptions
 {
-  double touching = 0.0; ///< parts that are at most this far apart touch, >= 0
-  double spacing = 0.0; ///< where parts touch, about this far from one link to the next, > 0
+  double touching = 0.0; ///< parts at most this far apart touch, >= 0
+  double spacing = 0.0; ///< approximate distance between neighboring links where parts touch, > 0
 };
 
-/// Links that lead from every loose part of a surface to a part that is held.
+/// Compute links that connect every loose part of a surface, directly or through other parts, to a
+/// held part.
 ///
-/// A loose part is linked to the part nearest to it, at the nearest places of the two; parts that
-/// are linked go on as one, until they are held (the minimum spanning forest, by the rounds of
-/// O. Borůvka, 1926). It is also linked to whatever it touches, held or not, so that a seat is
-/// linked to each of the legs below it.
+/// A loose part is linked to the nearest part, at the nearest points of the two. Linked parts
+/// continue as one group until the group is held (the minimum spanning forest, by the rounds of O.
+/// Borůvka, 1926). A loose part is also linked to every part that it touches, held or not: a seat,
+/// for example, is linked to each of the legs below it.
 ///
-/// The same links for any number of threads. Cost: O(log #parts) rounds, in each of them a search
-/// of about 5 us for every triangle of a loose part.
-/// @param parts #F: part of each triangle, 0 … #parts - 1; -1: of none, left out
-/// @param held #parts: not 0 for parts that are held. None is: invalid_input.
+/// The links are the same for any number of threads. Cost: O(log #parts) rounds, each with a search
+/// of about 5 us per triangle of a loose part.
+/// @param parts #F: part of each triangle, 0 … #parts - 1; triangles with -1 are ignored
+/// @param held #parts: not 0 for held parts. invalid_input if no part is held.
 Status link_parts(PointsView points, TrianglesView triangles, const std::vector<Index>& parts,
   const std::vector<char>& held, const PartLinkOptions& options, std::vector<PartLink>& links,
   ExecutionContext& context);
 
-/// Distance of two triangles, 0 when they meet.
-/// @param places the nearest places, the first on a
+/// Return the distance of two triangles, 0 if they intersect.
+/// @param places the nearest points, the first on a
 double nearest_places(
   const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, std::array<Vec3, 2>& places);
 

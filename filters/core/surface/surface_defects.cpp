@@ -1,5 +1,5 @@
-// The repaired surface has the maps between the input's ids and its own; edges are looked at with
-// the input's orientation, for the repaired one may have been turned.
+// The repaired surface contains the maps between its ids and those of the input. Edges are examined
+// with the input's orientation, because repair may have turned triangles.
 #include "surface/surface_defects.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ public:
   }
 
 private:
-  /// The repaired surface's vertex, -1 for one that none of its triangles uses.
+  /// Return the vertex of the repaired surface, or -1 if none of its triangles uses the vertex.
   Index welded(Index input_vertex) const
   {
     return this->id_[this->repaired_.lowest_equal[input_vertex]];
@@ -118,7 +118,7 @@ private:
 
   void degenerate()
   {
-    Index next = 0; // of the triangles that were kept, ascending
+    Index next = 0; // index into the kept triangles, ascending
     const auto& kept = this->repaired_.original_triangles;
     for (Index t = 0; t < this->triangles_.rows(); ++t)
     {
@@ -188,7 +188,7 @@ private:
   TrianglesView triangles_;
   const RepairedSurface& repaired_;
   Components components_;
-  std::vector<Index> id_; // of an input vertex in the repaired surface, -1: not there
+  std::vector<Index> id_; // id of an input vertex in the repaired surface, or -1
   std::vector<DefectPlace> places_;
 };
 } // namespace

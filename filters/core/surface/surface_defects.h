@@ -8,39 +8,39 @@
 namespace bindpose
 {
 
-/// What can be unclean about a surface, in the order of what it is seen at: a vertex, an edge, a
-/// triangle. The order is the one of the array `Defect`.
+/// Types of defects of a surface, ordered by the element at which they occur: a vertex, an edge, a
+/// triangle. The array `Defect` uses the same order.
 enum class Defect
 {
   duplicate_vertex, ///< equal to a vertex of lower id
   unreferenced_vertex,
-  boundary_edge, ///< of one triangle
-  nonmanifold_edge, ///< of three triangles or more
-  misoriented_edge, ///< of two triangles that run the same way
+  boundary_edge, ///< used by one triangle
+  nonmanifold_edge, ///< used by three triangles or more
+  misoriented_edge, ///< used by two triangles with the same direction
   degenerate_triangle, ///< no area
-  duplicate_triangle, ///< the vertices of a triangle of lower id
-  self_intersection, ///< meets another triangle beyond what they share
+  duplicate_triangle, ///< has the vertices of a triangle of lower id
+  self_intersection, ///< meets another triangle beyond their shared vertices and edges
   inward_component ///< triangle of a closed component that is inside out
 };
 constexpr int defect_kinds = 9;
 
-/// "duplicate vertex", …
+/// Return "duplicate vertex", ….
 const char* to_string(Defect defect);
 
-/// One place where a surface is unclean.
+/// One occurrence of a defect.
 struct DefectPlace
 {
   Defect defect;
-  std::vector<Index> vertices; ///< 1, 2 or 3 ids of the input
-  Index triangle = -1; ///< of the input, where it is one
+  std::vector<Index> vertices; ///< 1, 2 or 3 vertex ids of the input
+  Index triangle = -1; ///< input id, if the defect is a triangle
   Index crossed = -1; ///< self_intersection: the triangle of lowest id that it meets
-  Index component = -1; ///< from 0; -1 for what belongs to none
+  Index component = -1; ///< from 0; -1 if the defect belongs to no component
   Index inward = -1; ///< inward_component: the number of that component, from 0
 };
 
-/// Every place that `repaired.found` counts, sorted by defect, then by id. Edges run between the
-/// lowest ids of welded vertices. `points` and `triangles` are the surface that was repaired.
-/// O(n log n); a triangle that crosses several others is one place.
+/// List every defect that `repaired.found` counts, sorted by type, then by id. Edges connect the
+/// lowest ids of welded vertices. `points` and `triangles` are the surface that was repaired. O(n
+/// log n). A triangle that crosses several others is listed once.
 std::vector<DefectPlace> list_defects(
   PointsView points, TrianglesView triangles, const RepairedSurface& repaired);
 

@@ -1,8 +1,9 @@
-// Dijkstra's order over vertices. Besides the way along an edge, a vertex c takes the way through a
-// triangle a b c of which a and b have distances: in the triangle's plane the source lies where
-// circles around a and b meet, on the other side of ab; when the straight way from there to c
-// crosses ab, its length is c's distance. (M. Novotni and R. Klein, "Computing geodesic distances
-// on triangular meshes", 2002.)
+// Vertices are processed in Dijkstra's order. The distance of a vertex c is the smaller of two
+// values: along an edge, and through a triangle a b c whose vertices a and b have distances. In the
+// triangle's plane the source is at the intersection of circles around a and b, on the other side
+// of ab. If the straight line from the source to c crosses ab, its length is the distance through
+// the triangle. (M. Novotni and R. Klein, "Computing geodesic distances on triangular meshes",
+// 2002.)
 #include "surface/surface_disc.h"
 
 #include <algorithm>
@@ -61,7 +62,7 @@ double SurfaceDisc::carried(Index a, Index b, Index c) const
   {
     return along_edge;
   }
-  // a at 0, b at (length, 0), c above, the source below.
+  // Coordinates: a at 0, b at (length, 0), c above, the source below.
   const Vec3 u = (pb - pa) / length;
   const double cx = u.dot(pc - pa);
   const double cy = (pc - pa - cx * u).norm();
@@ -69,7 +70,8 @@ double SurfaceDisc::carried(Index a, Index b, Index c) const
   const double sy2 = da * da - sx * sx;
   if (sy2 < 0.0 || cy == 0.0)
   {
-    return along_edge; // the circles do not meet: round-off, or a way around a corner
+    // The circles do not intersect, because of rounding or a path around a corner.
+    return along_edge;
   }
   const double sy = std::sqrt(sy2);
   const double crossing = sx + (cx - sx) * sy / (sy + cy);
@@ -134,7 +136,8 @@ std::vector<SurfaceDisc::Found> SurfaceDisc::within(
       }
     }
   }
-  // A way through an obtuse triangle can be a hair shorter than the one that was taken before it.
+  // A path through an obtuse triangle can be slightly shorter than a path that was accepted before
+  // it.
   std::sort(found.begin(), found.end(),
     [](const Found& a, const Found& b)
     { return a.second != b.second ? a.second < b.second : a.first < b.first; });

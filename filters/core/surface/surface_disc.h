@@ -9,9 +9,9 @@
 namespace bindpose
 {
 
-/// Finds the vertices of a surface within a distance of a place on it, along the surface. Points
-/// and triangles must outlive it. O(n) to build; a disc costs O(k log k) of its own k vertices. Not
-/// for several threads at once: it keeps room for the distances.
+/// Finds the vertices of a surface within a distance of a point on it, measured along the surface.
+/// Points and triangles must outlive this object. O(n) to build; a disc costs O(k log k) for its k
+/// vertices. Not thread-safe, because the object stores the distances.
 class SurfaceDisc
 {
 public:
@@ -19,21 +19,21 @@ public:
 
   /// A vertex and its distance.
   using Found = std::pair<Index, double>;
-  /// Distances from `place`, on triangle `triangle`, grow over the surface from triangle to
-  /// triangle as from a point source unfolded into each one's plane: exact where the surface is
-  /// flat around the place, and never less than the distance through space. Where the surface is
-  /// torn, they do not jump. @return sorted by distance
+  /// Find the vertices within `radius` of `place`, a point on triangle `triangle`. Distances
+  /// propagate from triangle to triangle as from a point source that is unfolded into each
+  /// triangle's plane. They are exact if the surface is flat around the point, and never less than
+  /// the straight distance. They do not cross tears of the surface. @return sorted by distance
   std::vector<Found> within(const Vec3& place, Index triangle, double radius) const;
 
 private:
-  /// Distance of c when those of a and b are known.
+  /// Return the distance of c from those of a and b.
   double carried(Index a, Index b, Index c) const;
 
   PointsView points_;
   TrianglesView triangles_;
-  std::vector<Index> first_; // of each vertex, in around_
+  std::vector<Index> first_; // offset of each vertex in around_
   std::vector<Index> around_; // triangles at a vertex
-  mutable std::vector<double> distance_; // infinity but while a disc is made
+  mutable std::vector<double> distance_; // infinity, except while within() runs
   mutable std::vector<char> done_;
 };
 

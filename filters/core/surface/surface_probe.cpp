@@ -1,5 +1,6 @@
-// A ray is a segment that ends behind the surface's box. Which triangles it meets is decided
-// exactly, so none is slipped through between; where, in doubles.
+// A ray is a segment that ends beyond the surface's box. The test for intersection is exact, so a
+// ray cannot pass between adjacent triangles. The position of the intersection is computed in
+// doubles.
 #include "surface/surface_probe.h"
 
 #include "surface/triangle_predicates.h"
@@ -12,7 +13,7 @@ namespace bindpose
 {
 namespace
 {
-constexpr double same_place = 1e-9; // of the segment
+constexpr double same_place = 1e-9; // in segment lengths
 } // namespace
 
 SurfaceProbe::SurfaceProbe(PointsView points, TrianglesView triangles)
@@ -43,13 +44,13 @@ std::vector<SurfaceProbe::Hit> SurfaceProbe::hits(const Vec3& origin, const Vec3
     {
       all.push_back({ std::max(distance, 0.0), f, slope < 0.0 });
     }
-    return false; // on to the next one
+    return false; // continue with the next triangle
   };
   this->tree_.segment_meets(origin, end, take);
   std::sort(all.begin(), all.end(),
     [](const Hit& a, const Hit& b)
     { return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle; });
-  // On a shared edge or vertex one crossing is several triangles.
+  // At a shared edge or vertex, several triangles give one crossing.
   std::vector<Hit> once;
   for (const Hit& hit : all)
   {
@@ -87,7 +88,7 @@ bool SurfaceProbe::first_inside(const Vec3& origin, const Vec3& direction, LineS
       first = i;
     }
     depth += all[i].enters ? 1 : -1;
-    // A silhouette's edge is in and out at one place: not a thickness.
+    // At the edge of a silhouette, entry and exit coincide and give no thickness.
     if (depth == 0 && all[i].distance - all[first].distance > small)
     {
       set(all[first], all[i]);

@@ -8,42 +8,43 @@
 namespace bindpose
 {
 
-/// Where a line comes in and goes out.
+/// The points at which a line enters and leaves the shape.
 struct LineSpan
 {
   Vec3 entry = Vec3::Zero();
-  Vec3 exit = Vec3::Zero(); ///< equal to entry where the surface was met once
-  Index triangle = -1; ///< at the entry
+  Vec3 exit = Vec3::Zero(); ///< equal to entry if the line meets the surface only once
+  Index triangle = -1; ///< triangle at the entry
 
   Vec3 middle() const { return 0.5 * (this->entry + this->exit); }
 };
 
-/// Answers what a hand asks of a surface: what lies under the cursor, how thick the shape is there,
-/// what place is nearest. Points and triangles must outlive it. O(n log n) to build, O(log n +
-/// hits) an answer. Thread-safe.
+/// Answers queries of interactive tools: the surface point under the cursor, the thickness of the
+/// shape there, the nearest surface point. Points and triangles must outlive this object. O(n log
+/// n) to build, O(log n + hits) per query. Thread-safe.
 class SurfaceProbe
 {
 public:
   SurfaceProbe(PointsView points, TrianglesView triangles);
 
-  /// Where a ray meets the surface, nearest first. A hit on an edge that triangles share counts
-  /// once; triangles seen from their sides do not count.
+  /// One intersection of a ray and the surface. An intersection on an edge that triangles share
+  /// counts once. Triangles parallel to the ray do not count.
   struct Hit
   {
-    double distance = 0.0; ///< in lengths of the direction
+    double distance = 0.0; ///< in lengths of the direction vector
     Index triangle = -1;
-    bool enters = true; ///< against the triangle's normal
+    bool enters = true; ///< the direction is opposite to the triangle's normal
   };
   std::vector<Hit> hits(const Vec3& origin, const Vec3& direction) const;
 
-  /// The first stretch of a ray inside the surface, by winding number: from the first hit to where
-  /// as many hits have gone out as in (or, of a surface that is inside out, in as out). So parts
-  /// that overlap or lie within each other are one thickness, and a cavity ends it. Where that
-  /// never comes, the surface being open there, the first two hits; where there is one, that.
-  /// False when the ray meets nothing.
+  /// Find the first interval of a ray inside the surface, by winding number. It extends from the
+  /// first hit to the hit at which exits and entries are equal in number. (The roles are exchanged
+  /// if the surface is inside out.) Overlapping or nested parts therefore give one interval, and a
+  /// cavity ends it. If the numbers never become equal, because the surface is open there, the
+  /// interval is between the first two hits, or consists of the only hit. Return false if the ray
+  /// meets nothing.
   bool first_inside(const Vec3& origin, const Vec3& direction, LineSpan& span) const;
 
-  /// The place on the surface nearest to p; false for a surface without triangles.
+  /// Find the point on the surface nearest to p. Return false for a surface without triangles.
   bool nearest(const Vec3& p, Vec3& place) const;
 
 private:

@@ -1,11 +1,12 @@
-// Weld, drop, count, orient.
+// The steps are: weld vertices, remove degenerate triangles, count defects, orient.
 //
-// Orientation has two steps. First within patches of triangles joined by edges that two triangles
-// use: a walk over such edges gives every triangle a parity; the parity with the smaller area is
-// turned. Then whole shells: components, or patches that are closed by themselves (solids that
-// touch in an edge or a vertex). A closed shell that lies in no other one and has negative volume
-// is inside out; it is turned together with what lies in it, so that a cavity (an inner shell
-// turned against the outer one) stays a cavity.
+// Orientation has two steps. The first step works within patches of triangles connected by edges
+// that two triangles use. A traversal of these edges assigns a parity to every triangle, and the
+// parity with the smaller area is turned. The second step works on whole shells: components, or
+// patches that are closed by themselves (solids that touch in an edge or a vertex). A closed shell
+// with negative volume that is in no other shell is inside out. It is turned together with
+// everything inside it. A cavity (an inner shell oriented opposite to the outer one) therefore
+// remains a cavity.
 #include "surface/surface_repair.h"
 
 #include "base/disjoint_sets.h"
@@ -85,7 +86,8 @@ double area(const Points& points, const Triangles& triangles, Index t)
   return 0.5 * (b - a).cross(c - a).norm();
 }
 
-/// Turns the smaller part of every patch whose triangles disagree. @return triangles turned.
+/// Turn the smaller part of every patch whose triangles disagree. @return the number of turned
+/// triangles.
 Index agree_within_patches(const Points& points, Triangles& triangles)
 {
   Index turned = 0;
@@ -93,7 +95,7 @@ Index agree_within_patches(const Points& points, Triangles& triangles)
   {
     if (!patch.orientable)
     {
-      continue; // no orientation is right
+      continue; // no consistent orientation exists
     }
     double areas[2] = { 0.0, 0.0 };
     for (std::size_t i = 0; i < patch.triangles.size(); ++i)
@@ -121,8 +123,8 @@ struct Shell
   bool closed = true;
 };
 
-/// #F patch of each triangle: triangles joined by edges that two triangles use; named by one of
-/// its triangles.
+/// Return the patch of each triangle, #F. A patch is a set of triangles connected by edges that two
+/// triangles use. Its id is one of its triangles.
 std::vector<Index> patches_of(const std::vector<TriangleSide>& sides, Index triangle_count)
 {
   DisjointSets<Index> sets(static_cast<std::size_t>(triangle_count));
@@ -142,14 +144,15 @@ std::vector<Index> patches_of(const std::vector<TriangleSide>& sides, Index tria
   return patch;
 }
 
-/// #F shell of each triangle: first a component each for what is not closed by itself, then the
-/// patches that are: solids that touch in edges or vertices have one each. @return the shells.
+/// Compute the shell of each triangle, #F. The first shells are the components, for triangles that
+/// are not in a closed patch. They are followed by the closed patches, so that solids that touch in
+/// edges or vertices have one shell each. @return the shells.
 std::vector<Shell> told_apart(
   const Triangles& triangles, const Components& components, std::vector<Index>& shell_of)
 {
   const std::vector<TriangleSide> sides = sides_by_edge(triangles);
   const std::vector<Index> patch = patches_of(sides, triangles.rows());
-  // Group by group at every edge: do the directions cancel?
+  // For every group, test whether the directions cancel at every edge.
   const auto close = [&](const auto& group_of, std::vector<char>& closed)
   {
     std::vector<std::pair<Index, int>> directions;
@@ -227,7 +230,7 @@ std::vector<Shell> shells_of(
   return shells;
 }
 
-/// Winding number of one closed shell at a point: the plain sum of solid angles.
+/// Return the winding number of one closed shell at a point, as a direct sum of solid angles.
 double winding_of_shell(
   const Points& points, const Triangles& triangles, const Shell& shell, const Vec3& p)
 {
@@ -245,8 +248,9 @@ double winding_of_shell(
   return half_angles / two_pi;
 }
 
-/// Centers of some of a shell's triangles. It lies in another shell if most of them do: where
-/// shells touch, winding numbers are between.
+/// Return the centers of some of a shell's triangles. The shell is inside another shell if most of
+/// the centers are. Several centers are needed because winding numbers are between integers where
+/// shells touch.
 std::vector<Vec3> looks_of(const Points& points, const Triangles& triangles, const Shell& shell)
 {
   constexpr std::size_t looks = 5;
@@ -260,8 +264,8 @@ std::vector<Vec3> looks_of(const Points& points, const Triangles& triangles, con
   return centers;
 }
 
-/// Winding numbers of one closed shell at some points: plain sums for small products of counts,
-/// else by crossings. false when cancelled.
+/// Compute the winding numbers of one closed shell at some points: by direct sums if the product of
+/// the counts is small, else by crossings. Return false when canceled.
 bool winding_numbers(const Points& points, const Triangles& triangles, const Shell& shell,
   const std::vector<Vec3>& places, ExecutionContext& context, Eigen::VectorXd& numbers)
 {
@@ -275,7 +279,7 @@ bool winding_numbers(const Points& points, const Triangles& triangles, const She
     }
     return !context.cancelled();
   }
-  // The shell with vertices of its own, for it may be a small part of the surface.
+  // Copy the shell with separate vertices, because it may be a small part of the surface.
   std::vector<Index> vertices;
   for (const Index t : shell.triangles)
   {
@@ -317,17 +321,18 @@ bool winding_numbers(const Points& points, const Triangles& triangles, const She
   return status.ok();
 }
 
-/// Boxes by their lower corners, to find those that lie in a box: a balanced tree of medians.
+/// Finds the boxes inside a given box. The boxes are stored in a balanced median tree of their
+/// lower corners.
 class BoxFinder
 {
 public:
-  /// `boxes` must outlive it; `some` are ids of boxes.
+  /// `boxes` must outlive this object; `some` contains ids of boxes.
   BoxFinder(const std::vector<Shell>& boxes, std::vector<Index> some)
     : boxes_(boxes), ids_(std::move(some))
   {
     this->sort(0, this->ids_.size(), 0);
   }
-  /// Calls found(id) for the boxes that lie in this one, in no particular order.
+  /// Call found(id) for the boxes inside the given box, in no particular order.
   template <typename Found>
   void find(const Box& box, const Found& found) const
   {
@@ -383,22 +388,22 @@ private:
   std::vector<Index> ids_;
 };
 
-/// Shells that are inside out: closed, in no other closed shell, of negative volume; and, behind
-/// each, the closed shells that lie in it.
+/// Shells that are inside out (closed, with negative volume, in no other closed shell), and the
+/// shells to turn.
 struct InwardShells
 {
-  std::vector<Index> roots; ///< shells that are inside out themselves
-  std::vector<Index> turn; ///< shells to turn
+  std::vector<Index> roots; ///< shells that are inside out
+  std::vector<Index> turn; ///< the roots and the closed shells inside them
 };
 
-/// false when cancelled.
+/// Find the shells that are inside out. Return false when canceled.
 bool inward_shells(const Points& points, const Triangles& triangles,
   const std::vector<Shell>& shells, ExecutionContext& context, InwardShells& result)
 {
   std::vector<Index> order;
   for (std::size_t s = 0; s < shells.size(); ++s)
   {
-    // Nothing is inside out that encloses next to nothing (a sheet and its turned copy).
+    // Shells with almost no volume (a sheet and its turned copy) are not inside out.
     constexpr double rounding = 1e-12;
     const double size = shells[s].box.diagonal();
     if (shells[s].closed && std::abs(shells[s].volume) > rounding * size * size * size)
@@ -419,7 +424,7 @@ bool inward_shells(const Points& points, const Triangles& triangles,
     rank[order[i]] = static_cast<Index>(i);
   }
   const BoxFinder finder(shells, order);
-  // Each shell in no other one takes all later shells that lie in it, all of them at once.
+  // Each shell that is in no other shell finds all later shells inside it in one call.
   std::vector<Index> container(shells.size(), -1);
   std::vector<char> turned(shells.size(), 0);
   for (const Index s : order)

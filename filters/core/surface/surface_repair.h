@@ -10,62 +10,66 @@
 namespace bindpose
 {
 
-/// What is unclean about a surface. Edges, components and crossings are those of the surface with
-/// equal vertices welded and triangles of no area left out, so that files that repeat the corners
-/// of every triangle (STL) are not all boundary.
+/// Counts of the defects of a surface. Edges, components and crossings are those of the surface
+/// after equal vertices are welded and triangles without area are removed. Otherwise, in files that
+/// repeat the corners of every triangle (STL), all edges would be boundary edges.
 struct SurfaceDiagnosis
 {
-  Index vertices = 0; ///< of the input
-  Index triangles = 0; ///< of the input
-  Index duplicate_vertices = 0; ///< equal to a vertex of lower id, used ones only
+  Index vertices = 0; ///< number of input vertices
+  Index triangles = 0; ///< number of input triangles
+  Index duplicate_vertices = 0; ///< equal to a vertex of lower id; counts used vertices only
   Index unreferenced_vertices = 0;
-  Index degenerate_triangles = 0; ///< their three points lie on one line, exactly
+  Index degenerate_triangles = 0; ///< three collinear points (exact test)
   Index duplicate_triangles = 0; ///< same vertices as a triangle of lower id, in any order
   Index boundary_edges = 0; ///< used by one triangle
   Index nonmanifold_edges = 0; ///< used by three triangles or more
-  Index misoriented_edges = 0; ///< used by two triangles that run the same way
+  Index misoriented_edges = 0; ///< used by two triangles with the same direction
   Index components = 0; ///< connected by vertices
-  Index inward_components = 0; ///< closed, not inside another one, of negative volume
-  Index self_intersections = 0; ///< pairs of triangles that meet beyond what they share
+  Index inward_components = 0; ///< closed, not inside another component, of negative volume
+  /// Pairs of triangles that meet beyond their shared vertices and edges.
+  Index self_intersections = 0;
   Index crossing_triangles = 0; ///< triangles of these pairs
-  bool closed = false; ///< at every edge the directions cancel: winding numbers are integers
-  bool flat = false; ///< all points lie in one plane, exactly
+  bool closed = false; ///< the directions cancel at every edge, so winding numbers are integers
+  bool flat = false; ///< all points are coplanar (exact test)
 };
 
-/// counts.vertices, counts.triangles, counts.boundary_edges, … : the documented keys.
+/// Add the documented keys: counts.vertices, counts.triangles, counts.boundary_edges, ….
 void add_to_report(const SurfaceDiagnosis& diagnosis, Report& report);
 
 struct RepairOptions
 {
-  /// Turns triangles so that neighbours agree (the smaller area of a patch gives way), then closed
-  /// components that are inside out, with all that lies in them. Off: orientation stays.
+  /// Turn triangles so that neighbors agree (the part of a patch with the smaller area is turned).
+  /// Then turn closed components that are inside out, with everything inside them. If false, the
+  /// orientation does not change.
   bool orient = true;
-  /// Rounds vertices to a grid of about this fraction of the diagonal (a power of two) before
-  /// welding; 0: only equal vertices are welded. 2^-20 rescues nearly coincident vertices.
+  /// Round vertices to a grid of about this fraction of the bounding-box diagonal (a power of two)
+  /// before welding. 0: only equal vertices are welded. 2^-20 welds nearly coincident vertices.
   double snap = 0.0;
-  /// Look for crossing triangles (the only step that is not linear; 0.3 s at 100k triangles).
+  /// Find crossing triangles (the only step that is not linear; 0.3 s at 100k triangles).
   bool count_self_intersections = true;
 };
 
-/// A surface without equal vertices, stray vertices and triangles of no area. Duplicates and
-/// crossings are still there: they count in the winding number.
+/// A surface without equal vertices, unused vertices and triangles without area. It still contains
+/// duplicate and crossing triangles, because these contribute to the winding number.
 struct RepairedSurface
 {
   Points points;
   Triangles triangles;
-  std::vector<Index> original_vertices; ///< #V: the lowest input id among the welded ones
+  std::vector<Index> original_vertices; ///< #V: the lowest input id of the welded vertices
   std::vector<Index> original_triangles; ///< #F: input ids
-  std::vector<Index> lowest_equal; ///< #input V: the lowest input id welded with it, itself mostly
-  /// Triangles of closed components that are inside out, ascending, and the number of that
+  /// #input V: the lowest input id welded with the vertex, usually its own.
+  std::vector<Index> lowest_equal;
+  /// Triangles of closed components that are inside out, ascending, each with the number of its
   /// component, from 0 to found.inward_components - 1.
   std::vector<std::pair<Index, Index>> inward_triangles;
-  SurfaceDiagnosis found; ///< in the input, before any triangle was turned
-  Index turned_triangles = 0; ///< turned to agree with their neighbours
-  Index turned_components = 0; ///< closed components turned right side out
+  SurfaceDiagnosis found; ///< defects of the input, before any triangle was turned
+  Index turned_triangles = 0; ///< turned to agree with their neighbors
+  Index turned_components = 0; ///< closed components that were inside out
   std::vector<std::pair<Index, Index>> crossings; ///< pairs of triangles of this surface
-  bool closed = false; ///< found.closed, but after triangles were turned
+  bool closed = false; ///< found.closed after triangles were turned
 
-  /// Closed, nothing crosses, nothing twice, no gap left by a dropped triangle: TetGen takes it.
+  /// Report whether TetGen accepts the surface: it is not flat, has no crossings and no duplicates,
+  /// and is closed, also after degenerate triangles were removed.
   bool clean() const
   {
     return this->closed && this->found.self_intersections == 0 &&
@@ -73,12 +77,13 @@ struct RepairedSurface
   }
 };
 
-/// Diagnoses and cleans up. invalid_input for ids out of range and coordinates that are not finite,
-/// naming the first. Never adds or moves a vertex (but for snap). O(n log n).
+/// Diagnose and clean up a surface. Return invalid_input for ids out of range and coordinates that
+/// are not finite, with the first such id or coordinate. Vertices are never added, and they are
+/// moved only by snap. O(n log n).
 Status repair_surface(PointsView points, TrianglesView triangles, const RepairOptions& options,
   RepairedSurface& repaired, ExecutionContext& context);
 
-/// The diagnosis alone, as `bindpose info` prints it.
+/// Compute only the diagnosis, as printed by `bindpose info`.
 Status diagnose_surface(PointsView points, TrianglesView triangles, SurfaceDiagnosis& diagnosis,
   ExecutionContext& context);
 

@@ -1,5 +1,5 @@
-// Top-down tree, split at the median of the longest side; ties by triangle id, so that the tree and
-// everything that comes from it are the same on every machine.
+// The tree is built from the top and split at the median along the longest side. Equal centers are
+// ordered by triangle id, so that the tree and all results are the same on every machine.
 #include "surface/triangle_tree.h"
 
 #include "base/parallel.h"
@@ -104,7 +104,7 @@ double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
 {
   double best = limit * limit;
   bool found = false;
-  // The median halves a node: no tree is deeper.
+  // Nodes are halved at the median, so no tree is deeper.
   std::array<Index, 128> stack;
   std::size_t top = 0;
   if (!this->nodes_.empty())
@@ -139,7 +139,7 @@ double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
       }
       continue;
     }
-    // The nearer child last: it is looked at first.
+    // Push the nearer child last, so that it is visited first.
     const Index left = at + 1;
     const bool left_nearer = squared_distance(this->nodes_[left].box, p) <=
       squared_distance(this->nodes_[node.right].box, p);
@@ -149,7 +149,8 @@ double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
   return found ? std::sqrt(best) : std::numeric_limits<double>::infinity();
 }
 
-/// From the root: below nodes that `enter` says true of, to leaves; until `at_leaf` says false.
+/// Visit the tree from the root. Nodes for which `enter` returns false are skipped. The visit ends
+/// when `at_leaf` returns false.
 template <typename Enter, typename AtLeaf>
 void TriangleTree::visit(const Enter& enter, const AtLeaf& at_leaf) const
 {
@@ -186,7 +187,7 @@ bool TriangleTree::segment_meets(
   box.add(a);
   box.add(b);
   const Vec3 along = b - a;
-  // Slabs: where along the segment it is between the planes of a box, for each axis.
+  // Slab test: for each axis, the interval of the segment between the planes of a box.
   const auto passes = [&](const Box& node)
   {
     if (!boxes_meet(node, box))
@@ -263,7 +264,7 @@ bool crossing_pairs(PointsView points, TrianglesView triangles,
       auto& mine = of_block[static_cast<std::size_t>(begin / block)];
       for (Index leaf = begin; leaf < end; ++leaf)
       {
-        std::map<Index, Index> crossed; // by triangle
+        std::map<Index, Index> crossed; // number of crossings per triangle
         Index looked = 0;
         tree.pairs_of_leaf(leaf,
           [&](Index f, Index g)

@@ -6,9 +6,9 @@
 namespace bindpose
 {
 
-/// Where a surface's box has its centre at the origin and a diagonal from 1 to 2, for programs that
-/// know absolute tolerances or lose digits far from the origin. The scale is a power of two: no
-/// digits are lost by it.
+/// Transforms a surface so that its box is centered at the origin and has a diagonal from 1 to 2.
+/// This is for programs with absolute tolerances, or that lose digits far from the origin. The
+/// scale is a power of two, so that it causes no rounding.
 class UnitFrame
 {
 public:
@@ -23,8 +23,8 @@ private:
   double scale_ = 1.0;
 };
 
-/// invalid_input unless the surface has triangles, is finite, its ids are in range, and its box has
-/// a diagonal above 0 and below 1e100.
+/// Return invalid_input unless the surface has triangles, is finite, its ids are in range, and its
+/// box has a diagonal above 0 and below 1e100.
 Status check_frame(PointsView points, TrianglesView triangles);
 
 } // namespace bindpose

@@ -8,7 +8,8 @@ namespace bindpose
 
 namespace
 {
-/// Below, at or above 0: a comes before b, is in the same place, comes after.
+/// Return a value below, equal to or above 0 if a is before b, has the same coordinates, or is
+/// after b.
 int compare(const PointsView& points, Index a, Index b)
 {
   for (int k = 0; k < 3; ++k)
@@ -31,7 +32,7 @@ std::vector<Index> order_by_place(const PointsView& points, const std::vector<ch
 {
   struct Entry
   {
-    double x; // beside the id, since most comparisons need no more
+    double x; // stored with the id, because most comparisons need only x
     Index vertex;
   };
   std::vector<Entry> entries;

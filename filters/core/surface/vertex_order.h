@@ -8,13 +8,14 @@
 namespace bindpose
 {
 
-/// Whether two vertices have the same coordinates.
+/// Report whether two vertices have the same coordinates.
 bool same_place(const PointsView& points, Index a, Index b);
 
-/// The used vertices by their coordinates, x first; of equal ones the lower id first.
+/// Return the used vertices sorted by their coordinates, x first. Equal vertices are sorted by id.
 std::vector<Index> order_by_place(const PointsView& points, const std::vector<char>& used);
 
-/// For every vertex the lowest used id with the same coordinates; unused vertices keep their own.
+/// Return the lowest used id with the same coordinates for every vertex. An unused vertex gets its
+/// own id.
 std::vector<Index> lowest_at_place(const PointsView& points, const std::vector<char>& used);
 
 } // namespace bindpose

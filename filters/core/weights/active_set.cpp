@@ -1,6 +1,6 @@
-// The factor is exact for the vertices that are held as long as these stay the same, and a good
-// preconditioner while few change. Where projected_newton() does not settle with it, the next
-// factor is made for those that are held by then.
+// The factor is exact while the set of held vertices does not change, and a good preconditioner
+// while few vertices change. If projected_newton() does not settle with a factor, the next factor
+// is computed for the vertices that are held by then.
 #include "weights/active_set.h"
 
 #include "base/stopwatch.h"
@@ -15,7 +15,7 @@ namespace
 {
 using Eigen::VectorXd;
 
-/// @param inverse asked for where round-off keeps the first bound of the certificate too large.
+/// @param inverse called only if round-off keeps the first bound of the certificate too large.
 Certificate certify_column(const SplitForm& matrices, const BoxQpColumn& column,
   const ColumnProblem& problem, double tolerance, const InverseForm& inverse, const VectorXd& w)
 {
@@ -33,9 +33,9 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
 {
   const Stopwatch watch;
   constexpr int most_factorisations = 10;
-  constexpr int sure = 2; // factors that need not lead nearer
-  constexpr double nearer = 0.5; // than the nearest before, from then on
-  constexpr int rounds = 6; // with each of them
+  constexpr int sure = 2; // factorizations that are exempt from the test for stalling
+  constexpr double nearer = 0.5; // a later factorization must reduce the least move by this factor
+  constexpr int rounds = 6; // per factorization
   const double tolerance = options.tolerance;
   const double enough = settled_newton_move(tolerance);
   const ColumnProblem problem(matrices, column);
@@ -85,7 +85,7 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
       rounds, enough, context, x);
     solution.iterations += 1;
   }
-  // A certified iterate is a valid result at the end of the budget, even if it has not settled.
+  // At the end of the budget, a certified iterate is a valid result even if it has not settled.
   if (!solution.status.ok() && certified() && solution.iterations >= options.maximum_iterations)
   {
     solution.status = Status();

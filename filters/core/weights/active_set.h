@@ -8,14 +8,15 @@
 namespace bindpose
 {
 
-/// Solves for one column without ordered pairs, from a good guess at the bounds that hold it: a
-/// projected Newton method whose systems are solved with a factor of A without the vertices that
-/// were held when it was made. One to three factorisations are usual, each with 5 to 20 solves.
+/// Solve one column without ordered pairs, from a good guess of its active bounds. A projected
+/// Newton method solves its systems with a factor of A without the vertices that were held at a
+/// bound when the factor was computed. One to three factorizations are usual, each with 5 to 20
+/// solves.
 ///
 /// Hintermueller, Ito and Kunisch 2003, The primal-dual active set strategy as a semismooth Newton
 /// method; Bertsekas 1982.
-/// @param inverse asked for seldom.
-/// @return not_converged where the guess was not good enough, with what it came to.
+/// @param inverse called rarely.
+/// @return not_converged, with the last iterate, if the guess was not good enough.
 BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
   const BoxQpColumn& column, const ColumnStart& start, const InverseForm& inverse,
   BoxQpWorkspace& workspace, ExecutionContext& context);

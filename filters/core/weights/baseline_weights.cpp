@@ -1,10 +1,11 @@
-// Distances are straight ones from vertices to the handles' own geometry: points, segments of
-// bones, labelled vertices of regions. What is solved for are the vertices that are not fixed:
-//   smoothed harmonic   (M + length^4 Q) w = M h, from K h = 0 and the biharmonic Q = K M^-1 K:
-//   from
-//                       h, for no length, to the biharmonic weights, for a great one
-//   bone heat           (K + M H) w_j = M H p_j, H = heat / d^2 where the nearest handle is in
-//                       sight, p_j its share among the nearest
+// Distances are straight-line distances from vertices to the handles' own geometry: points,
+// segments of bones, labeled vertices of regions. The unknowns are the vertices that are not fixed.
+// The systems are
+//   smoothed harmonic   (M + length^4 Q) w = M h, where K h = 0 and Q = K M^-1 K is the biharmonic
+//                       form; w is h for length 0 and approaches the biharmonic weights for a large
+//                       length
+//   bone heat           (K + M H) w_j = M H p_j, where H = heat / d^2 if the nearest handle is
+//                       visible, and p_j is its fraction among equally near handles
 // with M the true masses of the mesh scaled to diagonal 1, so that units do not matter.
 #include "weights/baseline_weights.h"
 
@@ -30,7 +31,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Places of the handles that are nearest to points.
+/// Nearest points on the handles, and distances to them.
 class HandleDistances
 {
 public:
@@ -46,7 +47,7 @@ public:
       {
         continue;
       }
-      // Its vertices, as triangles without area.
+      // The region's vertices, as triangles without area.
       std::vector<Index> members;
       for (std::size_t i = 0; i < constraints.vertices.size(); ++i)
       {
@@ -68,7 +69,7 @@ public:
     }
   }
 
-  /// The distance of handle j from p; infinite for a handle without vertices. Thread-safe.
+  /// Return the distance of handle j from p; infinite for a handle without vertices. Thread-safe.
   double from(Index j, const Vec3& p) const
   {
     return this->problem_.constraints.counts[j] == 0
@@ -76,7 +77,7 @@ public:
       : (this->nearest(static_cast<std::size_t>(j), p) - p).norm();
   }
 
-  /// The point of handle j that is nearest to p. Thread-safe.
+  /// Return the point of handle j nearest to p. Thread-safe.
   Vec3 nearest(std::size_t j, const Vec3& p) const
   {
     const Handle& handle = this->problem_.handles[j];
@@ -130,7 +131,7 @@ Status inverse_distances(
         {
           d[j] = distances.from(j, p);
         }
-        // Relative to the nearest: no power overflows.
+        // Distances relative to the nearest one, so that no power overflows.
         const double least = d.minCoeff();
         for (Index j = 0; j < m; ++j)
         {
@@ -183,13 +184,14 @@ Status smoothed_harmonic(const WeightsProblem& problem, const BaselineWeightsOpt
   return {};
 }
 
-/// What hides handles from vertices: the boundary of a volume, a surface itself; of a flat shape
-/// the edges of its outline, made into walls.
+/// Triangles that hide handles from vertices: the boundary of a volume, or a surface itself. For a
+/// flat shape, vertical walls through the edges of its outline.
 struct Walls
 {
   Points points;
   Triangles triangles;
-  std::vector<std::array<Index, 3>> vertices; ///< of the domain, that a triangle belongs to
+  /// The domain's vertices that each triangle belongs to.
+  std::vector<std::array<Index, 3>> vertices;
 };
 
 Walls walls_of(const WeightsProblem& problem)
@@ -231,7 +233,7 @@ Walls walls_of(const WeightsProblem& problem)
   return walls;
 }
 
-/// H for every vertex, and the shares p of the handles nearest to it.
+/// Compute H for every vertex, and the fractions p of the handles nearest to it.
 Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext& context,
   VectorXd& h, MatrixXd& p, Index& heated)
 {
@@ -265,7 +267,8 @@ Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext
             continue;
           }
           const Vec3 to = distances.nearest(static_cast<std::size_t>(j), at);
-          // A handle on the surface touches it; so does the vertex.
+          // Shorten the segment at both ends: the vertex, or a handle on the surface, touches a
+          // wall.
           constexpr double short_of = 1e-3;
           const Vec3 from = at + short_of * (to - at);
           const Vec3 until = to + short_of * (at - to);

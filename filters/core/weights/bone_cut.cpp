@@ -1,7 +1,7 @@
-// Around a vertex on a bone the triangles fall into groups: two are in one group when they share an
-// edge at the vertex that no bone runs along. The first group keeps the vertex, every other one
-// gets a copy. The sides of a bone that a group touches name the copy; a group that touches both
-// sides of one bone goes around its tip.
+// The triangles around a vertex on a bone form groups. Two triangles are in one group if they share
+// an edge at the vertex that is on no bone. The first group keeps the vertex, every other group
+// gets a copy. The copy belongs to the side of the bone that its group touches. A group that
+// touches both sides of one bone surrounds the tip of the bone.
 #include "weights/bone_cut.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace bindpose
 
 namespace
 {
-/// Of the mesh's diagonal: what is nearer to a bone lies on it.
+/// Points nearer to a bone than this fraction of the mesh's diagonal are on the bone.
 constexpr double on_bone = 1e-6;
 
 using EdgeKey = std::pair<Index, Index>;
@@ -25,10 +25,10 @@ EdgeKey key_of(Index a, Index b)
   return { std::min(a, b), std::max(a, b) };
 }
 
-/// Bones by the edges that they run along. A bone's number, or the first of several.
+/// The first bone that runs along each edge; -1: none.
 using BoneEdges = std::map<EdgeKey, Index>;
 
-/// The mesh's vertices on the bone, from head to tail.
+/// Return the mesh's vertices on the bone, from head to tail.
 std::vector<Index> vertices_along(PointsView points, const Handle& bone, double tolerance)
 {
   const Eigen::Vector2d head = bone.head.head<2>();
@@ -58,19 +58,19 @@ std::vector<Index> vertices_along(PointsView points, const Handle& bone, double 
   return vertices;
 }
 
-/// Twice the area of the triangle (head, tail, p): positive left of the bone.
+/// Return twice the area of the triangle (head, tail, p): positive left of the bone.
 double left_of(const Handle& bone, const Eigen::RowVector3d& p)
 {
   const Vec3 along = bone.tail - bone.head;
   return along[0] * (p[1] - bone.head[1]) - along[1] * (p[0] - bone.head[0]);
 }
 
-/// The triangles at a vertex, in groups that no bone separates.
+/// Return the triangles at a vertex, in groups that are separated by bones.
 std::vector<std::vector<Index>> groups_around(
   Index vertex, const std::vector<Index>& around, TrianglesView triangles, const BoneEdges& bones)
 {
   std::vector<std::size_t> group(around.size());
-  std::map<Index, std::size_t> first_at; // across the edge to this vertex
+  std::map<Index, std::size_t> first_at; // first triangle at the edge from `vertex` to this vertex
   for (std::size_t i = 0; i < around.size(); ++i)
   {
     group[i] = i;
@@ -110,7 +110,7 @@ std::vector<std::vector<Index>> groups_around(
   return groups;
 }
 
-/// The side (see BoneCut) of a vertex's group of triangles.
+/// Return the side (see BoneCut) of a vertex's group of triangles.
 Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
   TrianglesView triangles, const Handles& handles, const std::vector<Index>& curves,
   const BoneEdges& bones)

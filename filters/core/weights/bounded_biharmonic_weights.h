@@ -12,9 +12,10 @@ struct BoundedWeightsOptions : WeightsOptions
   int order = 2;
 };
 
-/// Bounded biharmonic weights: for each handle the minimiser of the k-harmonic energy between 0 and
-/// 1 that is 1 on the handle and 0 on all others; rows are divided by their sums afterwards.
-/// Converged, with a certificate a column. Cost: see BoxQp.
+/// Compute bounded biharmonic weights. The weights of a handle minimize the k-harmonic energy
+/// subject to 0 <= w <= 1, are 1 on the handle and 0 on all other handles. Afterwards rows are
+/// divided by their sums. Every column has a certificate.
+/// Cost: see BoxQp.
 /// Jacobson et al. 2011, Bounded biharmonic weights for real-time deformation.
 Status bounded_biharmonic_weights(const WeightsProblem& problem,
   const BoundedWeightsOptions& options, ExecutionContext& context, WeightsResult& result);

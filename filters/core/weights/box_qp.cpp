@@ -1,9 +1,10 @@
-// One analysis and one factorisation of Q's free block, in single precision where conjugate
-// gradients reach the limit of double precision with it (biharmonic energies of meshes as a rule,
-// triharmonic ones seldom), in double precision otherwise. Then all columns get their starts
-// together (splitting_start.cpp), and each one is solved for from there (active_set.cpp), in a
-// workspace that the next column uses again. Columns without a start, and those whose start does
-// not lead to the minimiser, are left to the interior-point method of interior_point.cpp.
+// Q's free block is analyzed and factored once. The factor is in single precision if conjugate
+// gradients reach the limit of double precision with it (biharmonic energies of meshes usually,
+// triharmonic energies rarely), else in double precision. Then the starts of all columns are
+// computed together (splitting_start.cpp), and each column is solved from its start
+// (active_set.cpp), in a workspace that the next column reuses. Columns without a start, and
+// columns whose start does not lead to the minimizer, are solved by the interior-point method
+// (interior_point.cpp).
 #include "weights/box_qp.h"
 
 #include "base/memory.h"
@@ -29,11 +30,12 @@ namespace
 {
 using Eigen::VectorXd;
 
-/// Relative residuals of systems in A: what refinement aims at, and what it may end with.
+/// Relative residuals of systems in A: the goal of the refinement, and the largest that is
+/// accepted.
 constexpr double wanted_accuracy = 1e-14;
 constexpr double good_accuracy = 1e-12;
 
-/// Scope in which a context has at most so many threads, 0: as many as it had.
+/// Scope in which a context has at most this number of threads; 0: no limit.
 class FewerThreads
 {
 public:
@@ -60,19 +62,19 @@ struct BoxQp::Impl : SplitForm
   using SplitForm::SplitForm;
 
   BoxQpOptions options;
-  mutable SparseSolver solver; // in double precision: its analysis serves all
-  FloatCholesky single; // the same analysis; not analysed where it is unavailable
-  FloatCholesky single_of_a; // A's factor, where that is enough
+  mutable SparseSolver solver; // double precision; all other solvers share its analysis
+  FloatCholesky single; // the same analysis; not analyzed if single precision is unavailable
+  FloatCholesky single_of_a; // A's factor, if single precision is accurate enough
   bool in_single = false;
-  mutable bool in_double = false; // solver has A's factor
+  mutable bool in_double = false; // whether `solver` contains A's factor
   VectorXd inverse_diagonal; // of A
   double memory_estimate = 0.0;
-  int most_threads = 0; // that memory will do for, 0: any number
+  int most_threads = 0; // largest number of threads that the memory allows; 0: no limit
   mutable std::mutex solver_mutex;
   mutable PerThread<BoxQpWorkspace> of_threads;
 
-  /// What the factors will take. A workspace a thread, one at least.
-  /// @param in_single_precision how A is factored.
+  /// Estimate the memory of the factors, with one workspace per thread and at least one.
+  /// @param in_single_precision whether A is factored in single precision.
   Status plan_memory(const std::vector<BoxQpColumn>& columns, int threads, bool in_single_precision)
   {
     const bool ordered = std::any_of(columns.begin(), columns.end(),
@@ -80,10 +82,10 @@ struct BoxQp::Impl : SplitForm
     const auto count = static_cast<double>(columns.size());
     const auto vertices = static_cast<double>(this->q.rows());
     const double in_double_precision = this->solver.factor_bytes();
-    // Of a column: what is given, its minimiser without bounds, its start, its solution.
+    // Per column: given values, minimizer without bounds, start, solution.
     const double once = (in_single_precision ? this->single.factor_bytes() : in_double_precision) +
       5.0 * sizeof(double) * vertices * std::max(count, 1.0);
-    // In a column's work: about as many vectors as there are lines that keep one.
+    // Per workspace: the matrix, about 40 vectors and the factors.
     const double each = columns.empty()
       ? 0.0
       : static_cast<double>(this->lower.nonZeros()) * (sizeof(double) + sizeof(int)) +
@@ -108,10 +110,10 @@ struct BoxQp::Impl : SplitForm
     workspace->matrix = this->lower;
     return workspace;
   }
-  /// A^-1 b for all columns of b, to the limit of double precision. A result depends on nothing
-  /// but its right-hand sides, not on what was solved before.
-  /// @return false when x is not that good, because there is no room for a factor in double
-  /// precision or because the context is cancelled.
+  /// Compute A^-1 b for all columns of b, to the limit of double precision. The result depends only
+  /// on the right-hand sides, not on earlier solves.
+  /// @return false if this accuracy is not reached because the memory does not suffice for a factor
+  /// in double precision or because the context is canceled.
   bool solve_a(
     const Eigen::MatrixXd& rhs, const ExecutionContext* context, Eigen::MatrixXd& x) const
   {
@@ -132,7 +134,7 @@ struct BoxQp::Impl : SplitForm
     }
     return this->in_double;
   }
-  /// The same for certificates: without a number where it is not that good.
+  /// Like solve_a(), for certificates: NaN if the accuracy is not reached.
   Eigen::MatrixXd inverse_of_a(const Eigen::MatrixXd& rhs) const
   {
     Eigen::MatrixXd x;
@@ -142,7 +144,7 @@ struct BoxQp::Impl : SplitForm
     }
     return x;
   }
-  /// By the factor in single precision.
+  /// Solve with the factor in single precision and refinement.
   /// @return the relative residual that was reached.
   double refined(
     const Eigen::MatrixXd& rhs, const ExecutionContext* context, Eigen::MatrixXd& x) const
@@ -153,7 +155,8 @@ struct BoxQp::Impl : SplitForm
       [this](const Eigen::MatrixXd& p) { return Eigen::MatrixXd(this->a.transpose() * p); },
       this->inverse_diagonal, rhs, { wanted_accuracy, most_steps, context }, x);
   }
-  /// A's factor in single precision, when it will do for a typical right-hand side.
+  /// Factor A in single precision. The factor is kept if it is accurate enough for a typical
+  /// right-hand side.
   Status factor_single(const ExecutionContext& context)
   {
     this->inverse_diagonal.resize(this->lower.rows());
@@ -174,13 +177,14 @@ struct BoxQp::Impl : SplitForm
     }
     return status.code == StatusCode::cancelled ? status : Status();
   }
-  /// r -> A^-1 r over all vertices.
+  /// Compute A^-1 r over all vertices.
   VectorXd inverse(const VectorXd& r) const
   {
     return this->whole(this->inverse_of_a(this->free_rows(r)),
       Eigen::MatrixXd::Zero(static_cast<Index>(this->fixed.size()), 1));
   }
-  /// #V x m: without bounds. As good as can be had: what is made of them has its certificates.
+  /// Return the minimizers without bounds (#V x m). They are used even if solve_a() fails, because
+  /// the results that are derived from them have their own certificates.
   Eigen::MatrixXd minimisers(
     const Eigen::MatrixXd& fixed_values, const ExecutionContext* context) const
   {
@@ -190,8 +194,8 @@ struct BoxQp::Impl : SplitForm
   }
 };
 
-/// The solve of all columns: from starts at the bounds, then, for those that this did not solve, by
-/// the interior-point method.
+/// Solve all columns: first from starts at the active bounds, then the remaining ones by the
+/// interior-point method.
 class BoxQp::Impl::ColumnsSolve
 {
 public:
@@ -204,8 +208,8 @@ public:
 
   void run()
   {
-    constexpr double at_bounds = 0.7; // share of the seconds
-    std::vector<std::size_t> left; // for the interior-point method
+    constexpr double at_bounds = 0.7; // fraction of the time, for progress
+    std::vector<std::size_t> left; // columns for the interior-point method
     {
       const ProgressRange range(this->context_, 0.0, at_bounds);
       std::vector<std::size_t> all(this->columns_.size());
@@ -228,7 +232,8 @@ public:
         if (this->solutions_[j].status.code == StatusCode::not_converged &&
           this->solutions_[j].iterations < this->qp_.options.maximum_iterations)
         {
-          this->solutions_[j].status = Status::cancelled(); // until it is solved for again
+          // Until the interior-point method solves it.
+          this->solutions_[j].status = Status::cancelled();
           left.push_back(j);
         }
       }
@@ -252,16 +257,19 @@ public:
   }
 
 private:
-  static constexpr double start_share = 0.3; // of the seconds, for starts
+  static constexpr double start_share = 0.3; // fraction of the time for starts, for progress
 
-  /// Whether a column can have a start: one without its own, without ordered pairs, with bounds.
+  /// Report whether a column can have a start: it has no start of its own, no ordered pairs, and
+  /// finite bounds.
   bool may_start(const BoxQpColumn& column) const
   {
     return this->qp_.single.analysed() && column.pairs.empty() && column.start.size() == 0 &&
       column.bounds.lower.allFinite() && column.bounds.upper.allFinite();
   }
 
-  /// @return one for each of all columns; only those asked for that can have a start have one.
+  /// Find starts for some columns.
+  /// @param asked indices of the columns.
+  /// @return #columns; empty starts for columns that were not requested or cannot have one.
   std::vector<ColumnStart> find_starts(const std::vector<std::size_t>& asked, bool barriers)
   {
     const Stopwatch watch;
@@ -296,7 +304,7 @@ private:
     return starts;
   }
 
-  /// @param solve (column, workspace) -> its solution, on any thread.
+  /// @param solve (column, workspace) -> solution; called on any thread.
   template <class Solve>
   void solve_each(const std::vector<std::size_t>& chosen, const Solve& solve)
   {

@@ -10,25 +10,26 @@
 namespace bindpose
 {
 
-/// The memory of one column's solve, used again for the next.
+/// The memory for solving one column, reused for the next.
 struct BoxQpWorkspace
 {
-  SparseSolver solver; ///< has analysed the pattern of lower
-  FloatCholesky single; ///< has, too, where that is available
-  SparseMatrix matrix; ///< of that pattern
+  SparseSolver solver; ///< has analyzed the pattern of `lower`
+  FloatCholesky single; ///< has analyzed it too, if single precision is available
+  SparseMatrix matrix; ///< has the pattern of `lower`
 };
 
 /// r -> A^-1 r over all vertices (see certify).
 using InverseForm = std::function<Eigen::VectorXd(const Eigen::VectorXd& r)>;
 
-/// The largest move of a weight that counts as none. The gap is quadratic in the weights' error: a
-/// certified iterate can be a thousand tolerances away from the minimiser.
+/// Return the largest change of a weight that counts as converged. The gap is quadratic in the
+/// error of the weights, so a certified iterate can be a thousand tolerances away from the
+/// minimizer.
 inline double settled_move(double tolerance)
 {
   return std::max(tolerance, std::min(5.0 * tolerance, 1.5e-6));
 }
 
-/// The largest last move of a projected Newton method that counts as none.
+/// Return the largest last move of a projected Newton method that counts as converged.
 inline double settled_newton_move(double tolerance)
 {
   return 0.1 * settled_move(tolerance);

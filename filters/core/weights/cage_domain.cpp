@@ -10,8 +10,9 @@ namespace bindpose
 
 namespace
 {
-/// Edges of cages have no direction of their own. Turns each so that it begins where the one before
-/// it ends, as far as two meet, and turns all of them so that they enclose a positive area.
+/// Orient the edges of a cage, which have no given direction. The edges are followed from end to
+/// end, and each is turned so that it begins where the previous one ends. Then all are reversed if
+/// they enclose a negative area.
 void run_around(PlanePointsView points, Segments& edges)
 {
   std::vector<std::vector<Index>> at(static_cast<std::size_t>(points.rows()));
@@ -53,7 +54,7 @@ void run_around(PlanePointsView points, Segments& edges)
   }
 }
 
-/// Tets of the region that the cage's faces enclose.
+/// Fill the region that the cage's faces enclose with tets.
 Status fill_faces(const std::vector<CageElement>& faces, PointsView points, const Handles& handles,
   const CageOptions& cage, CageDomain& result, ExecutionContext& context)
 {
@@ -88,7 +89,7 @@ Status fill_faces(const std::vector<CageElement>& faces, PointsView points, cons
   return status;
 }
 
-/// Triangles of the region that the cage's edges enclose in the plane of a flat shape.
+/// Fill the region that the cage's edges enclose in the plane of a flat shape with triangles.
 Status fill_edges(const std::vector<CageElement>& edges, PointsView points, TrianglesView triangles,
   const Handles& handles, const CageOptions& cage, CageDomain& result, ExecutionContext& context)
 {
@@ -98,7 +99,7 @@ Status fill_edges(const std::vector<CageElement>& edges, PointsView points, Tria
   {
     return Status::invalid_input(needs);
   }
-  // All handles, tails of bones, and the shape's points, in this order.
+  // In this order: heads of all handles, tails of all handles (bones), points of the shape.
   const auto handle_count = static_cast<Index>(handles.size());
   const Index shape_points = points.rows() <= cage.most_points ? points.rows() : 0;
   Points places(2 * handle_count + points.rows(), 3);
@@ -123,7 +124,7 @@ Status fill_edges(const std::vector<CageElement>& edges, PointsView points, Tria
   {
     return Status::invalid_input(std::string(needs) + "; these handles and the shape are not flat");
   }
-  // The normal from which the shape is seen counter-clockwise.
+  // Orient the normal so that the shape's triangles are counter-clockwise around it.
   Vec3 area = Vec3::Zero();
   for (Index f = 0; f < triangles.rows(); ++f)
   {
@@ -156,10 +157,11 @@ Status fill_edges(const std::vector<CageElement>& edges, PointsView points, Tria
   }
   if (status.report.number("counts.outside_handles", 0.0) > 0.0)
   {
-    // Its last warning. The transfer reports points outside, the weights' problem handles outside.
+    // Drop the last warning. The transfer reports points outside, the weights problem handles
+    // outside.
     status.warnings.pop_back();
   }
-  // Nothing else of its report: the weights' problem counts vertices and triangles again.
+  // Keep only these two numbers: the weights problem counts vertices and triangles again.
   Report report;
   report.set("cage.min_angle", status.report.number("min_angle", 0.0));
   report.set("cage.area", status.report.number("area", 0.0));
@@ -167,7 +169,7 @@ Status fill_edges(const std::vector<CageElement>& edges, PointsView points, Tria
   Domain& domain = result.domain;
   domain.points = (shape.points * axes.transpose()).rowwise() + origin.transpose();
   domain.triangles = shape.triangles;
-  // Given places keep their own coordinates, so that what lies on them is found exactly.
+  // Given points keep their exact coordinates, so that later searches find them exactly.
   for (Index i = 0; i < static_cast<Index>(shape.handle_vertices.size()); ++i)
   {
     if (shape.handle_vertices[static_cast<std::size_t>(i)] >= 0)

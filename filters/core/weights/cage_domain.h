@@ -12,25 +12,25 @@ namespace bindpose
 struct CageOptions
 {
   double winding_threshold = 0.5; ///< > 0
-  HandlePlaces places; ///< parts of the handles that become part of the tets
-  Index most_points = 20000; ///< a surface with more points: they do not become vertices
+  HandlePlaces places; ///< handle geometry that becomes part of the tets
+  Index most_points = 20000; ///< the points of a larger surface do not become vertices
 };
 
 /// The inside of a cage.
 struct CageDomain
 {
   Domain domain;
-  TetrahedralizeResult tets; ///< of a cage of faces
-  TriangleMesh plane_cage; ///< of a cage of edges
+  TetrahedralizeResult tets; ///< for a cage of faces
+  TriangleMesh plane_cage; ///< for a cage of edges
 };
 
-/// Fills the closed cage among the handles: with tets where it has faces (tetrahedralize), with
-/// triangles where it has edges in the plane of a flat shape (planar_shape). The surface's points
+/// Fill the closed cage among the handles. A cage of faces is filled with tets (tetrahedralize), a
+/// cage of edges in the plane of a flat shape with triangles (planar_shape). The surface's points
 /// become vertices.
 ///
-/// Report: of a cage of faces what tetrahedralize() reports, of a cage of edges cage.area and
-/// cage.min_angle (degrees). Errors: no closed cage among the handles, a cage of edges that is not
-/// flat, and those of the parts.
+/// Report: for a cage of faces the report of tetrahedralize(); for a cage of edges cage.area and
+/// cage.min_angle (degrees). Return an error if the handles have no closed cage, if a cage of edges
+/// is not flat, or if tetrahedralize() or planar_shape() fails.
 Status fill_cage(PointsView points, TrianglesView triangles, const Handles& handles,
   const CageOptions& options, CageDomain& result, ExecutionContext& context);
 

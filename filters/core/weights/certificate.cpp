@@ -11,10 +11,10 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   const std::vector<OrderedPair>& pairs, const Eigen::VectorXd& multipliers,
   const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& inverse)
 {
-  // Q is symmetric: a product with its transpose runs along the columns as stored.
+  // Q is symmetric. The product with its transpose follows the stored columns, which is faster.
   Eigen::VectorXd g = problem.q.transpose() * w;
   Certificate certificate;
-  // A constant column has no energy; what is computed for it is round-off.
+  // A constant column has no energy; its computed energy is round-off.
   certificate.energy = 0.5 * w.dot(g);
   const double noise = 1e-14 * 0.5 * w.cwiseAbs2().dot(problem.q.diagonal());
   certificate.energy = certificate.energy > noise ? certificate.energy : 0.0;
@@ -45,7 +45,7 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
     ++free_count;
     const double share = g[v] == 0.0 ? 0.0 : std::max(g[v] * (w[v] - l), -g[v] * (u - w[v]));
     gap += share;
-    // Where a Newton step of this vertex alone stays within the bounds, its gradient is residual.
+    // If a Newton step of this vertex alone stays within the bounds, its gradient is part of r.
     if (inverse && w[v] - g[v] / diagonal > l && w[v] - g[v] / diagonal < u)
     {
       r[v] = g[v];

@@ -18,30 +18,30 @@ struct OrderedPair
   double least = 0.0;
 };
 
-/// What proves that a column is the minimiser, and how far from it it can be at most.
+/// A bound on the difference between a column's energy and the minimum, and the column's residual.
 ///
 /// With g = Q w (and g' = Q w - G' lambda for ordered pairs G w >= h, lambda >= 0) the dual of the
 /// quadratic program bounds the minimum from below, so that
 ///   gap = lambda' (G w - h) + sum over free vertices of max(g' (w - l), -g' (u - w))
-/// is a rigorous bound on E(w) - min E, whoever computed w and lambda.
+/// is a rigorous bound on E(w) - min E, however w and lambda were computed.
 ///
-/// On needles, and for triharmonic energies, the round-off of Q w alone, 1e-16 of Q's entries,
-/// makes that sum large however good w is. A second bound, as rigorous, sees round-off squared: for
-/// any set of vertices, with r = g' there and 0 elsewhere,
-///   gap = lambda' (G w - h) + (the sum above over all others) + 1/2 r' A^-1 r
-/// where A is Q's free block. The smaller of both is taken where A^-1 is given. Without bounds only
-/// the second one is finite.
+/// On needles, and for triharmonic energies, the round-off of Q w (1e-16 of Q's entries) makes that
+/// sum large even if w is optimal. A second bound is equally rigorous, and round-off enters it
+/// squared. For any set R of vertices, with r = g' in R and 0 elsewhere,
+///   gap = lambda' (G w - h) + (the sum above over all vertices not in R) + 1/2 r' A^-1 r
+/// where A is Q's free block. If A^-1 is given, the smaller of the two bounds is used. Without
+/// bounds on w only the second one is finite.
 struct Certificate
 {
   double relative_gap = 0.0; ///< gap / E
   /// Natural residual: max over free vertices of |w - clip(w - g' / diag Q, l, u)|.
   double kkt_residual = 0.0;
   double energy = 0.0; ///< E = 1/2 w' Q w
-  double order_violation = 0.0; ///< largest w[low] + least - w[high] over the pairs, or 0
-  double bounds_violation = 0.0; ///< how far w lies outside of [l, u] at most
+  double order_violation = 0.0; ///< largest w[low] + least - w[high] over the pairs, at least 0
+  double bounds_violation = 0.0; ///< largest distance of w from [l, u]
 };
 
-/// l <= w <= u, a value a vertex. Both may be infinite: no bounds there.
+/// l <= w <= u, one value per vertex. Both may be infinite if there are no bounds.
 struct Bounds
 {
   Eigen::VectorXd lower; ///< #V; empty: 0 everywhere
@@ -55,21 +55,20 @@ struct Bounds
 struct BoundedEnergy
 {
   const SparseMatrix& q; ///< symmetric, #V x #V
-  const std::vector<char>& free; ///< #V: 1 where w is found
+  const std::vector<char>& free; ///< #V: 1 for vertices that are solved for
   Bounds bounds = {};
 };
 
-/// Computes the certificate of w (#V) from nothing but the problem's data.
-/// The gap is divided by max(E, 1e-12 * mean diagonal of Q / 2): a column that can be constant has
-/// energy zero.
+/// Compute the certificate of w (#V) from the problem's data alone. The gap is divided by max(E,
+/// 1e-12 * mean diagonal of Q / 2), because a column that can be constant has energy zero.
 /// @param pairs, multipliers ordered pairs and their lambda >= 0, of equal length.
-/// @param inverse r -> A^-1 r for vectors over all vertices, zero where w is given beforehand.
+/// @param inverse r -> A^-1 r for vectors over all vertices, zero at vertices with given values.
 Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   const std::vector<OrderedPair>& pairs = {},
   const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
   const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& inverse = {});
 
-/// "are not certified (relative gap …, residual …, asked for …)", for messages.
+/// Return "are not certified (relative gap …, residual …, asked for …)", for messages.
 std::string not_certified(double relative_gap, double kkt_residual, double tolerance);
 
 } // namespace bindpose

@@ -1,6 +1,6 @@
-// Unknowns are the classes of a union-find over (copy, vertex). For each column what is asked of a
-// class is what is asked of its members together: their bounds are intersected, and two members
-// that are given different values contradict each other.
+// Unknowns are the classes of a union-find over (copy, vertex). A class must satisfy the
+// requirements of all its members in every column: their bounds are intersected, and two members
+// with different given values are a contradiction.
 #include "weights/column_groups.h"
 
 #include "base/disjoint_sets.h"
@@ -19,7 +19,7 @@ namespace
 {
 constexpr double same_value = 1e-12;
 
-/// Makes one group's unknowns and columns.
+/// Make the unknowns and columns of one group.
 class GroupMaker
 {
 public:
@@ -100,7 +100,7 @@ private:
         this->members_[this->unknown(v, k)].push_back(k * this->n_ + v);
       }
     }
-    // Connected parts of unknowns.
+    // Components of unknowns.
     const Index parts = this->problem_.constraints.components.count;
     DisjointSets<Index> joined(static_cast<std::size_t>(copies * parts));
     this->part_.assign(static_cast<std::size_t>(this->group_.count), -1);
@@ -152,7 +152,7 @@ private:
 
   const std::string& handle_name(Index handle) const { return this->problem_.handles[handle].name; }
 
-  /// The handle that a vertex with a given row is on, or the nearest to its part.
+  /// Return the handle that a vertex with a given row is on, or that its component follows.
   Index owner(Index vertex) const
   {
     Index best = 0;
@@ -217,7 +217,7 @@ private:
         given[u] = value;
         from = member;
       }
-      // What is left out gives way to what the terms ask for.
+      // An exclusion applies only if the terms give no value.
       for (const Index member : this->members_[u])
       {
         const Index at =
@@ -238,7 +238,7 @@ private:
       }
       if (bounded && (this->part_[u] < 0 || !std::isnan(given[u])))
       {
-        // Not asked for: numbers that nothing stumbles over.
+        // These bounds are unused. Make them finite and consistent with the given value.
         column.bounds.lower[u] = std::isnan(given[u]) ? 0.0 : std::min(0.0, given[u]);
         column.bounds.upper[u] = std::isnan(given[u]) ? 1.0 : std::max(1.0, given[u]);
       }
@@ -307,8 +307,8 @@ private:
       std::to_string(w) + ", and a rigid set or the mirror makes them equal");
   }
 
-  /// Where everything that is given in a connected part is equal and within all bounds, the column
-  /// is that constant there.
+  /// If all given values in a component are equal and within all bounds, the column has this
+  /// constant value in the whole component.
   void find_constants(const BoxQpColumn& column)
   {
     const std::vector<double>& given = this->given_.back();
@@ -380,14 +380,14 @@ private:
   const bool coupled_;
   ColumnGroup& group_;
   const Index n_;
-  std::vector<std::vector<Index>> members_; // of every unknown, copy * #V + vertex
-  std::vector<Index> part_; // connected part of every unknown, -1: none
+  std::vector<std::vector<Index>> members_; // members of every unknown, copy * #V + vertex
+  std::vector<Index> part_; // component of every unknown; -1: none
   Index part_count_ = 0;
-  std::vector<Index> row_of_; // of every vertex in the problem's fixed rows, -1: not fixed
-  std::vector<char> is_fixed_; // every unknown
-  // Of every column:
-  std::vector<std::vector<double>> given_; // values of unknowns, NaN: solved for
-  std::vector<std::vector<double>> constant_; // of every part, NaN: none
+  std::vector<Index> row_of_; // row of every vertex in problem.fixed_values; -1: not fixed
+  std::vector<char> is_fixed_; // 1 for fixed unknowns
+  // Per column:
+  std::vector<std::vector<double>> given_; // values of unknowns; NaN: solved for
+  std::vector<std::vector<double>> constant_; // constant of every component; NaN: none
 };
 } // namespace
 

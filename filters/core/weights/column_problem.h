@@ -9,8 +9,8 @@
 namespace bindpose
 {
 
-/// One column's problem over the free vertices: min 1/2 x'Ax + c'x, l <= x <= u, x given where it
-/// is pinned.
+/// The problem of one column over the free vertices: min 1/2 x'Ax + c'x, l <= x <= u, with x given
+/// at pinned vertices.
 struct ColumnProblem
 {
   ColumnProblem(const SplitForm& matrices, const BoxQpColumn& column);
@@ -19,9 +19,9 @@ struct ColumnProblem
   Eigen::VectorXd lower, upper; ///< free: l and u
   std::vector<char> pinned; ///< free
   Eigen::VectorXd given; ///< #V: fixed and pinned values, 0 elsewhere
-  std::vector<char> free_here; ///< #V: 1 where the column's value is found
+  std::vector<char> free_here; ///< #V: 1 for vertices that this column solves for
 
-  /// The nearest x within the bounds; pinned entries take their values.
+  /// Return the nearest x within the bounds; pinned entries have their given values.
   /// @param all #V.
   /// @return free.
   Eigen::VectorXd nearest(const SplitForm& matrices, const Eigen::VectorXd& all) const;

@@ -1,23 +1,25 @@
-// With slacks s = w - l, t = u - w, multipliers z, r >= 0 of the bounds and y of the rows' sums the
-// optimality conditions are, for every column j over the free vertices,
+// Let s = w - l and t = u - w be slacks, z, r >= 0 the multipliers of the bounds and y those of the
+// row sums. The optimality conditions are, for every column j over the free vertices,
 //   A w_j + c_j - z_j + r_j + y = 0,   sum_j w_j = 1,   s z = 0,   t r = 0.
-// Newton's step eliminates s, t, z, r and leaves, with H_j = A + diag(z_j / s_j + r_j / t_j),
+// Newton's step eliminates s, t, z, r. With H_j = A + diag(z_j / s_j + r_j / t_j), the remaining
+// system is
 //   H_j dw_j + dy = b_j,   sum_j dw_j = p,   so that   S dy = sum_j H_j^-1 b_j - p
-// with S = sum_j H_j^-1. Every H_j is factored; S is not formed. It is an additive Schwarz
-// preconditioner turned round: where k columns are free S is about k times the inverse of A, so
-// that A itself, weighted by 1 / k, preconditions conjugate gradients for S. A step takes one solve
-// with every H_j and one product with A.
+// with S = sum_j H_j^-1. Every H_j is factored; S is not formed. S has the form of an additive
+// Schwarz preconditioner. Where k columns are free, S is about k times the inverse of A. Therefore
+// A, weighted by 1 / k, preconditions conjugate gradients for S. One step takes one solve with
+// every H_j and one product with A.
 //
-// Upper bounds that follow from the other columns' lower bounds and the sum (w <= 1 where all are
-// >= 0) are left out: their multipliers would not be unique.
+// Upper bounds that follow from the other columns' lower bounds and the sum (w <= 1 if all weights
+// are >= 0) are omitted, because their multipliers would not be unique.
 //
-// What is tested is the iterate's projection to the rows that sum to one within the bounds: for any
-// such rows w and q_j = Q w_j,
+// The certificate is computed for the projection of the iterate to rows that sum to one within the
+// bounds. For any such rows w and q_j = Q w_j,
 //   gap = sum over vertices of q . w - min { q . x : x sums to one, l <= x <= u }
-// bounds E(w) - min E from above, whoever computed w; the minimum over x is found by filling up the
-// least q first, and the q of the one that is filled in part is the multiplier -y. The second bound
-// of certificate.h, which round-off troubles less, holds for q + y as it does there. The residual
-// is that of the projection: max |w - project(w - q / diag Q)|.
+// bounds E(w) - min E from above, however w was computed. The minimum over x is found by raising
+// the entries of x to their upper bounds in the order of ascending q. The q of the entry that is
+// raised only in part is the multiplier -y. The second bound of certificate.h, which is less
+// sensitive to round-off, holds for q + y too. The residual is that of the projection:
+//   max |w - project(w - q / diag Q)|.
 #include "weights/coupled_qp.h"
 
 #include "base/memory.h"
@@ -37,7 +39,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// One row's weights that are solved for, side by side, and what they must sum to.
+/// The weights of one row that are solved for, and the sum that they must have.
 struct Row
 {
   std::vector<double> value, lower, upper, gradient;
@@ -52,8 +54,8 @@ struct Row
   }
 };
 
-/// Moves the values to the nearest ones within the bounds that have the right sum: all by the same
-/// amount, then clipped.
+/// Project the values to the nearest ones within the bounds that have the right sum: all are
+/// shifted by the same amount, then clipped.
 void project(Row& row)
 {
   const std::size_t count = row.value.size();
@@ -66,7 +68,7 @@ void project(Row& row)
   }
   const auto clipped = [&](std::size_t k, double shift)
   { return std::clamp(row.value[k] + shift, row.lower[k], row.upper[k]); };
-  // Bisection finds who is clipped, the rest is exact.
+  // Bisection finds the clipped entries; the rest is exact.
   for (int step = 0; step < 60 && least < most; ++step)
   {
     const double shift = 0.5 * (least + most);
@@ -95,8 +97,9 @@ void project(Row& row)
   }
 }
 
-/// min gradient . x over the rows allowed, by filling up the least gradients first.
-/// @return the gradient of the one that is filled in part.
+/// Compute min gradient . x over the feasible rows, by raising the entries with the least gradients
+/// first.
+/// @return the gradient of the entry that is raised only in part.
 double fill_up(const Row& row, std::vector<std::size_t>& order, std::vector<double>& x)
 {
   order.resize(row.value.size());
@@ -163,15 +166,15 @@ private:
   MatrixXd given_; // #V x m: fixed and pinned values, 0 elsewhere
   MatrixXd solved_; // n x m: 1 where a weight is solved for
   MatrixXd lower_, upper_; // n x m
-  MatrixXd capped_; // n x m: 1 where the upper bound counts
-  VectorXd sum_; // n: what a row's solved weights sum to
+  MatrixXd capped_; // n x m: 1 if the upper bound counts
+  VectorXd sum_; // n: required sum of a row's solved weights
   std::vector<char> coupled_; // n: rows with weights to solve for
   MatrixXd c_; // linear terms
   MatrixXd x_, s_, t_, z_, r_;
   VectorXd y_;
   MatrixXd rd_, rs_, rt_; // residuals
   VectorXd rp_;
-  MatrixXd d_; // what is added to A's diagonal
+  MatrixXd d_; // term that is added to A's diagonal
   VectorXd share_, least_d_; // of the preconditioner
   std::vector<SparseSolver> solvers_;
   CoupledSolution result_, best_;
@@ -302,7 +305,7 @@ void CoupledQp::set_start(const MatrixXd& start)
   {
     energy += 0.5 * this->x_.col(j).dot(gradient.col(j));
   }
-  // Measured: a tenth or a hundredth of the energy needs half as many iterations again.
+  // Measured: with a tenth or a hundredth of the energy, the iterations increase by half.
   constexpr double least = 1e-2;
   constexpr double of_energy = 1.0;
   const double mu = of_energy * std::abs(energy) / std::max(1.0, this->solved_.sum());
@@ -366,7 +369,8 @@ Status CoupledQp::factor()
       return status;
     }
   }
-  // The preconditioner's: how many columns are free at a vertex, and how free the freest is.
+  // The preconditioner needs, per vertex, the effective number of free columns and the least d of
+  // all columns.
   const VectorXd diagonal = this->matrices_.a.diagonal();
   this->share_ = VectorXd::Zero(this->n_);
   this->least_d_ = VectorXd::Zero(this->n_);
@@ -389,7 +393,7 @@ Status CoupledQp::factor()
   return whole && !this->context_.cancelled() ? Status() : Status::cancelled();
 }
 
-/// H_j^-1 of every column; 0 where nothing is solved for.
+/// Apply H_j^-1 to every column; 0 for weights that are not solved for.
 MatrixXd CoupledQp::solve_columns(const MatrixXd& rhs)
 {
   MatrixXd result(this->n_, this->m_);
@@ -406,7 +410,7 @@ MatrixXd CoupledQp::solve_columns(const MatrixXd& rhs)
   return result;
 }
 
-/// S y
+/// Compute S y.
 VectorXd CoupledQp::sums_of_inverse(const VectorXd& y)
 {
   const MatrixXd parts = this->solve_columns(y.replicate(1, this->m_));
@@ -418,8 +422,8 @@ VectorXd CoupledQp::sums_of_inverse(const VectorXd& y)
   return sum;
 }
 
-/// Conjugate gradients for S y = rhs.
-/// @param y a guess before.
+/// Solve S y = rhs by conjugate gradients.
+/// @param y initial guess, then the solution.
 void CoupledQp::find_multipliers(const VectorXd& rhs, double accuracy, VectorXd& y)
 {
   constexpr int most_steps = 200;
@@ -455,7 +459,7 @@ void CoupledQp::find_multipliers(const VectorXd& rhs, double accuracy, VectorXd&
   }
 }
 
-/// The step that changes the products s z by target_s and t r by target_t, to first order.
+/// Compute the step that changes the products s z by target_s and t r by target_t, to first order.
 CoupledQp::Direction CoupledQp::solve(
   const MatrixXd& target_s, const MatrixXd& target_t, double accuracy, const VectorXd& guess)
 {
@@ -658,7 +662,7 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     const MatrixXd sz = this->s_.cwiseProduct(this->z_);
     const MatrixXd tr = this->t_.cwiseProduct(this->r_);
     const double mu = (sz.sum() + tr.sum()) / count;
-    // Of the multipliers; tighter saves no iteration (measured).
+    // Relative accuracy of the multipliers. A smaller one saves no iteration (measured).
     constexpr double predictor_accuracy = 1e-1;
     constexpr double step_accuracy = 1e-2;
     Direction d = this->solve(-sz, -tr, predictor_accuracy, VectorXd::Zero(this->n_));
@@ -690,7 +694,7 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     this->z_ += dual * d.z;
     this->r_ += dual * d.r;
     this->y_ += dual * d.y;
-    // Slacks that nothing depends on must not vanish.
+    // The slacks must stay positive. Those without an upper bound are unused and set to one.
     this->s_ = this->s_.array().max(1e-300).matrix();
     this->t_ = (this->capped_.array() == 1.0).select(this->t_.array(), 1.0).matrix();
     this->result_.iterations += 1;

@@ -8,17 +8,18 @@
 namespace bindpose
 {
 
-/// What weights live on: a tet mesh or a triangle surface (planar shapes are flat surfaces).
+/// The mesh on which weights are solved: tets or a triangle surface (planar shapes are flat
+/// surfaces).
 struct Domain
 {
   Points points;
   Tets tets;
   Triangles triangles; ///< used when there are no tets
-  /// #T: how much of each tet is material (of a lattice that holds a surface), > 0; empty: all 1.
-  /// Energies are those of the material.
+  /// #T: fraction of each tet that is material, > 0, for a lattice that contains a surface; empty:
+  /// all 1. Energies are integrated over the material.
   Eigen::VectorXd shares;
-  /// Of a lattice: the surface's points that lie in it, and of each a corner of its tet. Distances
-  /// of parts are measured from them; empty: from the vertices.
+  /// For a lattice: the surface's points in it, and for each point a corner of its tet. Distances
+  /// of components from handles are measured from these points; if empty, from the vertices.
   Points held_points;
   std::vector<Index> held_corners;
 
@@ -28,39 +29,40 @@ struct Domain
   {
     return this->is_volume() ? this->tets.rows() : this->triangles.rows();
   }
-  /// The element's vertex ids, corners() of them.
+  /// Return the element's vertex ids, corners() of them.
   const Index* element(Index e) const
   {
     return this->is_volume() ? this->tets.data() + 4 * e : this->triangles.data() + 3 * e;
   }
 };
 
-/// The tets as a domain, each of them all material.
+/// Return the tets as a domain; every tet is all material.
 Domain volume_of(const TetMesh& mesh);
 
-/// invalid_input for: no element, ids out of range, coordinates that are not finite, a tet whose
-/// volume is not positive (naming the first and how many), a surface without area.
+/// Check a domain. Return invalid_input if it has no element, if ids are out of range, if
+/// coordinates are not finite, if the volume of a tet is not positive (naming the first such tet
+/// and their number), or if a surface has no area.
 Status check_domain(const Domain& domain);
 
-/// "tet" or "triangle".
+/// Return "tet" or "triangle".
 const char* element_name(const Domain& domain);
 
-/// #elements: 1 for those that have an area or a volume.
+/// Return for each element 1 if it has an area or a volume, else 0.
 std::vector<char> measurable_elements(const Domain& domain);
 
-/// The domain's triangles that have an area.
+/// Return the domain's triangles that have an area.
 Triangles measurable_triangles(const Domain& domain);
 
-/// Of the elements that have an area or a volume.
+/// Return the connected components of the elements that have an area or a volume.
 Components connected_components(const Domain& domain);
 
-/// Mean length of an element's edges, the local edge length.
+/// Return the mean length of an element's edges, the local edge length.
 double mean_edge_length(const Domain& domain, Index element);
 
-/// True when all points lie in a plane, within 1e-9 of the diagonal, whose normal is then given.
+/// Report whether all points are in a plane, within 1e-9 of the diagonal, and return its normal.
 bool is_flat(PointsView points, double diagonal, Vec3& normal);
 
-/// Neighbours of every vertex along edges, ascending, without doubles.
+/// The neighbors of every vertex along edges, ascending, without duplicates.
 struct VertexGraph
 {
   std::vector<Index> begin; ///< #V + 1 offsets into neighbours

@@ -12,15 +12,17 @@ namespace bindpose
 
 namespace
 {
-/// Triangles from which a lattice of about 30,000 tets is the coarser and cheaper domain.
+/// Above this number of triangles, a lattice of about 30,000 tets is the coarser and cheaper
+/// domain.
 constexpr Index most_triangles = 20000;
-/// Triangles with an angle below this force tets that are no better.
+/// Triangles with an angle below this force tets that are shaped no better.
 constexpr double bad_angle = 2.0; // degrees
-/// Fractions of triangles and of tets that may be badly shaped. Measured on real furniture: the
-/// conforming solves that failed had more.
+/// Largest fractions of badly shaped triangles and tets. On real furniture models, the conforming
+/// solves that failed exceeded them.
 constexpr double most_bad_triangles = 0.02;
 constexpr double most_bad_tets = 0.03;
-/// A lattice has about this many vertices, and is solved at two resolutions.
+/// Approximate number of vertices of a lattice, and the cost of solving it at two resolutions
+/// relative to one solve.
 constexpr Index lattice_vertices = 9000;
 constexpr double both_resolutions = 1.3;
 
@@ -63,7 +65,7 @@ std::string reason_against_tets(const TetMesh& tets, Index handle_count)
   }
   const double in_tets = predicted_seconds(tets.points.rows(), handle_count);
   const double in_lattice = both_resolutions * predicted_seconds(lattice_vertices, handle_count);
-  // Conforming tets keep the surface, which is worth some time.
+  // Conforming tets preserve the surface, which justifies up to this factor in time.
   constexpr double worth = 2.0;
   return in_tets > worth * in_lattice ? std::to_string(count) + " tets would take about " +
       short_number(in_tets, 2) + " s, a lattice " + short_number(in_lattice, 2) + " s"

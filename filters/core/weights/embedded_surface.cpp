@@ -1,10 +1,12 @@
-// Tets of a lattice that lie at one place have one centre: copies are found by it. Of the copies at
-// a place the right one is that which is connected with the nearest point of the surface, because
-// the line from a place inside to the nearest point of its surface crosses nothing: tets are gone
-// through from the one that holds that point, by common vertices, until a copy is met.
+// Copies of a tet have the same position, so they are found by their common center. The correct
+// copy for a point is the one that is connected with the nearest point of the surface, because the
+// segment from a point inside to its nearest surface point crosses no surface. A breadth-first
+// search over tets with common vertices starts at the tet that contains this surface point and ends
+// at the first copy.
 //
-// On a tet (w_i, gradients g_i at its corners) values at p are sum l_i (w_i + g_i.(p - x_i) / 2):
-// continuous, and exact for quadratic functions where the gradients are.
+// On a tet with values w_i and gradients g_i at its corners x_i, the value at p is
+//   sum l_i (w_i + g_i.(p - x_i) / 2).
+// It is continuous, and exact for quadratic functions if the gradients are exact.
 #include "weights/embedded_surface.h"
 
 #include "base/parallel.h"
@@ -24,8 +26,8 @@ namespace
 {
 constexpr double least_share = 0.03;
 
-/// Gradients of the columns at the vertices, #V x 3 #columns (x of all columns, then y, then z):
-/// means over the tets around, by volume of material.
+/// Return the gradients of the columns at the vertices, #V x 3 #columns (x of all columns, then y,
+/// then z). A vertex gets the mean over its tets, weighted by volume of material.
 Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
 {
   const Index n = domain.points.rows();
@@ -65,7 +67,8 @@ Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
   return gradients;
 }
 
-/// Numbers of items by their keys 0 … count - 1: those of key k from first[k] to first[k + 1].
+/// Group item numbers by their keys 0 … count - 1. Items with key k are grouped[first[k]] to
+/// grouped[first[k + 1] - 1].
 template <typename KeyOf>
 void group_by_key(Index count, Index items, const KeyOf& key_of, std::vector<Index>& first,
   std::vector<Index>& grouped)
@@ -130,7 +133,7 @@ EmbeddedSurface::Place EmbeddedSurface::centre_of(Index tet) const
   Place place;
   for (int k = 0; k < 3; ++k)
   {
-    // Nodes are at halves of cubes, so means of four are at eighths.
+    // Nodes are at halves of cubes, so means of four nodes are at eighths.
     place[k] = static_cast<Index>(std::llround(2.0 * sum[k] / this->spacing_));
   }
   return place;
@@ -187,7 +190,7 @@ Index EmbeddedSurface::tet_of(const Vec3& place) const
       }
     }
   }
-  return found; // another component than the nearest one: there is only this
+  return found; // no copy is connected with the nearest surface point
 }
 
 Status EmbeddedSurface::interpolate(
@@ -196,7 +199,7 @@ Status EmbeddedSurface::interpolate(
   const Domain& domain = mesh.domain;
   const Index m = values.cols();
   const Eigen::MatrixXd gradients = corner_gradients(domain, values);
-  // The parts of each tet of the lattice.
+  // The elements that each tet of the lattice was split into.
   std::vector<Index> first, parts;
   group_by_key(
     this->lattice_.tets.rows(), domain.tets.rows(), [&](Index e) { return mesh.parent_element[e]; },
@@ -256,7 +259,7 @@ Status EmbeddedSurface::interpolate(
   return whole ? Status() : Status::cancelled();
 }
 
-/// The surface's point at a place, -1: there is none.
+/// Return the surface's point at a position; -1: none.
 Index EmbeddedSurface::point_at(const Vec3& place) const
 {
   const SimplexLocation at = this->surface_.locate(place);
@@ -273,7 +276,7 @@ Index EmbeddedSurface::point_at(const Vec3& place) const
 Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double length,
   ExecutionContext& context, Weights& result) const
 {
-  constexpr double built = 0.03; // share of the seconds
+  constexpr double built = 0.03; // fraction of the time, for progress
   LatticeSurface welded;
   {
     const ProgressRange range(context, 0.0, built);
@@ -334,7 +337,7 @@ Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handle
 {
   constexpr double smoothing = 0.3;
   const bool smoothed = smoothness == Smoothness::smoothed;
-  const double interpolation = smoothed ? 0.1 : 1.0; // share of the seconds
+  const double interpolation = smoothed ? 0.1 : 1.0; // fraction of the time, for progress
   Status status;
   {
     const ProgressRange range(context, 0.0, interpolation);
@@ -344,7 +347,7 @@ Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handle
   {
     return status;
   }
-  // Points on handles have the values of those, which may be at a vertex nearby.
+  // Points on handles get the values of the handles, whose vertices may be at a small distance.
   std::vector<Index> fixed;
   for (std::size_t j = 0; j < mesh.handles.size(); ++j)
   {

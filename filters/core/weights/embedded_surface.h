@@ -13,37 +13,38 @@
 namespace bindpose
 {
 
-/// A surface in the tets of its embedding: tells weights on the surface from weights on coarse
-/// tets, some of which lie at the same place (parts that are near but not connected).
+/// A surface in the tets of its embedding. It transfers weights from the coarse tets to the
+/// surface. Several tets may have the same position (parts that are near but not connected).
 class EmbeddedSurface
 {
 public:
-  /// Keeps references: all must outlive it.
-  /// @param surface of the points and triangles; it serves the lattices of all resolutions.
-  /// @param lattice,binding a lattice that holds the points (embed_surface).
+  /// Keeps references: all arguments must outlive this object.
+  /// @param surface locator of the points and triangles; shared by the lattices of all resolutions.
+  /// @param lattice,binding a lattice that contains the points (embed_surface).
   EmbeddedSurface(PointsView points, TrianglesView triangles, const SimplexLocator& surface,
     const TetMesh& lattice, const PointBinding& binding);
 
-  /// The lattice's tets with their fractions of material, none below 0.03: a tet that has almost
-  /// none still ties its corners together. With the surface's points.
+  /// Return the lattice's tets, with the surface's points and the fractions of material. Fractions
+  /// are at least 0.03, because even a tet that is almost empty connects its corners.
   Domain domain(const Eigen::VectorXd& inside_fractions) const;
 
-  /// The tet that holds a place, or the nearest; of copies the one that is connected with the
-  /// surface's nearest point. Thread-safe.
+  /// Return the tet that contains a point, or the nearest one. If the tet has copies, return the
+  /// copy that is connected with the surface's nearest point. Thread-safe.
   Index tet_of(const Vec3& place) const;
 
-  /// Whether carried values are smoothed along the surface. As interpolated they are good enough to
-  /// be compared, not to be looked at: second derivatives jump from tet to tet.
+  /// Whether transferred values are smoothed along the surface. Interpolated values are good enough
+  /// for comparisons but not for display, because their second derivatives jump between tets.
   enum class Smoothness
   {
     as_interpolated,
     smoothed
   };
 
-  /// Values at the surface's points (#V x #columns) from values at the vertices of the lattice with
-  /// handles. Linear interpolation would show every tet, so each corner adds half of what its
-  /// gradient says and the sum is clamped to the column's range; smoothed along the surface over
-  /// 0.3 of the lattice's spacing (smooth_on_surface), except at points that lie on handles.
+  /// Compute values at the surface's points (#V x #columns) from values at the vertices of the
+  /// lattice with handles. Linear interpolation would make every tet visible. Therefore each corner
+  /// adds half of its gradient's extrapolation, and the sum is clamped to the column's range.
+  /// Smoothed values are smoothed along the surface over 0.3 of the lattice's spacing
+  /// (smooth_on_surface), except at points on handles.
   Status carry(const HandleInsertion& mesh, const Handles& handles, WeightsView values,
     Smoothness smoothness, ExecutionContext& context, Weights& result) const;
 
@@ -56,7 +57,7 @@ private:
   Place centre_of(Index tet) const;
   Status interpolate(const HandleInsertion& mesh, WeightsView values, ExecutionContext& context,
     Weights& result) const;
-  /// @param fixed_points ids of points whose values stay.
+  /// @param fixed_points ids of points whose values do not change.
   Status smooth(const std::vector<Index>& fixed_points, double length, ExecutionContext& context,
     Weights& result) const;
   Index point_at(const Vec3& place) const;
@@ -67,9 +68,10 @@ private:
   const PointBinding& binding_;
   SimplexLocator tets_;
   const SimplexLocator& surface_;
-  double spacing_ = 0.0; ///< of the lattice: side of a cube, the longest edge of a tet
-  std::unordered_map<Place, std::vector<Index>, PlaceHash> copies_; ///< of tets that have some
-  std::vector<Index> first_corner_, corners_at_; ///< of each vertex: 4 * tet + corner
+  double spacing_ = 0.0; ///< side of a lattice cube, the longest edge of a tet
+  /// All tets at each center that several tets share.
+  std::unordered_map<Place, std::vector<Index>, PlaceHash> copies_;
+  std::vector<Index> first_corner_, corners_at_; ///< for each vertex: 4 * tet + corner
 };
 
 } // namespace bindpose

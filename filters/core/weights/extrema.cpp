@@ -1,5 +1,5 @@
-// Persistence of minima by union-find over vertices sorted by value; maxima are the minima of the
-// negative function.
+// The persistence of minima is computed by union-find over vertices sorted by value. Maxima are the
+// minima of the negated function.
 #include "weights/extrema.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace bindpose
 
 namespace
 {
-/// Minima of sign * values.
+/// Find the minima of sign * values.
 void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::vector<char>& exempt,
   double sign, double range, std::vector<Extremum>& found)
 {
@@ -36,7 +36,8 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
   std::sort(order.begin(), order.end(), before);
   std::vector<Index> rank(static_cast<std::size_t>(count), -1);
   std::vector<Index> parent(static_cast<std::size_t>(count));
-  std::vector<Index> birth(static_cast<std::size_t>(count)); // of a root: its part's minimum
+  // For each root: the minimum of its part.
+  std::vector<Index> birth(static_cast<std::size_t>(count));
   std::iota(parent.begin(), parent.end(), Index(0));
   std::iota(birth.begin(), birth.end(), Index(0));
   const auto root = [&](Index v)
@@ -72,8 +73,8 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
       {
         continue;
       }
-      // a keeps the elder minimum, a handle's or else the lesser; b's ends here. A vertex that
-      // joins its first part ends itself at its own value and is no minimum.
+      // Part a keeps the elder minimum: one on a handle, or else the lower one. The minimum of b
+      // ends here. If b is just the vertex v itself, v joins its first part and is no minimum.
       const bool handle_a = exempt[birth[a]] != 0;
       const bool handle_b = exempt[birth[b]] != 0;
       if (handle_a != handle_b ? handle_b : rank[birth[b]] < rank[birth[a]])

@@ -12,23 +12,25 @@ struct Extremum
   Index vertex = 0;
   bool maximum = false;
   double value = 0.0;
-  /// How far one must climb from a minimum (descend from a maximum) to reach a lower (higher) one
-  /// or an exempt vertex, as a share of the function's range; 1 when neither can be reached.
+  /// Required climb from a minimum (descent from a maximum) to reach a lower (higher) extremum or
+  /// an exempt vertex, as a fraction of the function's range; 1 if neither can be reached.
   double persistence = 0.0;
 };
 
-/// The share of the range below which an extremum counts as a ripple.
+/// Fraction of the range below which an extremum counts as a ripple.
 constexpr double notable_persistence = 1e-3;
 
-/// Extrema that lie on no exempt vertex (the interior ones), most persistent first, then by vertex.
+/// Find the extrema at vertices that are not exempt (the interior extrema), most persistent first,
+/// then by vertex.
 ///
-/// By merge trees: vertices are added in the order of their values, each joins the parts of its
-/// neighbours; where two parts meet, the one with the lesser extremum ends. Exempt vertices (those
-/// on handles) outlive all others and are not listed. Cost: O(#E log #V).
+/// The method builds merge trees. Vertices are added in the order of their values, and each joins
+/// the parts of its neighbors. Where two parts meet, the one with the less extreme extremum ends.
+/// Exempt vertices (those on handles) outlive all others and are not listed.
+/// Cost: O(#E log #V).
 ///
 /// @param values #V, finite.
-/// @param exempt #V, 1 for vertices on handles; vertices without neighbours are ignored.
-/// @param least_persistence extrema with no more are left out.
+/// @param exempt #V, 1 for vertices on handles; vertices without neighbors are ignored.
+/// @param least_persistence only extrema with a larger persistence are returned.
 std::vector<Extremum> interior_extrema(const VertexGraph& graph, const Eigen::VectorXd& values,
   const std::vector<char>& exempt, double least_persistence = notable_persistence);
 

@@ -1,9 +1,9 @@
-// Flooding upwards: begin with the listed minima, then always take the lowest vertex that is a
-// neighbour of one taken. So each vertex but those minima comes after a neighbour, and where the
-// values had another minimum its basin is taken all at once when its pass is reached. Flooding
-// downwards from the maxima does the same for maxima, and may make new minima on the slopes of what
-// it cuts off; so both take turns until neither changes anything. Every turn only moves vertices
-// within the plateaus that the turn before it made, which shrink.
+// Upward flooding begins with the listed minima, then always takes the lowest vertex that is a
+// neighbor of a taken one. So each vertex except those minima comes after a neighbor. If the values
+// have another minimum, its basin is taken when its pass is reached. Downward flooding from the
+// maxima does the same for maxima, but may create new minima on the slopes of the maxima that it
+// cuts off. Therefore both alternate until neither changes anything. Each flood only moves vertices
+// within the plateaus that the flood before it created, and these shrink.
 #include "weights/extrema_order.h"
 
 #include "weights/ordered_pairs.h"
@@ -16,7 +16,7 @@ namespace bindpose
 
 namespace
 {
-/// Whether every vertex that is not listed has a neighbour on that side.
+/// Report whether every vertex that is not listed has a higher (above) or lower neighbor.
 bool has_neighbours(const VertexGraph& graph, const ExtremaList& list,
   const std::vector<Index>& rank, const std::vector<Index>& order, bool above)
 {
@@ -31,8 +31,8 @@ bool has_neighbours(const VertexGraph& graph, const ExtremaList& list,
     });
 }
 
-/// The order in which a flood from one kind of extrema takes the vertices; those of the other kind
-/// come last.
+/// Compute the order in which a flood from one kind of extrema takes the vertices. Extrema of the
+/// other kind come last.
 void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vector<Index>& rank,
   std::vector<Index>& order)
 {
@@ -41,7 +41,7 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
   {
     std::reverse(order.begin(), order.end());
   }
-  // Places in `order` stand for vertices, the lowest is taken first.
+  // The queue contains positions in `order`; the lowest is taken first.
   std::vector<Index> place(rank.size(), -1);
   std::priority_queue<Index, std::vector<Index>, std::greater<>> open;
   std::vector<Index> last;
@@ -63,7 +63,7 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
   }
   std::vector<Index> taken;
   taken.reserve(order.size());
-  // All listed ones first: neighbours of one must not come before it.
+  // Take all listed extrema first: no neighbor of one may come before it.
   for (std::size_t listed = open.size(); listed > 0; --listed)
   {
     taken.push_back(order[open.top()]);

@@ -1,5 +1,5 @@
-// Keeps, for each vertex, the squared distance to the nearest chosen point; each new point is where
-// that distance is largest.
+// The squared distance to the nearest chosen point is kept for each vertex. Each new point is the
+// vertex with the largest distance.
 #include "weights/farthest_points.h"
 
 #include <limits>
@@ -61,7 +61,7 @@ Status farthest_points(PointsView points, TrianglesView triangles, Index count,
     for (std::size_t i = 0; i < vertices.size(); ++i)
     {
       const double squared = (points.row(vertices[i]).transpose() - from).squaredNorm();
-      // The centroid is only where the search starts, not a chosen point.
+      // The centroid only starts the search; it is not a chosen point.
       distance[i] = n <= 1 ? squared : std::min(distance[i], squared);
       best = distance[i] > distance[best] ? i : best;
     }

@@ -7,15 +7,16 @@
 namespace bindpose
 {
 
-/// Spreads count points over a surface's vertices: the first is the vertex farthest from the
-/// centroid of the used vertices, each next one the vertex farthest (in space, not along the
-/// surface) from all before it. Ties go to the smaller vertex id, so the result is unique.
-/// Only vertices that a triangle uses are chosen, and no place twice.
+/// Spread count points over a surface's vertices. The first is the vertex farthest from the
+/// centroid of the used vertices. Each next one is the vertex farthest (in space, not along the
+/// surface) from all earlier ones. Ties are broken by the smaller vertex id, so the result is
+/// unique. Only vertices of triangles are chosen, and no position is chosen twice.
 ///
 /// Cost: count passes over the vertices. After T. Gonzalez, "Clustering to minimize the maximum
-/// intercluster distance", 1985: the largest distance to a chosen point is at most twice the best.
+/// intercluster distance", 1985: the largest distance to a chosen point is at most twice the
+/// optimum.
 /// @param chosen  vertex ids in the order of choice
-/// @return invalid_input when count < 1 or there are fewer different places than count
+/// @return invalid_input if count < 1 or if there are fewer than count different positions
 Status farthest_points(PointsView points, TrianglesView triangles, Index count,
   ExecutionContext& context, std::vector<Index>& chosen);
 

@@ -8,25 +8,26 @@
 namespace bindpose
 {
 
-/// A symmetric matrix whose block of the vertices that are solved for is factored, in double
-/// precision: linear systems with given values at the fixed vertices.
+/// Linear systems with given values at the fixed vertices. The block of the free vertices of a
+/// symmetric matrix is factored in double precision.
 class FreeSystem
 {
 public:
-  /// @param matrix #V x #V, both triangles, definite on the vertices left free.
+  /// @param matrix #V x #V, both triangles, positive definite on the free vertices.
   /// @param fixed ids of the fixed vertices, each once.
   FreeSystem(const SparseMatrix& matrix, const std::vector<Index>& fixed);
 
-  /// Must succeed before anything is solved.
+  /// Factor the matrix. This must succeed before any solve.
   Status factor(const SparseSolver::Options& options, ExecutionContext& context);
 
-  /// #V x m: the minimisers of 1/2 w' A w with these values at the fixed vertices (#fixed x m).
-  /// Of a matrix whose off-diagonal entries are all <= 0 they have small relative errors, even
-  /// where they are tiny.
+  /// Return the minimizers (#V x m) of 1/2 w' A w with these values at the fixed vertices (#fixed x
+  /// m). If all off-diagonal entries of the matrix are <= 0, the relative errors are small even for
+  /// tiny values.
   Eigen::MatrixXd minimisers(const Eigen::MatrixXd& fixed_values) const;
 
-  /// The free rows of w from the right-hand side (#V x m) and w's fixed rows.
-  /// @return of each column the largest residual, as the change of one vertex that would mend it.
+  /// Solve for the free rows of w, given the right-hand side (#V x m) and w's fixed rows.
+  /// @return the largest residual of each column, as the change of a single vertex that would
+  /// eliminate it (residual / diagonal entry).
   Eigen::VectorXd solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& w) const;
 
 private:

@@ -14,7 +14,7 @@ namespace bindpose
 
 namespace
 {
-/// Distance from a handle's segment (or point) to p.
+/// Return the distance from p to a handle's segment (or point).
 double handle_distance(const Handle& handle, const Vec3& p)
 {
   return nearest_in_triangle(p, handle.head, handle.tail, handle.tail).distance;
@@ -39,7 +39,7 @@ void find_components(const Domain& domain, HandleConstraints& result)
       result.roles[v] = VertexRole::solved;
     }
   }
-  // Vertices of flat elements follow a neighbour with weights of its own, else a follower.
+  // A vertex of flat elements follows a neighbor that is solved for, or else another follower.
   result.leader.assign(static_cast<std::size_t>(vertex_count), -1);
   for (bool again = true; again;)
   {
@@ -64,7 +64,7 @@ void find_components(const Domain& domain, HandleConstraints& result)
   }
 }
 
-/// Makes one part of all parts that hold vertices of the same label > 0.
+/// Merge all components that contain vertices of the same label > 0.
 void join_components(const std::vector<Index>& labels, Components& components)
 {
   DisjointSets<Index> parts(static_cast<std::size_t>(components.count));
@@ -126,7 +126,7 @@ void tether_components(const Domain& domain, const Handles& handles,
       double distance = 1e300;
       if (result.counts[i] == 0)
       {
-        continue; // it moves nothing
+        continue; // the handle was skipped: it moves nothing
       }
       if (handles[i].kind == HandleKind::region)
       {
@@ -146,7 +146,8 @@ void tether_components(const Domain& domain, const Handles& handles,
       }
     }
   }
-  // A part of a lattice that no point of the surface lies in moves nothing.
+  // A component of a lattice that contains no point of the surface moves nothing. It follows the
+  // first handle that has vertices.
   const auto first =
     std::find_if(result.counts.begin(), result.counts.end(), [](Index owned) { return owned > 0; });
   for (Index c = 0; c < count; ++c)
@@ -156,7 +157,7 @@ void tether_components(const Domain& domain, const Handles& handles,
       result.tether[c] = first - result.counts.begin();
     }
   }
-  std::map<Index, Index> parts; // handle -> how many parts follow it
+  std::map<Index, Index> parts; // handle -> number of components that follow it
   for (const Index handle : result.tether)
   {
     if (handle >= 0)
@@ -184,7 +185,7 @@ void tether_components(const Domain& domain, const Handles& handles,
     first_names(handles, followed));
 }
 
-/// Return what a user can do about a handle that has no vertex of its own.
+/// Return advice to the user about a handle that has no vertex of its own.
 std::string advice_about(const Handle& handle, const Box& box)
 {
   const auto distance = [&](const Vec3& p)
@@ -197,9 +198,10 @@ std::string advice_about(const Handle& handle, const Box& box)
                      : "move it, or refine the mesh there";
 }
 
-/// A handle that shares all of its vertices (a point on a bone) would have a weight of one nowhere:
-/// it gets the first of them for itself whose other owners have vertices of their own. A handle
-/// that cannot have one and needs none leaves its vertices to their other owners.
+/// Give every handle a vertex of its own. A handle that shares all of its vertices (a point on a
+/// bone) would have a weight of one nowhere. It gets the first shared vertex whose other owners all
+/// have vertices of their own. If there is no such vertex and the handle is optional, its vertices
+/// pass to their other owners.
 Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
   std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
 {
@@ -272,12 +274,12 @@ Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
   return {};
 }
 
-/// One warning for all handles that share vertices although they do not touch.
+/// Add one warning for all handles that share vertices although they do not touch.
 void warn_of_shared_vertices(const Handles& handles,
   const std::map<std::pair<Index, Index>, Index>& shared, double tolerance,
   HandleConstraints& result)
 {
-  constexpr Index most = 3; // pairs that are named
+  constexpr Index most = 3; // pairs that the warning names
   std::string first;
   std::string list;
   Index pairs = 0;
@@ -388,7 +390,7 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
   };
   for (const CageVertex& on_cage : mesh.cage)
   {
-    // Handles come before cages; where elements meet, they say the same.
+    // Handles take precedence over cages. Where cage elements meet, their values agree.
     if (result.components.of_vertex[on_cage.vertex] >= 0 &&
       handles_of_vertex.count(on_cage.vertex) == 0)
     {

@@ -1,4 +1,4 @@
-// Every edit copies the list, changes the copy and checks it: what was wrong leaves nothing behind.
+// Every edit copies the list, changes the copy and checks it. A failed edit has no effect.
 #include "weights/handle_edits.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ EditedHandles unedited(const Handles& handles)
   return edited;
 }
 
-/// Hands the edit on when it is a list of handles still.
+/// Return the edited handles if they are valid, else the handles before the edit.
 Status finish(const Handles& before, EditedHandles edited, EditedHandles& after)
 {
   Status status = edited.handles.empty() ? Status() : check_handles(edited.handles);
@@ -125,7 +125,7 @@ bool is_separator(char c)
   return c == '.' || c == '_' || c == '-' || c == ' ';
 }
 
-/// L for R and so on; 0 for any other.
+/// Return R for L, r for l and vice versa; 0 for any other character.
 char other_side(char c)
 {
   return c == 'L' ? 'R' : c == 'R' ? 'L' : c == 'l' ? 'r' : c == 'r' ? 'l' : '\0';
@@ -196,7 +196,7 @@ Status rename_handle(
   return finish(before, std::move(edited), after);
 }
 
-// ---- More and fewer ----------------------------------------------------------------------------
+// ---- Add, remove and link ----------------------------------------------------------------------
 
 Status add_handle(const Handles& before, Handle handle, EditedHandles& after)
 {
@@ -223,7 +223,7 @@ Status remove_handles(const Handles& before, const std::vector<Index>& which, Ed
     }
     gone[static_cast<std::size_t>(h)] = true;
   }
-  std::vector<Index> number(before.size(), -1); // after the edit
+  std::vector<Index> number(before.size(), -1); // index after the edit; -1: removed
   EditedHandles edited;
   for (std::size_t i = 0; i < before.size(); ++i)
   {
@@ -297,7 +297,7 @@ Status toggle_cage_edge(const Handles& before, Index a, Index b, EditedHandles& 
   return finish(before, std::move(edited), after);
 }
 
-// ---- Places ------------------------------------------------------------------------------------
+// ---- Positions ---------------------------------------------------------------------------------
 
 std::vector<HandleEnd> joint_of(const Handles& handles, const HandleEnd& end)
 {
@@ -400,7 +400,7 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
   }
   const std::vector<Index> list = all_or(before, which);
   EditedHandles edited = unedited(before);
-  std::vector<Index> image(before.size(), -1); // on the other side
+  std::vector<Index> image(before.size(), -1); // indices of the mirror images, -1: none
   for (const Index h : list)
   {
     if (!is_number(before, h))
@@ -433,7 +433,7 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
       }
       continue;
     }
-    // One that stands there already, whatever its name, is its image.
+    // A handle that is already at the mirrored position is the image, whatever its name.
     const auto there = std::find_if(before.begin(), before.end(),
       [&](const Handle& other)
       {

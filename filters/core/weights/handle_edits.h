@@ -11,75 +11,82 @@
 namespace bindpose
 {
 
-/// Handles after an edit, and where each comes from, so that whatever else is known of handles can
-/// follow them.
+/// Handles after an edit, and the origin of each handle, so that other per-handle data can be
+/// remapped.
 struct EditedHandles
 {
   Handles handles;
-  std::vector<Index> source; ///< its number before the edit, or -1: a new one
-  std::vector<Index> model; ///< the one it is a copy of, or its source; -1: of none
+  std::vector<Index> source; ///< index before the edit; -1: new handle
+  std::vector<Index> model; ///< index of the handle that was copied, else the source; -1: none
 };
 
-// Every edit below takes handles that pass check_handles(), or none at all, and gives handles that
-// do, or none at all. On invalid_input, with one sentence that names the handle, `after` is as
-// before the edit. Names of all other handles stay. `before` and `after.handles` may not be one.
+// Every edit below takes handles that pass check_handles(), or an empty list, and returns such
+// handles. On invalid_input, with one sentence that names the handle, `after` equals the handles
+// before the edit. The names of all other handles do not change. `before` and `after.handles` must
+// not be the same object.
 
-/// The name, or with .001, .002, … where another handle has it; of an empty name the first free one
-/// of p1, b1, c1 or r1 by kind.
+/// Return the wanted name, with a suffix .001, .002, … if another handle has it. If the wanted name
+/// is empty, return the first free name of the form p1, b1, c1 or r1, by kind.
 std::string free_name(const Handles& handles, const std::string& wanted, HandleKind kind);
 
-/// Adds a handle behind all others; its name is made free_name(). Its cage elements may name itself
-/// by its number, the size of the list before.
+/// Append a handle; its name becomes free_name(). Its cage elements may refer to the new handle by
+/// its future index, the size of the list before the edit.
 Status add_handle(const Handles& before, Handle handle, EditedHandles& after);
 
-/// Removes handles: what is below them hangs on the nearest that is left above; edges and faces of
-/// a cage that lose a corner go.
+/// Remove handles. Children of a removed handle are attached to their nearest remaining ancestor.
+/// Edges and faces of a cage that lose a corner are removed.
 Status remove_handles(const Handles& before, const std::vector<Index>& which, EditedHandles& after);
 
-/// invalid_input for an empty name, or another handle's.
+/// Rename a handle. Return invalid_input if the name is empty or belongs to another handle.
 Status rename_handle(
   const Handles& before, Index which, const std::string& name, EditedHandles& after);
 
-/// invalid_input for a parent that is the handle itself or below it. -1: none.
+/// Set the parent; -1: none. Return invalid_input if the parent is the handle itself or one of its
+/// descendants.
 Status set_parent(const Handles& before, Index which, Index parent, EditedHandles& after);
 
-/// Adds or takes away the edge of a cage between two cage vertices.
+/// Add the edge of a cage between two cage vertices, or remove it if it exists.
 Status toggle_cage_edge(const Handles& before, Index a, Index b, EditedHandles& after);
 
-/// One end of a handle; all but bones have only the first.
+/// One end of a handle. Only bones have a tail.
 struct HandleEnd
 {
   Index handle = -1;
   bool tail = false;
 };
-/// All ends of bones at the same place as this one (exactly, or within 1e-9 of the handles'
-/// extent), this one first. Of anything but a bone itself alone.
+/// Return all ends of bones at the same position as `end` (exactly, or within 1e-9 of the handles'
+/// extent), `end` first. If the handle is not a bone, return `end` alone.
 std::vector<HandleEnd> joint_of(const Handles& handles, const HandleEnd& end);
 
-/// Moves ends to places, each with its joint.
+/// Move each end to its new position, together with all ends of its joint.
 Status move_ends(const Handles& before, const std::vector<HandleEnd>& ends,
   const std::vector<Vec3>& places, EditedHandles& after);
 
-/// The name on the other side, as Blender has it: an L or R, l or r, at the end behind '.', '_',
-/// '-' or a blank, or at the beginning before one of these; left and right at the end or beginning,
-/// in small letters, capitals, or with a capital; a number .001 at the end stays. Without a
-/// side the name itself.
+/// Return the name of the handle on the other side, by Blender's conventions. A side is
+/// - L or R, l or r, at the end after '.', '_', '-' or a blank, or at the beginning before one of
+///   these;
+/// - left or right at the end or the beginning, in lower case, in capitals or capitalized.
+/// A numeric suffix such as .001 does not change. A name without a side is returned unchanged.
 std::string mirrored_name(const std::string& name);
 
-/// Copies handles to the other side of the plane through `place` across `normal` (of any length but
-/// 0). The copy of a handle has mirrored_name(). Where a handle has that name already it is moved
-/// instead, unless it is among those to be mirrored: then both stay. Handles that are their own
-/// images, those whose image stands there already, and regions, which need labels on the mesh, are
-/// not copied. A copy hangs on the copy of its handle's parent, or on the parent itself where that
-/// has none. Edges and faces of cages between copies, or copies and vertices in the plane, are
-/// copied, faces turned to keep their outsides out.
-/// @param which  none: all
+/// Copy handles to the other side of the plane through `place` with the given `normal` (of any
+/// nonzero length). The copy of a handle is named by mirrored_name(). If a handle of the same kind
+/// has that name already, it is moved to the mirrored position instead. If it is itself in the
+/// list, both handles stay where they are.
+///
+/// Three sorts of handles are not copied: handles that are their own mirror images, handles whose
+/// mirror image exists already, and regions, which need labels on the mesh.
+///
+/// The parent of a copy is the mirror image of its handle's parent, or that parent itself if it has
+/// no image. Edges and faces of cages are copied if all of their corners have images. The
+/// orientation of copied faces is reversed, so that their outer sides stay outside.
+/// @param which  handles to mirror; empty: all
 Status mirror_handles(const Handles& before, const std::vector<Index>& which, const Vec3& place,
   const Vec3& normal, EditedHandles& after);
 
-/// Moves points, cage vertices and both ends of bones to the nearest place on a surface; regions
-/// stay.
-/// @param which  none: all
+/// Move points, cage vertices and both ends of bones to the nearest point of a surface. Regions do
+/// not move.
+/// @param which  handles to move; empty: all
 Status snap_to_surface(const Handles& before, const std::vector<Index>& which,
   const SurfaceProbe& surface, EditedHandles& after);
 

@@ -1,10 +1,10 @@
-// A sample in the interior of a tet, of a face or of an edge is one case: let S be the corners that
-// span the open face which holds it. Every element that has all of S is replaced by one child for
-// each s of S, with s replaced by the new vertex. Children keep their parent's orientation and fill
-// it exactly.
+// A sample in the interior of a tet, of a face or of an edge is one case. Let S be the corners that
+// span the open face that contains the sample. Every element that has all of S is replaced by one
+// child for each s of S, with s replaced by the new vertex. Children keep the orientation of their
+// parent and fill it exactly.
 //
-// Where a later sample lies is found by going down from the original element through its children,
-// so the search tree is built once.
+// A later sample is located by descending from the original element through its children, so the
+// search tree is built once.
 #include "weights/handle_insertion.h"
 
 #include "base/line_pieces.h"
@@ -26,10 +26,10 @@ struct Element
 {
   std::array<Index, 4> ids{ -1, -1, -1, -1 };
   Index root = -1; // original element
-  std::vector<Index> children; // empty: part of the mesh
+  std::vector<Index> children; // empty: the element is part of the mesh
 };
 
-/// A point of a handle that is to be a vertex. Elements of cages are numbered -1, -2, …
+/// A point of a handle that must become a vertex. Elements of cages are numbered -1, -2, …
 struct Sample
 {
   Vec3 place = Vec3::Zero();
@@ -37,7 +37,8 @@ struct Sample
   Index vertex = -1;
 };
 
-/// A handle's edge or face with the places of its corners; an edge's second corner is its third.
+/// An edge or face of a cage with the positions of its corners. The third corner of an edge repeats
+/// its second.
 struct PlacedElement
 {
   CageElement element;
@@ -103,9 +104,10 @@ private:
   std::unique_ptr<SimplexLocator> locator_;
   std::vector<Vec3> points_;
   std::vector<Element> elements_;
-  std::vector<std::vector<Index>> incident_; // elements of every vertex, dead ones among them
+  // Elements of every vertex, including elements that were split.
+  std::vector<std::vector<Index>> incident_;
   std::vector<PlacedElement> cage_;
-  HandlePlacement on_cage_; // of all samples on its elements
+  HandlePlacement on_cage_; // placement of all samples on elements of the cage
   Index cage_samples_outside_ = 0;
 };
 
@@ -137,7 +139,7 @@ SimplexLocation Inserter::nearest(const Element& element, const Vec3& p) const
                              : nearest_in_triangle(p, at(0), at(1), at(2));
 }
 
-/// The original element that holds p, or the nearest.
+/// Return the original element that contains p, or the nearest one.
 SimplexLocation Inserter::root(const Vec3& p) const
 {
   const Index known = this->options_.element_of ? this->options_.element_of(p) : -1;
@@ -150,7 +152,7 @@ SimplexLocation Inserter::root(const Vec3& p) const
   return at;
 }
 
-/// Whether an original vertex is one of the element that holds its place.
+/// Report whether an original vertex is a corner of the element that contains its position.
 bool Inserter::is_held(Index v) const
 {
   if (!this->options_.element_of)
@@ -161,7 +163,8 @@ bool Inserter::is_held(Index v) const
   return std::find(ids, ids + this->corners_, v) != ids + this->corners_;
 }
 
-/// The element of the mesh as it is now that holds p, or the nearest, and its point nearest to p.
+/// Return the element of the current mesh that contains p, or the nearest one. `place` is the
+/// element's point nearest to p.
 SimplexLocation Inserter::locate(const Vec3& p, Vec3& place) const
 {
   SimplexLocation at = this->root(p);
@@ -196,7 +199,7 @@ void Inserter::add_bone_samples(
   const Vec3 head = this->handles_[handle].head;
   const Vec3 axis = this->handles_[handle].tail - head;
   const double length = axis.norm();
-  // Vertices that lie on the bone already, in its order.
+  // Vertices that are already on the bone, in the order along it.
   std::vector<double> stops{ 0.0, 1.0 };
   const double on = 1e-7 * this->diagonal_;
   for (std::size_t v = 0; v < this->points_.size(); ++v)
@@ -213,7 +216,7 @@ void Inserter::add_bone_samples(
     stops.push_back(std::clamp(t, 0.0, 1.0));
   }
   std::sort(stops.begin(), stops.end());
-  // A bone needs a vertex between its ends, which other bones may share.
+  // A bone needs a vertex between its ends, which it may share with other bones.
   const bool bare = std::none_of(stops.begin(), stops.end(),
     [&](double t) { return t * length > on && (1.0 - t) * length > on; });
   for (std::size_t i = 0; i + 1 < stops.size(); ++i)
@@ -302,7 +305,8 @@ void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sa
     for (Index k = samples.chosen; k < samples.points.rows(); ++k)
     {
       const Vec3 place = samples.points.row(k);
-      const double near = 0.75 * length(place); // a vertex on the element will do
+      // A vertex on the element within this distance is enough.
+      const double near = 0.75 * length(place);
       if (std::any_of(on_vertices.begin() + static_cast<std::ptrdiff_t>(first), on_vertices.end(),
             [&](const Sample& other) { return (other.place - place).norm() <= near; }))
       {
@@ -320,7 +324,7 @@ void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sa
   }
 }
 
-/// keep_mesh: the corners with a share in the sample.
+/// Constrain the corners with a nonzero barycentric coordinate (option keep_mesh).
 void Inserter::take_corners(Sample& sample)
 {
   Vec3 place;
@@ -348,7 +352,7 @@ void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
   Vec3 place;
   const SimplexLocation at = this->locate(sample.place, place);
   placement.outside = std::max(placement.outside, at.distance);
-  // The same place (after moving to the mesh) is the same vertex.
+  // Samples at the same position (after moving to the mesh) share one vertex.
   for (const Sample& other : earlier)
   {
     if ((other.place - sample.place).norm() <= 1e-9 * this->diagonal_ && other.vertex >= 0)
@@ -482,7 +486,7 @@ void Inserter::finish()
   {
     out = std::copy_n(this->elements_[e].ids.begin(), this->corners_, out);
   }
-  constexpr Index most = 4; // handles that are named
+  constexpr Index most = 4; // handles that the warning names
   Index count_outside = 0;
   std::string outside;
   for (std::size_t i = 0; i < this->handles_.size(); ++i)
@@ -516,11 +520,11 @@ void Inserter::finish()
 Status Inserter::run(ExecutionContext& context)
 {
   this->copy_mesh();
-  // Places that the user chose come before samples that may move along a bone.
+  // Positions that the user chose come before samples that may move along a bone.
   std::vector<Sample> samples;
   std::vector<Sample> ends;
   std::vector<Sample> between;
-  std::vector<Sample> earlier; // with their vertices
+  std::vector<Sample> earlier; // samples that have a vertex
   for (std::size_t i = 0; i < this->handles_.size(); ++i)
   {
     const Handle& handle = this->handles_[i];
@@ -547,7 +551,7 @@ Status Inserter::run(ExecutionContext& context)
   this->add_cage_samples(earlier, between);
   samples.insert(samples.end(), ends.begin(), ends.end());
   samples.insert(samples.end(), between.begin(), between.end());
-  // A handle right on a vertex gets it, before another near it can snap there.
+  // A handle exactly on a vertex gets it before another handle nearby can snap to it.
   std::stable_partition(samples.begin(), samples.end(),
     [&](const Sample& sample)
     {

@@ -13,31 +13,32 @@ namespace bindpose
 
 struct HandleInsertionOptions
 {
-  /// A handle's sample takes an existing vertex, edge or face when the barycentric coordinates that
-  /// this drops are below it, range (0, 0.25). Smaller: handles lie more exactly where they were
-  /// put; larger: rounder elements. No sample moves by more than 3 * snap edge lengths.
+  /// A handle's sample moves to an existing vertex, edge or face if the barycentric coordinates
+  /// that become zero are below this, range (0, 0.25). Smaller: handles stay closer to their given
+  /// positions. Larger: better shaped elements. No sample moves by more than 3 * snap edge lengths.
   double snap = 0.1;
-  /// Leave the mesh as it is and take the corners of the simplex that holds a sample.
+  /// Do not change the mesh; constrain the corners of the simplex that contains a sample.
   bool keep_mesh = false;
-  /// Distance of a bone's samples in local edge lengths, range (0, 1].
+  /// Distance between a bone's samples in local edge lengths, range (0, 1].
   double spacing = 1.0;
-  /// The element that holds a place, where elements overlap and the mesh alone cannot tell (the
-  /// copies of an embedding); empty: the one that is found first.
+  /// Return the element that contains a point where elements overlap and the mesh alone is
+  /// ambiguous (the copies of an embedding). If empty, the first element found is used.
   std::function<Index(const Vec3&)> element_of;
 };
 
-/// Where one handle ended up.
+/// The position of one handle in the mesh.
 struct HandlePlacement
 {
-  std::vector<Index> vertices; ///< ascending; of regions: none
-  double outside = 0.0; ///< how far the farthest of its samples lay outside of the mesh
-  double snap = 0.0; ///< how far the farthest of its samples moved within the mesh
+  std::vector<Index> vertices; ///< ascending; empty for regions
+  double outside = 0.0; ///< distance from the mesh of the farthest sample outside of it
+  double snap = 0.0; ///< largest distance that a sample moved within the mesh
 };
 
-/// A new vertex as a point of an element of the mesh as it came.
+/// A new vertex as a point in an element of the original mesh.
 struct InsertedVertex
 {
-  std::array<Index, 4> parents{ -1, -1, -1, -1 }; ///< original vertex ids; the last -1 on surfaces
+  /// Original vertex ids; the last is -1 on surfaces.
+  std::array<Index, 4> parents{ -1, -1, -1, -1 };
   std::array<double, 4> barycentric{ 0.0, 0.0, 0.0, 0.0 };
 };
 
@@ -46,35 +47,38 @@ struct CageVertex
 {
   Index vertex = -1;
   CageElement element{ -1, -1, -1 };
-  std::array<double, 3> shares{ 0.0, 0.0, 0.0 }; ///< of the element's corners, sum 1
+  std::array<double, 3> shares{ 0.0, 0.0, 0.0 }; ///< weights of the element's corners, sum 1
 };
 
 struct HandleInsertion
 {
-  /// Original vertices first, with their ids; then the inserted ones. Elements that were not split
-  /// come first, in their order.
+  /// Original vertices come first, with their ids, then the inserted ones. Elements that were not
+  /// split come first, in their order.
   Domain domain;
-  std::vector<HandlePlacement> handles; ///< one a handle
-  std::vector<CageVertex> cage; ///< where the cage lies in the mesh
+  std::vector<HandlePlacement> handles; ///< one per handle
+  std::vector<CageVertex> cage; ///< mesh vertices on the cage
   std::vector<InsertedVertex> inserted;
-  std::vector<Index> parent_element; ///< of every element: the original that it is part of
+  std::vector<Index> parent_element; ///< #elements: the original element that contains it
   double largest_snap = 0.0; ///< in local edge lengths
   std::vector<std::string> warnings;
 };
 
-/// Labels of vertices and, where all corners around them agree, of inserted ones, else 0.
+/// Extend labels to inserted vertices: the common label of all corners around the vertex if they
+/// agree, else 0.
 std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<Index>& labels);
 
-/// Makes handles vertices of the mesh: a weight of one at a point inside a simplex would force all
-/// its corners to one.
+/// Make handles vertices of the mesh. Without this, a weight of one at a point inside a simplex
+/// would force all corners of the simplex to one.
 ///
-/// Points (and cage vertices) and samples of bones, spaced by the local edge length between the
-/// vertices that a bone meets anyway, are located; what lies outside is moved to the nearest
-/// element, with a warning that names handles and distances. Each then splits the elements around
-/// it: the union of the mesh, its volume or area and all orientations stay. Two different handles
-/// never share a vertex unless they share the place, even if that makes small elements.
+/// Points, cage vertices and samples of bones are located in the mesh. The samples of a bone are
+/// spaced by the local edge length between the vertices that are already on the bone. A sample
+/// outside of the mesh is moved to the nearest element, with a warning that names handles and
+/// distances. Each sample then splits the elements around it. The union of the mesh, its volume or
+/// area and all orientations do not change. Two different handles never share a vertex unless they
+/// coincide, even if that makes small elements.
 ///
-/// Edges and faces of cages are sampled as bones are, but what of them lies outside is left out.
+/// Edges and faces of cages are sampled like bones, but their samples outside of the mesh are
+/// dropped.
 /// Cost: O(#elements log #elements), no more than building a search tree.
 Status insert_handles(const Domain& domain, const Handles& handles,
   const HandleInsertionOptions& options, ExecutionContext& context, HandleInsertion& result);

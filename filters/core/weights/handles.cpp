@@ -128,7 +128,8 @@ Status check_handles(const Handles& handles)
     {
       const Handle& a = handles[i];
       const Handle& b = handles[j];
-      // A region is where its label is, a bone may begin at a point: only like kinds can coincide.
+      // Only handles of the same kind can coincide: a bone may begin at a point. The position of a
+      // region is given by its label.
       if (a.kind != b.kind || a.kind == HandleKind::region || a.kind == HandleKind::cage_element)
       {
         continue;

@@ -10,65 +10,73 @@
 namespace bindpose
 {
 
-/// The integers are those of the cell array HandleKind.
+/// The integer values are stored in the cell array HandleKind.
 enum class HandleKind : int
 {
-  cage_element = -1, ///< a cage's edge or face: owns no column, ties its ends linearly together
+  /// Edge or face of a cage: has no column; weights are linear between its corners.
+  cage_element = -1,
   point = 0,
   bone = 1,
   cage_vertex = 2,
   region = 3
 };
 
-/// Whether a bind gives the handle vertices of its own. A handle without vertices has zero weights,
-/// and its children follow it. The integers are those of the cell array Ownership.
+/// Whether a bind assigns vertices to the handle. A handle without vertices has zero weights, and
+/// its children follow it. The integer values are stored in the cell array Ownership.
 enum class Ownership : int
 {
-  required = 0, ///< a bind is refused if all vertices on the handle belong to other handles
-  optional = 1, ///< skipped then, with a warning: joints of a file's rig
-  none = 2 ///< always skipped: joints of a file's rig that move nothing there (control bones)
+  required = 0, ///< the bind is refused if all vertices on the handle belong to other handles
+  optional = 1, ///< skipped with a warning in that case: joints of a rig that was read from a file
+  none = 2 ///< always skipped: joints of a file's rig that move nothing (control bones)
 };
 
-/// A cage's edge (the third is -1) or face: the handles at its corners.
+/// Handles at the corners of a cage's edge or face. The third index of an edge is -1.
 using CageElement = std::array<Index, 3>;
 
-/// One handle: one cell of the handle dataset and, unless it is a cage element, one column of the
-/// weights, in the order of the cells.
+/// One handle: one cell of the handle dataset. Except for cage elements, each handle is one column
+/// of the weights, in the order of the cells.
 struct Handle
 {
   std::string name;
   HandleKind kind = HandleKind::point;
-  /// Point, cage vertex: its place. Bone: its head. Region: its pivot.
+  /// Position of a point or cage vertex, head of a bone, pivot of a region.
   Vec3 head = Vec3::Zero();
-  /// Bone: its tail; all others: equal to head.
+  /// Tail of a bone. Equal to head for all other kinds.
   Vec3 tail = Vec3::Zero();
   /// Index of the parent in the handle list, or -1.
   Index parent = -1;
-  /// Region: the label in the mesh's point array RegionId (> 0; 0 means free).
+  /// Label of a region in the mesh's point array RegionId (> 0; 0 means that a vertex is in no
+  /// region).
   Index region_id = 0;
-  /// Cage vertex: the cage's elements that begin at it. Weights are linear along them.
+  /// The cage elements that begin at this cage vertex. Weights are linear along them.
   std::vector<CageElement> cage;
   Ownership ownership = Ownership::required;
 };
 
 using Handles = std::vector<Handle>;
 
-/// "point", "bone", "cage_vertex", "region", "cage_element".
+/// Return "point", "bone", "cage_vertex", "region" or "cage_element".
 const char* to_string(HandleKind kind);
 
-/// 'a', 'b': the names of some, for a sentence.
+/// Return the quoted names of the listed handles, for a sentence: 'a', 'b'.
 std::string quoted_names(const Handles& handles, const std::vector<Index>& list);
-/// 'a', 'b', 'c' and 12 more: the first names of many.
+/// Like quoted_names(), but abbreviate a long list: 'a', 'b', 'c' and 12 more.
 std::string first_names(const Handles& handles, const std::vector<Index>& list);
 
-/// invalid_input, naming the handle, for: no handle at all, an empty or doubled name, a coordinate
-/// that is not finite, a bone of length zero, two handles at the same place (closer than 1e-9 of
-/// the handles' extent or exactly equal when they have none), a parent out of range or in a cycle,
-/// a cage element whose corners are not two or three different cage vertices.
+/// Check handles before a bind. Return invalid_input, naming the handle, if
+/// - the list is empty;
+/// - a name is empty or occurs twice;
+/// - a coordinate is not finite;
+/// - a bone has length zero;
+/// - two handles of the same kind coincide (closer than 1e-9 of the handles' extent, or exactly
+///   equal if the extent is zero);
+/// - a parent is out of range or part of a cycle;
+/// - the corners of a cage element are not two or three different cage vertices.
 Status check_handles(const Handles& handles);
 
-/// invalid_input for another number of labels (and not none) than of vertices, and, naming the
-/// region, for one without a label, without labels to find it by, or with one that no vertex has.
+/// Check the regions among the handles. Return invalid_input if the number of labels is neither
+/// zero nor the number of vertices. Return invalid_input, naming the region, if a region has no
+/// label, if the mesh has no labels, or if no vertex has the region's label.
 /// @param region_ids label of every vertex, or empty.
 Status check_regions(const Handles& handles, const std::vector<Index>& region_ids, Index vertices);
 

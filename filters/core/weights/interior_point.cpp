@@ -3,28 +3,29 @@
 // Over the free vertices x:  min 1/2 x'Ax + c'x  subject to  Bx + h = s >= 0, where the rows of B
 // are x >= l, x <= u and the ordered pairs. With multipliers z >= 0 the optimality conditions are
 //   Ax + c - B'z = 0,   Bx + h - s = 0,   s z = 0.
-// Newton's step for s z = target eliminates s and z and leaves one factorisation of
-//   A + B' diag(z/s) B,
-// whose pattern is A's own: bounds touch the diagonal, pairs are edges of the mesh and A reaches at
-// least as far. So one ordering and one symbolic analysis serve everything.
+// Newton's step for s z = target eliminates s and z and requires one factorization of
+//   A + B' diag(z/s) B.
+// Its pattern is that of A: bounds change only the diagonal, and pairs are edges of the mesh, which
+// the pattern of A includes. So one ordering and one symbolic analysis serve all iterations.
 //
-// The factorisation is in single precision where that is available, as the preconditioner of one or
-// two steps of conjugate gradients in double precision (float_cholesky.cpp); what it cannot solve
-// well enough is factored in double precision. With ordered pairs it always is: their multipliers
-// span too many orders of magnitude.
+// If available, the factorization is in single precision. It is the preconditioner of one or two
+// steps of conjugate gradients in double precision (float_cholesky.cpp). Matrices for which that is
+// not accurate enough are factored in double precision. This always happens with ordered pairs,
+// because their multipliers span too many orders of magnitude.
 //
-// Slacks are variables of their own (s = x only in the limit): an iterate may leave the bounds for
-// a while, which saves about a third of the iterations against x = s. Each factorisation is used
-// for a predictor, Mehrotra's corrector and a few of Gondzio's centrality correctors. Primal and
-// dual steps differ without pairs and are equal with them (measured to be best in both cases).
+// Slacks are separate variables (s = x only in the limit). An iterate may therefore violate the
+// bounds for a while, which saves about a third of the iterations compared with s = x. Each
+// factorization is used for a predictor, Mehrotra's corrector and a few of Gondzio's centrality
+// correctors. Primal and dual steps differ without pairs and are equal with pairs (measured to be
+// best in both cases).
 //
-// The path's end is slow: a vertex whose weight is tiny though no bound holds it nears its value
-// with the square root of mu. So once the weights hardly move, a projected Newton method takes over
-// that solves with the last factor (projected_newton.cpp). Where it does not settle, the path goes
-// on as if nothing had been.
+// The end of the path converges slowly: a tiny weight that is not at a bound approaches its value
+// like the square root of mu. So once the weights hardly move, a projected Newton method is tried,
+// which solves with the last factor (projected_newton.cpp). If it does not settle, the path
+// continues from the unchanged iterate.
 //
-// What is returned is never the interior iterate but its projection to the bounds (and to the order
-// of the pairs), and what is tested is the certificate of that projection.
+// The result is never the interior iterate but its projection to the bounds (and to the order of
+// the pairs). The certificate is computed for that projection.
 #include "weights/interior_point.h"
 
 #include "base/refined_solve.h"
@@ -44,22 +45,22 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// An ordered pair as a row of B: ends by free index, -1 for an end with a given value.
+/// An ordered pair as a row of B: free indices of the ends, -1 for an end with a given value.
 struct PairRow
 {
   Index low = -1;
   Index high = -1;
-  double offset = 0.0; // of the given ends
-  int position = -1; // of the entry that joins both ends
-  Index pair = 0; // in the column's list
+  double offset = 0.0; // contribution of the given ends and of OrderedPair::least
+  int position = -1; // position in `lower` of the entry (low, high)
+  Index pair = 0; // index in the column's list
 };
 
-/// One column's solve. Vectors over constraints hold x >= l for all bounded unknowns, then x <= u,
-/// then the pairs.
+/// The solve of one column. Vectors over constraints contain x >= l for all bounded unknowns, then
+/// x <= u, then the pairs.
 class InteriorPoint
 {
 public:
-  /// @param in_single whether factors in single precision may be taken.
+  /// @param in_single whether factors in single precision may be used.
   InteriorPoint(const SplitForm& matrices, const BoxQpOptions& options, const BoxQpColumn& column,
     const VectorXd& unconstrained, const ColumnStart& start, const InverseForm& inverse,
     BoxQpWorkspace& workspace, ExecutionContext& context, bool in_single)
@@ -105,19 +106,20 @@ private:
 
   const ColumnProblem problem_;
   std::vector<Index> unpinned_; // free indices
-  std::vector<Index> bounded_; // those of them that have bounds
+  std::vector<Index> bounded_; // the indices of unpinned_ that have bounds
   std::vector<PairRow> rows_;
-  std::vector<OrderedPair> upwards_; // the column's, those of low vertices first
+  std::vector<OrderedPair> upwards_; // the column's pairs, sorted by upward_pairs()
   VectorXd h_; // offsets of the constraints
   VectorXd x_, s_, z_;
   VectorXd rd_, rp_; // residuals of the first two conditions
   VectorXd quotient_; // z / s
-  VectorXd extra_, of_pairs_; // what bounds add to A's diagonal, and pairs' factors
-  VectorXd inverse_diagonal_; // 1 / the diagonal of A with both
-  double shift_ = 0.0; // that single precision needed so far
-  bool in_single_ = false; // the last factorisation is in single precision
+  // The terms of the bounds on A's diagonal, and the factors of the pairs.
+  VectorXd extra_, of_pairs_;
+  VectorXd inverse_diagonal_; // 1 / diagonal of A with the terms of bounds and pairs
+  double shift_ = 0.0; // largest shift that single precision has needed
+  bool in_single_ = false; // whether the last factorization is in single precision
   bool single_is_enough_;
-  Status failure_; // of a factorisation within solve()
+  Status failure_; // of a factorization within solve()
   double mu_ = 0.0;
   BoxQpSolution best_;
   BoxQpSolution result_;
@@ -276,8 +278,8 @@ Status InteriorPoint::factor(const VectorXd& d)
     {
       this->inverse_diagonal_[i] = 1.0 / values[matrices.diagonal[i]];
     }
-    // Where a pivot fails in single precision a shift helps, and conjugate gradients undo it. What
-    // one iteration needed the next one will need.
+    // If a pivot fails in single precision, a shift of the diagonal helps, and conjugate gradients
+    // correct for it. The next iteration starts with the same shift.
     constexpr double least_shift = 1e-6;
     constexpr double largest_shift = 1e-3;
     do
@@ -297,7 +299,7 @@ Status InteriorPoint::factor(const VectorXd& d)
   return status;
 }
 
-/// Factors the workspace's matrix in double precision.
+/// Factor the workspace's matrix in double precision.
 Status InteriorPoint::factor_double()
 {
   const auto& matrices = this->matrices_;
@@ -305,8 +307,8 @@ Status InteriorPoint::factor_double()
   double* values = matrix.valuePtr();
   Status status = this->workspace_.solver.factor(matrix);
   this->result_.factorisations += 1;
-  // Round-off can make a pivot fail that is positive in exact arithmetic: a relative shift of the
-  // diagonal makes the step slightly shorter, never the answer wrong.
+  // Round-off can make a pivot fail that is positive in exact arithmetic. A relative shift of the
+  // diagonal makes the step slightly shorter, but the solution stays correct.
   for (double shift = 1e-14; !status.ok() && status.code == StatusCode::invalid_input &&
        shift < 1e-6 && !this->context_.cancelled();
        shift *= 100.0)
@@ -321,7 +323,7 @@ Status InteriorPoint::factor_double()
   return status;
 }
 
-/// The matrix that was factored, times x.
+/// Multiply x by the matrix that was factored.
 MatrixXd InteriorPoint::multiply(const MatrixXd& x) const
 {
   MatrixXd y = this->matrices_.a.transpose() * x + this->extra_.asDiagonal() * x;
@@ -352,8 +354,8 @@ MatrixXd InteriorPoint::multiply(const MatrixXd& x) const
   return y;
 }
 
-/// By the factor in single precision: one or two steps of refinement are usual.
-/// @return false when the accuracy was not reached.
+/// Solve with the factor in single precision; one or two steps of refinement are usual.
+/// @return false if the accuracy was not reached.
 bool InteriorPoint::solve_refined(const VectorXd& rhs, double accuracy, VectorXd& x)
 {
   MatrixXd result;
@@ -364,8 +366,8 @@ bool InteriorPoint::solve_refined(const VectorXd& rhs, double accuracy, VectorXd
   return reached <= accuracy;
 }
 
-/// The step that linearises s z = s z + target: target is what each product is to change by.
-/// @param accuracy of the linear system's solution where it is in single precision.
+/// Compute the step that changes the products s z by `target`, to first order.
+/// @param accuracy of the solution of the linear system, in single precision.
 InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target, double accuracy)
 {
   const VectorXd per_s = target.cwiseQuotient(this->s_);
@@ -381,7 +383,7 @@ InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target, double acc
   Direction d;
   if (this->in_single_ && !this->solve_refined(rhs, accuracy, d.x) && !this->context_.cancelled())
   {
-    // From here on this column takes double precision.
+    // This column uses double precision from here on.
     const Stopwatch watch;
     this->in_single_ = false;
     this->single_is_enough_ = false;
@@ -424,7 +426,7 @@ InteriorPoint::Direction InteriorPoint::find_direction()
 {
   const double count = static_cast<double>(this->s_.size());
   const VectorXd products = this->s_.cwiseProduct(this->z_);
-  // Measured: tighter saves no iteration.
+  // A smaller tolerance saves no iteration (measured).
   constexpr double predictor_accuracy = 1e-2;
   const double step_accuracy = this->rows_.empty() ? 1e-3 : 1e-5;
   Direction d = this->solve(-products, predictor_accuracy);
@@ -440,7 +442,7 @@ InteriorPoint::Direction InteriorPoint::find_direction()
   this->step_lengths(d, primal, dual);
 
   constexpr int correctors = 5;
-  constexpr double reach = 0.35; // by how much longer a step each corrector aims for
+  constexpr double reach = 0.35; // increase of the step length that each corrector aims for
   for (int k = 0; k < correctors && !this->context_.cancelled(); ++k)
   {
     const double p = std::min(1.0, primal + reach);
@@ -470,7 +472,7 @@ InteriorPoint::Direction InteriorPoint::find_direction()
   return d;
 }
 
-/// @param central by what was found for all columns, where that is given.
+/// @param central use the start that was computed for all columns, if there is one.
 void InteriorPoint::set_start(bool central)
 {
   const auto& matrices = this->matrices_;
@@ -490,9 +492,10 @@ void InteriorPoint::set_start(bool central)
   const double energy_within = 0.5 * within.dot(matrices.q.transpose() * within);
   if (!(energy > 1e-9 * energy_within))
   {
-    energy = energy_within; // a column that only its own bounds or pins keep from being constant
+    energy = energy_within; // only its own bounds or pins keep the column from being constant
   }
-  // Both constants measured on boxes and on real shapes: half of the iterations of mu = E / n.
+  // Both constants were measured on boxes and on real shapes: compared with mu = E / n, they halve
+  // the iterations.
   constexpr double least = 1e-2;
   this->s_ = this->apply(this->x_) + this->h_;
   this->raise_slacks(least);
@@ -500,15 +503,15 @@ void InteriorPoint::set_start(bool central)
   this->z_ = mu * this->s_.cwiseInverse();
 }
 
-/// A common start that is far from the central path, because its column had not settled after all
-/// steps, has multipliers that are too small: no step leads far from there. Larger multipliers and
-/// slacks halve the number of iterations.
+/// Correct a common start that is far from the central path. If a column had not settled after all
+/// splitting steps, its multipliers are too small, and all steps from there are short. Larger
+/// multipliers and slacks halve the number of iterations.
 void InteriorPoint::balance_start()
 {
   const double gap = this->result_.certificate.relative_gap;
-  constexpr double far = 1.0; // gap; near starts have 1e-3 to 0.5
+  constexpr double far = 1.0; // relative gap; good starts have 1e-3 to 0.5
   constexpr double least_slack = 1e-3;
-  constexpr double mu_of_energy = 3.0; // measured: 1 to 10 do the same
+  constexpr double mu_of_energy = 3.0; // measured: values from 1 to 10 are equally good
   if (this->start_.mu > 0.0 && gap > far)
   {
     this->raise_slacks(least_slack);
@@ -518,7 +521,7 @@ void InteriorPoint::balance_start()
   }
 }
 
-/// @param least smallest slack afterwards; less between bounds that are nearer than 1.
+/// @param least smallest slack afterwards, times the distance of the bounds if that is below 1.
 void InteriorPoint::raise_slacks(double least)
 {
   VectorXd floor = VectorXd::Constant(this->h_.size(), least);
@@ -532,7 +535,7 @@ void InteriorPoint::raise_slacks(double least)
   this->s_ = this->s_.cwiseMax(floor);
 }
 
-/// Moves what is not ordered, given values stay.
+/// Move values that violate the order of the pairs. Given values do not change.
 void InteriorPoint::order_pairs(VectorXd& w) const
 {
   if (this->upwards_.empty())
@@ -547,7 +550,7 @@ void InteriorPoint::order_pairs(VectorXd& w) const
   order_values(this->upwards_, this->problem_.free_here, highest, w);
 }
 
-/// @param second_bound ask for the second bound at once (see Certificate).
+/// @param second_bound compute the second bound in any case (see Certificate).
 void InteriorPoint::certify_iterate(bool second_bound)
 {
   const auto& matrices = this->matrices_;
@@ -564,8 +567,8 @@ void InteriorPoint::certify_iterate(bool second_bound)
   const bool bounds_everywhere = this->bounded_.size() == this->unpinned_.size();
   certificate = certify(problem, this->result_.w, this->column_.pairs, this->result_.multipliers,
     second_bound || !bounds_everywhere ? this->inverse_ : InverseForm());
-  // When the iterate itself is near enough and only the first bound says otherwise, that is
-  // round-off: the second bound decides.
+  // If the iterate is close enough and only the first bound is too large, the cause is round-off.
+  // The second bound decides then.
   const double tolerance = this->options_.tolerance;
   if (!second_bound && bounds_everywhere && certificate.relative_gap > tolerance &&
     certificate.kkt_residual <= tolerance &&
@@ -576,10 +579,10 @@ void InteriorPoint::certify_iterate(bool second_bound)
   }
 }
 
-/// Lets a projected Newton method go on from the iterate; the iterate itself stays as it is.
+/// Continue from the iterate with a projected Newton method. The iterate itself does not change.
 /// @param enough largest move that counts as settled.
-/// @return how far its last round moved: where that is enough, result_ holds what it came to and
-/// the certificate of that.
+/// @return the move of the last round. If it is at most `enough`, result_ contains the new point
+/// and its certificate.
 double InteriorPoint::finish(double enough)
 {
   constexpr int rounds = 6;
@@ -624,22 +627,22 @@ BoxQpSolution InteriorPoint::run()
     this->best_ = this->result_;
     this->balance_start();
   }
-  // After the certificate a few more iterations let the weights settle as well; whether they do
-  // decides nothing about the status.
+  // After certification, a few more iterations let the weights settle. The status does not depend
+  // on that.
   constexpr int most_settling = 6;
   const double settled = settled_move(tolerance);
   int settling = 0;
-  // A projected Newton method takes over as soon as it works: it converges many times faster than
-  // the path, by solves with the factor at hand. Measured: further away it fails too often; a
-  // certified iterate is worth one try at any rate.
+  // Largest move at which the projected Newton method is tried. It converges many times faster than
+  // the path and requires only solves with the current factor. At larger moves it fails too often
+  // (measured). A certified iterate is tried once in any case.
   double near = 4e-5;
   int tries = 0;
-  // 5 to 15 iterations are usual. Where the form is very ill-conditioned (triharmonic energies of
-  // fine meshes) the common start can lie where no step leads away: begin anew without it then,
-  // and in double precision if that does not help.
+  // 5 to 15 iterations are usual. If the form is very ill-conditioned (triharmonic energies of fine
+  // meshes), all steps from the common start can be too short. Then restart without it, and switch
+  // to double precision if that does not help.
   constexpr int begin_anew_after = 25;
   constexpr int double_after = 60;
-  // Steps that are not exact enough for ordered pairs lead nowhere near the end.
+  // With ordered pairs, inexact steps stall near the end.
   constexpr int most_stalled = 3;
   int stalled = 0;
   double moved = this->h_.size() == 0 ? 0.0 : 1.0;
@@ -712,7 +715,7 @@ BoxQpSolution InteriorPoint::run()
         moved = 0.0;
       }
       this->result_ = iterate;
-      // The nearer it came to be enough, the sooner another try is worth its solves.
+      // The closer the last try was to success, the sooner the next one is worth its solves.
       near = moved * std::clamp(enough / left, 0.2, 0.8);
       ++tries;
     }
@@ -741,7 +744,7 @@ BoxQpSolution interior_point(const SplitForm& matrices, const BoxQpOptions& opti
       .run();
   };
   BoxQpSolution solution = run(true);
-  // What fails for the inexact steps of single precision begins anew without it.
+  // With ordered pairs, a solve that fails in single precision is repeated in double precision.
   if (!column.pairs.empty() && workspace.single.analysed() && !solution.status.ok() &&
     solution.status.code != StatusCode::cancelled)
   {

@@ -8,10 +8,10 @@
 namespace bindpose
 {
 
-/// Solves for one column (see BoxQp).
-/// @param unconstrained #V, the minimiser without bounds.
-/// @param start a point nearly on the central path, used unless its mu is 0.
-/// @param inverse asked for seldom.
+/// Solve one column (see BoxQp).
+/// @param unconstrained #V, the minimizer without bounds.
+/// @param start a point near the central path, used unless its mu is 0.
+/// @param inverse called rarely.
 BoxQpSolution interior_point(const SplitForm& matrices, const BoxQpOptions& options,
   const BoxQpColumn& column, const Eigen::VectorXd& unconstrained, const ColumnStart& start,
   const InverseForm& inverse, BoxQpWorkspace& workspace, ExecutionContext& context);

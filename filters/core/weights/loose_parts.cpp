@@ -10,7 +10,7 @@ namespace
 constexpr double touching = 1.0 / 500.0; ///< of the surface's diagonal
 constexpr Index most_loose_components = 20000;
 
-/// #parts: which of a lattice's parts handles lie in.
+/// Return for each of the lattice's parts whether it contains a handle.
 std::vector<char> parts_with_handles(
   const Components& parts, Index vertex_count, const HandleInsertion& inserted)
 {
@@ -31,7 +31,7 @@ std::vector<char> parts_with_handles(
   return has_handle;
 }
 
-/// Components of a surface with equal points welded.
+/// Return the components of a surface after welding equal points.
 Components welded_components(
   TrianglesView triangles, const std::vector<Index>& lowest_equal, std::vector<Index>& of_triangle)
 {
@@ -76,7 +76,8 @@ Status find_loose_parts(PointsView points, TrianglesView triangles,
   {
     return {};
   }
-  // Components are linked one by one, because a finer lattice may separate those of one part.
+  // Components are linked individually, because a finer lattice may separate the components of one
+  // part.
   std::vector<Index> of_triangle;
   const Components components = welded_components(triangles, lowest_equal, of_triangle);
   std::vector<char> is_held(static_cast<std::size_t>(components.count), 0);

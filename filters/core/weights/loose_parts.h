@@ -9,18 +9,18 @@
 namespace bindpose
 {
 
-/// The parts of a surface that have no handle, and the links that hold them.
+/// The parts of a surface that have no handle, and their links.
 struct LooseParts
 {
   Index count = 0; ///< connected parts of the lattice without a handle
-  std::vector<PartLink> links; ///< empty: none is loose, or more than 20,000 components are
+  std::vector<PartLink> links; ///< empty if no component is loose or more than 20,000 are
 };
 
-/// Links every component of the surface in a part of the lattice without a handle to what it
-/// touches (what is nearer than 1/500 of the diagonal), or to what is nearest to it (link_parts).
-/// With these links the surface is embedded again.
-/// @param surface of the points and triangles in `lattice`
-/// @param lowest_equal #V: the lowest id among the points that are equal to each
+/// Link every surface component in a lattice part without a handle to the components that it
+/// touches (nearer than 1/500 of the diagonal), or to the nearest one (link_parts). The surface
+/// must then be embedded again with these links.
+/// @param surface the surface of the points and triangles, embedded in `lattice`
+/// @param lowest_equal #V: the lowest id among the points that are equal to each point
 Status find_loose_parts(PointsView points, TrianglesView triangles,
   const std::vector<Index>& lowest_equal, const EmbeddingTets& lattice,
   const EmbeddedSurface& surface, const Handles& handles, const HandleInsertionOptions& insertion,

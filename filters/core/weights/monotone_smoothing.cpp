@@ -1,16 +1,16 @@
-// The data term's linear part is a row of the form: Q gets one more unknown whose value is 1, so
-// that 1/2 (w, 1)' Q (w, 1) is the whole energy, smoothness and distance to the data, and solver
-// and certificate are those of weights. There are no bounds: the data term or the kept values hold
-// the function.
+// The linear part of the data term is a row of the quadratic form. Q gets an additional unknown
+// whose value is 1, so that 1/2 (w, 1)' Q (w, 1) is the whole energy: smoothness and distance to
+// the data. Solver and certificate are the same as for weights. There are no bounds. The data term
+// or the kept values make the minimum unique.
 //
-// The pairs that keep extrema away come from an order of the vertices that has the listed extrema
-// and no other (extrema_order.cpp), as near as possible to that of the minimiser without any order.
-// So data whose minimiser already has these extrema give just that minimiser, and the more faithful
-// the data term, the nearer the order to the data's own. The harmonic function with the listed
-// extrema as boundary values is the other choice; it knows nothing of the data between them.
+// The ordered pairs that exclude other extrema come from an order of the vertices that has exactly
+// the listed extrema (extrema_order.cpp) and is as close as possible to the order of the minimizer
+// without pairs. If that minimizer already has the listed extrema, it is the result. The larger the
+// data weight, the closer the order is to that of the data. The other choice of a guide is the
+// harmonic function with the listed extrema as boundary values; it ignores the data between them.
 //
-// A result is feasible for the order that it defines itself, ties as before, so that solving again
-// for that order can only lower the energy.
+// A result is feasible for the order of its own values, with ties broken as before. Solving again
+// for that order can therefore only lower the energy.
 #include "weights/monotone_smoothing.h"
 
 #include "weights/free_system.h"
@@ -69,14 +69,14 @@ private:
   Domain kept_; // without triangles that have no area
   Components components_;
   std::vector<char> used_; // #V
-  std::vector<char> taking_part_; // #V: used, and not constant
+  std::vector<char> taking_part_; // #V: used and not constant
   VertexGraph graph_;
-  double middle_ = 0.0, range_ = 0.0; // of the data
-  VectorXd f_; // the data from -1/2 to 1/2, 0 where not used
-  ScaledMesh scaled_; // to size 1
-  std::vector<Index> fixed_; // and the one more unknown, #V, at the end
+  double middle_ = 0.0, range_ = 0.0; // center and range of the data
+  VectorXd f_; // data scaled to -1/2 to 1/2; 0 for unused vertices
+  ScaledMesh scaled_; // scaled to size 1
+  std::vector<Index> fixed_; // fixed vertices, then the additional unknown #V
   VectorXd fixed_values_;
-  VectorXd pull_; // the data term's diagonal of the form
+  VectorXd pull_; // diagonal of the form's data term
   bool keep_values_ = false;
   Index constant_parts_ = 0;
   std::unique_ptr<BoxQp> solver_;
@@ -148,7 +148,7 @@ void Smoothing::take_measurable()
   this->graph_ = vertex_graph(this->kept_);
 }
 
-/// @return false for data that are constant.
+/// @return false if the data are constant.
 bool Smoothing::scale_data()
 {
   double low = std::numeric_limits<double>::infinity();
@@ -171,8 +171,9 @@ bool Smoothing::scale_data()
   return this->range_ > 0.0;
 }
 
-/// The data's most persistent extrema. Where maxima close off a part (at a vertex that alone joins
-/// two parts of the mesh) that part needs a minimum, too: its lowest place.
+/// Choose the data's most persistent extrema. If listed maxima separate a region from the rest of
+/// the mesh (for example a single vertex that connects two regions), this region also needs a
+/// minimum: its lowest vertex. The same applies to minima.
 void Smoothing::choose_list()
 {
   ExtremaList& list = this->result_.list;
@@ -206,7 +207,7 @@ void Smoothing::choose_list()
   }
 }
 
-/// Every part of the mesh must have both kinds wherever it is not constant.
+/// Check that every part that is not constant has a maximum and a minimum.
 Status Smoothing::check_list()
 {
   const ExtremaList& list = this->result_.list;
@@ -282,8 +283,9 @@ Status Smoothing::find_list()
   return this->check_list();
 }
 
-/// Unlike the diagonal of the box about it, the size of a mesh does not change when it is turned,
-/// and unlike a weight's, a data term's place in the energy depends on it.
+/// Scale the mesh to size 1. Unlike the diagonal of the bounding box, the size does not change when
+/// the mesh is rotated. The size matters here, because it determines the balance of smoothness and
+/// data.
 void Smoothing::scale_to_size()
 {
   this->scaled_ = scale_mesh(this->kept_, this->used_);
@@ -307,7 +309,7 @@ void Smoothing::scale_to_size()
   this->scaled_.mass_unit *= std::pow(size, -dimension);
 }
 
-/// The form with one more unknown, and the values that are given.
+/// Assemble the form with the additional unknown, and the given values.
 void Smoothing::assemble()
 {
   const Index n = this->data_.size();
@@ -370,8 +372,9 @@ void Smoothing::assemble()
       this->options_.tolerance, this->options_.maximum_iterations, this->options_.solver });
 }
 
-/// Roughly the minimum: that without any order, and how far the data term alone is from keeping it.
-/// (A faithful minimiser without order costs next to nothing, however much the order costs.)
+/// Estimate the minimum: the energy without pairs, plus the data term's cost of satisfying the
+/// pairs. (The first part alone is far too small if the minimizer without pairs is close to the
+/// data.)
 double Smoothing::expected_energy(
   const BoxQpColumn& column, const BoxQpSolution& unconstrained) const
 {
@@ -385,7 +388,7 @@ double Smoothing::expected_energy(
   return unconstrained.certificate.energy + 0.5 * this->pull_.dot(moved.cwiseAbs2());
 }
 
-/// Values whose order is to be kept as far as the list allows.
+/// Compute the values whose order is kept as far as the list allows.
 Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
 {
   values = unconstrained.head(this->data_.size());
@@ -417,7 +420,7 @@ Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
   return status;
 }
 
-/// Solves again for the order of what was found, as long as that gains something.
+/// Solve again for the order of the last result, as long as the energy decreases.
 void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
 {
   for (int round = 0; round < this->options_.rebuilds && best.status.ok(); ++round)
@@ -459,7 +462,7 @@ void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
   }
 }
 
-/// Notes an energy: that of the integrals, not of the form.
+/// Record the energy of the integrals, which is the form's energy in other units.
 void Smoothing::take(const BoxQpSolution& solution)
 {
   this->result_.energies.push_back(2.0 * solution.certificate.energy /
@@ -532,7 +535,7 @@ Status Smoothing::solve()
   return this->context_.cancelled() ? Status::cancelled() : Status();
 }
 
-/// Back to the data's unit; extrema and report.
+/// Convert the result to the data's unit; compute extrema and report.
 void Smoothing::finish(Status& status)
 {
   const Index n = this->data_.size();
@@ -558,7 +561,8 @@ void Smoothing::finish(Status& status)
       mass += this->scaled_.mass[v];
     }
   }
-  // Kept values are not rounded, all others are: what lies level with an extremum must not pass it.
+  // Kept values are exact, all others are rounded. A value equal to that of an extremum must not
+  // exceed it.
   if (this->keep_values_)
   {
     std::vector<char> is_free(static_cast<std::size_t>(n));
@@ -571,9 +575,9 @@ void Smoothing::finish(Status& status)
     order_values(upward_pairs(pairs, upward_order(pairs, n)), is_free,
       VectorXd::Constant(n, std::numeric_limits<double>::infinity()), result.values);
   }
-  // Vertices that take no part have no place among extrema.
+  // Vertices that do not take part are not counted as extrema.
   std::vector<char> exempt(static_cast<std::size_t>(n));
-  VectorXd strict = w; // ties broken as the order does: a listed vertex stands for its plateau
+  VectorXd strict = w; // ties are broken as in the order: a listed vertex represents its plateau
   std::vector<std::int64_t> vertices;
   std::vector<std::string> kinds;
   std::vector<double> values, data, persistences;

@@ -1,19 +1,19 @@
-// The guide of a handle is harmonic for the cotangent Laplacian with negative weights raised to
-// small positive ones: unlike the cotangent Laplacian itself on most tet meshes it obeys the
-// maximum principle, so it has no extremum between handles that would be built into the weights.
-// (Uniform weights would do that, too, but a guide closer to the mesh's geometry costs less
-// energy.)
+// The guide of a handle is harmonic for the cotangent Laplacian with negative edge weights raised
+// to small positive ones. Unlike the cotangent Laplacian of most tet meshes, this matrix obeys the
+// maximum principle. The guide therefore has no extremum between handles that the weights would
+// inherit. (Uniform edge weights have this property, too, but a guide closer to the mesh's geometry
+// results in less energy.)
 //
-// Far from a handle a guide is tiny, far inside its reach it is 1 - tiny. Both are computed without
-// cancellation: guides of positive right-hand sides come out with small relative errors, and
-// 1 - u is the sum of the other handles' guides. Two vertices are compared by u where it is small
-// and by 1 - u where that is small; ties go to the index, so the pairs cannot run in a circle.
+// Far from a handle its guide is tiny; far inside its region of influence the guide is 1 - tiny.
+// Both are computed without cancellation: guides of positive right-hand sides have small relative
+// errors, and 1 - u is the sum of the other handles' guides. Two vertices are compared by u if it
+// is small and by 1 - u if that is small. Ties are broken by index, so the pairs have no cycle.
 //
-// A prescribed extremum has the value 0 or 1, so that all edges at it are ordered by the bounds.
+// A prescribed extremum has the value 0 or 1, so the bounds order all edges at it.
 //
-// Where a column pins vertices of its own, its guide takes their values, too: it is then a function
-// that keeps pins and order, so that there is one. Vertices of one unknown (rigid sets, mirrors)
-// are one vertex to the guide.
+// If a column has its own pinned vertices, its guide takes their values, too. The guide is then a
+// function that satisfies pins and order, which proves that the problem is feasible. The vertices
+// of one unknown (rigid sets, mirrors) are one vertex of the guide.
 #include "weights/monotone_weights.h"
 
 #include "weights/free_system.h"
@@ -27,7 +27,8 @@ namespace bindpose
 
 namespace
 {
-/// The guide of a column with pins of its own, and 1 minus it, each from positive numbers alone.
+/// Compute the guide u of a column with its own pins, and 1 - u. Each is computed from positive
+/// numbers only.
 Status pinned_guide(const SparseMatrix& laplacian, const std::vector<Index>& fixed,
   const BoxQpColumn& column, const SparseSolver::Options& options, ExecutionContext& context,
   Eigen::VectorXd& u, Eigen::VectorXd& rest)
@@ -48,7 +49,7 @@ Status pinned_guide(const SparseMatrix& laplacian, const std::vector<Index>& fix
   return status;
 }
 
-/// A vertex of an unknown, and the handle whose weight it is there.
+/// Return the handle and vertex of an unknown, for messages.
 std::string place_of(const WeightsProblem& problem, const ColumnGroup& group, Index c, Index u)
 {
   const Index n = problem.vertex_count();
@@ -102,8 +103,9 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
     fixed_values.col(j) = group.columns[j].fixed_values;
   }
   result.guide = solver.minimisers(fixed_values);
-  // Sums of the guides behind column j; those before it are summed up on the way. Only all columns
-  // together sum to one.
+  // Column j contains the sum of the guides after j; the sums of the guides before j are
+  // accumulated in the loop. This requires that all columns are in the group, because only they sum
+  // to one together.
   const bool whole = m == problem.handle_count();
   Eigen::MatrixXd behind = Eigen::MatrixXd::Zero(n, m);
   for (Index j = m - 1; j-- > 0 && whole;)
@@ -169,7 +171,7 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
     column.pinned_values =
       Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
 
-    // Pairs that an end with the value 0 or 1 orders anyway are left out.
+    // Skip pairs that are implied by the bounds because one end has the value 0 or 1.
     const auto given = [&](Index v) { return is_fixed[v] || pinned[v]; };
     std::vector<OrderedPair>& pairs = result.pairs[static_cast<std::size_t>(j)];
     for (Index v = 0; v < n; ++v)

@@ -9,8 +9,8 @@ namespace bindpose
 SparseMatrix positive_stiffness(
   const SparseMatrix& stiffness, const VertexGraph& graph, const std::vector<char>& pulls)
 {
-  // As a share of the diagonals: small enough not to turn the guide, large enough to keep the
-  // solution's rounding errors small.
+  // Fraction of the diagonals: small enough not to change the direction of the guide, large enough
+  // to keep the solution's rounding errors small.
   constexpr double least_weight = 1e-3;
   const Eigen::VectorXd diagonal = stiffness.diagonal();
   const auto n = static_cast<int>(stiffness.rows());
@@ -51,7 +51,8 @@ void sort_pairs(std::vector<OrderedPair>& pairs)
 std::vector<Index> upward_order(const std::vector<OrderedPair>& pairs, Index count)
 {
   std::vector<std::vector<Index>> above(static_cast<std::size_t>(count));
-  std::vector<Index> open(static_cast<std::size_t>(count), 0); // predecessors still to come
+  // Predecessors that are not in the order yet.
+  std::vector<Index> open(static_cast<std::size_t>(count), 0);
   for (const OrderedPair& pair : pairs)
   {
     above[pair.low].push_back(pair.high);
@@ -96,7 +97,7 @@ std::vector<OrderedPair> upward_pairs(
 void order_values(const std::vector<OrderedPair>& upwards, const std::vector<char>& is_free,
   const Eigen::VectorXd& highest, Eigen::VectorXd& values)
 {
-  // The least value given to anything above: nothing below it may exceed that.
+  // Least given value at any vertex above: an upper limit for everything below it.
   Eigen::VectorXd cap = highest;
   for (Index v = 0; v < values.size(); ++v)
   {

@@ -7,34 +7,34 @@
 namespace bindpose
 {
 
-/// Cotangent stiffness with every edge's weight raised to a small positive one: what is harmonic
-/// for it has no extremum but where it is given, which the cotangent Laplacian of most tet meshes
-/// does not promise.
+/// Return the cotangent stiffness with every edge weight raised to a small positive value. A
+/// function that is harmonic for this matrix has extrema only at vertices with given values. The
+/// cotangent Laplacian of most tet meshes does not guarantee that.
 /// @param pulls #V: 0 for vertices whose edges are left out.
 SparseMatrix positive_stiffness(
   const SparseMatrix& stiffness, const VertexGraph& graph, const std::vector<char>& pulls);
 
-/// Sorted, each pair once.
+/// Sort the pairs and remove duplicates.
 void sort_pairs(std::vector<OrderedPair>& pairs);
 
-/// The vertices 0 … count - 1 so that the low end of every pair comes before its high end. Fewer
-/// when pairs run in a circle.
+/// Return the vertices 0 … count - 1 in an order in which the low end of every pair comes before
+/// its high end. Fewer vertices are returned if the pairs have a cycle.
 std::vector<Index> upward_order(const std::vector<OrderedPair>& pairs, Index count);
 
-/// The pairs in the order of their low ends: what happens along them one after another is settled
-/// at a vertex before it goes on from there.
+/// Sort the pairs by the rank of their low ends. A pass over the pairs in this order visits a pair
+/// only after all pairs that end at its low vertex.
 std::vector<OrderedPair> upward_pairs(
   const std::vector<OrderedPair>& pairs, const std::vector<Index>& order);
 
-/// Whether bounds and given values leave room for the column's pairs: the least that each unknown
-/// can be rises along them.
-/// @return an unknown without room, or -1.
+/// Test whether bounds and given values are compatible with the column's pairs, by propagating
+/// lower limits along the pairs.
+/// @return an unknown without a feasible value, or -1.
 Index without_room(const BoxQpColumn& column, const std::vector<Index>& fixed, Index count);
 
-/// Lowers and raises values the least needed so that every pair is ordered, given ones included.
+/// Change values as little as necessary to satisfy every pair. Given values do not change.
 /// @param upwards see upward_pairs.
-/// @param is_free #V, 0 where a value is given.
-/// @param highest #V, that a free one may have.
+/// @param is_free #V, 0 for given values.
+/// @param highest #V, upper limits of free values.
 void order_values(const std::vector<OrderedPair>& upwards, const std::vector<char>& is_free,
   const Eigen::VectorXd& highest, Eigen::VectorXd& values);
 

@@ -1,9 +1,9 @@
-// With f the free and b the fixed vertices, D = M^-1 and Q = K D K:
+// Let f be the free and b the fixed vertices, D = M^-1 and Q = K D K:
 //
 //   Q_ff = K_ff D_f K_ff + U D_b U',  U = K_fb        Q_fb = K_ff D_f U + U D_b K_bb
 //
-// so that with P = (K_ff D_f K_ff)^-1 = K_ff^-1 M_f K_ff^-1 and G = P U the minimiser -Q_ff^-1 Q_fb
-// e is y - G (M_b + U' G)^-1 U' y, where y = -(K_ff^-1 U e + G D_b K_bb e).
+// With P = (K_ff D_f K_ff)^-1 = K_ff^-1 M_f K_ff^-1 and G = P U, the minimizer -Q_ff^-1 Q_fb e for
+// fixed values e is y - G (M_b + U' G)^-1 U' y, where y = -(K_ff^-1 U e + G D_b K_bb e).
 #include "weights/preview_weights.h"
 
 #include "base/parallel.h"
@@ -47,21 +47,22 @@ public:
     return context.cancelled() ? Status::cancelled() : status;
   }
 
-  /// #V
+  /// Return 1 for each free vertex, #V.
   const std::vector<char>& is_free() const { return this->form_.is_free; }
 
-  /// #V x m, with the fixed rows: by K alone.
+  /// Return the harmonic weights, #V x m, including the fixed rows.
   Eigen::MatrixXd harmonic() const
   {
     const Eigen::MatrixXd& given = this->problem_.fixed_values;
     return this->form_.whole(-this->solve(this->form_.to_fixed * given), given);
   }
 
-  /// @return false when cancelled.
+  /// Compute the biharmonic weights.
+  /// @return false if canceled.
   bool biharmonic(
     const Eigen::MatrixXd& harmonic, ExecutionContext& context, Eigen::MatrixXd& w) const
   {
-    // Fixed vertices with a free neighbour.
+    // Fixed vertices with a free neighbor.
     std::vector<int> active;
     for (int b = 0; b < this->form_.to_fixed.outerSize(); ++b)
     {
@@ -77,7 +78,7 @@ public:
       w = harmonic;
       return true;
     }
-    // D_b K_bb e at these.
+    // D_b K_bb e at the active vertices.
     Eigen::MatrixXd flow(rank, m);
     SparseMatrix u(this->form_.to_fixed.rows(), rank);
     Eigen::VectorXd mass(rank);
@@ -93,7 +94,8 @@ public:
         u.col(static_cast<int>(i)) = this->form_.to_fixed.col(active[i]);
       }
     }
-    constexpr Index solves_of_gradients = 16; // that conjugate gradients take a column, about
+    // Approximate number of solves per column for conjugate gradients.
+    constexpr Index solves_of_gradients = 16;
     const Eigen::MatrixXd start = this->form_.free_rows(harmonic);
     Eigen::MatrixXd x;
     const bool done = rank <= solves_of_gradients * m
@@ -108,13 +110,14 @@ private:
   {
     return rhs.rows() == 0 ? rhs : this->solver_.solve(rhs);
   }
-  /// P r
+  /// Return P r.
   Eigen::MatrixXd product(const Eigen::MatrixXd& r) const
   {
     return this->solve(this->mass_.asDiagonal() * this->solve(r));
   }
 
-  /// @param start K_ff^-1 U e, negative: the harmonic weights.
+  /// Solve by a low-rank update (Woodbury).
+  /// @param start -K_ff^-1 U e, the harmonic weights.
   bool by_rank(const SparseMatrix& u, const Eigen::VectorXd& mass, const Eigen::MatrixXd& flow,
     const Eigen::MatrixXd& start, ExecutionContext& context, Eigen::MatrixXd& x) const
   {
@@ -148,7 +151,7 @@ private:
       return k * (inverse.asDiagonal() * (k * p)) +
         u * (mass.cwiseInverse().asDiagonal() * (u.transpose() * p));
     };
-    // -Q_fb e, where K_ff D_f U e = -K_ff D_f K_ff start.
+    // The right-hand side is -Q_fb e, where K_ff D_f U e = -K_ff D_f K_ff start.
     x = start;
     Eigen::MatrixXd r =
       -(u * (mass.cwiseInverse().asDiagonal() * (u.transpose() * start))) - u * flow;

@@ -1,6 +1,6 @@
-// In each round, held vertices go to their bounds. For the others the gradient is brought to zero
-// by preconditioned conjugate gradients, roughly, and values outside of the bounds are projected
-// back to them.
+// In each round, held vertices move to their bounds. For the other vertices, a few steps of
+// preconditioned conjugate gradients reduce the gradient. Values outside of the bounds are
+// projected back to them.
 #include "weights/projected_newton.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 namespace
 {
-/// The minimiser over vertex i alone, without bounds.
+/// Return the minimizer over vertex i alone, without bounds.
 double newton_step(const SplitForm& matrices, const VectorXd& gradient, const VectorXd& x, Index i)
 {
   return x[i] - gradient[i] / matrices.lower.valuePtr()[matrices.diagonal[i]];
@@ -36,10 +36,10 @@ double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
   const Preconditioner& preconditioner, int rounds, double enough, const ExecutionContext& context,
   VectorXd& x)
 {
-  constexpr int steps = 4; // of conjugate gradients a round
-  constexpr double reduction = 0.05; // of the error's energy norm that ends them
+  constexpr int steps = 4; // steps of conjugate gradients per round
+  constexpr double reduction = 0.05; // reduction of the error's energy norm that ends them
   const Index n = x.size();
-  const SparseMatrix& a = matrices.a; // symmetric: the product with its transpose is the faster one
+  const SparseMatrix& a = matrices.a; // symmetric: the product with the transpose is faster
   std::vector<char> held;
   const auto release = [&](VectorXd& v)
   {
@@ -52,7 +52,7 @@ double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
   VectorXd r, z, p, ap;
   double moved = 1.0;
   double before = 1e300;
-  // Moves that do not get smaller: the vertices to be held are not found yet.
+  // If the moves do not get smaller, the set of held vertices has not been found yet.
   for (int round = 0;
        round < rounds && moved > enough && moved < 0.9 * before && !context.cancelled(); ++round)
   {
@@ -102,7 +102,7 @@ double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
     x = next;
     if (round > 0 && moved * std::pow(moved / before, rounds - 1 - round) > enough)
     {
-      break; // at this rate it will not be enough
+      break; // at this rate the remaining rounds do not suffice
     }
   }
   return moved;

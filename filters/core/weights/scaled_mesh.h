@@ -7,18 +7,19 @@
 namespace bindpose
 {
 
-/// What energies are made of: the mesh scaled to diagonal 1 about its centre, so that units and
-/// place do not show in what is solved for.
+/// The mesh from which energies are assembled. It is scaled to diagonal 1 about its center, so that
+/// units and position do not affect the solution.
 struct ScaledMesh
 {
   Points points;
-  double diagonal = 1.0; ///< of the mesh, what was scaled to 1
-  SparseMatrix stiffness; ///< cotangent
-  Eigen::VectorXd mass; ///< lumped, the largest is 1
-  double mass_unit = 1.0; ///< the largest before that
+  double diagonal = 1.0; ///< original bounding-box diagonal
+  SparseMatrix stiffness; ///< cotangent stiffness
+  Eigen::VectorXd mass; ///< lumped, scaled so that the largest is 1
+  double mass_unit = 1.0; ///< largest mass before that scaling
 };
 
-/// @param used #V: vertices that count for the diagonal.
+/// Scale the mesh and assemble its matrices.
+/// @param used #V: 1 for vertices that count for the diagonal.
 ScaledMesh scale_mesh(const Domain& domain, const std::vector<char>& used);
 
 } // namespace bindpose

@@ -46,7 +46,7 @@ SplitForm::SplitForm(const SparseMatrix& form, std::vector<Index> given)
   }
   for (int i = 0; i < n; ++i)
   {
-    inner.emplace_back(i, i, 0.0); // every diagonal entry exists
+    inner.emplace_back(i, i, 0.0); // store every diagonal entry
   }
   this->a.resize(n, n);
   this->a.setFromTriplets(inner.begin(), inner.end());

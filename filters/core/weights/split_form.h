@@ -9,7 +9,8 @@
 namespace bindpose
 {
 
-/// A quadratic form, split into the vertices that are solved for and those whose values are given.
+/// A quadratic form, split into free vertices, which are solved for, and fixed vertices, whose
+/// values are given.
 struct SplitForm
 {
   SplitForm() = default;
@@ -21,29 +22,32 @@ struct SplitForm
   std::vector<Index> fixed;
   std::vector<char> is_free; ///< #V
   std::vector<Index> free_vertices;
-  std::vector<Index> free_of_vertex; ///< #V, -1: not free
+  std::vector<Index> free_of_vertex; ///< #V: index in free_vertices; -1: fixed
   SparseMatrix a; ///< free x free, both triangles
-  SparseMatrix lower; ///< its lower triangle, every diagonal entry stored
+  SparseMatrix lower; ///< lower triangle of a; every diagonal entry is stored
   SparseMatrix to_fixed; ///< free x fixed
-  std::vector<int> diagonal; ///< where in lower's values the diagonal is
+  std::vector<int> diagonal; ///< positions of the diagonal in lower's values
 
+  /// Return the rows of the free vertices.
   /// @param all #V x m.
   /// @return free x m.
   Eigen::MatrixXd free_rows(const Eigen::MatrixXd& all) const;
+  /// Combine the rows of free and fixed vertices.
   /// @param free_rows free x m.
   /// @param fixed_values fixed x m.
   /// @return #V x m.
   Eigen::MatrixXd whole(
     const Eigen::MatrixXd& free_rows, const Eigen::MatrixXd& fixed_values) const;
-  /// Sets the entries of a free x free matrix to 0 that join a held vertex with another.
-  /// @param held free: 1 where it is.
+  /// Set the off-diagonal entries of a free x free matrix to 0 in the rows and columns of held
+  /// vertices.
+  /// @param held free: 1 for held vertices.
   static void decouple(const std::vector<char>& held, SparseMatrix& matrix);
-  /// Position of entry (i, j), i > j, in lower's values; -1 when there is none.
+  /// Return the position of entry (i, j), i > j, in lower's values; -1 if there is none.
   int position(Index i, Index j) const;
 };
 
-/// What it means for a form that its block of free vertices is not positive definite: a
-/// factorisation's invalid_input said so; any other status stays as it is.
+/// Replace the message of a factorization's invalid_input: the block of free vertices is not
+/// positive definite, so the form has no unique minimum. Any other status is returned unchanged.
 Status without_minimum(Status of_factor);
 
 } // namespace bindpose

@@ -1,14 +1,15 @@
-// The problem is the sum of a quadratic and of what keeps each vertex within its bounds: these
-// themselves, or barriers. Douglas-Rachford splitting treats both in turn, in the metric P, a small
-// multiple of A's diagonal:
+// The problem is the sum of a quadratic function and of a function that keeps each vertex within
+// its bounds: the bounds themselves, or barriers. Douglas-Rachford splitting treats both in turn,
+// in the metric P, a small multiple of A's diagonal:
 //   y = the point within the bounds nearest to z, or
-//       argmin barrier(y) + 1/2 |y - z|_P^2      (a scalar equation a vertex)
+//       argmin barrier(y) + 1/2 |y - z|_P^2      (one scalar equation per vertex)
 //   x = argmin quadratic(x) + 1/2 |x - (2y - z)|_P^2 = (A + P)^-1 (P (2y - z) - c)
 //   z = z + relaxation (x - y)
-// In the end y is the minimiser. Without barriers, z lies beyond a bound where that holds a vertex.
-// The matrix A + P is the same for all columns and steps, so the solves of all columns share its
-// factor and run as dense products. Anderson acceleration: z jumps to the combination of the last
-// few steps that would make the change x - y smallest if the map were linear.
+// In the limit y is the minimizer. Without barriers, z is beyond the bound of a vertex if that
+// bound is active. The matrix A + P is the same for all columns and steps, so the solves of all
+// columns share its factor and run as dense products. Anderson acceleration moves z to the
+// combination of the last few steps that would make the change x - y smallest if the map were
+// linear.
 //
 // The constants were measured on boxes and on real shapes of 5k to 70k vertices.
 #include "weights/splitting_start.h"
@@ -33,18 +34,20 @@ using Eigen::MatrixXf;
 using Eigen::VectorXd;
 using Eigen::VectorXf;
 
-constexpr double relative_mu = 1e-4; // the gap aimed at with barriers
-constexpr double metric = 1e-2; // of A's diagonal
+constexpr double relative_mu = 1e-4; // target of the relative gap with barriers
+constexpr double metric = 1e-2; // P as a fraction of A's diagonal
 constexpr double relaxation = 1.7;
 constexpr int steps = 80;
-constexpr double enough = 1e-7; // a column ends at a squared step of this fraction of its energy
-constexpr int memory = 8; // steps that Anderson acceleration looks back
-constexpr Index largest_block = 4; // columns that are solved for together
+// A column ends if its squared step is at most this fraction of its energy.
+constexpr double enough = 1e-7;
+constexpr int memory = 8; // number of past steps for Anderson acceleration
+constexpr Index largest_block = 4; // number of columns that are solved together
 
-/// The y in (0, 1) with p (y - z) = mu / y - mu / (1 - y): Newton's method from the better end.
+/// Return the y in (0, 1) with p (y - z) = mu / y - mu / (1 - y), by Newton's method from the
+/// nearer end.
 double barrier_step(double z, double mu_per_p)
 {
-  // Without the other bound's barrier the equation is quadratic; start from the nearer one.
+  // Without the barrier of the farther bound the equation is quadratic. Start from its solution.
   const bool low = z < 0.5;
   const double t = low ? z : 1.0 - z;
   const double root = std::sqrt(t * t + 4.0 * mu_per_p);
@@ -66,13 +69,14 @@ double barrier_step(double z, double mu_per_p)
   return low ? y : 1.0 - y;
 }
 
-/// The last steps of one column, and the jump they suggest. Inner products in the metric.
+/// The last steps of one column and the extrapolation from them. Inner products are in the metric
+/// P.
 class Anderson
 {
 public:
   explicit Anderson(Index size) : points_(size, memory), changes_(size, memory) {}
 
-  /// @param z where the map was applied; becomes where to apply it next.
+  /// @param z point where the map was applied; replaced by the next point.
   /// @param change map(z) - z
   void accelerate(VectorXd& z, const VectorXd& change, const VectorXd& weights)
   {
@@ -81,7 +85,7 @@ public:
     const double size = f.squaredNorm();
     if (this->count_ < 0 || size > 4.0 * this->last_size_)
     {
-      this->count_ = 0; // the past is of no use
+      this->count_ = 0; // the past steps are unusable
     }
     else
     {
@@ -128,7 +132,7 @@ private:
   MatrixXd gram_ = MatrixXd::Zero(memory, memory);
   VectorXf last_point_, last_change_;
   double last_size_ = 0.0;
-  int count_ = -1; // columns in use; -1: nothing seen yet
+  int count_ = -1; // columns in use; -1: no step yet
   int next_ = 0;
 };
 } // namespace
@@ -162,7 +166,7 @@ std::vector<ColumnStart> splitting_start(const SplitForm& matrices,
       const Index width = std::min(block, count - first);
       MatrixXd z(n, width), y(n, width), rhs, x;
       std::vector<ColumnProblem> problems;
-      VectorXd energy(width); // of the minimisers without bounds
+      VectorXd energy(width); // energies of the minimizers without bounds
       VectorXd mu(width);
       std::vector<Anderson> anderson;
       for (Index k = 0; k < width; ++k)
@@ -187,7 +191,7 @@ std::vector<ColumnStart> splitting_start(const SplitForm& matrices,
             : std::clamp(z(i, k), l, problem.upper[i]);
         }
       };
-      std::vector<Index> active(static_cast<std::size_t>(width)); // columns that still move
+      std::vector<Index> active(static_cast<std::size_t>(width)); // columns that have not converged
       std::iota(active.begin(), active.end(), 0);
       for (int step = 0; step < steps && !active.empty() && !context.cancelled(); ++step)
       {

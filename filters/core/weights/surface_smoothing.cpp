@@ -17,17 +17,18 @@ namespace bindpose
 namespace
 {
 using Eigen::VectorXd;
-/// So many columns are smoothed together: the matrix is read once for all of them.
+/// Number of columns that are smoothed together: the matrix is read once for all of them.
 constexpr int lanes = 4;
-/// Shares of the seconds until the energy's matrix has been factored, and until the first
-/// iteration.
+/// Progress as a fraction of the time: when the energy's matrix has been factored, and before the
+/// first iteration.
 constexpr double factored = 0.4;
 constexpr double prepared = 0.5;
 using Lanes = Eigen::Array<double, 1, lanes>;
 /// #V x lanes.
 using Columns = Eigen::Array<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
 
-/// The energy's matrix M + K M⁻¹ K on the points that are not fixed, in units of the length.
+/// The energy's matrix M + K M⁻¹ K at the points that are not fixed, with lengths in units of
+/// `length`.
 class SmoothingEnergy
 {
 public:
@@ -38,7 +39,7 @@ public:
     const Points scaled = (points.rowwise() - points.row(0)) / length;
     this->stiffness_ = stiffness_matrix(scaled, triangles, shares_of(scaled, triangles));
     this->mass_ = lumped_mass(scaled, triangles);
-    // Points of needle triangles have almost no mass, which would only slow the iterations down.
+    // Points of needle triangles have almost no mass, which would only slow down the iterations.
     constexpr double least_mass = 1e-3;
     this->mass_ = this->mass_.cwiseMax(least_mass * this->mass_.mean());
     for (const Index v : fixed)
@@ -55,8 +56,8 @@ public:
     }
   }
 
-  /// By conjugate gradients, each column with its own steps. Calls `advance` after each
-  /// step with the share of the way to the minimum that has been gone.
+  /// Minimize by conjugate gradients; each column has its own step lengths. After each step,
+  /// `advance` is called with the estimated fraction of the work that is done.
   void minimize(Columns& w, const ExecutionContext& context,
     const std::function<void(double share)>& advance) const
   {
@@ -75,7 +76,7 @@ public:
     p = z;
     const Lanes first = now;
     const Lanes enough = reduction * reduction * first;
-    // Columns that are done, or that round-off has stopped, have no more steps.
+    // Columns that have converged, or that round-off has stopped, are not changed any more.
     Eigen::Array<bool, 1, lanes> goes_on = now > enough;
     for (int i = 0; i < most_iterations && goes_on.any() && !context.cancelled(); ++i)
     {
@@ -110,15 +111,16 @@ public:
   }
 
 private:
-  /// Memory that one block of columns uses again and again.
+  /// Memory that one block of columns reuses.
   struct Work
   {
     Eigen::MatrixXd once, twice;
   };
 
-  /// Triangles with almost no height couple their points with up to 1e16: round-off in the products
-  /// would be larger than the values. Less of them counts, so that nothing couples more than at an
-  /// angle of 2 degrees; the matrix stays positive semi-definite.
+  /// Return the weights of the triangles. Triangles with almost no height couple their points with
+  /// factors up to 1e16, and round-off in the products would exceed the values. Their weights are
+  /// reduced so that no coupling is larger than at an angle of 2 degrees; the matrix stays positive
+  /// semi-definite.
   static VectorXd shares_of(const Points& points, TrianglesView triangles)
   {
     constexpr double most = 15.0; // half of the cotangent of 2 degrees
@@ -131,7 +133,7 @@ private:
     return shares;
   }
 
-  /// Row v of K w: K is symmetric.
+  /// Return row v of K w. K is symmetric, so column v is used.
   Lanes times_stiffness(const Columns& w, Index v) const
   {
     Lanes sum = Lanes::Zero();
@@ -142,7 +144,7 @@ private:
     return sum;
   }
 
-  /// M⁻¹ K w.
+  /// Compute M⁻¹ K w.
   void find_curvature(const Columns& w, Columns& curvature) const
   {
     for (Index v = 0; v < w.rows(); ++v)
@@ -151,7 +153,8 @@ private:
     }
   }
 
-  /// Factors M + K. @return false where that cannot be had.
+  /// Factor M + K.
+  /// @return false if the factorization is not available.
   bool factor(ExecutionContext& context)
   {
     const ProgressRange range(context, 0.0, factored);
@@ -164,10 +167,10 @@ private:
       }
     }
     a += SparseMatrix(this->mass_.asDiagonal());
-    constexpr double assembled = 0.15; // shares of the seconds
+    constexpr double assembled = 0.15; // fractions of the time, for progress
     constexpr double analysed = 0.6;
     context.progress(assembled);
-    // METIS would take longer for its order than that order saves.
+    // The time of METIS exceeds the time that its better ordering saves.
     SparseSolver::Options options;
     options.ordering = SparseSolver::Ordering::amd;
     SparseSolver analysis(options);
@@ -179,7 +182,7 @@ private:
     return this->factor_.factor(a, 0.0, context).ok();
   }
 
-  /// Adds to the preconditioner what the curvature at fixed points adds to the energy.
+  /// Add the energy's terms of the curvature at fixed points to the preconditioner.
   void count_fixed(const std::vector<Index>& fixed, ExecutionContext& context)
   {
     const ProgressRange range(context, factored, prepared);
@@ -202,7 +205,7 @@ private:
       });
     if (!whole)
     {
-      this->counted_.clear(); // cancelled: the responses are not all there
+      this->counted_.clear(); // canceled: some responses are missing
       return;
     }
     Eigen::MatrixXd small = Eigen::MatrixXd::Identity(most, most);
@@ -214,12 +217,13 @@ private:
     this->small_.compute(0.5 * (small + small.transpose()));
     if (this->small_.info() != Eigen::Success)
     {
-      this->counted_.clear(); // responses in single precision are too inexact: more iterations
+      // The responses in single precision are too inexact: accept more iterations.
+      this->counted_.clear();
     }
   }
 
-  /// Calls visit(v, value) for the entries of the term of one fixed point: the curvature there, as
-  /// a function of the points that are not fixed, times the root of the mass.
+  /// Call visit(v, value) for the entries of the term of one fixed point: the curvature at the
+  /// point, as a function of the points that are not fixed, times the square root of the mass.
   template <typename Visit>
   void for_each_of_term(Index c, const Visit& visit) const
   {
@@ -233,7 +237,7 @@ private:
     }
   }
 
-  /// Without a factor: by the diagonal, (K M⁻¹ K)_ii = sum_j K_ij² / m_j.
+  /// Use the diagonal as preconditioner if there is no factor: (K M⁻¹ K)_ii = sum_j K_ij² / m_j.
   void take_diagonal()
   {
     this->factor_ = FloatCholesky();
@@ -248,7 +252,7 @@ private:
     this->inverse_diagonal_ = this->free_.cwiseQuotient(diagonal);
   }
 
-  /// z = (M + K)⁻¹ M (M + K)⁻¹ r of the free points, 0 of the others.
+  /// Compute z = (M + K)⁻¹ M (M + K)⁻¹ r at the free points; z = 0 at the others.
   void solve_with_factor(const Columns& r, Columns& z, Work& work) const
   {
     work.twice = r;
@@ -258,7 +262,7 @@ private:
     z = work.twice.array().colwise() * this->free_.array();
   }
 
-  /// Takes the response to the terms of fixed points away from z.
+  /// Subtract from z the response to the terms of fixed points.
   void correct(Columns& z) const
   {
     if (this->counted_.empty())
@@ -274,7 +278,8 @@ private:
     z.matrix() -= this->responses_ * this->small_.solve(at_fixed);
   }
 
-  /// z = P⁻¹ r of the free points, 0 of the others. @return r · z.
+  /// Compute z = P⁻¹ r at the free points; z = 0 at the others.
+  /// @return r · z.
   Lanes precondition(const Columns& r, Columns& z, Work& work) const
   {
     if (this->factor_.analysed())
@@ -298,14 +303,15 @@ private:
   VectorXd mass_;
   VectorXd free_; // 0 for fixed points, 1 for all others
   // The preconditioner. Without fixed points, M + K M⁻¹ K is at most (M + K) M⁻¹ (M + K) and at
-  // least half of it, so that few iterations are needed. Each fixed point adds a term u uᵀ to the
-  // energy, which would cost several more: the formula of Sherman, Morrison and Woodbury adds it to
-  // the preconditioner, too.
-  FloatCholesky factor_; // of M + K, where it could be factored
-  std::vector<Index> counted_; // fixed points whose terms are counted
-  Eigen::MatrixXd responses_; // #V x #counted: the solutions for their terms
-  Eigen::LLT<Eigen::MatrixXd> small_; // of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, U: the terms as columns
-  VectorXd inverse_diagonal_; // without a factor: of the free points, 0 for the others
+  // least half of it, so few iterations are needed. Each fixed point adds a term u uᵀ to the
+  // energy, which would cost several more iterations. The Sherman-Morrison-Woodbury formula adds
+  // these terms to the preconditioner, too.
+  FloatCholesky factor_; // factor of M + K, if available
+  std::vector<Index> counted_; // fixed points whose terms are in the preconditioner
+  Eigen::MatrixXd responses_; // #V x #counted: the solutions for the terms of counted_
+  // Of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, where the columns of U are the terms.
+  Eigen::LLT<Eigen::MatrixXd> small_;
+  VectorXd inverse_diagonal_; // used without a factor; 0 for fixed points
 };
 } // namespace
 

@@ -9,23 +9,25 @@
 namespace bindpose
 {
 
-/// Smooths functions on a surface: the minimizer of ½∫(w - given)² + ½ length⁴ ∫(Δw)², with linear
-/// elements and lumped mass, so that waves shorter than about 6 lengths fade.
+/// Smooth functions on a surface. The result minimizes ½∫(w - given)² + ½ length⁴ ∫(Δw)², with
+/// linear elements and lumped mass, so that waves shorter than about 6 lengths fade.
 ///
-/// Solved by conjugate gradients from the given values, each column by itself, until the residual
-/// has fallen to 1e-6 of its start, or for 200 iterations: every iterate has a lower energy than
-/// the one before. The preconditioner is a factorization of a matrix of second order, with a
-/// correction for each fixed point, with which 7 or 8 iterations are enough; a build without
-/// CHOLMOD takes the diagonal and most often all 200. Triangles with an angle below 2 degrees count
-/// for less, so that none couples its points by more than round-off allows: needles and soups do no
-/// harm. Constants stay as they are.
-/// @param points,triangles any surface whose equal points are one; triangles without an area count
-/// as nothing.
-/// @param fixed ids of points whose values stay, ascending.
-/// @param values #V x #columns, in and out.
-/// @return false when cancelled.
+/// Each column is solved separately by conjugate gradients from the given values, until the
+/// residual is reduced to 1e-6 of its initial value or for 200 iterations. Every iterate has a
+/// lower energy than the one before. The preconditioner is a factorization of a second-order
+/// matrix, with a correction for each fixed point; 7 or 8 iterations suffice with it. A build
+/// without CHOLMOD uses the diagonal as preconditioner and usually takes all 200 iterations.
+/// Triangles with an angle below 2 degrees have a reduced weight, so that the coupling of their
+/// points stays within the limits of round-off. Needles and triangle soups are therefore harmless.
+/// Constants do not change.
+///
 /// Cost: analysis and factorization, about 6 us per point; then about 1 us per point and column.
-/// Memory: of corrections at most 320 MB.
+/// Memory: at most 320 MB for corrections.
+/// @param points,triangles any surface whose equal points are merged; triangles without area are
+/// ignored.
+/// @param fixed ids of points whose values do not change, ascending.
+/// @param values #V x #columns, in and out.
+/// @return false if canceled.
 bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::vector<Index>& fixed,
   double length, Eigen::MatrixXd& values, ExecutionContext& context);
 

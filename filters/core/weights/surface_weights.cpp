@@ -1,6 +1,6 @@
-// One way for the volume (tets, handles, method, transfer), one for the embedding (the same on a
-// lattice, carried to the surface smoothly), and the choice between them. A result that is left for
-// another one is thrown away; what it told is kept as the reason.
+// There is one path for the volume (tets, handles, method, transfer), one for the embedding (the
+// same steps on a lattice, with a smoothed transfer), and the choice between them. If a result is
+// discarded in favor of another one, its status is reported as the reason.
 #include "weights/surface_weights.h"
 
 #include "weights/cage_domain.h"
@@ -22,30 +22,31 @@ namespace bindpose
 
 namespace
 {
-/// Weights of two lattices that agree this well are trusted. Measured on figures and furniture, the
-/// finer one is then within 0.012 rms of what much finer lattices give.
+/// Weights of two lattices that differ by at most this rms are trusted. Measured on figures and
+/// furniture: the finer one is then within 0.012 rms of the weights of much finer lattices.
 constexpr double largest_rms = 0.016;
-/// Tets of the first lattice; the second has 3/2 of its resolution and about three times as many.
+/// Number of tets of the first lattice. The second has 3/2 of its resolution and about three times
+/// as many tets.
 constexpr Index first_tets = 4500;
-/// The third one has 5/4 to 3/2 of the second one's resolution: about this many tets if possible.
+/// Desired number of tets of the third lattice, which has 5/4 to 3/2 of the second one's
+/// resolution.
 constexpr double third_tets = 36000.0;
-/// Tets of a lattice that is not compared with another one.
+/// Number of tets of a lattice that is not compared with another one.
 constexpr Index unguarded_tets = 12000;
 constexpr int most_lattices = 3;
-/// Where the work on each lattice ends, as a fraction of all: a lattice takes about four times as
-/// long as the one before. Measured on furniture with 8 points and with 14 to 38 bones.
+/// Progress at the end of each lattice, as a fraction of all work. A lattice takes about four times
+/// as long as the one before. Measured on furniture with 8 points and with 14 to 38 bones.
 constexpr double lattice_ends[most_lattices] = { 0.06, 0.22, 1.0 };
-/// Where the tets are made, and where the weights are solved for, as a fraction of one domain's
-/// work.
+/// Progress at the end of meshing and at the end of solving, as fractions of one domain's work.
 constexpr double filled = 0.2;
 constexpr double transferring = 0.97;
-/// A third lattice that would take longer is not solved: predicted seconds on one thread.
+/// A third lattice with a longer predicted time, in seconds on one thread, is not solved.
 constexpr double most_seconds = 20.0;
 
-/// One lattice that holds the surface, and its solution.
+/// One lattice that contains the surface, and its solution.
 struct Lattice
 {
-  SurfaceWeights result; ///< weights as interpolated
+  SurfaceWeights result; ///< weights are interpolated, not smoothed
   Status status;
   Index resolution = 0;
   EmbeddingTets tets;
@@ -61,10 +62,11 @@ struct Lattice
 
 using LatticePtr = std::unique_ptr<Lattice>;
 
-/// Tets and vertices grow with this power of the resolution, between 2 (sheets) and 3 (solids).
+/// The numbers of tets and vertices are proportional to the resolution to this power, between 2
+/// (sheets) and 3 (solids).
 constexpr double power_of_tets = 2.5;
 
-/// By how much the third lattice's resolution is higher than the second one's.
+/// Return the ratio of the third lattice's resolution to the second one's.
 double growth_to_third(const Lattice& second)
 {
   const double tets = second.status.report.number("counts.tets", third_tets);
@@ -104,15 +106,15 @@ private:
   Status finish(Lattice& lattice, SurfaceWeights& result);
   Status fill(TetrahedralizeResult& tets);
   Status refuse_single_points(const char* domain) const;
-  /// Adds what a step said to what came before it. @return the step's status with all of it.
+  /// Return the status of `step` with the warnings and the report of `before` added.
   Status joined(Status before, Status step) const;
-  /// From weights at the domain's vertices to weights at the surface's points.
+  /// Transfers weights from the domain's vertices to the surface's points.
   using Carry = std::function<Status(const Weights& solved, Weights& at_points)>;
   Status solve(const Domain& domain, const std::vector<Index>& region_ids, const WeightTerms& terms,
     const HandleInsertionOptions& insertion, const Carry& carry, const Carry& carry_preview,
     SurfaceWeights& result);
   Status carry_weights(const Carry& carry, SurfaceWeights& result) const;
-  /// What is asked of the surface's vertices for a mesh of its inside.
+  /// Carry the terms from the surface's vertices to a mesh of its inside.
   Status carry_terms_to(const Points& points, const std::vector<Index>& original,
     WeightTerms& terms, Status& status) const;
 
@@ -124,14 +126,15 @@ private:
   const WeightsOptions& weights_options_;
   const WeightsMethod& method_;
   ExecutionContext& context_;
-  Weights preview_; ///< once it is made
-  std::unique_ptr<PreparedSurface> prepared_; ///< once it is made; serves all tets and lattices
-  std::unique_ptr<SimplexLocator> surface_; ///< the same
-  std::vector<PartLink> links_; ///< hold the parts without a handle; each lattice adds its own
+  Weights preview_; ///< empty until the preview is computed
+  /// Null until prepared; used for all tets and lattices.
+  std::unique_ptr<PreparedSurface> prepared_;
+  std::unique_ptr<SimplexLocator> surface_; ///< null until needed; used for all lattices
+  std::vector<PartLink> links_; ///< links of parts without a handle; each lattice adds its own
   Index linked_parts_ = 0;
 };
 
-/// Rows divided by their sums; rows of nothing stay.
+/// Divide rows by their sums. Rows with a sum of zero do not change.
 void normalise(Weights& weights)
 {
   for (Index i = 0; i < weights.rows(); ++i)
@@ -144,7 +147,7 @@ void normalise(Weights& weights)
   }
 }
 
-/// Reports NAME.rms_difference, which is also returned, and NAME.max_difference.
+/// Report NAME.rms_difference and NAME.max_difference. Return the rms difference.
 double report_difference(
   const Weights& a, const Weights& b, const std::string& name, Report& report)
 {
@@ -164,7 +167,7 @@ Status Solver::joined(Status before, Status step) const
   return step;
 }
 
-/// Reports of weights have a method of their own.
+/// Rename the tets' report key "method", because the weights report a method, too.
 void rename_tet_method(Report& report)
 {
   if (report.find("method"))
@@ -190,7 +193,7 @@ Status Solver::prepare()
   return status;
 }
 
-/// Tets of the inside, fine enough for smooth weights.
+/// Fill the inside with tets that are fine enough for smooth weights.
 Status Solver::fill(TetrahedralizeResult& tets)
 {
   const Phase phase(this->context_, "tetrahedralize", 0.0, filled);
@@ -215,7 +218,7 @@ Status Solver::fill(TetrahedralizeResult& tets)
   return status;
 }
 
-/// What is asked of single points can only be kept where they are vertices.
+/// Return an error if a term applies to individual points, which are not vertices of this domain.
 Status Solver::refuse_single_points(const char* domain) const
 {
   return asks_of_vertices(this->weights_options_.terms)
@@ -295,13 +298,14 @@ Status Solver::solve(const Domain& domain, const std::vector<Index>& region_ids,
   {
     report_difference(this->preview_, result.weights, "preview", status.report);
   }
-  // How the solve ended is what counts.
+  // The transfer adds to report and warnings, but the status code is that of the solve.
   status.report.merge(carried.report);
   status.warnings.insert(status.warnings.end(), carried.warnings.begin(), carried.warnings.end());
   return status;
 }
 
-/// Weights at the surface's points, and raw ones if wanted, from those at the domain's vertices.
+/// Transfer the weights, and the raw weights if requested, from the domain's vertices to the
+/// surface's points.
 Status Solver::carry_weights(const Carry& carry, SurfaceWeights& result) const
 {
   const Index m = result.solved.weights.cols();
@@ -320,7 +324,7 @@ Status Solver::carry_weights(const Carry& carry, SurfaceWeights& result) const
     result.weights = std::move(at_points);
     if (result.domain == WeightsDomain::embedding)
     {
-      normalise(result.weights); // clamped and smoothed
+      normalise(result.weights); // clamping and smoothing have changed the sums
     }
   }
   return carried;
@@ -347,7 +351,7 @@ Status Solver::in_volume(SurfaceWeights& result)
   return status.usable() ? this->solve_volume(std::move(status), result) : status;
 }
 
-/// @param filled how the tets were made.
+/// @param filled status of the step that made the tets.
 Status Solver::solve_volume(Status filled, SurfaceWeights& result)
 {
   std::vector<Index> labels;
@@ -431,8 +435,8 @@ Status Solver::in_cage(SurfaceWeights& result)
     status, this->solve(domain, {}, terms, this->weights_options_.insertion, carry, carry, result));
 }
 
-/// Solves on one lattice.
-/// @param resolution 0: as many cubes as give about that many tets.
+/// Solve on one lattice.
+/// @param resolution 0: chosen to give about `tets` tets.
 LatticePtr Solver::embed(Index resolution, Index tets)
 {
   auto lattice = std::make_unique<Lattice>();
@@ -450,8 +454,8 @@ LatticePtr Solver::embed(Index resolution, Index tets)
   return lattice;
 }
 
-/// Makes a lattice in which every part of the surface has a handle or is held by others. Links that
-/// a lattice adds serve all later ones.
+/// Make a lattice in which every part of the surface has a handle or is linked to other parts.
+/// Links that a lattice adds are used for all later lattices.
 Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
 {
   const Phase phase(this->context_, "tetrahedralize", 0.0, filled);
@@ -464,8 +468,8 @@ Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
   {
     return prepared;
   }
-  // A finer lattice may separate what was one part on a coarser one. Real models took three rounds
-  // at most; parts that are left after the last one follow the nearest handle.
+  // A finer lattice may separate parts that were connected on a coarser one. Real models took at
+  // most three rounds. Parts that remain after the last round follow the nearest handle.
   constexpr int most_rounds = 4;
   const ProgressRange range(this->context_, 0.3, 1.0);
   Status status;
@@ -511,7 +515,7 @@ Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
   return status;
 }
 
-/// Makes what carries weights from the lattice to the surface.
+/// Make the object that transfers weights from the lattice to the surface.
 void Solver::put_surface_in(Lattice& lattice)
 {
   if (!this->surface_)
@@ -530,7 +534,7 @@ HandleInsertionOptions Solver::insertion_in(const Lattice& lattice) const
   return insertion;
 }
 
-/// @param filled how the lattice was made.
+/// @param filled status of the step that made the lattice.
 Status Solver::solve_on(Lattice& lattice, Status filled)
 {
   SurfaceWeights& result = lattice.result;
@@ -577,8 +581,8 @@ Status Solver::in_embedding(SurfaceWeights& result)
   return best->status.usable() ? this->finish(*best, result) : best->status;
 }
 
-/// Share of the seconds for which weights are carried to the surface smoothly: half of them on a
-/// dense surface. Measured on one and four million triangles.
+/// Return the fraction of the time that the smoothed transfer to the surface takes: half on a dense
+/// surface. Measured on one and four million triangles.
 double Solver::share_of_transfer() const
 {
   // Seconds, on two threads.
@@ -592,13 +596,14 @@ double Solver::share_of_transfer() const
   return transfer / (transfer + lattices_per_point * points + lattices);
 }
 
-/// The guard: solves on lattices of growing resolution until two agree.
-/// @return the finest that converged, or the finest that has a result; else one that says why.
+/// Solve on lattices of growing resolution until two agree (the guard).
+/// @return the finest lattice that converged; else the finest that has a result; else one whose
+/// status has the reason.
 LatticePtr Solver::best_lattice()
 {
   const Index asked = this->options_.resolution;
   bool trusted = false;
-  // Takes the finer lattice as the best unless only the coarser one converged.
+  // Keep the finer lattice unless only the coarser one converged.
   const auto compare = [&](LatticePtr& best, LatticePtr finer)
   {
     if (best->status.usable() && finer->status.usable())
@@ -627,7 +632,7 @@ LatticePtr Solver::best_lattice()
   {
     return best;
   }
-  Index resolution = best->resolution; // of the last one, which may not have converged
+  Index resolution = best->resolution; // of the last lattice, which may not have converged
   for (int level = 1; level < most_lattices && !trusted; ++level)
   {
     const double growth = level == 1 ? 1.5 : growth_to_third(*best);
@@ -651,7 +656,7 @@ LatticePtr Solver::best_lattice()
     compare(best, std::move(finer));
     if (!has_lattice)
     {
-      break; // too fine to be made
+      break; // the lattice is too fine to be made
     }
   }
   Status& status = best->status;
@@ -670,7 +675,7 @@ LatticePtr Solver::best_lattice()
   return best;
 }
 
-/// Carries a lattice's weights to the surface once more, smoothed, and describes its tets.
+/// Transfer a lattice's weights to the surface again, now smoothed, and describe its tets.
 Status Solver::finish(Lattice& lattice, SurfaceWeights& result)
 {
   const Phase phase(this->context_, "transfer");
@@ -692,7 +697,7 @@ Status Solver::finish(Lattice& lattice, SurfaceWeights& result)
     return described;
   }
   rename_tet_method(described.report);
-  described.warnings.clear(); // the lattice's status has them
+  described.warnings.clear(); // the lattice's status contains them
   Status status = this->joined(std::move(described), std::move(lattice.status));
   if (this->preview_.size() > 0)
   {
@@ -702,14 +707,14 @@ Status Solver::finish(Lattice& lattice, SurfaceWeights& result)
   return status;
 }
 
-/// A status with the reason why its domain was chosen.
+/// Add the reason for the choice of the domain to a status.
 Status with_reason(Status status, const std::string& reason)
 {
   status.report.set("domain_reason", Report::Value(reason));
   return status;
 }
 
-/// Solves on the shape itself where it is flat, in the volume where that is predicted to be well
+/// Solve on the shape itself if it is flat, in the volume if that is predicted to be well
 /// conditioned and cheap, and in the embedding otherwise.
 Status Solver::automatic(SurfaceWeights& result)
 {
@@ -743,7 +748,7 @@ Status Solver::automatic(SurfaceWeights& result)
   return with_reason(this->in_embedding(result), reason);
 }
 
-/// Solves in the volume, or in the embedding where the tets turn out unsuitable.
+/// Solve in the volume, or in the embedding if the tets are unsuitable.
 Status Solver::automatic_volume(SurfaceWeights& result)
 {
   result.domain = WeightsDomain::volume;
@@ -767,8 +772,9 @@ Status Solver::automatic_volume(SurfaceWeights& result)
     : this->take_over(status, result);
 }
 
-/// Solves in the embedding after another domain has failed. One warning and the report say so.
-/// @param first how the other domain ended; its status is returned if the embedding fails, too.
+/// Solve in the embedding after another domain has failed. Add one warning and the reason to the
+/// report.
+/// @param first status of the other domain; it is returned if the embedding fails, too.
 Status Solver::take_over(const Status& first, SurfaceWeights& result)
 {
   if (first.code == StatusCode::cancelled)
@@ -838,7 +844,7 @@ Status surface_weights(PointsView points, TrianglesView triangles,
   {
     return Status::invalid_input("the embedding's resolution must lie between 6 and 1000");
   }
-  // Handles first: what is wrong with them costs no tets.
+  // Check the handles first, so that invalid handles are reported before any tets are made.
   Status valid = check_handles(handles);
   if (valid.ok())
   {

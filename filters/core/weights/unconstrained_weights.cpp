@@ -12,8 +12,8 @@ namespace bindpose
 
 namespace
 {
-/// Whether the fixed vertices of every connected part span space (the plane, for a flat part): only
-/// then a linear function is told by its values there.
+/// Report whether the fixed vertices of every connected part span space (or the plane, for a flat
+/// part). Otherwise their values do not determine a linear function.
 bool fixed_vertices_span(const WeightsProblem& problem)
 {
   const Components& components = problem.constraints.components;
@@ -60,8 +60,8 @@ bool fixed_vertices_span(const WeightsProblem& problem)
   return true;
 }
 
-/// (K - N)' M^-1 (K - N), where N takes what flows through the boundary: nothing is left of a
-/// linear function.
+/// Return (K - N)' M^-1 (K - N), where N is the flux through the boundary. This energy is zero for
+/// every linear function.
 SparseMatrix linear_subspace_energy(const WeightsProblem& problem, bool spanned)
 {
   const Domain& domain = problem.mesh.domain;

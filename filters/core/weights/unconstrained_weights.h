@@ -6,26 +6,27 @@
 namespace bindpose
 {
 
-/// Energies that are minimised with nothing but the values at the handles. The integers are those
-/// of vtkUnconstrainedWeights.
+/// Energies that are minimized with no constraint except the values at the handles. The integer
+/// values are those of vtkUnconstrainedWeights.
 enum class UnconstrainedMethod : int
 {
-  harmonic = 1, ///< int |grad w|^2: within [0, 1] where cotangents are positive, peaks at points
-  biharmonic = 2, ///< int (Laplacian w)^2: smooth, the same on any mesh, leaves [0, 1]
+  harmonic = 1, ///< int |grad w|^2: in [0, 1] if cotangents are positive; has peaks at points
+  biharmonic = 2, ///< int (Laplacian w)^2: smooth, independent of the mesh, leaves [0, 1]
   triharmonic = 3, ///< int |grad Laplacian w|^2: smoother, leaves [0, 1] further
-  /// |K w|^2 without masses (Botsch and Kobbelt 2004): depends on where the mesh is fine. To
-  /// compare.
+  /// Minimizes |K w|^2 without masses (Botsch and Kobbelt 2004): depends on the density of the
+  /// mesh. For comparison.
   graph_biharmonic = 4,
-  /// biharmonic, but for the boundary conditions: those that a linear function meets as well (Wang,
+  /// Like biharmonic, with boundary conditions that a linear function satisfies as well (Wang,
   /// Jacobson, Barbic, Kavan, Linear Subspace Design for Real-Time Shape Deformation, 2015). Point
-  /// handles then carry affine maps exactly: sum w_j p_j = p. Needs four points that are not in a
-  /// plane (three not in a line for flat shapes) to tell what is linear; with less, a millionth of
-  /// the biharmonic energy decides, with a warning. Made for points: bones, constant along
-  /// themselves, fit no linear function, and what it extrapolates beyond them overshoots far.
+  /// handles then reproduce affine maps exactly: sum w_j p_j = p. This requires four points that
+  /// are not in a plane (three not in a line for flat shapes). With fewer, a millionth of the
+  /// biharmonic energy is added, with a warning. The method is intended for points. Bones, along
+  /// which weights are constant, fit no linear function, and the extrapolation beyond them
+  /// overshoots far.
   linear_subspace = 5
 };
 
-/// "harmonic", "biharmonic", "triharmonic", "graph-biharmonic", "linear-subspace"
+/// Return "harmonic", "biharmonic", "triharmonic", "graph-biharmonic" or "linear-subspace".
 const char* to_string(UnconstrainedMethod method);
 
 struct UnconstrainedWeightsOptions : WeightsOptions
@@ -33,9 +34,9 @@ struct UnconstrainedWeightsOptions : WeightsOptions
   UnconstrainedMethod method = UnconstrainedMethod::biharmonic;
 };
 
-/// Weights without bounds: one factorisation, one solve a handle. Rows sum to one by themselves.
-/// The certificate: distance of the energy from its minimum, and the largest Newton step of one
-/// vertex, both relative.
+/// Compute weights without bounds: one factorization, one solve per handle. Rows sum to one without
+/// normalization. The certificate contains the distance of the energy from its minimum and the
+/// largest Newton step of one vertex, both relative.
 Status unconstrained_weights(const WeightsProblem& problem,
   const UnconstrainedWeightsOptions& options, ExecutionContext& context, WeightsResult& result);
 

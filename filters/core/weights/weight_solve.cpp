@@ -1,9 +1,9 @@
-// Columns are solved for group by group (column_groups.h); without mirrors there is one group.
+// Columns are solved group by group (column_groups.h); without mirrors there is one group.
 //
-// A limit on influences: the k largest of each normalised row are kept, the others become 0 and all
-// columns are solved for again, so that what is left is a minimiser among weights of that support.
-// The choice is greedy; a smaller k keeps a part of what a larger one keeps, so energies fall
-// with k.
+// A limit k on influences keeps the k largest weights of each normalized row. The others are fixed
+// at 0 and all columns are solved again, so that the result is a minimizer among weights with that
+// support. The choice is greedy. The support for a smaller k is a subset of the support for a
+// larger k, so the energy decreases with k.
 #include "weights/weight_solve.h"
 
 #include "weights/coupled_qp.h"
@@ -17,18 +17,18 @@ namespace bindpose
 
 namespace
 {
-/// One group's form and its solver, which several rounds use.
+/// The quadratic form of one group and its solver, which are used in several passes.
 struct GroupSolver
 {
-  SparseMatrix q; // kept where columns are coupled
+  SparseMatrix q; // kept only if columns are coupled
   std::unique_ptr<BoxQp> solver;
 };
 
-/// One round's columns.
+/// The columns of one pass.
 struct Round
 {
-  std::vector<BoxQpSolution> solutions; // one a handle, over vertices
-  Eigen::MatrixXd fallback; // minimisers without bounds
+  std::vector<BoxQpSolution> solutions; // one per handle, over vertices
+  Eigen::MatrixXd fallback; // minimizers without bounds
   double coupled_energy = 0.0;
 };
 
@@ -41,7 +41,7 @@ public:
   {
   }
 
-  /// Makes groups, with guides, and the solvers unless they are there.
+  /// Make the groups with their guides, and in the first pass also the solvers.
   Status prepare(const Exclusions& excluded)
   {
     const bool coupled = this->options_.partition == PartitionOfUnity::coupled;
@@ -86,7 +86,7 @@ public:
     return {};
   }
 
-  /// Solves for all columns, each alone.
+  /// Solve all columns separately.
   Status solve_alone(double begin, double end, Round& round)
   {
     const Phase phase(this->context_, "weights", begin, end);
@@ -117,7 +117,7 @@ public:
     return {};
   }
 
-  /// Solves for all columns together, from what each is alone.
+  /// Solve all columns together, starting from the separate solutions.
   Status solve_coupled(
     const Weights& normalised, double begin, double end, Round& round, Status& outcome)
   {
@@ -151,7 +151,7 @@ public:
     return {};
   }
 
-  /// Bytes of the whole process, of all groups.
+  /// Return the largest memory of the process in bytes, over all groups.
   double memory_estimate() const
   {
     double most = 0.0;
@@ -173,7 +173,7 @@ public:
   }
 
 private:
-  /// From unknowns to vertices and handles.
+  /// Copy solutions from unknowns to vertices and handles.
   void spread(const ColumnGroup& group, const std::vector<BoxQpSolution>& solved,
     const Eigen::MatrixXd* fallback, Round& round) const
   {
@@ -219,8 +219,9 @@ Weights normalised(const WeightsProblem& problem, const Round& round, const Excl
   return weights;
 }
 
-/// What to leave out so that each vertex has at most so many influences: the smallest weights.
-/// What a pin or a bound keeps above 0 comes first.
+/// Exclude the smallest weights, so that each vertex has at most `most` influences. Weights that a
+/// pin or a bound keeps above 0 are never excluded.
+/// @param capped the number of vertices that lose an influence.
 Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, int most,
   Exclusions& excluded, Index& capped)
 {
@@ -274,7 +275,8 @@ Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, i
   return {};
 }
 
-/// How far normalised weights lie outside of their bounds at most, at vertices solved for.
+/// Return the largest violation of the bounds by normalized weights, over vertices that are solved
+/// for.
 double normalised_violation(const WeightsProblem& problem, const Weights& weights)
 {
   const WeightTerms& terms = problem.terms;
@@ -294,7 +296,7 @@ double normalised_violation(const WeightsProblem& problem, const Weights& weight
   return worst;
 }
 
-/// Who mirrors whom, by name.
+/// Report the name of each handle's mirror image.
 void report_mirror(const WeightsProblem& problem, Status& status)
 {
   const std::vector<Index> partner =
@@ -312,7 +314,7 @@ void report_mirror(const WeightsProblem& problem, Status& status)
   }
 }
 
-/// Largest and root mean square difference over vertices that have weights.
+/// Report the largest and the root mean square difference, over vertices that have weights.
 void report_difference(const WeightsProblem& problem, const Weights& a, const Weights& b,
   const std::string& key, Report& report)
 {
@@ -344,13 +346,14 @@ Status solve_weights(const WeightsProblem& problem, int order, const std::string
   WeightSolver solver(problem, order, options, guide, context);
   Exclusions excluded;
   Round round;
-  Status outcome; // of the coupled program
+  Status outcome; // status of the coupled program
   Weights alone;
   Weights unlimited;
   Index capped = 0;
   for (int pass = 0; pass < (limited ? 2 : 1); ++pass)
   {
-    // Passes share the phases' part of the progress evenly, the coupled program takes most of one.
+    // The passes divide the progress evenly. Within a pass, the coupled program takes most of the
+    // time.
     const double length = 0.85 / (limited ? 2 : 1);
     const double begin = 0.1 + pass * length;
     const double middle = begin + (coupled ? 0.3 : 1.0) * length;

@@ -1,4 +1,4 @@
-// What is checked here needs the terms alone; what contradicts a handle or another term shows when
+// The checks here need only the terms. Contradictions with a handle or between terms are found when
 // the columns are made (column_groups.cpp).
 #include "weights/weight_terms.h"
 
@@ -96,7 +96,7 @@ Status check_mirror(const std::vector<Index>& mirror, Index vertex_count)
   return {};
 }
 
-/// Pairs of vertices that are each other's mirror images in the plane.
+/// Find the pairs of vertices that are each other's mirror images in the plane.
 std::vector<Index> mirror_of_plane(const Points& points, const Vec3& origin, const Vec3& normal)
 {
   const double diagonal = bounding_box(points).diagonal();
@@ -147,7 +147,8 @@ std::vector<Index> mirror_of_plane(const Points& points, const Vec3& origin, con
   return mirror;
 }
 
-/// An inserted vertex's mirror has the mirrors of its corners with the same shares.
+/// Append mirror entries for inserted vertices. Two inserted vertices are mirror vertices if their
+/// corners are, with the same barycentric coordinates.
 void extend_mirror(const HandleInsertion& mesh, std::vector<Index>& mirror)
 {
   constexpr double tolerance = 1e-9;
@@ -408,7 +409,7 @@ std::vector<Index> mirrored_handles(
   {
     row_of[constraints.vertices[i]] = static_cast<Index>(i);
   }
-  // Whether the mirror makes column b's given values of column a's, zeros left out.
+  // Report whether the mirror maps the nonzero given values of column a to those of column b.
   const auto image = [&](Index a, Index b)
   {
     bool any = false;

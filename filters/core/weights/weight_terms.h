@@ -8,68 +8,71 @@
 namespace bindpose
 {
 
-/// What a problem can ask of bounded and monotone weights besides smoothness. All are off when
-/// empty. Vertices are those of the mesh as it came; at a vertex that a handle's insertion adds,
-/// numbers are interpolated (NaN where a corner is NaN) and a label holds where all corners agree.
+/// Optional terms of bounded and monotone weights in addition to smoothness. An empty member is
+/// off. Vertices are those of the original mesh. At a vertex that handle insertion adds, numbers
+/// are interpolated (NaN if a corner is NaN), and a label applies if all corners have it.
 struct WeightTerms
 {
   /// Painted rigidity, #V, >= 0: adds 1/2 int rho |grad w|^2 to the energy 1/2 int (lap w)^2, so
-  /// that weights are nearly constant where it is large. rho = 1e4 / diagonal^2 times what is
-  /// painted (triharmonic energy: 1e8 / diagonal^4), mean of an element's corners: 1 stiffens
-  /// everything longer than a hundredth of the mesh's diagonal, whatever unit or resolution it has.
-  /// Gradients there fall with 1 / what is painted.
+  /// that weights are nearly constant where rho is large. rho = 1e4 / diagonal^2 times the painted
+  /// value, averaged over the corners of an element (triharmonic energy: 1e8 / diagonal^4). The
+  /// painted value 1 stiffens everything longer than a hundredth of the mesh's diagonal, for any
+  /// unit and resolution. Gradients decrease in proportion to 1 / painted value.
   Eigen::VectorXd rigidity;
-  /// Labels, #V: each column is constant on all vertices of one label > 0, exactly: they are one
-  /// unknown. A set with a vertex of a handle has that vertex's row. Parts of a mesh that a set
-  /// joins count as connected.
+  /// Labels, #V: each column is exactly constant on all vertices of one label > 0, because they are
+  /// one unknown. A set that contains a vertex of a handle has that vertex's row. Components that a
+  /// set joins count as connected.
   std::vector<Index> rigid_sets;
-  /// Least and largest weight of each vertex and handle, #V x #handles; NaN: that of the handle.
+  /// Smallest and largest weight per vertex and handle, #V x #handles; NaN: use the handle's bound.
   Eigen::MatrixXd lower;
   Eigen::MatrixXd upper;
-  /// Least and largest weight of each handle, #handles x 2; empty: 0 and 1. Handles themselves
-  /// have weights 0 and 1, so that these can only be wider than [0, 1].
+  /// Smallest and largest weight per handle, #handles x 2; empty: 0 and 1. Weights on handles are 0
+  /// and 1, so these bounds must contain [0, 1].
   Eigen::MatrixXd handle_bounds;
-  /// Weights that are given, #V x #handles; NaN: free.
+  /// Prescribed weights, #V x #handles; NaN: free.
   Eigen::MatrixXd pinned;
-  /// Mirror vertex of each vertex, #V, or -1: a mirror's mirror is the vertex itself.
+  /// Mirror vertex of each vertex, #V; -1: none. The relation is symmetric: mirror[mirror[v]] == v.
   std::vector<Index> mirror;
-  /// Instead of mirror: the normal of a plane through mirror_origin; zero: none. Vertices within
-  /// 1e-5 of the mesh's diagonal of each other's mirror images belong together.
+  /// Alternative to `mirror`: the normal of a plane through mirror_origin; zero: none. Two vertices
+  /// are mirror vertices if each is within 1e-5 of the mesh's diagonal of the other's mirror image.
   Vec3 mirror_normal = Vec3::Zero();
   Vec3 mirror_origin = Vec3::Zero();
 
   bool has_bounds() const;
-  /// Least and largest weight of a handle, and at a vertex.
+  /// Return the smallest and largest weight of a handle, in general or at a vertex.
   std::pair<double, double> bounds_of(Index handle) const;
   std::pair<double, double> bounds_of(Index handle, Index vertex) const;
   bool has_mirror() const { return !this->mirror.empty() || !this->mirror_normal.isZero(); }
-  /// Whether anything is on.
+  /// Report whether any term is on.
   bool any() const;
 };
 
-/// The factor of what is painted, see WeightTerms::rigidity, on a mesh of diagonal 1.
+/// Return the factor of painted rigidity (see WeightTerms::rigidity) on a mesh of diagonal 1.
 double rigidity_unit(int order);
 
-/// invalid_input, naming the vertex or the handle, where lengths do not fit or numbers make no
-/// sense: rigidity below 0, bounds that are no numbers or the wrong way round, a mirror that is no
-/// vertex or not mutual, pins of a vertex that sum to more than 1.
+/// Check the terms. Return invalid_input, naming the vertex or the handle, if
+/// - an array has the wrong length;
+/// - a rigidity is below 0;
+/// - bounds are infinite or in the wrong order;
+/// - a mirror entry is no vertex or not mutual;
+/// - the pins of a vertex sum to more than 1.
 Status check_terms(const WeightTerms& terms, Index vertex_count, const Handles& handles);
 
-/// The terms with values for inserted vertices and, where a plane is given, with its mirror.
+/// Return the terms with values for inserted vertices, and with the mirror vertices of a plane.
 WeightTerms extend_terms(const WeightTerms& terms, const HandleInsertion& mesh);
 
-/// Whether something is asked of single vertices that only they can keep: all but rigidity.
+/// Report whether a term applies to individual vertices, which the mesh must then contain.
 bool asks_of_vertices(const WeightTerms& terms);
 
-/// What is asked of a surface's vertices for a mesh that has some of them. Rigidity is that of the
-/// nearest place of the surface.
-/// @param original of every vertex of the mesh: the surface's, -1: none.
-/// @param lost vertices of the surface of which something is asked, but which the mesh has not.
+/// Transfer the terms from a surface to a mesh that contains some of its vertices. Rigidity is
+/// taken from the nearest point of the surface.
+/// @param original surface vertex of every vertex of the mesh; -1: none.
+/// @param lost number of surface vertices that have terms but are not in the mesh.
 Status carry_terms(const WeightTerms& terms, const Domain& surface, const Points& points,
   const std::vector<Index>& original, ExecutionContext& context, WeightTerms& carried, Index& lost);
 
-/// Of each handle the one that is its mirror image: the vertices that the mirror makes of its own
-/// are the other's. -1: there is none. A handle on the plane is its own image.
+/// Return for each handle its mirror image: the handle whose constrained vertices are the mirror
+/// vertices of the first handle's. -1: none. A handle on the plane is its own image.
 std::vector<Index> mirrored_handles(
   const WeightTerms& terms, const HandleConstraints& constraints, Index handle_count);
 

@@ -1,6 +1,6 @@
-// A blend is one product of matrices, block by block. Colours are decoded to amounts of light
-// before and encoded after; both curves keep 0 and 1 and their order, so whether a blend has left
-// the gamut is the same question before and after.
+// The blend is a product of matrices, computed block by block. Colors are decoded to amounts of
+// light before it and encoded after it. Both curves are monotone and keep 0 and 1, so a blend is
+// outside of the gamut after encoding if and only if it is before.
 #include "weights/weighted_colors.h"
 
 #include "base/parallel.h"
@@ -15,10 +15,10 @@ namespace bindpose
 namespace
 {
 constexpr Index block_size = 4096;
-/// Solvers leave weights that are off by 1e-9 or so; an eye sees 1 / 255.
+/// Solvers return weights with errors of about 1e-9; the eye can distinguish about 1 / 255.
 constexpr double gamut_tolerance = 1e-6;
 
-/// What one block of vertices has seen.
+/// Results of one block of vertices.
 struct Tally
 {
   Index out_of_gamut = 0;
@@ -57,7 +57,7 @@ Colors categorical_colors(Index count)
   Colors colors(count, 3);
   for (Index j = 0; j < count; ++j)
   {
-    // Each round goes half of the rest of the way to white.
+    // Each round moves half of the remaining way to white.
     const double full = std::ldexp(1.0, -static_cast<int>(std::min<Index>(j / 8, 30)));
     for (int k = 0; k < 3; ++k)
     {

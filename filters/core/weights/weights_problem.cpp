@@ -11,7 +11,7 @@ namespace bindpose
 
 namespace
 {
-/// Rows that are known beforehand.
+/// Collect the rows that are given.
 void collect_fixed(WeightsProblem& problem)
 {
   const HandleConstraints& constraints = problem.constraints;
@@ -44,7 +44,8 @@ void collect_fixed(WeightsProblem& problem)
   }
 }
 
-/// Of every element: the mean of what is painted on its corners, times its share of material.
+/// Return for every element the mean painted rigidity of its corners, times its fraction of
+/// material.
 Eigen::VectorXd element_rigidity(const Domain& domain, const Eigen::VectorXd& painted)
 {
   Eigen::VectorXd result(domain.element_count());
@@ -210,7 +211,7 @@ Index normalise_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallb
     }
     double wanted = 1.0;
     double sum = weights.row(v).sum();
-    Eigen::RowVectorXd scaled = Eigen::RowVectorXd::Ones(m); // 0: stays
+    Eigen::RowVectorXd scaled = Eigen::RowVectorXd::Ones(m); // 1: scaled, 0: unchanged
     for (Index j = 0; j < m && pinned.size() > 0 && role == VertexRole::solved; ++j)
     {
       if (!std::isnan(pinned(v, j)))

@@ -10,34 +10,35 @@
 namespace bindpose
 {
 
-/// How rows of bounded weights come to sum to one.
+/// How the rows of bounded weights are made to sum to one.
 enum class PartitionOfUnity
 {
-  normalise, ///< each column is solved for alone, rows are divided by their sums
-  coupled ///< all columns are solved for together, with that as a constraint (see CoupledQp)
+  normalise, ///< each column is solved separately; then rows are divided by their sums
+  coupled ///< all columns are solved together with this constraint (see solve_coupled_qp)
 };
 
-/// What all weights take. Lengths have no unit: a mesh in metres or millimetres gives the same.
+/// Options of all weight methods. Lengths have no unit: a mesh in meters or in millimeters gives
+/// the same weights.
 struct WeightsOptions
 {
   /// Largest relative gap and natural residual of a column (see Certificate), range (0, 1).
   /// 1e-6 by default, 1e-9 is tight.
   double tolerance = 1e-6;
-  /// Iterations a column, > 0: see BoxQpOptions.
+  /// Largest number of iterations per column, > 0: see BoxQpOptions.
   int maximum_iterations = 100;
-  /// Bounded weights alone.
+  /// How rows are made to sum to one, for bounded weights only.
   PartitionOfUnity partition = PartitionOfUnity::normalise;
-  /// Handles with a weight above 0 at a vertex, at most; 0: any number. The handles of the largest
-  /// weights are kept, then all columns are solved for again within what is left to them, of
-  /// bounded and monotone weights. Vertices on handles stay as they are.
+  /// Largest number of handles with a weight above 0 at a vertex; 0: no limit. The handles with the
+  /// largest weights are kept. Columns of bounded and monotone weights are then solved again, with
+  /// the other weights fixed at 0. Rows of vertices on handles do not change.
   int maximum_influences = 0;
-  WeightTerms terms; ///< of bounded and monotone weights; read when the problem is made
+  WeightTerms terms; ///< for bounded and monotone weights; read by make_weights_problem()
   HandleInsertionOptions insertion;
   SparseSolver::Options solver;
 };
 
-/// A mesh with its handles as vertices and what the energies are made of: the common start of all
-/// methods. Built once, it serves any number of them.
+/// A mesh with the handles inserted as vertices, and the matrices of its energies. It is the common
+/// input of all methods: built once, it can be solved any number of times.
 struct WeightsProblem
 {
   Handles handles;
@@ -46,31 +47,32 @@ struct WeightsProblem
   /// Cotangent stiffness and lumped mass of the mesh scaled to diagonal 1; the largest mass is 1.
   SparseMatrix stiffness;
   Eigen::VectorXd mass;
-  double diagonal = 1.0; ///< of the mesh, what was scaled to 1
-  double mass_unit = 1.0; ///< the largest mass of the scaled mesh
-  WeightTerms terms; ///< with values for inserted vertices and, of a plane, with its mirror
-  /// Stiffness with each element's painted rigidity as a factor; empty without any.
+  double diagonal = 1.0; ///< bounding-box diagonal of the mesh before scaling
+  double mass_unit = 1.0; ///< largest mass of the scaled mesh
+  /// Extended to inserted vertices; a mirror plane is replaced by its vertex pairs.
+  WeightTerms terms;
+  /// Stiffness weighted by each element's painted rigidity; empty without rigidity.
   SparseMatrix rigid_stiffness;
   VertexGraph graph;
-  /// All vertices whose rows are known beforehand (handles, tethered, followers, unreferenced) and
-  /// those rows, #fixed x #handles.
+  /// All vertices whose rows are given (handles, tethered, followers, unreferenced), and these
+  /// rows, #fixed x #handles.
   std::vector<Index> fixed;
   Eigen::MatrixXd fixed_values;
   Status status; ///< counts and warnings so far
 
   Index vertex_count() const { return this->mesh.domain.points.rows(); }
   Index handle_count() const { return static_cast<Index>(this->handles.size()); }
-  /// The form Q of the k-harmonic energy 1/2 w' Q w, with the painted rigidity.
+  /// Return the matrix Q of the k-harmonic energy 1/2 w' Q w, including the painted rigidity.
   SparseMatrix energy(int order) const;
 };
 
-/// Inserts the handles, finds constraints, assembles stiffness and mass. Phase "insert".
+/// Insert the handles, find the constraints, assemble stiffness and mass. Phase "insert".
 /// @param region_ids label of every vertex, or empty.
 Status make_weights_problem(const Domain& domain, const std::vector<Index>& region_ids,
   const Handles& handles, const WeightsOptions& options, ExecutionContext& context,
   WeightsProblem& problem);
 
-/// One column of the weights before normalisation, proved.
+/// One column of the weights before normalization, with its certificate.
 struct WeightsColumn
 {
   Certificate certificate;
@@ -78,32 +80,34 @@ struct WeightsColumn
   double maximum = 0.0;
   int iterations = 0;
   int factorisations = 0;
-  double zeros = 0.0; ///< share of the vertices where the raw column is exactly 0: its locality
-  double ones = 0.0; ///< where it is exactly 1
-  std::vector<Extremum> extrema; ///< interior ones of the raw column, persistence above 1e-3
-  Index normalised_interior_extrema = 0; ///< of the column that is handed on
+  /// Fraction of the vertices where the raw column is exactly 0; measures its locality.
+  double zeros = 0.0;
+  double ones = 0.0; ///< fraction where it is exactly 1
+  std::vector<Extremum> extrema; ///< of the raw column: interior ones with persistence above 1e-3
+  Index normalised_interior_extrema = 0; ///< of the column in WeightsResult::weights
 };
 
 struct WeightsResult
 {
   /// #V x #handles, rows sum to one (rows of unreferenced vertices are zero).
   Weights weights;
-  /// As solved for; what the certificates are about.
+  /// Weights before normalization; the certificates refer to them.
   Weights raw;
   std::vector<WeightsColumn> columns;
   double row_sum_error = 0.0; ///< max |1 - row sum| of the raw rows
-  Index analyses = 0; ///< symbolic analyses made
+  Index analyses = 0; ///< number of symbolic analyses
 };
 
-/// Divides rows by their sums. Pinned weights stay; the others of the row are what is scaled.
-/// @param fallback rows used where there is less than 1e-3 to scale (#V x #handles).
+/// Divide rows by their sums. Pinned weights do not change; only the other weights of the row are
+/// scaled.
+/// @param fallback rows used if the sum to scale is below 1e-3 (#V x #handles).
 /// @param excluded #V * #handles, row by row: weights that must stay 0; empty: none.
-/// @return how often the fallback was used.
+/// @return the number of rows taken from the fallback.
 Index normalise_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallback,
   const std::vector<char>& excluded, Weights& weights);
 
-/// Turns solved columns into weights: rows of followers, normalisation, extrema, report. The status
-/// is the problem's, not_converged when a column is not certified.
+/// Compute weights from solved columns: rows of followers, normalization, extrema, report. The
+/// status is that of the problem, or not_converged if a column is not certified.
 /// @param fallback, excluded see normalise_rows.
 Status finish_weights(const WeightsProblem& problem, const std::string& method, double tolerance,
   const std::vector<BoxQpSolution>& solutions, const Eigen::MatrixXd& fallback,

@@ -1,10 +1,11 @@
-// The edges whose directions do not cancel lead into every vertex as often as out of it, so walking
-// along them must come back: whenever a walk meets a vertex for the second time, the loop since
-// then is cut off and capped.
+// At every vertex as many open edges enter as leave, so a walk along open edges always returns. If
+// a walk reaches a vertex for the second time, the loop since the first visit is cut off and
+// capped.
 //
-// A loop is capped by halves: the chord between its ends and the vertex half way make a triangle,
-// and so on with both halves. Most triangles are then as small as the edges and hug the boundary,
-// which suits trees and cells better than a fan's many long ones.
+// A loop is capped by bisection: the chord between its ends and the vertex half way between them
+// form a triangle, and both halves are capped in the same way. Most triangles are then as small as
+// the edges and close to the boundary. Trees and cells handle them faster than the many long
+// triangles of a fan.
 #include "winding/boundary_caps.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ struct DirectedEdge
   Index from, to;
 };
 
-/// Triangles between the chord first-last and the vertices of the path between them.
+/// Add the triangles between the chord first-last and the vertices of the path between them.
 void cap_path(const std::vector<Index>& path, std::size_t first, std::size_t last,
   std::vector<std::array<Index, 3>>& caps)
 {
@@ -28,7 +29,7 @@ void cap_path(const std::vector<Index>& path, std::size_t first, std::size_t las
     return;
   }
   const std::size_t middle = first + (last - first) / 2;
-  // Backwards: what the surface runs along forwards, its cap must run along the other way.
+  // Reversed, because the cap must use each edge in the direction opposite to the surface.
   caps.push_back({ path[last], path[middle], path[first] });
   cap_path(path, first, middle, caps);
   cap_path(path, middle, last, caps);
@@ -48,9 +49,10 @@ Triangles boundary_caps(const std::vector<Edge>& edges)
   }
   std::stable_sort(open.begin(), open.end(),
     [](const DirectedEdge& x, const DirectedEdge& y) { return x.from < y.from; });
-  // Vertices by rank, so that what follows is as large as the boundary, not as the mesh.
+  // Vertices are numbered by rank, so that the arrays have the size of the boundary, not of the
+  // mesh.
   std::vector<Index> vertices;
-  std::vector<std::size_t> next; // of each vertex: its first edge not yet walked along
+  std::vector<std::size_t> next; // first unvisited edge of each vertex
   for (std::size_t i = 0; i < open.size(); ++i)
   {
     if (i == 0 || open[i].from != open[i - 1].from)
@@ -66,7 +68,7 @@ Triangles boundary_caps(const std::vector<Edge>& edges)
   };
   std::vector<std::array<Index, 3>> caps;
   constexpr std::size_t not_on_path = ~std::size_t{ 0 };
-  std::vector<std::size_t> place(vertices.size(), not_on_path); // on the path
+  std::vector<std::size_t> place(vertices.size(), not_on_path); // index on the path
   std::vector<Index> path;
   for (std::size_t start = 0; start < vertices.size(); ++start)
   {
@@ -80,7 +82,7 @@ Triangles boundary_caps(const std::vector<Edge>& edges)
       if (place[at] != not_on_path)
       {
         const std::size_t begin = place[at];
-        // A loop of n edges has n + 1 entries, the first again at the end.
+        // A loop of n edges has n + 1 entries; the last one repeats the first.
         cap_path(path, begin, path.size() - 2, caps);
         while (path.size() > begin + 1)
         {
@@ -106,7 +108,8 @@ Triangles boundary_caps(const std::vector<Edge>& edges)
 
 Triangles smaller_caps(const Points& points, const Triangles& triangles, const Triangles& caps)
 {
-  // A cap has the vertices of one part only, for a walk along the boundary cannot leave it.
+  // The vertices of a cap belong to one component, because a walk along the boundary cannot leave
+  // it.
   const Components parts = connected_components(points.rows(), triangles);
   const auto part_of = [&](const auto& triangle) { return parts.of_vertex[triangle[0]]; };
   const auto squared_length = [&](const auto& triangle)
@@ -119,7 +122,8 @@ Triangles smaller_caps(const Points& points, const Triangles& triangles, const T
     }
     return longest;
   };
-  std::vector<double> excess(static_cast<std::size_t>(parts.count), 0.0); // of the caps' sizes
+  // Size of the caps minus size of the component, for each component.
+  std::vector<double> excess(static_cast<std::size_t>(parts.count), 0.0);
   for (Index t = 0; t < caps.rows(); ++t)
   {
     excess[part_of(caps.row(t))] += squared_length(caps.row(t));

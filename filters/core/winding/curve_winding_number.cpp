@@ -1,20 +1,22 @@
-// Build: merge equal vertices and walk along the segments until each is used: first from vertices
-// that more segments leave than enter, then from all others. A walk that ends where it began is a
-// closed curve; any other is closed by a chord from its end to its start. So the segments become
-// loops, and there is one chord for each pair of open ends, no more than there must be.
+// The build merges equal vertices and walks along the segments until each one is used. Walks start
+// at vertices with more outgoing than incoming segments, then at all others. A walk that ends at
+// its start is a closed curve. Any other walk is closed by a chord from its end to its start. Thus
+// the segments become loops, with one chord per pair of open ends, the smallest possible number.
 //
-// The winding number is what the loops wind, a whole number, plus 1/(2 pi) times the angles under
-// which the chords are seen from start to end (the loops hold them the other way round).
+// The winding number of the curve is that of the loops, an integer, plus 1/(2 pi) times the angles
+// of the chords, seen from start to end. The loops contain the chords in the other direction.
 //
-// What a loop winds is the number of times it crosses the ray from the point towards -x, signed. A
-// vertex at the ray's height counts as above it, and whether a segment passes left of the point is
-// told by an exact predicate; so nothing is counted twice or missed. Crossings are counted in a
-// tree over the loop's pieces: with the point outside a piece's box, the piece crosses the ray as
-// often as the straight line between its ends does, for both together do not wind around the point.
-// Loops lie in a tree of boxes likewise; outside their box they wind 0 times.
+// The winding number of a loop is the signed number of times it crosses the ray from the point
+// towards -x. A vertex at the ray's height counts as above it, and an exact predicate decides
+// whether a segment passes left of the point. Therefore no crossing is missed or counted twice.
 //
-// A point that touches a segment gets the sum of angles instead, without what touches it, in the
-// same tree: a piece is seen under the angle of the line between its ends.
+// Crossings are counted in a tree over the pieces of the loop. If the point is outside a piece's
+// box, the piece crosses the ray as often as the straight line between its ends, because both
+// together do not wind around the point. The loops form a tree of boxes, too; outside its box a
+// loop has the winding number 0.
+//
+// If the point touches a segment, the angles of the other segments are summed instead, in the same
+// tree. Outside its box, a piece has the angle of the straight line between its ends.
 #include "winding/curve_winding_number.h"
 
 #include "base/exact.h"
@@ -34,21 +36,23 @@ namespace bindpose
 namespace
 {
 using Id = std::int32_t;
-/// Pieces of this many segments are not split further (measured: 4 … 12 hardly differ in speed).
+/// Pieces of at most this many segments are not split further (measured: 4 … 12 have nearly the
+/// same speed).
 constexpr Id most_in_leaf = 6;
 /// Beyond this distance, in units of the curve, the winding number is 0 in double precision.
 constexpr double far_away = 1e20;
 constexpr double pi = 3.14159265358979323846;
 constexpr double two_pi = 2.0 * pi;
 
-/// Vertices at the height of the ray count as above it.
+/// Report whether a vertex is above the ray from p. A vertex at the height of the ray counts as
+/// above.
 bool is_above(const Vec2& a, const Vec2& p)
 {
   return a.y() >= p.y();
 }
 
-/// How often a, b crosses the ray from p towards -x: +1 downwards, -1 upwards. When p lies on it,
-/// it does.
+/// Return how often the segment a, b crosses the ray from p towards -x: +1 downwards, -1 upwards. A
+/// segment through p crosses the ray.
 int crossing(const Vec2& a, const Vec2& b, const Vec2& p)
 {
   const int downwards = static_cast<int>(is_above(a, p)) - static_cast<int>(is_above(b, p));
@@ -64,8 +68,9 @@ int crossing(const Vec2& a, const Vec2& b, const Vec2& p)
   return side == 0 || side == downwards ? downwards : 0;
 }
 
-/// Signed angle from a to b seen from p, in [-pi, pi]; with p on the line between them as
-/// crossing() has it. Its sign is exact: a half turn would become its opposite.
+/// Return the signed angle from a to b seen from p, in [-pi, pi]. If p is on the line between them,
+/// its sign agrees with crossing(). The sign is exact, because the wrong sign of a half turn would
+/// change the sum by a full turn.
 double signed_angle(const Vec2& a, const Vec2& b, const Vec2& p)
 {
   const Vec2 u = a - p;
@@ -210,7 +215,8 @@ bool weld(PlanePointsView points, SegmentsView segments, const ExactFrame& frame
   return true;
 }
 
-/// Segments that join the same two vertices as another one before them, either way round.
+/// Count the segments that join the same two vertices as an earlier one, in either direction.
+/// Return false if canceled.
 bool count_duplicates(
   const std::vector<Segment>& segments, ExecutionContext& context, Index& duplicates)
 {
@@ -231,24 +237,24 @@ bool count_duplicates(
   return true;
 }
 
-/// What a vertex's segments say about it.
+/// Numbers of incoming and outgoing segments of a vertex.
 struct Degree
 {
   Id in = 0, out = 0;
 };
 
-/// One of the closed curves that the segments and the chords make.
+/// A closed curve of segments and at most one chord.
 struct Loop
 {
-  Id first, last; ///< places on the path; the same vertex
-  bool open; ///< the last segment is a chord
+  Id first, last; ///< indices on the path; both are the same vertex
+  bool open; ///< whether the last segment is a chord
 };
 
-/// Vertices along the loops, one loop after the other.
+/// Write the vertices along the loops to `path`, one loop after the other.
 void walk(const std::vector<Segment>& segments, const std::vector<Degree>& degrees,
   std::vector<Id>& path, std::vector<Loop>& loops)
 {
-  // The segments that leave each vertex, in their own order.
+  // The segments that leave each vertex, in their input order.
   std::vector<Id> next(degrees.size() + 1, 0);
   for (std::size_t v = 0; v < degrees.size(); ++v)
   {
@@ -296,7 +302,7 @@ void walk(const std::vector<Segment>& segments, const std::vector<Degree>& degre
   }
 }
 
-/// Open ends: a chord's start and end, and where the tree has it.
+/// A pair of open ends, joined by a chord, and the leaf that contains the chord.
 struct Chord
 {
   Vec2 start, end;
@@ -306,15 +312,15 @@ struct Chord
 /// A piece of a loop, a loop, or several loops.
 struct Node
 {
-  Vec2 lower, upper; ///< what touches lies inside
-  double first_y, last_y; ///< of a piece's ends; equal for loops
-  Id first, last; ///< places on the path of a piece's ends; equal for several loops
-  Id skip; ///< the node after this one's children
+  Vec2 lower, upper; ///< box with a margin: a point that touches the node is inside
+  double first_y, last_y; ///< y of a piece's ends; equal for loops
+  Id first, last; ///< indices on the path of a piece's ends; equal for several loops
+  Id skip; ///< index of the node after this node's descendants
   bool leaf;
-  bool ends_with_chord; ///< a leaf's last segment is one
+  bool ends_with_chord; ///< whether the last segment of a leaf is a chord
 };
 
-/// The tree in the order in which a descent from the left meets its nodes.
+/// Builds the tree. Nodes are stored in depth-first order, left child first.
 class TreeBuilder
 {
 public:
@@ -324,7 +330,8 @@ public:
   {
   }
 
-  /// @return false when cancelled.
+  /// Build the nodes and the chords.
+  /// @return false if canceled.
   bool run()
   {
     for (const Loop& loop : this->loops_)
@@ -350,7 +357,7 @@ public:
 private:
   bool stopped(Id size)
   {
-    constexpr Id large = 1 << 14; // a millisecond's work
+    constexpr Id large = 1 << 14; // takes about a millisecond
     this->stopped_ = this->stopped_ || (size >= large && this->context_.cancelled());
     return this->stopped_;
   }
@@ -434,7 +441,7 @@ private:
     this->nodes_[node].last_y = this->path_[last].y();
   }
 
-  /// Of a node whose children are there.
+  /// Complete a node after its children.
   void finish(std::size_t node)
   {
     if (this->stopped_)
@@ -460,7 +467,7 @@ private:
   bool stopped_ = false;
 };
 
-/// By the shoelace formula about each loop's first point.
+/// Return the area, by the shoelace formula about the first point of each loop.
 double area_of(const std::vector<Vec2>& path, const std::vector<Loop>& loops)
 {
   double two_areas = 0.0;
@@ -574,7 +581,7 @@ Status CurveWindingNumber::build(
     }
     report.set("area", area_of(parts.path, loops) / parts.frame.scale / parts.frame.scale);
     const ProgressRange range(context, 0.7, 1.0);
-    // Twice the tolerance: boxes are rounded.
+    // Twice the tolerance, because boxes are rounded.
     done = TreeBuilder(
       parts.path, loops, 2.0 * parts.frame.tolerance, context, parts.nodes, parts.chords)
              .run();
@@ -652,7 +659,7 @@ double CurveWindingNumber::Parts::at(const Vec2& query, bool& on_curve) const
   return static_cast<double>(whole) + angles / two_pi;
 }
 
-/// The angles of all segments that do not touch.
+/// Return the sum of the angles of all segments that do not touch the point, in full turns.
 double CurveWindingNumber::Parts::at_touching(const Vec2& p) const
 {
   const auto outside = [&](const Node& node)
@@ -684,7 +691,7 @@ double CurveWindingNumber::Parts::at_touching(const Vec2& p) const
     }
     ++n;
   }
-  // Chords in leaves that were looked into are not in the sum.
+  // The sum does not contain the chords of leaves whose segments were summed one by one.
   for (const Chord& chord : this->chords)
   {
     if (outside(this->nodes[chord.leaf]))
@@ -695,10 +702,10 @@ double CurveWindingNumber::Parts::at_touching(const Vec2& p) const
   return angles / two_pi;
 }
 
-/// The angle from s to t seen from p is, but for whole turns, the difference of arg(t - p) and
-/// arg(s - p). With (X, Y) = v - p, d arg(v - p) = (X dY - Y dX) / (X^2 + Y^2), and (dX, dY) = -dp:
-/// its derivative along p is (Y, -X) / (X^2 + Y^2). Only open ends have a share: those of the
-/// segments in between cancel.
+/// Up to full turns, the angle from s to t seen from p is arg(t - p) - arg(s - p). Let
+/// (X, Y) = v - p. Then d arg(v - p) = (X dY - Y dX) / (X^2 + Y^2) and (dX, dY) = -dp, so the
+/// derivative of arg(v - p) along p is (Y, -X) / (X^2 + Y^2). Only open ends contribute, because
+/// the contributions of all other vertices cancel.
 Vec2 CurveWindingNumber::Parts::gradient_at(const Vec2& query) const
 {
   if (!query.allFinite())

@@ -1,6 +1,6 @@
-// A point in the cells: its leaf's polynomial, and the triangles of the leaf's near list. A point
-// outside: multipoles of groups that are far enough, and the triangles of the others. How the cells
-// come about is told in dipole_field_build.cpp.
+// A point in the cells evaluates the polynomial of its leaf and the triangles of the leaf's near
+// list. A point outside sums the multipoles of groups that are far enough, and the triangles of the
+// other groups. dipole_field_build.cpp builds the cells.
 #include "winding/dipole_field.h"
 
 #include "winding/local_polynomial.h"
@@ -34,7 +34,7 @@ Index DipoleField::block_count() const
   return static_cast<Index>(this->ids_.size()) / triangle_lanes;
 }
 
-/// Sums exactly what the fast way hands on.
+/// Sums exactly the triangles that the fast formula rejects.
 class DipoleField::Careful : public CarefulSum
 {
 public:
@@ -142,7 +142,7 @@ DipoleField::Leaf DipoleField::leaf_at(const Vec3& point) const
     Place{ this->place(point[0], 0), this->place(point[1], 1), this->place(point[2], 2) });
 }
 
-/// What `use` makes of the numbers of a leaf's expansion, of whichever type they are.
+/// Return the result of `use` for the numbers of a leaf's expansion, floats or doubles.
 template <typename Use>
 auto DipoleField::with_numbers(Id leaf, const Use& use) const
 {
@@ -173,7 +173,8 @@ double DipoleField::evaluate(const Vec3& point, bool* on_surface) const
   return value;
 }
 
-/// What a point waits for is mostly memory: it is asked for before the points before need theirs.
+/// Most of the time is memory latency. Therefore the data of all points in a batch is prefetched
+/// before the first one uses it.
 void DipoleField::evaluate(const Vec3* points, Index count, double* out, bool* on_surface) const
 {
   constexpr Index at_once = 16;
@@ -340,7 +341,8 @@ void DipoleField::visit_outer(const Vec3& point, const See& see, const All& all)
 
 namespace
 {
-/// Irregular harmonics of one point, polar axis x, as two numbers each.
+/// Compute the irregular harmonics of one point with polar axis x, as pairs of real and imaginary
+/// parts.
 void irregular_at(int order, const Vec3& point, double* out)
 {
   const double inverse = 1.0 / point.squaredNorm();
@@ -368,7 +370,7 @@ void irregular_at(int order, const Vec3& point, double* out)
   }
 }
 
-/// Coefficient (n, m) for any sign of m.
+/// Compute the coefficient (n, m) for any sign of m.
 void coefficient(const double* all, int n, int m, double& re, double& im)
 {
   const double* at = all + 2 * harmonic_index(n, std::abs(m));
@@ -377,7 +379,8 @@ void coefficient(const double* all, int n, int m, double& re, double& im)
   im = m < 0 ? -sign * at[1] : at[1];
 }
 
-/// Derivative of the triangle's winding number at the origin: a line integral along its edges.
+/// Add the contribution of an edge to the derivative of a triangle's winding number at the origin.
+/// The derivative is a line integral along the edges of the triangle.
 void add_gradient_of_edge(const Vec3& a, const Vec3& b, double weight, Vec3& sum)
 {
   const double la = a.norm(), lb = b.norm();

@@ -1,17 +1,18 @@
 // Sources: the triangles are sorted into a binary tree whose leaves are blocks of up to eight. The
 // multipoles of a block are integrals over its triangles of the derivative of the regular harmonics
-// along the normal, polynomials, by a quadrature that is exact for them; those of a node are its
-// children's, moved.
+// along the normal. These integrands are polynomials, and the quadrature is exact for them. The
+// multipoles of a node are the shifted multipoles of its children.
 //
-// Cells: an octree over a cube around everything. From the top down, each cell goes through the
-// nodes that its parent could not settle. A node far enough away enters the cell's local expansion
-// (of harmonic polynomials), a large one is replaced by its children, what remains is left to the
-// cell's children. A cell is not split further when few blocks remain or when it is small against
-// them: these are its near list. Only leaves are kept.
+// Cells: an octree over a cube around the triangles and the region. From the top down, each cell
+// tests the nodes that its parent could not settle. A node far enough away is added to the local
+// expansion of the cell (harmonic polynomials). A large node is replaced by its children. The
+// remaining nodes are passed to the children of the cell. A cell is not split further if few blocks
+// remain or if it is small compared with them; these blocks are its near list. Only leaves are
+// stored.
 //
-// "Far enough": the terms left out are estimated by the powers of the node's multipoles (Dehnen
-// 2014, equation 15) and must stay below a threshold. Built, the field is compared with the plain
-// sum on a sample, most of it where the estimates say that the error is largest; where it is above
+// "Far enough": the omitted terms are estimated from the powers of the node's multipoles (Dehnen
+// 2014, equation 15) and must stay below a threshold. The finished field is compared with the plain
+// sum on a sample, up to half of it where the estimated errors are largest. If an error exceeds
 // half the tolerance, the cells are built again with a lower threshold.
 #include "winding/dipole_field.h"
 
@@ -30,7 +31,7 @@ namespace bindpose
 namespace
 {
 constexpr double four_pi = 12.566370614359172954;
-/// A near list of this many blocks is no reason to split a cell.
+/// A near list of at most this many blocks is no reason to split a cell.
 constexpr Index few_blocks = 2;
 struct Tuning
 {
@@ -38,38 +39,41 @@ struct Tuning
   int order;
   double finest_cell;
 };
-/// Measured. Up to order 7 a polynomial is as dear as one of order 7.
+/// Measured values. Up to order 7 every polynomial costs as much as one of order 7.
 constexpr Tuning tunings[] = { { 1e-2, 4, 0.8 }, { 2e-3, 6, 0.8 }, { 1e-3, 7, 0.8 },
   { 1e-4, 7, 0.8 }, { 1e-5, 9, 0.8 }, { 1e-6, 11, 0.8 }, { 0.0, 13, 1.0 } };
-/// Finer cells take 1.2 times less time and twice the memory: for fields of up to so many blocks
-/// they are this much finer.
+/// Cells that are finer by the factor `finer` take 1.2 times less time and twice the memory. They
+/// are used for fields of up to `small_field` blocks.
 constexpr Index small_field = 2048;
 constexpr double finer = 0.75;
-/// Threshold of an interaction, in tolerances: the estimates are upper ends, errors of many
-/// interactions hardly add up, and where they do the sample tells.
+/// Threshold for the error estimate of an interaction, in tolerances. The estimates are upper
+/// bounds and the errors of many interactions rarely add up. The sample detects the cases in which
+/// they do.
 constexpr double first_threshold = 1.2;
-/// Outside the cells, in thresholds: there are few interactions, and the estimate has no cell's
-/// radius in it that makes it larger than need be.
+/// Threshold outside the cells, relative to the current threshold. There are few interactions, and
+/// the estimate does not contain the radius of a cell, which makes other estimates too large.
 constexpr double outer_share = 0.2;
-/// Largest error on the sample, in tolerances: the rest is left to places that were not tried.
+/// Largest accepted error on the sample, in tolerances. The rest is a margin for points not in the
+/// sample.
 constexpr double wanted_error = 0.5;
-/// Measured nanoseconds: to sum a block, to make a cell, and to make it settle an inherited node
-/// (the last two for order 7; they grow with the cube of the order). Splitting halves the near
+/// Measured nanoseconds: to sum a block, to make a cell, and to test an inherited node in a cell.
+/// The last two are for order 7 and grow with the cube of the order. Splitting halves the near
 /// list.
 constexpr double block_cost = 10.0;
 constexpr double cell_cost = 2000.0;
 constexpr double node_cost = 150.0;
-/// Up to so many points all triangles are summed: about what the multipoles alone would cost.
+/// Up to this many points all triangles are summed; multipoles alone would cost about as much.
 constexpr Index few_points = 3000;
-/// Points per sample of the comparison with the plain sum, and the fewest samples.
+/// Expected points per sample of the comparison with the plain sum, and the fewest samples.
 constexpr Index points_per_sample = 512;
 constexpr Index fewest_samples = 48;
-/// From this tolerance on floats do, unless sums in floats err by more than this share of it: of a
-/// thousand triangles at one place.
+/// At or above this tolerance single precision is accurate enough, unless float sums have errors
+/// above the fraction `largest_float_error` of the tolerance. A thousand triangles at one position
+/// cause such errors.
 constexpr double float_tolerance = 9e-5;
 constexpr double largest_float_error = 0.1;
 
-/// Gauss-Legendre nodes and weights on [0, 1].
+/// Compute the Gauss-Legendre nodes and weights on [0, 1].
 void gauss_legendre(int count, std::vector<double>& nodes, std::vector<double>& weights)
 {
   nodes.resize(static_cast<std::size_t>(count));
@@ -100,7 +104,8 @@ void gauss_legendre(int count, std::vector<double>& nodes, std::vector<double>& 
   }
 }
 
-/// (n - m)! (n + m)! of the power of a multipole, m and -m together.
+/// Return (n - m)! (n + m)!, the weight of a coefficient in the power of a multipole. For m > 0 it
+/// is doubled to include -m.
 double power_weight(int n, int m)
 {
   return (m ? 2.0 : 1.0) * std::tgamma(n - m + 1.0) * std::tgamma(n + m + 1.0);
@@ -113,13 +118,14 @@ struct DipoleField::Build
   {
     Vec3 center = Vec3::Zero();
     double radius = 0.0;
-    Id first = 0, count = 0; ///< triangles in order while building, then blocks
+    Id first = 0, count = 0; ///< range of triangles in `order` while building, then of blocks
     Id left = -1, right = -1;
-    double block_radius = 0.0; ///< mean over its blocks
-    double share = 1.0; ///< of the error that a node may make
+    double block_radius = 0.0; ///< mean radius of its blocks
+    double share = 1.0; ///< fraction of the allowed error that the node may cause
     int height = 0;
   };
-  /// Sum of the estimates of a cell's interactions, and where those come from.
+  /// Sum of the error estimates of a cell's interactions (`size`), and the sum of the directions to
+  /// their nodes, weighted by the estimates (`pull`).
   struct Doubt
   {
     double size = 0.0;
@@ -129,24 +135,24 @@ struct DipoleField::Build
   {
     Doubt doubt;
     Vec3 center;
-    double half; ///< of its size
+    double half; ///< half of its size
   };
-  /// What one top cell gives.
+  /// The cells and leaves of one top cell.
   struct Subtree
   {
     std::vector<Id> cells{ 0 };
     std::vector<double> locals;
-    std::vector<Id> run_count; ///< of each leaf
+    std::vector<Id> run_count; ///< number of runs per leaf
     std::vector<BlockRun> runs;
     std::vector<DoubtfulLeaf> leaves;
   };
-  /// A cell's place among those of its level.
+  /// Coordinates of a cell among the cells of its level.
   struct CellPlace
   {
     int level;
     Id at[3];
   };
-  /// Room for one thread's work.
+  /// Working memory of one thread.
   struct Scratch
   {
     Harmonics at, in, out, children;
@@ -154,8 +160,8 @@ struct DipoleField::Build
     int batched = 0;
     Doubt doubt;
     std::vector<Id> stack;
-    std::vector<std::vector<Id>> lists; ///< a level's unsettled nodes
-    std::vector<std::vector<double>> locals; ///< a level's eight children
+    std::vector<std::vector<Id>> lists; ///< unsettled nodes, per level
+    std::vector<std::vector<double>> locals; ///< expansions of the eight children, per level
   };
 
   Build(DipoleField& owner, ExecutionContext& run, const Options& wanted)
@@ -205,20 +211,20 @@ struct DipoleField::Build
   ExecutionContext& context;
   const Options& options;
   double finest_cell = 1.0;
-  double threshold = 0.0; // of an interaction's estimate
-  Box region; // of the expected points
+  double threshold = 0.0; // for the estimate of an interaction
+  Box region; // region of the expected points
   double density = 0.0; // expected points per volume; 0: very many
   std::vector<std::array<Id, 3>> ids;
   std::vector<int> multiplicities_of;
-  std::vector<int> weights; // of the lanes of blocks
-  std::vector<Vec3> centers; // of triangles
+  std::vector<int> weights; // multiplicity of each lane of each block
+  std::vector<Vec3> centers; // centroids of the triangles
   std::vector<Id> order;
   std::vector<Node> nodes;
-  std::vector<double> moments; // real and imaginary of each (n, m), node after node
-  std::vector<double> bounds; // order + 2 numbers a node
+  std::vector<double> moments; // real and imaginary part of each (n, m), node after node
+  std::vector<double> bounds; // order + 2 numbers per node
   std::vector<double> nodes_of_quadrature, weights_of_quadrature;
-  std::vector<DoubtfulLeaf> doubtful; // leaves
-  double float_error = 0.0; // of sums in floats
+  std::vector<DoubtfulLeaf> doubtful; // leaves with their error estimates
+  double float_error = 0.0; // largest error of sums in floats
 };
 
 void DipoleField::Build::take(const Triangles& triangles, const std::vector<int>& multiplicities)
@@ -234,8 +240,9 @@ void DipoleField::Build::take(const Triangles& triangles, const std::vector<int>
   }
 }
 
-// A long sliver among short ones is near to everything along it. Its halves are not; together they
-// are the same triangle. Cut are the longest ones first, while that makes few more of them.
+// A long sliver among short triangles is near all cells along it. Its halves are near fewer cells,
+// and together they are the same triangle. The longest triangles are cut first, while this adds few
+// triangles.
 void DipoleField::Build::cut_long_triangles()
 {
   const std::size_t count = this->ids.size();
@@ -253,12 +260,12 @@ void DipoleField::Build::cut_long_triangles()
       { (c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm() }));
   }
   const double shortest_cut = 2.5 * std::sqrt(2.0 * area / static_cast<double>(count));
-  // Fewer pieces for fewer points.
+  // Make fewer pieces for fewer points.
   const std::size_t factor = this->options.expected_points == 0 ? 8
     : this->options.expected_points < 500000                    ? 2
                                                                 : 4;
   const std::size_t most = std::max(2 * count, std::min<std::size_t>(factor * count, 8192));
-  // A triangle of length x gives about x / limit pieces.
+  // A triangle of length x becomes about x / limit pieces.
   double limit = *std::max_element(longest.begin(), longest.end());
   const auto pieces = [&](double length)
   {
@@ -357,7 +364,8 @@ bool DipoleField::Build::sort_triangles()
           (a.center - node.center).norm() + a.radius, (b.center - node.center).norm() + b.radius));
     }
   }
-  // Parts as large as the whole see a point as the whole does: their errors add up to its.
+  // A child almost as large as its parent affects a point like the parent. The errors of such
+  // children add up to that of the parent, so they share its allowed error.
   for (const Node& node : this->nodes)
   {
     for (const Id id : { node.left, node.right })
@@ -373,7 +381,7 @@ bool DipoleField::Build::sort_triangles()
   return true;
 }
 
-// Where to cut is where the groups are small: the sum over both sides of (blocks x squared size).
+// Split where the groups become small: minimize the sum over both sides of (blocks x squared size).
 std::int32_t DipoleField::Build::split(Id first, Id count)
 {
   Box box, box_of_centers;
@@ -402,7 +410,8 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
       radius2 = std::max(radius2, (corner - node.center).squaredNorm());
     }
   }
-  // Who touches a triangle is not far from it.
+  // The radius includes the tolerance, so that a point that touches a triangle is never far from
+  // it.
   node.radius = std::sqrt(radius2) + 2.0 * this->field.touch_tolerance_;
   this->nodes.push_back(node);
   int axis = 0;
@@ -497,7 +506,7 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
       }
     }
     cut = cut ? cut : count / 2;
-    // Whole blocks to the left where that moves few triangles.
+    // Put whole blocks on the left if this moves few triangles.
     const Id whole = cut / triangle_lanes * triangle_lanes;
     cut = whole > 0 && count > 512 ? whole : cut;
     std::nth_element(begin, begin + cut, begin + count, before);
@@ -520,7 +529,7 @@ void DipoleField::Build::fill_blocks(std::vector<TriangleBlock<Real>>& blocks)
       continue;
     }
     TriangleBlock<Real>& block = blocks[node.first];
-    // Not below what cubes of lengths in floats can hold.
+    // The limit keeps the cubes of scaled lengths within the range of floats.
     block.inverse_size = 1.0 / std::max(node.radius, 1e-6);
     for (int k = 0; k < 3; ++k)
     {
@@ -543,7 +552,7 @@ void DipoleField::Build::fill_blocks(std::vector<TriangleBlock<Real>>& blocks)
 
 void DipoleField::Build::block_multipole(const Node& node, Scratch& scratch, double* out) const
 {
-  const int degree = this->field.order_; // of the integrands
+  const int degree = this->field.order_; // degree of the integrands
   HarmonicLanes corner[3][3], normal[3], at[3];
   for (int i = 0; i < harmonic_lanes; ++i)
   {
@@ -610,7 +619,7 @@ bool DipoleField::Build::find_multipoles()
   this->moments.assign(this->nodes.size() * static_cast<std::size_t>(stride), 0.0);
   gauss_legendre(
     (this->field.order_ + 3) / 2, this->nodes_of_quadrature, this->weights_of_quadrature);
-  // Nodes by height, so that children are done before their parents.
+  // Sort nodes by height, so that children are processed before their parents.
   int height = 0;
   for (const Node& node : this->nodes)
   {
@@ -637,7 +646,7 @@ bool DipoleField::Build::find_multipoles()
   }
   for (int h = 1; h <= height; ++h)
   {
-    // Four parents, eight children at a time.
+    // Process four parents with their eight children in parallel.
     const std::vector<Id>& level = levels[h];
     if (!parallel_for(this->context, static_cast<Index>(level.size()), 128,
           [&](Index begin, Index end)
@@ -686,9 +695,10 @@ bool DipoleField::Build::find_multipoles()
   return true;
 }
 
-// Of the first total degree left out, N = order + 2: binomial(N, n) x power of degree n, for
-// n = 1 … N. The last power is not known; it is about the one before times the node's
-// radius, or the one before that (of a symmetric group every other power is 0).
+// Bounds for the first omitted total degree, N = order + 2: binomial(N, n) x power of degree n, for
+// n = 1 … N. The power of degree N is unknown. It is estimated from the two powers before it: the
+// larger one of the last power times the node's radius and the one before times the squared radius
+// (in a symmetric group every other power is 0).
 void DipoleField::Build::find_bounds()
 {
   const int top = this->field.order_ + 2;
@@ -732,7 +742,8 @@ void DipoleField::Build::find_bounds()
   }
 }
 
-/// Estimate, in shares, for a cell of that radius whose centre has that distance from the node's.
+/// Return the error estimate divided by the node's share, for a cell of radius `radius` whose
+/// center has the distance `distance` from the node's center.
 double DipoleField::Build::error(Id node, double distance, double radius) const
 {
   const int top = this->field.order_ + 2;
@@ -745,7 +756,7 @@ double DipoleField::Build::error(Id node, double distance, double radius) const
     sum = sum * radius + bound[n];
     power *= inverse;
   }
-  // The degrees after the first one, as a geometric series.
+  // The higher degrees are included as a geometric series.
   const Node& of = this->nodes[node];
   return sum * power / ((1.0 - (radius + of.radius) * inverse) * of.share);
 }
@@ -776,7 +787,7 @@ void DipoleField::Build::place_cells()
   {
     const int level = expected < 2e4 ? 0 : expected < 2e5 ? 1 : 2;
     this->field.top_level_ = std::min(this->field.top_level_, level);
-    // A flat region has points all over its cells.
+    // A flat region gets a thickness, because its points can be anywhere in its cells.
     this->region = box;
     for (int k = 0; k < 3; ++k)
     {
@@ -789,7 +800,7 @@ void DipoleField::Build::place_cells()
   }
 }
 
-/// One cell that knows all triangles.
+/// Make one cell whose near list contains all triangles.
 void DipoleField::Build::sum_all()
 {
   DipoleField& f = this->field;
@@ -808,8 +819,8 @@ void DipoleField::Build::sum_all()
   f.outer_moments_.assign(static_cast<std::size_t>(this->count_of_moments()), 0.0);
 }
 
-/// Whether splitting a cell, with so many blocks in so many near nodes, saves its points more time
-/// than it takes.
+/// Report whether splitting a cell saves its points more time than it takes. The cell has `blocks`
+/// blocks in `near` near nodes.
 bool DipoleField::Build::pays_to_split(
   const Vec3& center, double size, double blocks, std::size_t near) const
 {
@@ -830,7 +841,8 @@ bool DipoleField::Build::pays_to_split(
   return 0.5 * block_cost * blocks * volume * this->density > 8.0 * child;
 }
 
-// Nodes as points outside the cells may need them: none below one that is always far enough.
+// Store the nodes for points outside the cells. Descendants of a node that is always far enough are
+// omitted.
 void DipoleField::Build::find_outer()
 {
   this->field.outer_.clear();
@@ -855,7 +867,7 @@ void DipoleField::Build::add_outer(Id id)
   this->field.outer_.push_back(outer);
   const double* moment = &this->moments[std::size_t(id) * stride];
   this->field.outer_moments_.insert(this->field.outer_moments_.end(), moment, moment + stride);
-  // How near such a point can come.
+  // The smallest distance to a point outside the cells.
   const Vec3 inside = node.center - this->field.lower_;
   const double distance =
     std::min(inside.minCoeff(), this->field.size_ - inside.maxCoeff()) * (1.0 - 1e-9);
@@ -870,7 +882,7 @@ void DipoleField::Build::add_outer(Id id)
   this->field.outer_[place].skip = static_cast<Id>(this->field.outer_.size());
 }
 
-/// True when the node is settled: entered into the cell's expansion, or replaced by its children.
+/// Add the node to the cell's expansion if it is far enough away. Return whether it was added.
 bool DipoleField::Build::settle(Id id, const Vec3& center, double radius, Scratch& scratch) const
 {
   const Node& node = this->nodes[id];
@@ -1157,14 +1169,15 @@ bool DipoleField::Build::fill_cells()
     tree = Subtree();
   }
   f.first_run_.push_back(run);
-  // The last row is read beyond its end.
+  // Padding, because the last row is read beyond its end.
   f.fine_ ? f.double_locals_.resize(coefficients + polynomial_lanes)
           : f.float_locals_.resize(coefficients + polynomial_lanes);
   return true;
 }
 
-/// Largest error on points near triangles, all over the cells, around them, and where it must be
-/// feared: an expansion errs most at that corner of its cell which is next to what it holds.
+/// Return the largest error on a sample: points near triangles, in the cells, around them, and
+/// where the estimated errors are largest. The error of an expansion is largest at the corner of
+/// the cell that is nearest to the nodes of the expansion.
 double DipoleField::Build::measure()
 {
   DipoleField& f = this->field;
@@ -1191,7 +1204,8 @@ double DipoleField::Build::measure()
     {
       for (Index i = begin; i < end; ++i)
       {
-        // Low-discrepancy numbers: multiples of the powers of a root of x^4 = x + 1.
+        // Low-discrepancy numbers: multiples of the powers of 1 / x, where x is the positive root
+        // of x^4 = x + 1.
         const double n = static_cast<double>(i) + 0.5;
         Vec3 u(n * 0.8191725133961645, n * 0.6710436067037893, n * 0.5497004779019703);
         u = u.unaryExpr([](double x) { return x - std::floor(x); });
@@ -1206,7 +1220,7 @@ double DipoleField::Build::measure()
         }
         else if (i % 2)
         {
-          const double beyond = i % 4 == 1 ? 0.5 : 0.01; // on each side
+          const double beyond = i % 4 == 1 ? 0.5 : 0.01; // margin on each side, in sizes
           at = f.lower_ + f.size_ * ((1.0 + 2.0 * beyond) * u - Vec3::Constant(beyond));
         }
         else

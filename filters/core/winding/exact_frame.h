@@ -9,23 +9,25 @@
 namespace bindpose
 {
 
-/// What makes the coordinates of a box's content small without rounding: x -> (x - shift) * scale.
+/// Transform x -> (x - shift) * scale that makes the coordinates in a box small without rounding.
 ///
-/// Shifted by the box's centre along each axis only where the box lies far from 0 compared with its
-/// size (there the subtraction is exact: Sterbenz), and scaled by a power of two. So what is given
-/// is looked at as it is, of size about 1 and near the origin, whatever its units and place.
+/// Along each axis, the shift is the center of the box if the box is far from 0 compared with its
+/// size, otherwise 0. In both cases the subtraction is exact (Sterbenz). The scale is a power of
+/// two. Transformed coordinates have a size of about 1 and are near the origin for every unit and
+/// position of the input.
 struct ExactFrame
 {
   Vec3 shift = Vec3::Zero();
   double scale = 1.0;
-  /// What lies within this distance touches: a few units in the last place of the largest
+  /// Objects within this distance touch. It is a few units in the last place of the largest
   /// coordinate (2^-49 of it), after scaling.
   double tolerance = 0.0;
 
   ExactFrame() = default;
   explicit ExactFrame(const Box& box)
   {
-    // Halves before differences: these would overflow in a box as large as doubles are.
+    // Halve before subtracting: the difference would overflow for a box as large as the range of
+    // doubles.
     const Vec3 half = 0.5 * box.upper - 0.5 * box.lower;
     const Vec3 center = box.lower + half;
     for (int k = 0; k < 3; ++k)

@@ -1,5 +1,6 @@
-// Rows of coefficients times harmonics in the plane x = 0, eight lanes of the polynomial at a time:
-// what a row lacks of eight is read beyond its end and not added.
+// Rows of coefficients are multiplied by harmonics in the plane x = 0, for eight lanes of the
+// polynomial in parallel. A row shorter than a multiple of eight is read beyond its end; the extra
+// products are not added.
 #include "winding/local_polynomial.h"
 
 #include "base/simd.h"
@@ -11,12 +12,12 @@ namespace
 {
 constexpr int largest_order = largest_polynomial_order;
 
-/// Constants of the harmonics in the plane of x = 0: harmonic (l + 2q, l) is
-/// plane[l][q] zeta^l |zeta|^2q; and 1 / j!.
+/// Constants of the harmonics in the plane x = 0: with zeta = y + iz, the harmonic (l + 2q, l) is
+/// plane[l][q] zeta^l |zeta|^2q. `factorial` contains 1 / j!.
 struct PlaneConstants
 {
   double plane[largest_order + 1][largest_order / 2 + 1];
-  double factorial[largest_order + 2]; ///< the last: of nothing
+  double factorial[largest_order + 2]; ///< the last entry is 0
 };
 constexpr PlaneConstants make_plane_constants()
 {
@@ -40,12 +41,12 @@ constexpr PlaneConstants make_plane_constants()
 }
 constexpr PlaneConstants plane_constants = make_plane_constants();
 
-/// Room for a polynomial of that order, and what is 0 in it.
+/// Number of coefficients of a polynomial of this order, padded with zeros to whole lanes.
 template <int Order>
 constexpr int room_of = (Order / polynomial_lanes + 1) * polynomial_lanes;
 
-/// Adds the terms (L + 2Q, L), (L + 2Q + 2, L) … to the polynomial; r + i sqrt(-1) is zeta^L
-/// rho^2Q.
+/// Add the terms (L + 2Q, L), (L + 2Q + 2, L) … to the polynomial. r and i are the real and
+/// imaginary parts of zeta^L rho^2Q.
 template <int Order, int L, int Q, typename Real>
 BINDPOSE_ALWAYS_INLINE void add_terms(const Real* row, Real r, Real i, Real rho2, Real* polynomial)
 {
@@ -66,7 +67,7 @@ BINDPOSE_ALWAYS_INLINE void add_terms(const Real* row, Real r, Real i, Real rho2
   }
 }
 
-/// Adds the rows L … Order; re + im sqrt(-1) is zeta^L.
+/// Add the rows L … Order. re and im are the real and imaginary parts of zeta^L.
 template <int Order, int L, typename Real>
 BINDPOSE_ALWAYS_INLINE void add_rows(
   const Real* row, Real re, Real im, Real y, Real z, Real* polynomial)
@@ -126,7 +127,7 @@ BINDPOSE_ALWAYS_INLINE void contract_any(
   }
 }
 
-/// In pairs, then pairs of pairs: a chain would be what a point waits for.
+/// Evaluated in pairs, then pairs of pairs, because a chain of operations would be the bottleneck.
 double eight_terms(const double* p, double x, double x2, double x4)
 {
   return ((p[0] + p[1] * x) + (p[2] + p[3] * x) * x2) +
@@ -145,7 +146,7 @@ std::array<double, 2> slopes(int order, const Real* numbers, const Vec3& local)
   for (int l = 0; l <= order; ++l)
   {
     const int size = order - l + 1;
-    double power = 1.0, slope = 0.0; // of rho2^q
+    double power = 1.0, slope = 0.0; // rho2^q and its derivative
     for (int q = 0; l + 2 * q <= order; ++q)
     {
       double real = 0.0, imaginary = 0.0;

@@ -1,6 +1,6 @@
-// A cell starts as the square around the disc and is cut by the bisector of each neighbour; then
-// the part of the polygon inside the disc is measured: triangles with the centre for what lies
-// inside, sectors for what lies outside.
+// A cell starts as the square around the disc and is cut by the bisector of each neighbor. Then the
+// area of the polygon's part inside the disc is computed, from triangles with the center where the
+// polygon is inside the disc and from sectors where it is outside.
 #include "winding/point_areas.h"
 
 #include "base/parallel.h"
@@ -20,7 +20,7 @@ double cross(const Vec2& a, const Vec2& b)
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Keeps the part of a convex polygon where x . towards <= limit.
+/// Keep the part of a convex polygon where x . towards <= limit.
 void cut(std::vector<Vec2>& polygon, const Vec2& towards, double limit, std::vector<Vec2>& room)
 {
   room.clear();
@@ -42,7 +42,7 @@ void cut(std::vector<Vec2>& polygon, const Vec2& towards, double limit, std::vec
   polygon.swap(room);
 }
 
-/// Signed area of the part of the triangle 0, a, b inside the disc of a radius about 0.
+/// Return the signed area of the part of the triangle 0, a, b inside the disc about 0.
 double triangle_in_disc(const Vec2& a, const Vec2& b, double radius)
 {
   const auto sector = [radius](const Vec2& from, const Vec2& to)
@@ -67,7 +67,7 @@ double triangle_in_disc(const Vec2& a, const Vec2& b, double radius)
     (leaves < 1.0 ? sector(out, b) : 0.0);
 }
 
-/// Room for one thread's work.
+/// Working memory of one thread.
 struct Scratch
 {
   std::vector<PointTree::Neighbor> neighbors;
@@ -134,7 +134,7 @@ bool estimate_point_areas(const Points& points, const Points& normals, const Poi
       Scratch scratch;
       for (Index i = begin; i < end; ++i)
       {
-        // One after the other in the tree: the same boxes again and again.
+        // Points are processed in tree order, so that consecutive searches visit the same boxes.
         const PointTree::Id point = tree.order()[i];
         tree.nearest(points, point, neighbors, scratch.neighbors);
         areas[point] = area_of(points, normals, point, tolerance, scratch);

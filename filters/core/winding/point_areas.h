@@ -6,20 +6,26 @@
 namespace bindpose
 {
 
-/// The area of the surface that each sample of it stands for (after Barill, Dickson, Schmidt,
-/// Levin, Jacobson 2018): its Voronoi cell in the tangent plane among its nearest neighbours.
+/// Estimate the surface area that each sample represents: the area of its Voronoi cell in the
+/// tangent plane, among its nearest neighbors (after Barill, Dickson, Schmidt, Levin, Jacobson
+/// 2018).
 ///
-/// Neighbours are laid into the plane at their own distance, in the direction of their projection;
-/// those whose normal faces away (the other side of a thin sheet) do not bound the cell. The cell
-/// is clipped to the disc of half the farthest neighbour's distance: what lies beyond could be
-/// nearer to a sample that was not looked at. Samples at one place share their cell.
+/// Neighbors are mapped into the plane at their own distance, in the direction of their projection.
+/// Neighbors with an opposite normal (the other side of a thin sheet) do not bound the cell. The
+/// cell is clipped to the disc of half the farthest neighbor's distance, because points beyond it
+/// could be nearer to a sample that was not considered. Samples at the same position share their
+/// cell.
 ///
-/// Measured on a sphere of 20,000 samples: evenly spread, the areas' sum is right to 1e-4 with 8
-/// neighbours or more; random samples lose 10 % of it with 8, 3.5 % with 12, 0.4 % with 20.
+/// Measured on a sphere of 20,000 samples: for evenly spread samples the sum of the areas is
+/// accurate to 1e-4 with 8 neighbors or more. For random samples it is too small by 10 % with 8
+/// neighbors, by 3.5 % with 12, and by 0.4 % with 20.
 ///
-/// #P x 3 points in their tree, #P x 3 normals of length 1 or 0 (area 0), how many neighbours (3 or
-/// more), and the distance within which points coincide. Cost: about 3 us a point with 12.
-/// @return false when cancelled.
+/// @param points #P x 3, sorted into `tree`
+/// @param normals #P x 3, of length 1, or of length 0 for an area of 0
+/// @param neighbors number of neighbors, at least 3
+/// @param tolerance distance within which points coincide
+/// @return false if canceled.
+/// Cost: about 3 us per point with 12 neighbors.
 bool estimate_point_areas(const Points& points, const Points& normals, const PointTree& tree,
   Index neighbors, double tolerance, ExecutionContext& context, Eigen::VectorXd& areas);
 

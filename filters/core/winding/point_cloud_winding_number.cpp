@@ -1,24 +1,24 @@
-// Each point is a dipole: its share at q is the derivative of the potential of a charge,
-// -m . grad (1 / |p - q|) with m = area n / (4 pi). Points are sorted into a tree, and each box of
-// it has multipoles about its centre, sums of the derivatives of the regular solid harmonics along
-// m. A point goes down the tree: boxes far enough away are seen as their multipoles, the points of
-// leaves that are not are summed one by one.
+// Each point is a dipole. Its contribution at q is the derivative of the potential of a charge,
+// -m . grad (1 / |p - q|) with m = area n / (4 pi). Points are sorted into a tree. Each box of the
+// tree has multipoles about its center: sums of the derivatives of the regular solid harmonics
+// along m. A query point descends the tree. Boxes that are far enough away are evaluated as
+// multipoles; the points of near leaves are summed one by one.
 //
-// "Far enough": the harmonics of degree n of a dipole m at y from the centre are at most
-// n |m| |y|^(n-1) / r^(n+1) at distance r (a zonal harmonic |y|^n P_n has no steeper slope than
-// n |y|^(n-1), by the inequality of Bernstein and Szego). With A = sum |m| |y|^order and all |y| at
-// most R, u = R / r < 1, what is left out after degree `order` is therefore at most
+// "Far enough": consider the harmonics of degree n of a dipole m at y from the center. At distance
+// r they are at most n |m| |y|^(n-1) / r^(n+1), because the slope of a zonal harmonic |y|^n P_n is
+// at most n |y|^(n-1) (inequality of Bernstein and Szego). Let A = sum |m| |y|^order, let R be the
+// largest |y|, and let u = R / r < 1. Then the terms omitted after degree `order` are at most
 //
 //   A / r^(order+2) (order + 1 + u / (1 - u)) / (1 - u)
 //
-// and a box is far enough where that is below a threshold, the same for all boxes. The bounds of
-// the boxes that a point sees are added up beside the value. Where they exceed the tolerance, the
-// point is evaluated again, with boxes farther away by the power of what is missing: so the
-// tolerance is kept at every point, and not only where it was tried. The threshold is found when
-// the tree is built, as the one that leaves next to no points to be evaluated again.
+// A box is far enough if this bound is below a threshold, which is the same for all boxes. The
+// bounds of the boxes that a query evaluates as multipoles are added up in addition to the value.
+// If their sum exceeds the tolerance, the point is evaluated again, with distances increased by a
+// power of the excess. This keeps the tolerance at every point, not just at tested points. The
+// build chooses the threshold so that almost no points are evaluated again.
 //
-// Eight boxes or points are looked at beside each other, in lanes that do not mix until the sums
-// are added up, so that all machines give the same bits.
+// Eight boxes or points are processed in parallel, in lanes that are independent until the final
+// sums, so that all machines compute the same bits.
 #include "winding/point_cloud_winding_number.h"
 
 #include "base/parallel.h"
@@ -40,14 +40,14 @@ namespace
 {
 using Id = PointTree::Id;
 constexpr double four_pi = 12.566370614359172954;
-/// Up to this many points their plain sum costs no more than the tree.
+/// Up to this many points the plain sum costs no more than the tree.
 constexpr Index few_points = 3000;
 constexpr Id leaf_size = 32;
 /// Beyond this distance, in units of the cloud, the winding number is 0 in double precision.
 constexpr double far_away = 1e100;
-/// Moments are kept below this, so that no sum overflows.
+/// Moments are limited to this, so that no sum overflows.
 constexpr double largest_moment = 1e100;
-/// Multipoles are not looked at from nearer than this: their powers would overflow.
+/// Multipoles are not evaluated at smaller distances, because their powers would overflow.
 constexpr double nearest_multipole = 1e-12;
 
 struct Tuning
@@ -69,21 +69,23 @@ struct Dipoles
 struct Boxes
 {
   HarmonicLanes center[3];
-  HarmonicLanes squared_reach; ///< seen as multipoles from farther than this; infinite when empty
-  HarmonicLanes bound; ///< of what multipoles leave out, times r^(order+2)
-  Id first_block[harmonic_lanes]; ///< of its dipoles
+  HarmonicLanes squared_reach; ///< multipoles are used beyond this squared distance; infinite in
+                               ///< an empty lane
+  HarmonicLanes bound; ///< bound of the omitted terms, times r^(order+2)
+  Id first_block[harmonic_lanes]; ///< first block of its dipoles
   Id block_count[harmonic_lanes];
-  Id group[harmonic_lanes]; ///< what it is divided into; -1: a leaf
+  Id group[harmonic_lanes]; ///< group that the box is divided into; -1: a leaf
 };
 
-/// What the threshold's reach is found from.
+/// Data of a box that determines its reach for a threshold.
 struct Extent
 {
-  double radius = 0.0; ///< of the farthest point with a moment
-  double power = 0.0; ///< A above
+  double radius = 0.0; ///< distance of the farthest point from the center
+  double power = 0.0; ///< A in the comment at the top of the file
 };
 
-/// One coefficient's real or imaginary part in eight boxes; imaginary parts of m = 0 are left out.
+/// Return the number of moments per box. A moment is the real or imaginary part of a coefficient;
+/// the imaginary parts for m = 0 are omitted.
 constexpr Index count_of_moments(int order)
 {
   return (order + 1) * (order + 1) - 1;
@@ -103,7 +105,8 @@ double sum_of(const HarmonicLanes& lanes)
   return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
 }
 
-/// sums += the dipoles' shares; touching += -1 for every one that q coincides with, which has none.
+/// Add the contributions of the dipoles to `sums`. Dipoles that coincide with q add nothing and set
+/// `touching`.
 BINDPOSE_SIMD_CLONES void add_dipoles(const Dipoles* dipoles, Index count, const double (&q)[3],
   double squared_tolerance, HarmonicLanes& sums, bool& touching)
 {
@@ -133,7 +136,8 @@ BINDPOSE_SIMD_CLONES void add_dipoles(const Dipoles* dipoles, Index count, const
   }
 }
 
-/// sums += the dipoles' shares of the gradient; those that q coincides with have none.
+/// Add the contributions of the dipoles to the gradient `sums`. Dipoles that coincide with q add
+/// nothing.
 BINDPOSE_SIMD_CLONES void add_dipole_gradients(const Dipoles* dipoles, Index count,
   const double (&q)[3], double squared_tolerance, HarmonicLanes (&sums)[3])
 {
@@ -163,8 +167,8 @@ BINDPOSE_SIMD_CLONES void add_dipole_gradients(const Dipoles* dipoles, Index cou
   }
 }
 
-/// Which boxes are far enough, a bit for each; and where q is seen from their centres.
-/// bounds += what their multipoles leave out at most.
+/// Return the boxes that are far enough, one bit per box. `from` gets the position of q relative to
+/// their centers. The bounds of their omitted terms are added to `bounds`.
 BINDPOSE_SIMD_CLONES unsigned far_boxes(const Boxes& boxes, const double (&q)[3], int order,
   double squared_stretch, HarmonicLanes (&from)[3], HarmonicLanes& bounds)
 {
@@ -191,7 +195,7 @@ BINDPOSE_SIMD_CLONES unsigned far_boxes(const Boxes& boxes, const double (&q)[3]
   return bits;
 }
 
-/// sums += multipoles of the boxes in `bits`.
+/// Add the multipoles of the boxes in `bits` to `sums`.
 BINDPOSE_SIMD_CLONES void add_multipoles(int order, const HarmonicLanes* moments,
   const Harmonics& harmonics, unsigned bits, HarmonicLanes& sums)
 {
@@ -208,13 +212,13 @@ BINDPOSE_SIMD_CLONES void add_multipoles(int order, const HarmonicLanes* moments
   }
   for (int i = 0; i < harmonic_lanes; ++i)
   {
-    // What is near may be infinite here: it is left out, not multiplied by 0.
+    // The sum of a near box may be infinite, so it is excluded by a selection, not by a factor 0.
     sums.lane[i] += bits >> i & 1u ? sum[i] : 0.0;
   }
 }
 
-/// sums += the gradient of multipoles of the boxes in `bits`, given harmonics of one degree more:
-/// d/dz T(n, m) = -T(n+1, m), (d/dx + i d/dy) T(n, m) = -T(n+1, m+1).
+/// Add the gradient of the multipoles of the boxes in `bits` to `sums`. `harmonics` must have one
+/// degree more: d/dz T(n, m) = -T(n+1, m), (d/dx + i d/dy) T(n, m) = -T(n+1, m+1).
 BINDPOSE_SIMD_CLONES void add_multipole_gradients(int order, const HarmonicLanes* moments,
   const Harmonics& harmonics, unsigned bits, HarmonicLanes (&sums)[3])
 {
@@ -249,14 +253,14 @@ BINDPOSE_SIMD_CLONES void add_multipole_gradients(int order, const HarmonicLanes
   }
 }
 
-/// The bound above at distance r, times r^(order+2).
+/// Return the bound at distance r of the comment at the top of the file, times r^(order+2).
 double bound_of(const Extent& extent, int order, double r)
 {
   const double u = extent.radius / r;
   return extent.power * (order + 1 + u / (1.0 - u)) / (1.0 - u);
 }
 
-/// Smallest distance at which the bound is below the threshold.
+/// Return the smallest distance at which the bound is below the threshold.
 double reach_of(const Extent& extent, int order, double threshold)
 {
   if (extent.power == 0.0)
@@ -338,7 +342,7 @@ Status check_input(PointsView points, PointsView normals, NumbersView areas,
   return {};
 }
 
-/// Normals of length 1, or 0.
+/// Normalize the normals. Normals of length 0 stay 0 and are counted.
 Points directions(PointsView normals, Index& zero_normals)
 {
   Points unit(normals.rows(), 3);
@@ -368,9 +372,9 @@ struct PointCloudWindingNumber::Parts
   std::vector<Dipoles> dipoles; ///< in the tree's order
   int order = 0; ///< even
   double tolerance = 0.0;
-  std::vector<Boxes> boxes; ///< of each group of the tree
-  std::vector<HarmonicLanes> moments; ///< of each group
-  std::vector<Extent> extents; ///< eight a group, while building
+  std::vector<Boxes> boxes; ///< one per group of the tree
+  std::vector<HarmonicLanes> moments; ///< moments of each group
+  std::vector<Extent> extents; ///< eight per group; used while building only
 
   void take_dipoles(const Points& points, const Points& moments_of, const PointTree& tree);
   bool find_multipoles(const PointTree& tree, ExecutionContext& context);
@@ -401,15 +405,16 @@ PointCloudWindingNumber& PointCloudWindingNumber::operator=(
 
 // ---- Building ----------------------------------------------------------------------------------
 
-/// Hands on what is far, `far(box's number, where p is seen from, which of its eight boxes)`, and
-/// what is near, `near(first block, blocks)`. Returns what the multipoles leave out at most.
+/// Call far(group, from, bits) for the far boxes of a group, one bit per box; `from` is the
+/// position of p relative to their centers. Call near(first block, block count) for near leaves.
+/// Return the error bound of the multipoles.
 template <typename Far, typename Near>
 double PointCloudWindingNumber::Parts::visit(
   const Vec3& p, double squared_stretch, const Far& far, const Near& near) const
 {
   HarmonicLanes bounds{};
   const double q[3] = { p[0], p[1], p[2] };
-  // Each level leaves at most seven groups behind; 2^29 points have ten levels.
+  // Each level leaves at most seven groups on the stack; 2^29 points have ten levels.
   Id stack[128];
   int waiting = 0;
   stack[waiting++] = 0;
@@ -442,8 +447,8 @@ double PointCloudWindingNumber::Parts::visit(
   return sum_of(bounds);
 }
 
-/// Tries with all that is far farther and farther, until what `attempt` returns, what its value
-/// leaves out at most, is within the tolerance.
+/// Call `attempt` with increasing distances of the far boxes, until the error bound that it returns
+/// is within the tolerance.
 template <typename Try>
 void PointCloudWindingNumber::Parts::within_tolerance(const Try& attempt) const
 {
@@ -455,7 +460,8 @@ void PointCloudWindingNumber::Parts::within_tolerance(const Try& attempt) const
     {
       return;
     }
-    // Bounds go with at least this power of the distance; children's are smaller still.
+    // A bound decreases at least with this power of the distance; the bounds of children are
+    // smaller.
     constexpr double margin = 1.05;
     squared_stretch *= margin * std::pow(error_bound / this->tolerance, 2.0 / (this->order + 2));
   }
@@ -518,8 +524,8 @@ void PointCloudWindingNumber::Parts::find_multipole(
     const Dipoles* begin = &this->dipoles[box.first_block[c]];
     const Dipoles* end = begin + box.block_count[c];
 
-    // About the mean of the points, by the size of their moments: it makes little of what is left
-    // out.
+    // The center is the mean of the points, weighted by the size of their moments. This makes the
+    // omitted terms small.
     const auto each = [&](const auto& body)
     {
       for (const Dipoles* d = begin; d != end; ++d)
@@ -545,7 +551,8 @@ void PointCloudWindingNumber::Parts::find_multipole(
     each(
       [&](const Vec3& at, double weight)
       {
-        // All points, those without a moment too: whoever touches one must come to see it.
+        // Points without a moment are included, because a query point that touches one must descend
+        // to it.
         const double distance = (at - center).norm();
         extent.radius = std::max(extent.radius, distance);
         extent.power += weight * std::pow(distance, this->order);
@@ -611,8 +618,8 @@ bool PointCloudWindingNumber::Parts::find_reaches(double threshold, ExecutionCon
     });
 }
 
-/// Points to measure errors at: half of them as near to points as these are to each other and some
-/// times farther, the others in and around the box.
+/// Return points at which errors are measured. Half of them are near points of the cloud, at
+/// distances comparable with the point spacing. The others are in and around the box.
 Points PointCloudWindingNumber::Parts::sample(const PointTree& tree) const
 {
   constexpr Index count = 384;
@@ -669,11 +676,12 @@ Points PointCloudWindingNumber::Parts::sample(const PointTree& tree) const
   return result;
 }
 
-/// The largest threshold, within a few percent, with which the bounds at the places keep the
-/// tolerance.
+/// Find the largest threshold, within a few percent, for which the error bounds at `places` are
+/// within the tolerance. Return false if canceled.
 bool PointCloudWindingNumber::Parts::find_threshold(const Points& places, ExecutionContext& context)
 {
-  // A box's bound goes with the threshold, and their number a little against it.
+  // The bound of a box is proportional to the threshold. A larger threshold slightly lowers the
+  // number of boxes.
   double threshold = this->tolerance / 32.0;
   constexpr int rounds = 4;
   for (int round = 0; round < rounds; ++round)
@@ -706,7 +714,7 @@ bool PointCloudWindingNumber::Parts::find_threshold(const Points& places, Execut
   return this->find_reaches(threshold, context);
 }
 
-/// Largest difference from the plain sum at some places; negative when cancelled.
+/// Return the largest difference from the plain sum at `places`, or a negative number if canceled.
 double PointCloudWindingNumber::Parts::measured_error(
   const Points& places, ExecutionContext& context) const
 {
@@ -955,7 +963,7 @@ Vec3 PointCloudWindingNumber::Parts::plain_gradient(const Vec3& p) const
   return { sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2]) };
 }
 
-/// Nothing does far away in double precision.
+/// Report whether the winding number can differ from 0. Far away it is 0 in double precision.
 bool PointCloudWindingNumber::Parts::winds_around(const Vec3& framed) const
 {
   return !this->dipoles.empty() && framed.cwiseAbs().maxCoeff() < far_away;

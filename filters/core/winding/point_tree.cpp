@@ -1,8 +1,9 @@
-// A group's points are halved three times, across the longest side of what is to be halved; so each
-// group has eight children of about the same size. Halves are cut at multiples of eight, so that
-// all leaves but the last are whole blocks.
+// The points of a group are halved three times, each time across the longest side of their box.
+// Therefore each group has eight children of about the same size. Halves are cut at multiples of
+// eight, so that all leaves except the last one are whole blocks.
 //
-// Neighbours: from the root down, nearest box first, as long as a box may hold a nearer one.
+// The search for neighbors descends from the root, nearest box first, while a box can contain a
+// nearer point.
 #include "winding/point_tree.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace bindpose
 
 namespace
 {
-constexpr PointTree::Id large = 1 << 15; // milliseconds to divide
+constexpr PointTree::Id large = 1 << 15; // takes milliseconds to divide
 
 bool is_nearer(const PointTree::Neighbor& x, const PointTree::Neighbor& y)
 {

@@ -11,8 +11,8 @@
 namespace bindpose
 {
 
-/// Points sorted into a tree of boxes: each group of it has up to eight children, beside each other
-/// so that eight can be looked at at once. The same tree for any number of threads.
+/// Points sorted into a tree of boxes. Each group has up to eight children, stored contiguously so
+/// that all eight can be tested in parallel. The tree is the same for any number of threads.
 class PointTree
 {
 public:
@@ -22,8 +22,9 @@ public:
   struct Child
   {
     Vec3 lower, upper; ///< box around its points
-    Id first = 0, count = 0; ///< its points: order()[first … first + count), first divisible by 8
-    Id group = -1; ///< what it is divided into; -1: a leaf
+    Id first = 0,
+       count = 0; ///< its points: order()[first … first + count); first is divisible by 8
+    Id group = -1; ///< group that the child is divided into; -1: a leaf
   };
   struct Group
   {
@@ -36,18 +37,19 @@ public:
     Id point;
   };
 
-  /// #P x 3 finite points, fewer than 2^31, and how many a leaf may have (divisible by 8).
-  /// Cost: O(#P log #P), about 0.2 us a point.
-  /// @return false when cancelled.
+  /// Build the tree from #P x 3 finite points, fewer than 2^31. `leaf_size` is the largest number
+  /// of points in a leaf and must be divisible by 8. Cost: O(#P log #P), about 0.2 us per point.
+  /// @return false if canceled.
   bool build(const Points& points, Id leaf_size, ExecutionContext& context);
 
-  /// Ids of the points from left to right.
+  /// Return the ids of the points in the order of the leaves.
   const std::vector<Id>& order() const { return this->order_; }
-  /// The first one is the root; none without points. Groups come after the group they divide.
+  /// Return the groups. The first one is the root; there are none without points. A group is stored
+  /// after its parent.
   const std::vector<Group>& groups() const { return this->groups_; }
 
-  /// The `count` points nearest to a point of the tree other than itself, or all there are; nearest
-  /// first, of equally near ones the smallest id. Thread-safe.
+  /// Find the `count` points nearest to a point of the tree, without the point itself, or all
+  /// others if there are fewer. They are sorted by distance, then by id. Thread-safe.
   void nearest(const Points& points, Id point, Index count, std::vector<Neighbor>& neighbors) const;
 
 private:

@@ -12,8 +12,8 @@ namespace bindpose
 
 namespace
 {
-/// Points of a block: some blocks for each thread, none so small that neighbours are torn apart, or
-/// so large that a cancel would wait.
+/// Return the number of points per block: some blocks for each thread, large enough to keep
+/// neighbors together and small enough to notice a cancel request in time.
 Index block_of(Index count, double nanoseconds_a_point)
 {
   constexpr double shortest_block = 8e5, longest_block = 5e6; // nanoseconds

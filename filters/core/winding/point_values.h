@@ -9,18 +9,19 @@
 namespace bindpose
 {
 
-/// Winding numbers of many points, on all threads: body(begin, end, flags) writes values[begin …
-/// end) and flags[0 … end - begin), 1 for a point that touches what winds, else 0. Blocks take some
-/// milliseconds at so many nanoseconds a point, so that a cancel is seen in time.
-/// `on_surface` gets the flags unless it is null.
-/// Reports counts.queries, counts.on_surface and, with a warning, counts.not_finite: values that
-/// are NaN, as those of points that are no numbers must be.
+/// Compute the winding numbers of many points on all threads. body(begin, end, flags) must write
+/// values[begin … end) and flags[0 … end - begin): 1 for a point that touches the geometry, else 0.
+/// It must write NaN for points that are not finite. Blocks take some milliseconds according to
+/// `nanoseconds_a_point`, so that a cancel request is noticed in time. Unless it is null,
+/// `on_surface` gets the flags.
+/// The status reports counts.queries, counts.on_surface and, with a warning, counts.not_finite (the
+/// number of NaN values).
 Status point_values(ExecutionContext& context, Index count, double nanoseconds_a_point,
   const double* values, unsigned char* on_surface,
   const std::function<void(Index begin, Index end, unsigned char* flags)>& body);
 
-/// Their derivatives, each on its own: body(i) writes those of point i. cancelled: not all are
-/// there.
+/// Compute the derivatives at many points on all threads. body(i) must write those of point i.
+/// cancelled: the derivatives are incomplete.
 Status point_gradients(ExecutionContext& context, Index count, double nanoseconds_a_point,
   const std::function<void(Index i)>& body);
 

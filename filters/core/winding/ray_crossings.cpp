@@ -1,12 +1,12 @@
-// A point p and a triangle a, b, c in coordinates (x, y, z) whose first axis is the ray's. The ray
-// crosses the triangle if (py, pz) lies in its projection, by the signs of three orientations in
-// the plane, and p lies before its plane, by the sign of a volume. Signs are computed in doubles
-// with error bounds that hold for the whole bounding box of the triangle; exact arithmetic decides
-// the remaining ones.
+// The point p and the triangle a, b, c are in coordinates (x, y, z) whose first axis is the
+// direction of the ray. The ray crosses the triangle if (py, pz) is in its projection and p is in
+// front of its plane. The signs of three orientations in the projection plane decide the first
+// condition, the sign of a volume decides the second. Signs are computed in doubles with error
+// bounds for the whole bounding box of the triangle; exact arithmetic decides the remaining ones.
 //
-// If (py, pz) lies on an edge, the orientation is that of (py + e, pz + e^2) with an infinitesimal
-// e. Adjacent triangles see opposite signs of their common edge, so each ray crosses exactly one of
-// them, and sums over closed surfaces are integers.
+// If (py, pz) is on an edge, the orientation is that of (py + e, pz + e^2) with an infinitesimal e.
+// The orientations of a common edge have opposite signs in its two triangles. Therefore each ray
+// crosses exactly one of them, and sums over closed surfaces are integers.
 #include "winding/ray_crossings.h"
 
 #include "base/exact.h"
@@ -25,29 +25,29 @@ namespace bindpose
 namespace
 {
 constexpr double epsilon = 0x1p-53;
-/// Of an orientation in the plane, in units of the box's area.
+/// Error of an orientation in the plane, in units of the area of the triangle's projected box.
 constexpr double edge_error = 8.0 * epsilon;
-/// Of a volume, in units of the box's volume.
+/// Error of a volume, in units of the volume of the triangle's box.
 constexpr double plane_error = 96.0 * epsilon;
-/// Measured nanoseconds: to project a triangle, to test a point against it, to sort a point, and
-/// to test a row of a grid.
+/// Measured nanoseconds: to project a triangle, to test a point against it, to sort a point, to
+/// process a triangle of a slab, and to test a row of a grid.
 constexpr double face_cost = 35.0;
 constexpr double test_cost = 1.5;
 constexpr double point_cost = 120.0;
 constexpr double slab_face_cost = 50.0;
 constexpr double row_cost = 5.0;
-/// Cells per point of the grid in the projection plane: more if triangles outnumber the points, so
-/// that most triangles meet no point's cell.
+/// Cells per point of the grid in the projection plane. There are more if triangles outnumber the
+/// points, so that most triangles meet only empty cells.
 constexpr double fewest_cells_per_point = 0.5;
 constexpr double most_cells_per_point = 8.0;
-/// Points of a slab of that grid, which one thread handles.
+/// Points per slab of that grid; one thread processes a slab.
 constexpr Index points_per_slab = 32768;
 constexpr std::int32_t points_at_once = 256;
-/// A triangle is listed in each slab that it meets: limits on the memory of triangles as large as
-/// the surface.
+/// A triangle is listed in each slab that it meets. These limits bound the memory for triangles as
+/// large as the surface.
 constexpr Index most_slabs = 64;
 constexpr Index most_slabs_per_face = 32;
-/// Samples of a slab of a sample grid: some hundred kilobytes, which stay in the cache.
+/// Samples per slab of a sample grid: some hundred kilobytes, which stay in the cache.
 constexpr Index samples_per_slab = 65536;
 
 int sign_of(double x)
@@ -55,7 +55,7 @@ int sign_of(double x)
   return (x > 0.0) - (x < 0.0);
 }
 
-/// Orientation of a, b and a point moved by an infinitesimal amount; 0 if a equals b.
+/// Return the orientation of a, b and a point moved by an infinitesimal amount; 0 if a equals b.
 int moved_orientation(double ay, double az, double by, double bz, double py, double pz)
 {
   int sign = orientation_2d(ay, az, by, bz, py, pz);
@@ -63,7 +63,8 @@ int moved_orientation(double ay, double az, double by, double bz, double py, dou
   return sign != 0 ? sign : sign_of(by - ay);
 }
 
-/// Position in ascending values of the first one that is not below x; `guess` is near it.
+/// Return the index of the first of the ascending `values` that is at least x. The search starts at
+/// a guess for equal spacing, with `per_length` values per unit of length.
 Index first_from(const std::vector<double>& values, double x, double per_length)
 {
   const auto count = static_cast<Index>(values.size());
@@ -87,7 +88,7 @@ double per_length_of(const std::vector<double>& values)
 }
 } // namespace
 
-/// A triangle in the ray's coordinates, and the bounds for points in its box.
+/// A triangle in the ray's coordinates, with error bounds for points in its box.
 struct RayCrossings::Facet
 {
   std::array<Vec3, 3> corners; ///< in the input's coordinates
@@ -95,11 +96,12 @@ struct RayCrossings::Facet
   double x[3], y[3], z[3];
   double lower[3], upper[3]; ///< with the tolerance added
   double edge_bound; ///< larger orientations have the right sign
-  double outside; ///< points with orientations beyond it on both sides do not touch
+  double outside; ///< a point with orientations below -outside and above outside does not touch
   double normal[3]; ///< not normalized
   double plane_bound; ///< larger volumes have the right sign, and their points do not touch
 
-  /// Six times the volume with a point: its distance from the plane times the normal's length.
+  /// Return six times the volume with a point: its distance from the plane times the normal's
+  /// length.
   double height(double px, double py, double pz) const
   {
     return this->normal[0] * (px - this->x[0]) + this->normal[1] * (py - this->y[0]) +
@@ -223,7 +225,7 @@ struct PointLanes
   std::vector<double> x, y, z;
 };
 
-/// What the loop over points needs of a triangle.
+/// Data of a triangle for the loop over points.
 struct FacetBounds
 {
   double ax, ay, az, by, bz, cy, cz;
@@ -231,8 +233,8 @@ struct FacetBounds
   double nx, ny, nz, edge_bound, outside, plane_bound;
 };
 
-/// Adds the crossings of the rays from so many points with one triangle, but for those whose signs
-/// are not certain: they get open[i] = 1. @return whether there are any.
+/// Add the crossings of the rays from `count` points with one triangle. Points whose signs are
+/// uncertain are not counted and get open[i] = 1. Return whether there are any.
 BINDPOSE_SIMD_CLONES bool add_crossings(const FacetBounds& f, const double* x, const double* y,
   const double* z, int count, std::int32_t* counts, std::int32_t* open)
 {
@@ -275,7 +277,7 @@ bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& con
   const int u = (this->axis_ + 1) % 3, v = (this->axis_ + 2) % 3;
   const Vec3 lower = this->box_.lower.array() - this->tolerance_;
   const Vec3 upper = this->box_.upper.array() + this->tolerance_;
-  // A grid of cells in the plane, u fastest.
+  // A grid of cells in the projection plane; u varies fastest.
   const double width = upper[u] - lower[u], height = upper[v] - lower[v];
   const double cells = std::clamp(std::clamp(static_cast<double>(this->faces_),
                                     fewest_cells_per_point * static_cast<double>(number),
@@ -286,7 +288,7 @@ bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& con
   const auto vs = static_cast<Index>(std::ceil(std::sqrt(cells / aspect)));
   const double per_u = width > 0.0 ? static_cast<double>(us) / width : 0.0;
   const double per_v = height > 0.0 ? static_cast<double>(vs) / height : 0.0;
-  // Both are monotone, so the cells of a triangle's box hold all points in it.
+  // Both functions are monotone, so the cells of a triangle's box contain all points in the box.
   const auto u_of = [&](double x)
   { return std::clamp<Index>(static_cast<Index>((x - lower[u]) * per_u), 0, us - 1); };
   const auto v_of = [&](double x)
@@ -333,7 +335,7 @@ bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& con
     return false;
   }
 
-  // Slabs of whole lines of cells; the triangles of each.
+  // Slabs consist of whole lines of cells. The triangles of each slab are listed.
   const Index slabs = std::clamp<Index>(
     static_cast<Index>(inside) / points_per_slab, 1, std::min<Index>(vs, most_slabs));
   const auto slab_of = [&](Index line) { return line * slabs / vs; };
@@ -502,7 +504,7 @@ RayCrossings::Layers RayCrossings::layers_of(const Grid& grid) const
   return layers;
 }
 
-/// Crossings of the rows of a slab: `sign` is added to the samples [0, end) of a row.
+/// Crossings of the rows of a slab. Each one adds `sign` to the samples [0, end) of a row.
 class RayCrossings::RowHits
 {
 public:
@@ -605,8 +607,8 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
         }
         const Index row = (k - first_layer) * rows + j;
         const bool certain = least > f.edge_bound || most < -f.edge_bound;
-        // Samples from x to y need a look each. NaN, where the triangle is parallel to the rows,
-        // keeps the box's ends.
+        // Samples from x to y are tested one by one. If the triangle is parallel to the rows,
+        // `center` is NaN and the comparisons select the ends of the box.
         const double center = f.x[0] + (f.normal[1] * ay + f.normal[2] * az) * per_normal;
         const double x =
           center - reach > f.lower[0] ? std::min(center - reach, f.upper[0]) : f.lower[0];
@@ -620,7 +622,8 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
         }
         else if (at > 0)
         {
-          // Before the box, the ray's crossing is that of the projection.
+          // A ray from a point in front of the box crosses the triangle if it crosses the
+          // projection.
           hits.add(row, at, this->crossing_of(f, Vec3(f.lower[0] - 1.0, py, pz), touches));
         }
         for (; at < length && xs[at] <= y; ++at)

@@ -11,13 +11,13 @@
 namespace bindpose
 {
 
-/// Winding numbers of a closed surface at many points at once: integers, exact.
+/// Winding numbers of a closed surface at many points in one call. They are exact integers.
 ///
 /// The winding number of a point is the sum of the signed crossings of a ray that starts there.
-/// Rays run along a coordinate axis, so that a triangle meets the rays of those points whose
-/// projections lie in its own. Points are sorted into a grid in the projection plane, and one pass
-/// over the triangles finds all crossings. Nothing is built beforehand: this is faster than
-/// WindingCells for fewer points than a few times the number of triangles, and for grids.
+/// Rays run along a coordinate axis, so that a triangle can only meet rays of points in its
+/// projection. Points are sorted into a grid in the projection plane, and one pass over the
+/// triangles finds all crossings. No data structure is built beforehand. Rays are faster than
+/// WindingCells for grids, and for fewer points than a few times the number of triangles.
 ///
 /// Rays through edges and vertices are resolved exactly, as if each point were moved by an
 /// infinitesimal amount. `resolved` is 0 for points that touch a triangle or a cap (within the
@@ -25,17 +25,18 @@ namespace bindpose
 class RayCrossings
 {
 public:
-  /// Triangles and the caps that close them (boundary_caps.h), centered and scaled (ExactFrame),
-  /// fewer than 2^31 in total. All three are referenced, not copied.
+  /// Prepare to count crossings of triangles and the caps that close them (boundary_caps.h). Points
+  /// must be centered and scaled (ExactFrame); triangles and caps must be fewer than 2^31 in total.
+  /// All three arguments are referenced, not copied.
   RayCrossings(
     const Points& points, const Triangles& triangles, const Triangles& caps, double tolerance);
 
-  /// Expected time of count() for so many points spread over the bounding box, in nanoseconds on
-  /// one thread.
+  /// Return the expected time of count() for `number` points spread over the bounding box, in
+  /// nanoseconds on one thread.
   double predicted_nanoseconds(Index number) const;
-  /// Writes the winding numbers of `number` finite points, fewer than 2^31, and resolved flags.
+  /// Compute the winding numbers and the resolved flags of `number` finite points, fewer than 2^31.
   /// O(#F + number + overlaps of their projections).
-  /// @return false when cancelled.
+  /// @return false if canceled.
   bool count(const Vec3* points, Index number, ExecutionContext& context, int* counts,
     unsigned char* resolved) const;
 
@@ -44,20 +45,21 @@ public:
   {
     std::array<std::vector<double>, 3> at;
   };
-  /// The triangles of a grid's layers (samples of equal z), so that layers are evaluated
-  /// independently of each other.
+  /// The triangles of each slab of a grid's layers (samples of equal z). Slabs can be evaluated
+  /// independently.
   struct Layers
   {
-    Index per_slab = 1; ///< layers
-    std::vector<Index> begin; ///< of each slab in `faces`, and the end
+    Index per_slab = 1; ///< number of layers per slab
+    std::vector<Index> begin; ///< index in `faces` for each slab, and the end
     std::vector<std::int32_t> faces;
-    double nanoseconds = 0.0; ///< expected for all slabs on one thread, without writing
-                              ///< values; infinite: too large for rays, and `faces` is empty
+    double nanoseconds = 0.0; ///< expected time of all slabs on one thread, without writing values;
+                              ///< infinite if the surface is too large for rays, and `faces` is
+                              ///< then empty
   };
   Layers layers_of(const Grid& grid) const;
-  /// Writes the winding numbers of a slab's samples, x fastest, from its first layer on. Appends
-  /// the positions (in `values`) of unresolved samples to `unresolved`, in no order, some twice.
-  /// Thread-safe.
+  /// Write the winding numbers of the samples of a slab to `values`, x fastest, beginning with its
+  /// first layer. Append the positions (in `values`) of unresolved samples to `unresolved`, in no
+  /// order, some twice. Thread-safe.
   void count_slab(const Grid& grid, const Layers& layers, Index slab, double* values,
     std::vector<Index>& unresolved) const;
 
@@ -67,8 +69,8 @@ private:
 
   std::array<Vec3, 3> corners(Index face) const;
   Facet facet(Index face, int axis) const;
-  /// +1, -1: the ray crosses the triangle outwards, inwards; 0: it does not. `touches` is set if
-  /// the point touches the triangle.
+  /// Return +1 if the ray crosses the triangle outwards, -1 if inwards, and 0 if it does not cross.
+  /// Set `touches` if the point touches the triangle.
   int crossing_of(const Facet& facet, const Vec3& point, bool& touches) const;
 
   const Points* points_;
@@ -77,8 +79,8 @@ private:
   double tolerance_;
   Index faces_;
   Box box_;
-  int axis_ = 0; ///< of the rays of count()
-  double overlaps_ = 0.0; ///< mean number of triangles whose projected boxes hold a point
+  int axis_ = 0; ///< direction of the rays of count()
+  double overlaps_ = 0.0; ///< mean number of triangles whose projected boxes contain a point
 };
 
 } // namespace bindpose

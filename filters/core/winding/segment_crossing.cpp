@@ -7,9 +7,10 @@ namespace bindpose
 
 namespace
 {
-/// Errors of the volumes, in units of what doubles keep of the largest corner cubed, or squared
-/// times the segment where that is a side: those of subtractions are 1, of cross products 28, of
-/// volumes 90. Rounded up.
+/// Error bound of the volumes, relative to the cube of the largest coordinate. For volumes that
+/// have the segment as a side, it is relative to the square times the length of the segment. In
+/// units of 2^-53, subtractions contribute 1, cross products 28 and volumes 90. The bound is
+/// rounded up.
 constexpr double double_error = 0x1p-53 * 256.0;
 } // namespace
 

@@ -16,9 +16,9 @@ enum class Crossing
   unclear
 };
 
-/// What the segment from p to r does with a triangle, by signs of volumes in doubles: unclear where
-/// round-off could have made one of them, so also where the segment meets an edge, or p or r lies
-/// in the plane.
+/// Classify how the segment from p to r crosses a triangle, by signs of volumes in doubles. The
+/// result is `unclear` if round-off could have changed a sign. This includes segments that meet an
+/// edge, and segments that begin or end in the plane of the triangle.
 Crossing crossing(const Vec3& p, const Vec3& r, const std::array<Vec3, 3>& corners);
 
 } // namespace bindpose

@@ -1,15 +1,16 @@
 // The solid angle of a triangle a, b, c seen from the origin is twice the angle of the complex
 // number (|a||b||c| + a.b|c| + b.c|a| + c.a|b|) + i a.(b x c) (Van Oosterom and Strackee, 1983).
-// Far from the triangle the header multiplies these numbers and takes the angle of four at a time.
+// Far from the triangle the header multiplies these numbers and computes the angle of four at a
+// time.
 //
-// Near the triangle both parts cancel, and next to a sliver they are as small as its width squared:
-// nothing would be left of them even with twice the digits. But with u = |a|b + |b|a and
-// v = |a|c + |c|a, which point half way between a and b and half way between a and c, the same
-// angle is that from u to v around a, of the complex number |a| u.v + i a.(u x v). When b and c lie
-// on the other side of the point than a, u and v are small, each as exactly as doubles of twice the
-// digits hold it, and their products lose no more.
+// Near the triangle both parts cancel. Next to a sliver they are as small as its squared width, so
+// that even doubled precision would lose all digits. Let u = |a|b + |b|a and v = |a|c + |c|a, which
+// bisect the angles between a and b and between a and c. The angle of the complex number above
+// equals the angle from u to v around a, that of the complex number |a| u.v + i a.(u x v). If b and
+// c are on the other side of the point than a, u and v are small. Both are then exact to doubled
+// precision, and their products lose no more digits.
 //
-// A triangle that touches the point has no angle but a jump; it counts 0, the mean of both sides.
+// A triangle that touches the point has no angle, only a jump. It counts 0, the mean of both sides.
 #include "winding/solid_angle.h"
 
 #include "base/exact.h"
@@ -44,13 +45,13 @@ DoubleDouble determinant(const Wide3& a, const Wide3& b, const Wide3& c)
     a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/// s a + t b.
+/// Return s a + t b.
 Wide3 sum(const DoubleDouble& s, const Wide3& a, const DoubleDouble& t, const Wide3& b)
 {
   return { s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2] };
 }
 
-/// Squared distance of the origin from the segment a, b.
+/// Return the squared distance of the origin from the segment a, b.
 double squared_distance_from_segment(const Vec3& a, const Vec3& b)
 {
   const Vec3 ab = b - a;
@@ -72,7 +73,7 @@ bool touches_triangle(
   {
     return true;
   }
-  // Not at the rim, so the point's foot is clearly inside or outside.
+  // The point is not near an edge, so its projection is clearly inside or outside.
   const Vec3 normal = (b - a).cross(c - a);
   if (normal.dot(a.cross(b)) <= 0.0 || normal.dot(b.cross(c)) <= 0.0 ||
     normal.dot(c.cross(a)) <= 0.0)
@@ -107,7 +108,7 @@ double SolidAngleSum::near_half_angle(const Vec3& a0, const Vec3& b0, const Vec3
     this->on_surface_ = true;
     return 0.0;
   }
-  // The corner that comes first is the one that the others are farthest from, as seen from here.
+  // Begin with the corner whose two opposite corners appear closest to each other from the point.
   std::array<Vec3, 3> corners{ a0, b0, c0 };
   std::array<Vec3, 3> directions;
   for (int k = 0; k < 3; ++k)

@@ -6,28 +6,29 @@
 namespace bindpose
 {
 
-/// True when the point is within the tolerance of the triangle: on it, as far as doubles can tell.
+/// Report whether the point is within the tolerance of the triangle.
 bool touches_triangle(
   const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c, double tolerance);
 
-/// Six times the signed volume of a, b, c, point: positive when the point is on the inner side of
-/// the triangle (its normal points away from it). The sign holds to about 1e-30 of the size.
+/// Return six times the signed volume of the tetrahedron a, b, c, point. It is positive if the
+/// point is on the inner side of the triangle, that is, if the triangle's normal points away from
+/// it. The sign is reliable to about 1e-30 of the size.
 double side_of_triangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Sums the solid angles of triangles at one point, about 20 ns a triangle.
+/// Sum of the solid angles of triangles at one point, about 20 ns per triangle.
 ///
-/// Triangles that touch the point count 0 (principal value) and set on_surface(). Angles are
-/// right to a few units in the last place of a full turn, whatever the triangle's shape and
-/// however near the point: near triangles are evaluated with twice the digits.
-/// Coordinates are expected within about 1e20 of the point (centred and scaled).
+/// Triangles that touch the point count 0 (the principal value) and set on_surface(). Angles are
+/// accurate to a few units in the last place of a full turn for every shape and distance of a
+/// triangle, because near triangles are evaluated in double-double arithmetic. Coordinates must be
+/// centered and scaled, within about 1e20 of the point.
 class SolidAngleSum
 {
 public:
   SolidAngleSum(const Vec3& point, double tolerance) : point_(point), tolerance_(tolerance) {}
 
-  /// The triangle a, b, c, counted `multiplicity` times (negative: turned over).
+  /// Add the triangle a, b, c `multiplicity` times; a negative number reverses the orientation.
   void add(const Vec3& a, const Vec3& b, const Vec3& c, int multiplicity = 1);
-  /// The sum so far in full turns (4 pi): the winding number.
+  /// Return the current sum in full turns (4 pi), which is the winding number.
   double winding_number() const;
   bool on_surface() const { return this->on_surface_; }
 
@@ -55,9 +56,9 @@ inline void SolidAngleSum::add(const Vec3& a0, const Vec3& b0, const Vec3& c0, i
   const double lengths = la * lb * lc;
   const double real = lengths + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
   const double imaginary = a.dot(b.cross(c));
-  // The half angle is below 45 degrees, so that four of them stay below a half turn; and the point
-  // is clearly off the triangle (at a touching one, real / lengths is at most 0.63 when the
-  // vertices are more than 4 tolerances away).
+  // The half angle is below 45 degrees, so four of them sum to less than a half turn. The point is
+  // also clearly off the triangle: for a touching triangle, real / lengths is at most 0.63 if the
+  // vertices are more than 4 tolerances away.
   const double reach = 4.0 * this->tolerance_;
   if (real > lengths && la > reach && lb > reach && lc > reach &&
     (multiplicity == 1 || multiplicity == -1))

@@ -1,10 +1,11 @@
-// Recurrences and translations of Dehnen 2014, section A, written as loops over coefficients with
-// eight lanes innermost. The lanes are a vector type of the compiler; no operation mixes them.
+// Recurrences and translations of Dehnen 2014, section A, as loops over coefficients with the eight
+// lanes innermost. The lanes are a vector type of the compiler; no operation mixes them.
 //
 // Regular harmonics U and irregular ones T:
-//   U(n, n) = (x + iy) / (2n) U(n-1, n-1),  (n^2 - m^2) U(n, m) = (2n-1) z U(n-1, m) - r^2 U(n-2,
-//   m) T(n, n) = (2n-1) (x + iy) / r^2 T(n-1, n-1), r^2 T(n, m) = (2n-1) z T(n-1, m) - ((n-1)^2 -
-//   m^2) T(n-2, m)
+//   U(n, n) = (x + iy) / (2n) U(n-1, n-1)
+//   (n^2 - m^2) U(n, m) = (2n-1) z U(n-1, m) - r^2 U(n-2, m)
+//   T(n, n) = (2n-1) (x + iy) / r^2 T(n-1, n-1)
+//   r^2 T(n, m) = (2n-1) z T(n-1, m) - ((n-1)^2 - m^2) T(n-2, m)
 // Derivatives: d/dz U(n, m) = U(n-1, m), (d/dx ± i d/dy) U(n, m) = ∓ U(n-1, m±1).
 #include "winding/solid_harmonics.h"
 
@@ -26,7 +27,8 @@ BINDPOSE_ALWAYS_INLINE Pack& pack(HarmonicLanes& lanes)
   return reinterpret_cast<Pack&>(lanes);
 }
 
-/// Coefficient (n, m) for any sign of m: real part, imaginary part times `sign`.
+/// Coefficient (n, m) for any sign of m: the stored coefficient at `index`, with its parts
+/// multiplied by `real_sign` and `imaginary_sign`.
 struct Place
 {
   int index;

@@ -1,6 +1,7 @@
-// Surface and caps are closed together, also component by component, for a loop of the boundary
-// stays within one; so each has a volume that does not depend on where the origin lies. It is taken
-// about a vertex of the component, lest small ones far away drown in round-off.
+// Surface and caps together are closed. Each component and its caps are closed, too, because a
+// boundary loop stays within one component. The volume of a component is therefore independent of
+// the origin. A vertex of the component is used as the origin, to keep round-off small for small
+// components far away.
 #include "winding/surface_boundary.h"
 
 #include <cstdlib>

@@ -8,25 +8,26 @@
 namespace bindpose
 {
 
-/// Where a surface is open in the sense of winding numbers: the edges whose directions do not
-/// cancel, and its connected parts. Winding numbers depend on this boundary alone, but for whole
-/// numbers.
+/// The boundary of a surface in the sense of winding numbers, and its connected components. The
+/// boundary consists of the edges whose directions do not cancel. It determines the winding number
+/// up to an integer.
 struct SurfaceBoundary
 {
-  /// Runs the way most triangles run along it.
+  /// Directed like the majority of the triangles at this edge.
   struct BoundaryEdge
   {
     Index from, to; ///< vertex ids
-    Index multiplicity; ///< by how many triangles these are more than those the other way, 1 …
+    Index multiplicity; ///< triangles in this direction minus triangles in the other direction, at
+                        ///< least 1
     Index component;
   };
-  /// Connected by vertices.
+  /// Triangles that are connected by vertices.
   struct Component
   {
     Index triangles = 0;
-    Index open_edges = 0; ///< its boundary edges with their multiplicities; 0: closed
-    /// By the divergence theorem, holes filled by caps: above 0 when it faces outwards, below 0
-    /// when it is inside out.
+    Index open_edges = 0; ///< boundary edges counted with their multiplicities; 0: closed
+    /// Volume by the divergence theorem, with holes closed by caps. It is positive if the component
+    /// faces outwards and negative if it is inside out.
     double volume = 0.0;
   };
 
@@ -34,8 +35,8 @@ struct SurfaceBoundary
   std::vector<Component> components;
 };
 
-/// Boundary of a welded surface: its edges as mesh_edges() gives them, and the caps that
-/// boundary_caps() makes of them. O(n).
+/// Return the boundary of a welded surface. `edges` come from mesh_edges(), `caps` from
+/// boundary_caps(). O(n).
 SurfaceBoundary surface_boundary(
   PointsView points, TrianglesView triangles, const std::vector<Edge>& edges, TrianglesView caps);
 

@@ -1,9 +1,9 @@
-// The formula of solid_angle.cpp, eight triangles at a time. A triangle's half angle is that of a
-// complex number. Of blocks that are apart from the point the numbers of four blocks are multiplied
-// before their angle is taken; next to it each triangle's angle is taken, by an arc tangent of its
-// own (a polynomial fitted at Chebyshev nodes). Where digits would be lost (next to an edge or a
-// vertex), or the side of the triangle cannot be told from its plane, the lane adds nothing and is
-// handed on.
+// The formula of solid_angle.cpp for eight triangles in parallel. The half angle of a triangle is
+// the angle of a complex number. For blocks far from the point, the numbers of four blocks are
+// multiplied before the angle is computed. For near blocks the angle of each triangle is computed,
+// by a polynomial arc tangent (fitted at Chebyshev nodes). Lanes that would lose digits (next to an
+// edge or a vertex), or whose plane does not decide the side, add nothing and are passed to the
+// careful sum.
 #include "winding/triangle_block.h"
 
 #include "base/simd.h"
@@ -23,14 +23,15 @@ template <>
 struct Precision<float>
 {
   using Flag = std::int32_t;
-  static constexpr float lost = 1e-2f; ///< relative size of the complex number
-  static constexpr float flat = 1e-4f; ///< relative distance from the plane
-  static constexpr float reach = 1e-4f; ///< squared distance of a vertex, in sizes of the block
-  static constexpr float apart = 2.5f; ///< squared distance of a block's centre, in its sizes
-  static constexpr float remote = 1e4f; ///< beyond that products of four would overflow
+  static constexpr float lost = 1e-2f; ///< smallest relative size of the complex number
+  static constexpr float flat = 1e-4f; ///< smallest relative distance from the plane
+  static constexpr float reach = 1e-4f; ///< smallest squared distance of a vertex, in block sizes
+  static constexpr float apart = 2.5f; ///< squared distance of a far block's center, in block sizes
+  static constexpr float remote = 1e4f; ///< beyond this squared distance products of four would
+                                        ///< overflow
   static BINDPOSE_ALWAYS_INLINE float arc_tangent(float t)
   {
-    // In pairs: a chain of twelve operations would be what a block waits for.
+    // Evaluated in pairs, because a chain of twelve operations would be the bottleneck.
     const float u = t * t, u2 = u * u;
     const float low = (0.9999993278352406f + u * -0.33326374521881785f) +
       u2 * (0.19879872155711403f + u * -0.1348040560755243f);
@@ -70,7 +71,7 @@ struct Precision<double>
   }
 };
 
-/// A block and where the point is from there, in the block's sizes.
+/// A block and the position of the point relative to it, in block sizes.
 template <typename Real>
 struct SeenBlock
 {
@@ -78,7 +79,7 @@ struct SeenBlock
   Real at[3];
 };
 
-/// Corners less the point.
+/// Corners relative to the point.
 template <typename Real>
 struct Seen
 {
@@ -90,14 +91,14 @@ struct Seen
       cx(block.corner[6][i] - x), cy(block.corner[7][i] - y), cz(block.corner[8][i] - z)
   {
   }
-  /// Six times the volume with the point.
+  /// Return six times the volume of the tetrahedron with the point.
   BINDPOSE_ALWAYS_INLINE Real volume() const
   {
     return this->ax * (this->by * this->cz - this->bz * this->cy) +
       this->ay * (this->bz * this->cx - this->bx * this->cz) +
       this->az * (this->bx * this->cy - this->by * this->cx);
   }
-  /// The real part that belongs to it.
+  /// Return the real part of the complex number.
   BINDPOSE_ALWAYS_INLINE Real real(Real la, Real lb, Real lc) const
   {
     return la * lb * lc + (this->ax * this->bx + this->ay * this->by + this->az * this->bz) * lc +
@@ -106,7 +107,7 @@ struct Seen
   }
 };
 
-/// Angle of a complex number, in (-pi, pi].
+/// Return the angle of a complex number, in (-pi, pi].
 template <typename Real>
 BINDPOSE_ALWAYS_INLINE Real angle_of(Real re, Real im)
 {
@@ -120,9 +121,9 @@ BINDPOSE_ALWAYS_INLINE Real angle_of(Real re, Real im)
   return im < Real(0) ? -half : half;
 }
 
-/// Blocks that are apart. From there a sphere of the block's size takes less than an eighth of the
-/// view: half a triangle's angle is below 41 degrees, that of four below half a turn; and nothing
-/// is near.
+/// Add blocks far from the point. From there a sphere of the block's size covers less than an
+/// eighth of the view. Half the angle of a triangle is below 41 degrees, and that of four below
+/// half a turn. No triangle touches the point.
 template <typename Real>
 BINDPOSE_ALWAYS_INLINE void add_apart(const TriangleBlock<Real>* blocks,
   const SeenBlock<Real>* seen, const int* order, int count, Real (&sums)[triangle_lanes])
@@ -161,7 +162,7 @@ BINDPOSE_ALWAYS_INLINE void add_apart(const TriangleBlock<Real>* blocks,
   }
 }
 
-/// A block of any kind anywhere.
+/// Add a block at any distance and with any multiplicities.
 template <typename Real>
 BINDPOSE_ALWAYS_INLINE void add_block(const TriangleBlock<Real>* blocks,
   const SeenBlock<Real>& seen, double touch_tolerance, Real (&sums)[triangle_lanes],
@@ -188,7 +189,7 @@ BINDPOSE_ALWAYS_INLINE void add_block(const TriangleBlock<Real>* blocks,
     const Real least = aa < bb ? aa : bb;
     const Real nearest = least < cc ? least : cc;
     const bool far_off = re > Real(0.7) * lengths;
-    // The volume with a touching triangle is at most that of a slab of its tolerance.
+    // The volume with a touching triangle is at most that of a slab as thick as the tolerance.
     const Real slab = 2 * touching * (la * lb + lb * lc + lc * la);
     const bool off_plane = im_size > P::flat * lengths + slab;
     const bool kept =
@@ -247,7 +248,7 @@ BINDPOSE_ALWAYS_INLINE double sum(const TriangleBlock<Real>* blocks, const Block
         next.at[k] = away;
         distance2 += away * away;
       }
-      // No branch: which it is cannot be foreseen.
+      // No branch, because its outcome would be unpredictable.
       const bool is_apart = (distance2 > P::apart) & (distance2 < P::remote) & block.single;
       apart[count_apart] = count_seen;
       others[count_others] = count_seen;

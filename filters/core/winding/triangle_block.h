@@ -10,25 +10,25 @@ namespace bindpose
 
 constexpr int triangle_lanes = 8;
 
-/// Eight triangles side by side, relative to a centre and in units of about their own size.
+/// Eight triangles, one per lane, relative to a center and in units of about their own size.
 template <typename Real>
 struct TriangleBlock
 {
   double center[3];
   double inverse_size;
-  Real corner[9][triangle_lanes]; ///< x y z of a, of b, of c
-  Real weight[triangle_lanes]; ///< multiplicity; 0: nobody's lane
-  bool single; ///< whether no multiplicity is above 1 or below -1
+  Real corner[9][triangle_lanes]; ///< x, y, z of a, then of b, then of c
+  Real weight[triangle_lanes]; ///< multiplicity; 0 in an unused lane
+  bool single; ///< whether every multiplicity is -1, 0 or 1
 };
 
-/// Blocks first … first + count - 1.
+/// The blocks first … first + count - 1.
 struct BlockRun
 {
   std::int32_t first, count;
 };
 
-/// Who sums the triangles of a block that are too near the point for the fast way: those whose
-/// `lanes` are not 0.
+/// Interface that sums the triangles of a block that are too near the point for the fast formula:
+/// those whose entry in `lanes` is not 0.
 class CarefulSum
 {
 public:
@@ -38,9 +38,10 @@ protected:
   ~CarefulSum() = default;
 };
 
-/// Winding number of the triangles of the runs, but for those handed to `careful`, among them all
-/// that are within touch_tolerance of the point. About 1.5 ns a triangle in float, to 1e-5 of a
-/// turn a triangle; 4 ns in double, to 1e-9. The same bits whatever instructions the machine has.
+/// Return the winding number of the triangles of the runs, except the triangles that are passed to
+/// `careful`. These include all triangles within touch_tolerance of the point. In float a triangle
+/// takes about 1.5 ns, with an error of 1e-5 of a turn; in double it takes 4 ns, with an error of
+/// 1e-9. The result has the same bits on every instruction set.
 double sum_blocks(const TriangleBlock<float>* blocks, const BlockRun* runs, Index count,
   const Vec3& point, double touch_tolerance, CarefulSum& careful);
 double sum_blocks(const TriangleBlock<double>* blocks, const BlockRun* runs, Index count,

@@ -1,6 +1,6 @@
-// Vertices are sorted by their coordinates: a radix sort by the leading bits of x, then a
-// comparison sort of the few that share them. Edges and triangles are laid out by their smallest
-// vertex, as integers of 64 bits, and sorted where they share it: few do.
+// Vertices are sorted by coordinates: a radix sort by the leading bits of x, then a comparison sort
+// of the few vertices that share these bits. Edges and triangles are grouped by their smallest
+// vertex, as 64-bit integers, and sorted within these small groups.
 #include "winding/welded_surface.h"
 
 #include "base/large_pages.h"
@@ -18,7 +18,7 @@ namespace bindpose
 
 namespace
 {
-/// True when the corners lie on one line, as exactly as doubles hold it.
+/// Report whether the corners are collinear to double precision.
 bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c)
 {
   const Vec3 u = b - a;
@@ -32,7 +32,7 @@ struct Vertex
   std::int32_t id;
 };
 
-/// The leading 32 bits of a finite number, so that they ascend with it.
+/// Return the leading 32 bits of a finite number, mapped so that they ascend with the number.
 std::uint32_t leading_bits(double x)
 {
   const double positive_zero = x + 0.0;
@@ -42,7 +42,7 @@ std::uint32_t leading_bits(double x)
   return leading & 0x80000000U ? ~leading : leading | 0x80000000U;
 }
 
-/// Sorts vertices by x, y, z and id; `at` are their points by id. false when cancelled.
+/// Sort vertices by x, y, z and id. `at` contains their points by id. Return false if canceled.
 bool sort_vertices(
   ExecutionContext& context, const std::vector<Vec3>& at, std::vector<Vertex>& vertices)
 {
@@ -109,14 +109,15 @@ bool sort_vertices(
   return true;
 }
 
-/// Two vertex ids as one number that ascends with the first, then the second.
+/// Pack two vertex ids into one number that ascends with the first, then the second.
 std::uint64_t packed(Index first, Index second)
 {
   return static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint64_t>(second);
 }
 
-/// Lays out numbers by a vertex of each: those of v are items[begin[v] … begin[v + 1]), ascending.
-/// `visit(see)` calls see(vertex, item) for all items, twice. false when cancelled.
+/// Group numbers by a vertex: the numbers of v are items[begin[v] … begin[v + 1]), ascending.
+/// `visit(see)` must call see(vertex, item) for all items; it is called twice. Return false if
+/// canceled.
 template <typename Visit>
 bool lay_out(ExecutionContext& context, Index vertices, const Visit& visit,
   std::vector<Index>& begin, std::vector<std::uint64_t>& items)
@@ -191,7 +192,8 @@ bool weld(PointsView points, TrianglesView triangles, const ExactFrame& frame,
       welded.degenerate_triangles += 1;
       continue;
     }
-    // A flat one has no angle, but its edges hold those of its neighbours together.
+    // A flat triangle has no solid angle. It is kept because its edges cancel those of its
+    // neighbors.
     welded.degenerate_triangles +=
       is_flat(welded.points.row(ids[0]), welded.points.row(ids[1]), welded.points.row(ids[2]));
     welded.triangles.row(kept++) << ids[0], ids[1], ids[2];
@@ -200,12 +202,12 @@ bool weld(PointsView points, TrianglesView triangles, const ExactFrame& frame,
   return true;
 }
 
-/// Triangles of the same corners as one before them; false when cancelled.
+/// Count the triangles with the same corners as an earlier one. Return false if canceled.
 bool count_duplicates(
   const Triangles& triangles, Index vertices, ExecutionContext& context, Index& duplicates)
 {
   std::vector<Index> begin;
-  std::vector<std::uint64_t> others; // corners, ascending
+  std::vector<std::uint64_t> others; // the two larger corners, ascending
   const auto visit = [&](const auto& see)
   {
     for (Index t = 0; t < triangles.rows(); ++t)
@@ -229,12 +231,12 @@ bool count_duplicates(
   return true;
 }
 
-/// Counts edges and finds the open ones; false when cancelled.
+/// Count the edges and find the open ones. Return false if canceled.
 bool find_edges(
   const Triangles& triangles, Index vertices, ExecutionContext& context, WeldedSurface& welded)
 {
   std::vector<Index> begin;
-  std::vector<std::uint64_t> sides; // larger vertex, and whether the side runs to it
+  std::vector<std::uint64_t> sides; // larger vertex, and 1 if the side runs to it
   const auto visit = [&](const auto& see)
   {
     for (Index t = 0; t < triangles.rows(); ++t)

@@ -10,23 +10,23 @@
 namespace bindpose
 {
 
-/// A surface as winding numbers see it: equal points are one vertex, triangles that use a vertex
-/// twice are gone. Duplicates stay, for they count.
+/// A surface prepared for winding numbers. Equal points are merged and triangles that use a vertex
+/// twice are removed. Duplicate triangles are kept because each of them counts.
 struct WeldedSurface
 {
   Points points; ///< in the frame, sorted by coordinates
   Triangles triangles;
-  std::vector<Index> original_vertices; ///< #V: an input id of each
-  std::vector<Edge> open_edges; ///< those of mesh_edges() whose directions do not cancel
+  std::vector<Index> original_vertices; ///< #V, one input id per vertex
+  std::vector<Edge> open_edges; ///< the edges of mesh_edges() whose directions do not cancel
   Index boundary_edges = 0; ///< used by one triangle
   Index nonmanifold_edges = 0; ///< used by three triangles or more
   Index merged_vertices = 0;
-  Index degenerate_triangles = 0; ///< dropped ones, and those without an area
-  Index duplicate_triangles = 0; ///< same vertices as another one, in any order
+  Index degenerate_triangles = 0; ///< removed triangles and triangles without area
+  Index duplicate_triangles = 0; ///< triangles with the same vertices as another one, in any order
 };
 
-/// Welds a valid mesh (check_mesh) of fewer than 2^31 points. O(#F log #F), on all threads. @return
-/// false when cancelled.
+/// Weld a valid mesh (check_mesh) of fewer than 2^31 points. O(#F log #F), on all threads.
+/// @return false if canceled.
 bool weld_surface(PointsView points, TrianglesView triangles, const ExactFrame& frame,
   ExecutionContext& context, WeldedSurface& welded);
 

@@ -1,15 +1,16 @@
 // Between two points the winding number changes by the signed crossings of the segment that joins
-// them. A cell is convex, so the segment from a point to the cell's reference meets the cell's own
-// triangles only, and they are few.
+// them. A cell is convex, so the segment from a point to the cell's reference meets only the few
+// triangles of the cell.
 //
-// A segment from p to the reference r crosses the triangle a, b, c when p and r lie on different
-// sides of its plane, and p on the same side of the three planes through r and an edge. These four
-// planes are kept, as unit normals of 16 bits a coordinate: eight triangles at once, their signs
-// cost a few operations each, and an error bound that depends on nothing but how far p is from r.
-// Where a sign is open, it is told in doubles, of volumes made of the corners themselves; where it
-// is open then, too, the point touches the triangle or the segment an edge: not told.
+// A segment from p to the reference r crosses the triangle a, b, c if p and r are on different
+// sides of its plane, and p is on the same side of the three planes through r and an edge. These
+// four planes are stored as unit normals with 16 bits per coordinate. Their signs are computed for
+// eight triangles in parallel, in a few operations each. The error bound depends only on the
+// distance between p and r. An undecided sign is computed again in doubles, from volumes of the
+// corners themselves. If that sign is undecided, too, the point touches the triangle or the segment
+// touches an edge; the point is unresolved.
 //
-// How the cells come about is told in winding_cells_build.cpp.
+// winding_cells_build.cpp builds the cells.
 #include "winding/winding_cells.h"
 
 #include "base/simd.h"
@@ -24,7 +25,7 @@ namespace bindpose
 
 namespace
 {
-/// What rounding moves one coordinate by, with some room for the rounding of floats.
+/// Largest change of a coordinate by rounding, with some room for the round-off of floats.
 constexpr float rounded_by = 0.57f;
 } // namespace
 
@@ -52,23 +53,24 @@ std::array<WindingCells::Id, 3> WindingCells::place_of(const Node& node, const V
   return place;
 }
 
-/// Signed crossings of the segment from the point q to the reference, which is the origin, in units
-/// of the planes' distances. Faces of which a sign is not clear are not counted but added to the
-/// unclear ones, so are those that the point touches within the length `touching`.
+/// Return the signed crossings of the segment from the point q to the reference, which is the
+/// origin. q and `touching` are in units of the stored plane distances. Faces with an undecided
+/// sign, and faces that the point touches within the length `touching`, are added to `unclear`
+/// instead of being counted.
 BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* end,
   const Faces* faces, float touching, const float* q, Unclear& unclear)
 {
   const float qx = q[0], qy = q[1], qz = q[2];
   const float length = std::abs(qx) + std::abs(qy) + std::abs(qz);
-  // A point that touches a triangle at some place is on the right side of the planes through its
-  // edges by no less than minus what it is away from that place.
+  // A point at the distance d from a triangle has a signed distance of at least -d from the planes
+  // through its edges (positive on the side of the triangle).
   const float edge_bound = rounded_by * length + 1.01f * Block::one * touching;
   const float side_bound = edge_bound + rounded_by * Block::one;
   std::int32_t counts[lanes] = {};
   for (const Block* block = begin; block != end; ++block)
   {
-    float
-      plane[Block::numbers * lanes]; // a loop of its own: with it in the next one compilers give up
+    // A separate loop, because compilers do not vectorize the next loop with this conversion in it.
+    float plane[Block::numbers * lanes];
     for (int k = 0; k < Block::numbers * lanes; ++k)
     {
       plane[k] = static_cast<float>(block->plane[k]);
@@ -156,7 +158,7 @@ bool WindingCells::count_in(const Leaf& found, const Vec3& p, int& count) const
 
 void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool* told) const
 {
-  // All points go down together: what one needs is on its way while the others are looked at.
+  // All points descend together: the data of one point is prefetched while others are processed.
   std::array<const Cell*, most_at_once> cells;
   std::array<Id, most_at_once> waiting;
   Id left = 0;
@@ -250,8 +252,8 @@ void WindingCells::evaluate_row(const double* xs, Index number, double y, double
       place = this->place_of(*at, p);
       cell = this->cell_at(*at, place);
     }
-    // The cell's own part of the row, but for what rounding could put into its neighbour: whoever
-    // comes from elsewhere must find a point in the same cell.
+    // The part of the row in this cell, without a margin in which rounding could choose the
+    // neighboring cell. evaluate() must find every point in the same cell.
     const double lower = at->lower.x() + (place[0] + 1e-6) / at->inverse;
     const double upper = at->lower.x() + (place[0] + 1 - 1e-6) / at->inverse;
     Index end = i + 1;

@@ -11,67 +11,70 @@
 namespace bindpose
 {
 
-/// Winding numbers of closed surfaces, whole numbers, exact.
+/// Winding numbers of closed surfaces, which are exact integers.
 ///
-/// Space is cut into cells until each holds few triangles. Where there are none the number is
-/// known; elsewhere it is known at one place of the cell, its reference, and the signed crossings
-/// of the segment from a point to it tell the rest. A point costs tens of nanoseconds whatever the
-/// surface's size.
+/// Space is divided into cells until each cell contains few triangles. A cell without triangles
+/// stores its constant winding number. Any other cell stores the winding number of one point, its
+/// reference; the signed crossings of the segment from a query point to the reference give the
+/// difference. A query takes tens of nanoseconds for every surface size.
 class WindingCells
 {
 public:
-  /// Triangles and the caps that close them (boundary_caps.h); together every edge's directions
-  /// cancel. Centred and scaled (ExactFrame), ids below 2^29. All three are referred to, not
-  /// copied.
-  /// @return false when cancelled.
+  /// Build from triangles and the caps that close them (boundary_caps.h). Together, the directions
+  /// of every edge must cancel. Points must be centered and scaled (ExactFrame), ids below 2^29.
+  /// All three arguments are referenced, not copied.
+  /// @return false if canceled.
   bool build(const Points& points, const Triangles& triangles, const Triangles& caps,
     double tolerance, ExecutionContext& context);
 
-  /// For up to `most_at_once` points; more than one, and the memory for the next is on its way
-  /// while one is looked at. told[i] is false for a point that touches a triangle or a cap (and
-  /// for one in 1e12 others): ask somebody else. Thread-safe.
+  /// Compute the winding numbers of up to `most_at_once` points. Several points per call are
+  /// faster, because memory for the next point is prefetched while the current one is processed.
+  /// told[i] is false if point i touches a triangle or a cap, and for about one in 1e12 other
+  /// points; the caller must use another method for it. Thread-safe.
   static constexpr Index most_at_once = 32;
   void evaluate(const Vec3* points, Index number, int* counts, bool* told) const;
 
-  /// The same for the points (xs[0 … number), y, z): neighbours in one cell share the way to it.
-  /// Adds the places of points that it cannot tell to `untold`. Thread-safe.
+  /// Compute the winding numbers of the points (xs[0 … number), y, z). Neighbors in one cell share
+  /// the descent to it. The indices of unresolved points are appended to `untold`. Thread-safe.
   void evaluate_row(const double* xs, Index number, double y, double z, double* counts,
     std::vector<Index>& untold) const;
 
-  /// Bytes held.
+  /// Return the memory in use, in bytes.
   Index memory() const;
 
 private:
   using Id = std::int32_t;
   static constexpr int lanes = 8;
-  /// Planes of up to eight triangles as seen from a leaf's reference: normals of those through the
-  /// reference and an edge, then the triangle's own and how far that is; x of all triangles first.
+  /// Planes of up to eight triangles relative to the reference of a leaf. The first three normals
+  /// belong to the planes through the reference and an edge. The fourth normal belongs to the
+  /// triangle itself and is followed by the distance of its plane. Each number is stored for all
+  /// triangles before the next one.
   struct Block
   {
     static constexpr int numbers = 13;
-    static constexpr float one = 32767.0f; ///< a length of 1 of a normal
+    static constexpr float one = 32767.0f; ///< stored length of a unit normal
     std::int16_t plane[numbers * lanes];
   };
-  /// Their ids, -1 for none: seldom needed, so not in the way of what is.
+  /// Triangle ids, -1 if unused. Rarely accessed, so stored apart from the planes.
   using Faces = std::array<Id, lanes>;
   struct Leaf
   {
     Vec3 reference;
-    float per_length; ///< units of its planes' distances
+    float per_length; ///< units of the stored plane distances per unit of length
     int count; ///< winding number at the reference
-    Id begin, end; ///< blocks
+    Id begin, end; ///< range of blocks
   };
-  /// A box of cells, x fastest.
+  /// A box of cells; x varies fastest.
   struct Node
   {
     Vec3 lower;
-    double inverse; ///< of a cell's size
+    double inverse; ///< 1 / cell size
     std::array<Id, 3> size;
-    Id first; ///< in the cells
+    Id first; ///< index of its first cell
   };
   enum Kind : std::uint32_t
   {
-    holds_nothing, ///< value: the winding number
+    holds_nothing, ///< value: the winding number of the cell
     holds_leaf,
     holds_node
   };
@@ -80,12 +83,12 @@ private:
     Id value : 30;
     std::uint32_t kind : 2;
   };
-  /// Faces that floats leave open.
+  /// Faces whose crossing single precision cannot decide.
   struct Unclear
   {
     static constexpr Id most = 32;
     std::array<Id, most> faces;
-    Id number = 0; ///< more than `most`: not all are listed
+    Id number = 0; ///< may exceed `most`; then only the first `most` faces are listed
 
     void add(Id face)
     {
@@ -113,15 +116,15 @@ private:
   const Triangles* triangles_ = nullptr;
   const Triangles* caps_ = nullptr;
   double tolerance_ = 0.0;
-  Vec3 lower_ = Vec3::Zero(); ///< outside of the box the number is 0
+  Vec3 lower_ = Vec3::Zero(); ///< outside this box the winding number is 0
   Vec3 upper_ = Vec3::Zero();
   struct Arrays
   {
-    std::vector<Node> nodes; ///< the first is the whole
+    std::vector<Node> nodes; ///< the first node is the whole box
     std::vector<Cell> cells;
     std::vector<Leaf> leaves;
     std::vector<Block> blocks;
-    std::vector<Faces> faces; ///< of each block
+    std::vector<Faces> faces; ///< triangle ids of each block
   };
   Arrays arrays_;
 };

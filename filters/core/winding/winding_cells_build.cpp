@@ -1,7 +1,7 @@
-// From the box of the surface downwards: a box's triangles are sorted into its cells, and a cell
-// that still holds many is a box again. References get their numbers from each other: a cell's from
-// its neighbour's, the first one's from that of the box. What is in the cells of the whole is made
-// on all threads, in pieces that are joined in their order.
+// Cells are built from the box of the surface downwards. The triangles of a box are sorted into its
+// cells; a cell with many triangles becomes a box again. The winding number of a reference follows
+// from that of a neighboring cell's reference, for the first cell from that of the enclosing box.
+// The cells of the whole box are filled on all threads, in pieces that are joined in order.
 #include "winding/winding_cells.h"
 
 #include "base/large_pages.h"
@@ -19,23 +19,25 @@ namespace bindpose
 
 namespace
 {
-/// Cells with more triangles are cut further. Measured on refined_elephant.off: 30 take an eighth
-/// more memory and as much time, 56 an eighth less and a fifth more time next to the surface.
+/// Cells with more triangles are divided further. Measured on refined_elephant.off: 30 takes an
+/// eighth more memory and the same time; 56 takes an eighth less memory and a fifth more time near
+/// the surface.
 constexpr std::size_t few = 40;
-/// Triangles that a new cell is meant to hold.
+/// Intended number of triangles in a new cell.
 constexpr double wanted = 18;
 constexpr int most_cells_along = 32;
-/// Of the whole, so that most points around a few large triangles are in cells without any.
+/// Fewest cells along the whole box, so that most points around a few large triangles are in cells
+/// without triangles.
 constexpr double fewest_cells_along = 8.0;
 constexpr int deepest = 12;
-/// Units of a plane's distance to a cell's size: a bit fewer than 16 bits hold.
+/// Units of a plane's distance per cell size: slightly less than the range of 16 bits.
 constexpr double distance_units = 32000.0;
-/// Cross products that are shorter, in units of the lengths they are made of (doubles around 1),
-/// have no direction to rely on.
+/// A cross product shorter than this, in units of the lengths of its factors (doubles around 1),
+/// has no reliable direction.
 constexpr double shortest_product = 1e-9;
 
-/// Whether a triangle and a box have a point in common (Akenine-Moeller's separating axes); true
-/// when in doubt.
+/// Report whether a triangle and a box intersect, by separating axes (Akenine-Moeller). True if in
+/// doubt.
 bool overlaps(const std::array<Vec3, 3>& corners, const Vec3& center, const Vec3& half)
 {
   const Vec3 a = corners[0] - center;
@@ -65,7 +67,7 @@ bool overlaps(const std::array<Vec3, 3>& corners, const Vec3& center, const Vec3
   return true;
 }
 
-/// A triangle by its sorted corners; `turn` tells even from odd orders.
+/// A triangle with sorted corners; `turn` is 1 for an even permutation and -1 for an odd one.
 struct SortedCorners
 {
   std::array<Index, 3> ids;
@@ -87,7 +89,8 @@ SortedCorners sorted_corners(const Triangles& triangles, Index t)
   return corners;
 }
 
-/// Triangles, and behind them caps, without the pairs that are each other turned over. Ascending.
+/// Return the ids of the triangles, followed by those of the caps, without the pairs of the same
+/// corners and opposite orientation. Ascending.
 std::vector<std::int32_t> without_opposites(const Triangles& triangles, const Triangles& caps)
 {
   std::vector<SortedCorners> of_caps;
@@ -133,7 +136,7 @@ std::vector<std::int32_t> without_opposites(const Triangles& triangles, const Tr
 }
 } // namespace
 
-/// Cuts boxes into cells.
+/// Divides boxes into cells.
 class WindingCells::Builder
 {
 public:
@@ -146,19 +149,19 @@ private:
   {
     Vec3 lower;
     Vec3 size;
-    Vec3 reference; ///< a place whose winding number is `count`
+    Vec3 reference; ///< a point whose winding number is `count`
     int count = 0;
     std::vector<Id> faces; ///< ascending
-    std::vector<std::array<Vec3, 3>> corners; ///< theirs: fetched once, read one after the other
+    std::vector<std::array<Vec3, 3>> corners; ///< corners of the faces, stored contiguously
     int depth = 0;
   };
-  /// A box's cells: faces of the cell c are faces[begin[c] ... begin[c + 1]), ascending places in
-  /// the box's list.
+  /// The cells of a box. The faces of cell c are faces[begin[c] … begin[c + 1]), ascending indices
+  /// into the list of the box.
   struct Grid
   {
-    double cell = 0.0; ///< size of one
+    double cell = 0.0; ///< edge length of a cell
     std::array<Id, 3> size;
-    std::size_t faces_before = 0; ///< of the box
+    std::size_t faces_before = 0; ///< number of faces of the box
     std::vector<Id> begin;
     std::vector<Id> faces;
     std::vector<Vec3> references;
@@ -193,7 +196,7 @@ private:
 
   WindingCells& owner_;
   ExecutionContext& context_;
-  std::vector<Id> faces_; // all of them
+  std::vector<Id> faces_; // ids of all faces
 };
 
 bool WindingCells::build(const Points& points, const Triangles& triangles, const Triangles& caps,
@@ -222,8 +225,8 @@ bool WindingCells::Builder::build()
   }
   if (!bounds.empty())
   {
-    // Some room, so that no triangle lies in the box's sides, of no simple ratio, so that those of
-    // cells do not lie in the planes of axis-aligned surfaces.
+    // The margin keeps triangles off the sides of the box. Its irregular ratios keep the sides of
+    // cells off the planes of axis-aligned surfaces.
     const double room = 1e-3 * bounds.diagonal() + 16.0 * this->owner_.tolerance_;
     all.lower = bounds.lower - Vec3(1.0137, 1.0719, 1.0431) * room;
     all.size = bounds.upper + Vec3(1.0311, 1.0173, 1.0597) * room - all.lower;
@@ -238,13 +241,14 @@ bool WindingCells::Builder::build()
   this->owner_.upper_ = all.lower + all.size;
   if (all.faces.empty())
   {
-    this->owner_.upper_ = this->owner_.lower_ - Vec3::Ones(); // all is outside
+    this->owner_.upper_ = this->owner_.lower_ - Vec3::Ones(); // every point is outside
     return true;
   }
   return this->cut_whole(all);
 }
 
-/// Signed crossings of a segment with the faces of two lists, each face once; false when unclear.
+/// Count the signed crossings of a segment with the faces of two lists, each face once. Return
+/// false if a crossing is unclear.
 bool WindingCells::Builder::crossings(
   const Box& box, const Vec3& from, const Vec3& to, List some, List others, int& count)
 {
@@ -268,7 +272,8 @@ bool WindingCells::Builder::crossings(
   return true;
 }
 
-/// By the angles of all faces; false when the place touches one.
+/// Compute the winding number from the solid angles of all faces. Return false if the point touches
+/// a face.
 bool WindingCells::Builder::count_slowly(const Vec3& place, int& count) const
 {
   SolidAngleSum sum(place, this->owner_.tolerance_);
@@ -281,7 +286,8 @@ bool WindingCells::Builder::count_slowly(const Vec3& place, int& count) const
   return !sum.on_surface();
 }
 
-/// Cubic cells, about so many that a sheet of triangles leaves the wanted number in each.
+/// Choose the cubic cells of a box. Their number leaves about `wanted` triangles per cell if the
+/// triangles form a sheet.
 WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box, double most_along) const
 {
   Grid grid;
@@ -298,14 +304,14 @@ WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box, doub
   return grid;
 }
 
-/// The cells that faces [begin, end) of the box meet; false when cancelled, or when they are more
-/// than `most`.
+/// Find the cells that the faces [begin, end) of the box meet. Return false if canceled or if more
+/// than `most` cells are found.
 bool WindingCells::Builder::find(
   const Box& box, const Grid& grid, Index begin, Index end, std::size_t most, Found& found) const
 {
   const std::array<Id, 3>& size = grid.size;
-  // A little room, so that a point that rounding puts into the neighbouring cell is still told
-  // right.
+  // A small margin keeps the result correct for points that rounding puts into the neighboring
+  // cell.
   const Vec3 half = Vec3::Constant(0.5 * grid.cell * (1.0 + 1e-9) + 4.0 * this->owner_.tolerance_);
   const double inverse = 1.0 / grid.cell;
   for (Index i = begin; i < end; ++i)
@@ -347,8 +353,8 @@ bool WindingCells::Builder::find(
   return true;
 }
 
-/// Sorts the box's faces into its cells; false when cancelled, or when they would make more than
-/// `most` entries.
+/// Sort the faces of the box into its cells. Return false if canceled or if this would make more
+/// than `most` entries.
 bool WindingCells::Builder::sort(
   const Box& box, bool on_all_threads, std::size_t most, Grid& grid) const
 {
@@ -401,7 +407,7 @@ bool WindingCells::Builder::sort(
   return true;
 }
 
-/// References of the cells, and what winds around them; false when cancelled.
+/// Choose the references of the cells and compute their winding numbers. Return false if canceled.
 bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
 {
   const Id cells = grid.cells();
@@ -421,7 +427,7 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
     bool told = false;
     for (int attempt = 0; attempt < 32 && !told; ++attempt)
     {
-      // Off the middle, in another direction each time, and of no simple ratio.
+      // Off the center, in a different direction per attempt, with irregular ratios.
       const double t = attempt + 1.0;
       const Vec3 place = center +
         0.05 * grid.cell *
@@ -436,7 +442,7 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
       }
       else if (box.depth == 0)
       {
-        // From outside of everything.
+        // The segment begins outside the box, where the winding number is 0.
         const Vec3 step = grid.cell * Vec3(1.1, 0.03, 0.05);
         told = crossings(box, place, place - step, list(c), none, found);
       }
@@ -459,9 +465,9 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
 
 bool WindingCells::Builder::cut_whole(const Box& whole)
 {
-  // Entries that all cells together may make, shared out by what they begin with: no more memory
-  // than a multiple of the surface's, however unlucky the faces lie. Triangles as large as the
-  // surface must do with fewer cells.
+  // Largest number of entries of all cells together. It is divided among the cells in proportion to
+  // their first entries. It bounds the memory to a multiple of the surface's for every arrangement
+  // of the faces. Surfaces with triangles as large as the surface get fewer cells.
   const double most = 16.0 * static_cast<double>(this->faces_.size()) + 1e5;
   Grid grid;
   {
@@ -532,7 +538,7 @@ bool WindingCells::Builder::cut_whole(const Box& whole)
   return !this->context_.cancelled();
 }
 
-/// Joins what the cells [first, end) of the whole hold to the rest.
+/// Append the contents of the cells [first, end) of the whole box to the arrays of the owner.
 void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
 {
   Arrays& all = this->owner_.arrays_;
@@ -559,8 +565,8 @@ void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
   }
 }
 
-/// The box as a new node; false, and nothing is made, when cancelled or when its cells would hold
-/// more than so many entries.
+/// Add the box as a new node. Return false if canceled. Return false and add nothing if its cells
+/// would contain more than `entries` entries.
 bool WindingCells::Builder::cut(const Box& box, Arrays& made, std::size_t entries) const
 {
   Grid grid = this->cells_of(box, most_cells_along);
@@ -587,13 +593,13 @@ bool WindingCells::Builder::cut(const Box& box, Arrays& made, std::size_t entrie
   return true;
 }
 
-/// What the cell c is, and all that is in it; false when cancelled.
+/// Set the cell c and add its contents. Return false if canceled.
 bool WindingCells::Builder::fill(
   const Box& box, const Grid& grid, Id c, std::size_t entries, Arrays& made, Cell& cell) const
 {
   const auto number = static_cast<std::size_t>(grid.number(c));
   const List faces(grid.faces.data() + grid.begin[c], grid.faces.data() + grid.begin[c + 1]);
-  // Cutting must pay: a vertex of many triangles stays in one cell however small.
+  // The division must pay off: a vertex of many triangles stays in one cell of any size.
   const bool shrinks = box.depth < 3 || 10 * number < 7 * grid.faces_before;
   const bool large_enough = grid.cell > 1e6 * this->owner_.tolerance_;
   if (number > few && shrinks && large_enough && box.depth < deepest && entries > number)
@@ -621,7 +627,7 @@ bool WindingCells::Builder::fill(
     {
       return false;
     }
-    // Its faces are too large for smaller cells.
+    // The faces are too large for smaller cells.
   }
   cell = { grid.counts[c], holds_nothing };
   if (number > 0)
@@ -634,8 +640,8 @@ bool WindingCells::Builder::fill(
 
 namespace
 {
-/// Three whole numbers for the direction of a cross product; zeros where it has none: then every
-/// sign is open.
+/// Return a cross product scaled to the length `one`, or zeros if it is too short to have a
+/// direction. With zeros every sign is undecided.
 std::array<double, 3> direction(const Vec3& product, double shortest, double one)
 {
   const double length = product.norm();
@@ -663,7 +669,7 @@ WindingCells::Id WindingCells::Builder::add_leaf(
     Faces ids;
     for (int lane = 0; lane < lanes; ++lane)
     {
-      // A lane that is none: a plane far away.
+      // An unused lane contains a plane far away.
       std::array<double, Block::numbers> plane{};
       plane[12] = one;
       ids[lane] = -1;
@@ -692,13 +698,13 @@ WindingCells::Id WindingCells::Builder::add_leaf(
           direction(product, shortest_product * longest * std::max(1.0, reach / cell), one);
         const double distance =
           static_cast<double>(leaf.per_length) * product.dot(seen[0]) / product.norm();
-        const bool is_near = std::abs(distance) < one; // as it should be
+        const bool is_near = std::abs(distance) < one; // expected, because the face meets the cell
         std::copy(normal.begin(), normal.end(), plane.begin() + 9);
         plane[12] = is_near && normal != std::array<double, 3>{} ? distance : 0.0;
       }
       for (int k = 0; k < Block::numbers; ++k)
       {
-        // Rounded; a call would cost more than the rest.
+        // Round to the nearest integer; a library call would cost more than the rest.
         block.plane[k * lanes + lane] =
           static_cast<std::int16_t>(plane[k] + (plane[k] < 0.0 ? -0.5 : 0.5));
       }

@@ -1,13 +1,13 @@
-// Build: merge equal vertices, drop triangles that use a vertex twice, count edges, choose a
-// method, make its structures. Evaluate: each point on its own, so that neither threads nor the
-// extent of a grid can change a bit.
+// The build merges equal vertices, drops triangles that use a vertex twice, counts edges, chooses a
+// method and builds its data structures. The evaluation treats each point independently, so that
+// neither the number of threads nor the extent of a grid can change a bit.
 //
-// Both crossings and fast close the surface by caps over its boundary. Surface and caps together
-// wind a whole number of times around a point, counted on a ray; what the caps wind on their own is
-// taken off, exactly as their sum, or fast as their field. Where a point touches the surface or a
-// cap, the tree or the plain sum tells.
+// The methods crossings and fast close the surface by caps over its boundary. Surface and caps
+// together have an integer winding number, which ray crossings count. The winding number of the
+// caps is subtracted: crossings computes it as an exact sum, fast evaluates it as a DipoleField. If
+// the point touches the surface or a cap, the tree or the plain sum is used instead.
 //
-// All of it happens in an exact frame: size about 1, near the origin, nothing rounded.
+// All computations use an exact frame: size about 1, near the origin, without rounding.
 #include "winding/winding_number.h"
 
 #include "base/large_pages.h"
@@ -33,23 +33,24 @@ namespace bindpose
 
 namespace
 {
-/// Below this many triangles their plain sum costs no more than a structure.
+/// Up to this many triangles the plain sum costs no more than a data structure.
 constexpr Index few_triangles = 24;
-/// Up to this many open edges their sum costs less than descending the tree. (Nor does the tree pay
-/// where most edges are open. Measured: 14-20 ns an open edge, 20 ns a triangle, 20 to 600 us the
-/// tree, the more the rougher the surface.)
+/// Up to this many open edges the sum over them costs less than a descent of the tree. The tree
+/// does not pay off either if most edges are open. Measured: 14-20 ns per open edge, 20 ns per
+/// triangle, 20 to 600 us for the tree (more on rougher surfaces).
 constexpr Index few_open_edges = 15000;
-/// Up to this many open edges their exact sum costs about as much as the field of the caps.
+/// Up to this many open edges the exact sum over them costs about as much as the field of the caps.
 constexpr Index hardly_open = 12;
 /// Beyond this distance, in units of the mesh, the winding number is 0 in double precision.
 constexpr double far_away = 1e20;
-/// Measured nanoseconds of cells: to build them, per triangle; per point; per sample of a row.
+/// Measured nanoseconds of cells: to build them, per triangle; to evaluate a point; to evaluate a
+/// sample of a row.
 constexpr double cells_per_face = 450.0;
 constexpr double cells_per_point = 40.0;
 constexpr double cells_per_sample = 6.0;
-/// To write a sample of a row.
+/// Nanoseconds to write a sample of a row.
 constexpr double write_per_sample = 1.0;
-/// Points whose crossings are counted at once: each takes 30 bytes.
+/// Largest number of points for which rays are used; each point takes 30 bytes.
 constexpr Index most_ray_points = 1 << 22;
 
 double direct_sum(
@@ -96,20 +97,20 @@ struct WindingNumber::Parts
   Points points;
   Triangles triangles;
   Index max_leaf_size = 64;
-  // Made when first asked: touching points are rare.
+  // Built on first use, because touching points are rare.
   mutable WindingTree tree;
   mutable std::mutex tree_mutex;
   mutable std::atomic<bool> tree_built{ false };
-  // Built at once, or when they first pay: other ways of counting crossings give the same values.
+  // Built at once, or when they first pay off. Counting crossings by rays gives the same values.
   mutable WindingCells cells;
   mutable std::mutex cells_mutex;
   mutable std::atomic<bool> cells_built{ false };
-  mutable std::atomic<double> ray_nanoseconds{ 0.0 }; ///< that rays took so far, as predicted
+  mutable std::atomic<double> ray_nanoseconds{ 0.0 }; ///< predicted time of all ray counts so far
   std::unique_ptr<RayCrossings> rays;
   std::vector<Edge> rim; ///< edges whose directions do not cancel
-  Triangles caps; ///< with them the surface is closed
-  SurfaceBoundary boundary; ///< ids and volumes are the input's
-  DipoleField field; ///< of the caps, when the method is fast
+  Triangles caps; ///< triangles that close the surface
+  SurfaceBoundary boundary; ///< in ids and units of the input
+  DipoleField field; ///< of the caps, if the method is fast
 
   bool by_crossings() const
   {
@@ -268,7 +269,7 @@ Status WindingNumber::build(
       parts.method = WindingMethod::direct;
     }
   }
-  // A plain sum takes the fewest caps, cells those that reach least far.
+  // The plain sum is fastest with the fewest caps, the cells of the field with the smallest caps.
   if (done && parts.method == WindingMethod::fast &&
     !DipoleField::sums_all(options.expected_queries))
   {
@@ -285,7 +286,7 @@ Status WindingNumber::build(
     const ProgressRange range(context, 0.4, parts.method == WindingMethod::fast ? 0.6 : 1.0);
     parts.rays = std::make_unique<RayCrossings>(
       parts.points, parts.triangles, parts.caps, parts.frame.tolerance);
-    // Else the first evaluation decides, by its number of points and whether they are a grid.
+    // If the number of queries is known, the first evaluation chooses between rays and cells.
     done = options.expected_queries > 0 || parts.build_cells(context);
   }
   if (done && parts.method == WindingMethod::fast)
@@ -294,14 +295,14 @@ Status WindingNumber::build(
     DipoleField::Options field;
     field.tolerance = options.tolerance;
     field.expected_points = options.expected_queries;
-    // The padding that grids have by default.
+    // The default padding of grids, as a fraction of the diagonal.
     constexpr double padding = 0.1;
     field.region = bounding_box(parts.points, parts.triangles);
     const double pad = padding * field.region.diagonal();
     field.region.lower.array() -= pad;
     field.region.upper.array() += pad;
-    // Long caps are cut, at places that are rounded. So near to them that it shows, they count as
-    // touched, and the exact sum is asked.
+    // Long caps are cut at rounded positions. Points for which this rounding matters count as
+    // touching, and the exact sum is used for them.
     const double shows = parts.frame.tolerance / options.tolerance;
     done = parts.field.build(parts.points, parts.caps,
       std::vector<int>(static_cast<std::size_t>(parts.caps.rows()), 1), shows, field, context);
@@ -339,8 +340,8 @@ Index WindingNumber::memory() const
     this->parts_->tree.memory() + this->parts_->cells.memory() + this->parts_->field.memory();
 }
 
-/// Whether to count crossings by rays, which takes so many nanoseconds, rather than by cells. Cells
-/// are built at the latest when rays have taken as long as building them does.
+/// Report whether counting crossings by rays, which takes ray_cost nanoseconds, is faster than by
+/// cells. Cells are built at the latest when rays have taken as long as building the cells takes.
 bool WindingNumber::Parts::rays_pay(double ray_cost, double cell_cost) const
 {
   if (this->cells_built)
@@ -360,14 +361,14 @@ bool WindingNumber::Parts::build_cells(ExecutionContext& context) const
   return this->cells_built;
 }
 
-/// At up to WindingCells::most_at_once points. `counts` and `resolved` are what RayCrossings gives
-/// for them, or null.
+/// Evaluate up to WindingCells::most_at_once points. `counts` and `resolved` are the results of
+/// RayCrossings for these points, or null.
 void WindingNumber::Parts::at(const Vec3* queries, Index number, const int* counts,
   const unsigned char* resolved, double* winding_numbers, bool* on_surface) const
 {
   std::array<Vec3, WindingCells::most_at_once> framed;
   framed.fill(Vec3::Zero());
-  std::array<Index, WindingCells::most_at_once> asked; // those with an answer to look for
+  std::array<Index, WindingCells::most_at_once> asked; // indices of the points to evaluate
   Index count = 0;
   for (Index i = 0; i < number; ++i)
   {
@@ -418,7 +419,7 @@ void WindingNumber::Parts::at(const Vec3* queries, Index number, const int* coun
   }
 }
 
-/// What the caps wind, and whether the points touch them.
+/// Compute the winding numbers of the caps and whether the points touch them.
 void WindingNumber::Parts::caps_at(
   const Vec3* framed, Index count, double* winding_numbers, bool* touches) const
 {
@@ -436,7 +437,7 @@ void WindingNumber::Parts::caps_at(
   }
 }
 
-/// Where few points need it, not before the first does.
+/// Build the tree unless it exists. If few points need it, the first of them builds it.
 bool WindingNumber::Parts::build_tree(ExecutionContext& context) const
 {
   const std::lock_guard<std::mutex> lock(this->tree_mutex);
@@ -446,7 +447,7 @@ bool WindingNumber::Parts::build_tree(ExecutionContext& context) const
   return this->tree_built;
 }
 
-/// What is right everywhere.
+/// Evaluate a point by a method that is correct everywhere: the plain sum or the tree.
 double WindingNumber::Parts::slowly_at(const Vec3& p, bool* on_surface) const
 {
   if (this->method == WindingMethod::direct)
@@ -464,7 +465,7 @@ double WindingNumber::Parts::slowly_at(const Vec3& p, bool* on_surface) const
   {
     *on_surface = sum.on_surface();
   }
-  // What the cells tell without round-off must not have it when they happen not to.
+  // Cells return integers without round-off; points that they cannot resolve must be integers, too.
   const bool whole = this->rim.empty() && !sum.on_surface();
   return whole ? std::round(sum.winding_number()) : sum.winding_number();
 }
@@ -539,7 +540,7 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
     }
   }
   const ProgressRange range(context, by_rays ? 0.5 : 0.0, 1.0);
-  // A tree may be no more than a list.
+  // The tree can degenerate to a list.
   const double nanoseconds = parts.method == WindingMethod::fast ? 500.0
     : parts.method == WindingMethod::crossings
     ? 100.0 + 20.0 * static_cast<double>(parts.caps.rows())
@@ -547,7 +548,8 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
   return point_values(context, count, nanoseconds, out, on_surface,
     [&](Index begin, Index end, unsigned char* flags)
     {
-      // What cells hold is fetched once for the points that need it, in whatever order they come.
+      // Sort the points spatially, so that neighbors use the data of a cell while it is in the
+      // cache.
       const Index count_here = end - begin;
       std::vector<Vec3> points(static_cast<std::size_t>(count_here));
       for (Index i = 0; i < count_here; ++i)
@@ -641,8 +643,8 @@ Status WindingNumber::evaluate_gradient(
   return this->evaluate_gradients(grid.count(), points_of(grid), context, out);
 }
 
-/// The boundary edges' share (the field of a current that runs along them): the surface between
-/// them does not matter.
+/// Return the sum over the boundary edges (the field of a current that runs along them). The
+/// surface between the edges does not matter.
 Vec3 WindingNumber::Parts::gradient_at(const Vec3& point) const
 {
   if (!point.allFinite())
@@ -675,7 +677,7 @@ Vec3 WindingNumber::Parts::gradient_at(const Vec3& point) const
   return this->frame.scale / four_pi * sum;
 }
 
-/// All samples are where the cells can tell.
+/// Report whether all samples are in the range that cells and rays can evaluate.
 bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
 {
   const auto corner = [&](int end)
@@ -685,7 +687,7 @@ bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
     corner(1).cwiseAbs().maxCoeff() < far_away;
 }
 
-/// The grid's rows along x, each shared by neighbours that lie in one cell.
+/// Evaluate the grid by rows along x, in which neighbors in one cell share the descent.
 Status WindingNumber::evaluate_rows(
   const SampleGrid& grid, ExecutionContext& context, double* out, unsigned char* on_surface) const
 {
@@ -782,7 +784,7 @@ Status WindingNumber::evaluate_rows(
             untold.push_back(i);
           }
         }
-        // A place may have been left by both.
+        // A sample can be in the list twice: unresolved, and touching a cap.
         std::sort(untold.begin(), untold.end());
         untold.erase(std::unique(untold.begin(), untold.end()), untold.end());
         if (flags)
@@ -850,7 +852,7 @@ double winding_number_direct(
     const Vec3 a = frame(points.row(triangles(t, 0)));
     const Vec3 b = frame(points.row(triangles(t, 1)));
     const Vec3 c = frame(points.row(triangles(t, 2)));
-    if (a != b && b != c && c != a) // else it is none, and cannot be touched either
+    if (a != b && b != c && c != a) // a degenerate triangle counts 0 and cannot be touched
     {
       sum.add(a, b, c);
     }

@@ -1,8 +1,8 @@
-// Nodes are split at the median of the triangles' centres along the longest axis. Boundaries are
-// found from the leaves up: edges that two children share in opposite directions cancel. The cap
-// of a boundary is the fan from one of its vertices to all its edges; fan and triangles together
-// are closed (each vertex of a boundary has as many edges in as out), so that from outside the box
-// they differ by a whole number that is zero there.
+// Nodes are split at the median of the triangles' centers along the longest axis. Boundaries are
+// computed from the leaves upwards: edges that two children share in opposite directions cancel.
+// The cap of a boundary is the fan from one of its vertices to all its edges. Every vertex of a
+// boundary has as many edges in as out, so triangles and reversed fan together are closed. Outside
+// the box their winding number is a constant integer, which is zero.
 #include "winding/winding_tree.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace bindpose
 
 namespace
 {
-/// Sorted by (a, b); entries of the same edge become one, entries of net 0 vanish.
+/// Merge the entries of the same edge, sorted by (a, b), and remove entries of net 0.
 template <typename NetEdges>
 void combine(NetEdges& edges)
 {
@@ -131,7 +131,8 @@ bool WindingTree::build_node(Id id, ExecutionContext& context, std::vector<NetEd
     combine(boundary);
   }
 
-  // The apex is the vertex with most boundary edges: those need no triangle.
+  // The apex is the vertex that is the end `a` of the most boundary edges, because edges at the
+  // apex need no triangle.
   Id apex = -1;
   std::size_t most = 0;
   for (std::size_t i = 0; i < boundary.size();)
@@ -199,7 +200,7 @@ void WindingTree::add_to(SolidAngleSum& sum, const Vec3& point) const
   {
     return;
   }
-  // Halving 2^31 triangles takes 31 levels, each of which leaves one node behind.
+  // 31 levels halve 2^31 triangles; each level leaves one node on the stack.
   Id stack[64] = { 0 };
   int height = 1;
   while (height > 0)

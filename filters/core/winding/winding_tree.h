@@ -12,27 +12,29 @@ namespace bindpose
 /// Hierarchy of boxes over triangles for exact winding numbers (Jacobson, Kavan, Sorkine-Hornung,
 /// Robust Inside-Outside Segmentation using Generalized Winding Numbers, 2013).
 ///
-/// Seen from outside a node's box, the node's triangles count as much as any other surface with the
-/// same boundary in that box; the node keeps a fan over its boundary edges as its cap. Exact up to
-/// round-off. On a soup, where every edge is boundary, caps gain nothing and the tree is a list.
+/// Seen from outside a node's box, the node's triangles have the same winding number as any other
+/// surface with the same boundary in that box. Therefore the node stores a fan over its boundary
+/// edges as its cap. The result is exact up to round-off. In a triangle soup every edge is a
+/// boundary edge; caps gain nothing there and the tree works like a list.
 class WindingTree
 {
 public:
-  /// Points are centred and scaled, equal points are one vertex, ids below 2^31. Both matrices must
-  /// outlive the tree. A node of at most max_leaf_size triangles is not split.
-  /// @return false when cancelled.
+  /// Build the tree. Points must be centered and scaled, equal points must be one vertex, and ids
+  /// must be below 2^31. Both matrices must outlive the tree. A node of at most max_leaf_size
+  /// triangles is not split.
+  /// @return false if canceled.
   bool build(const Points& points, const Triangles& triangles, double tolerance,
     Index max_leaf_size, ExecutionContext& context);
 
-  /// Adds the solid angle of all triangles, seen from the sum's point. Thread-safe.
+  /// Add the solid angle of all triangles, seen from the point of `sum`. Thread-safe.
   void add_to(SolidAngleSum& sum, const Vec3& point) const;
 
-  /// Bytes held.
+  /// Return the memory in use, in bytes.
   Index memory() const;
 
 private:
   using Id = std::int32_t;
-  /// An edge that runs a -> b `net` times more often than b -> a; a < b, net not 0.
+  /// An edge that is used `net` times more often as a -> b than as b -> a; a < b, net is not 0.
   struct NetEdge
   {
     Id a, b, net;
@@ -44,10 +46,10 @@ private:
   struct Node
   {
     double lower[3], upper[3];
-    Id first = 0, count = 0; ///< triangles, in order_
+    Id first = 0, count = 0; ///< range of triangles in order_
     Id left = -1, right = -1; ///< children; -1: a leaf
     Id cap_first = 0;
-    Id cap_count = -1; ///< -1: no cap, the triangles themselves are fewer
+    Id cap_count = -1; ///< -1: no cap, because it would not be smaller than the triangles
   };
 
   bool build_node(Id node, ExecutionContext& context, std::vector<NetEdge>& boundary);
@@ -58,7 +60,7 @@ private:
   const Triangles* triangles_ = nullptr;
   double margin_ = 0.0;
   Id max_leaf_size_ = 0;
-  std::vector<Vec3> centers_; // of triangles; while building only
+  std::vector<Vec3> centers_; // sum of the three corners per triangle; used while building only
   std::vector<Id> order_;
   std::vector<Node> nodes_;
   std::vector<CapTriangle> caps_;

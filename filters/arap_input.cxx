@@ -1,4 +1,4 @@
-// What the filters of as-rigid-as-possible deformation share.
+// Code shared by the filters of as-rigid-as-possible deformation.
 #include "arap_input.h"
 
 #include "vtkReducedARAP.h"

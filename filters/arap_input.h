@@ -8,7 +8,7 @@
 namespace bindpose
 {
 
-/// A mesh as the energies see it: tets if it has cells of volume, else triangles.
+/// A mesh in the form that the energies use: tets if it has volume cells, otherwise triangles.
 struct ArapElements
 {
   bool volume = false;
@@ -16,14 +16,15 @@ struct ArapElements
   SurfaceInput surface;
 };
 
-/// @param energy of vtkReducedARAP::EnergyType. invalid_input for cells that are no such mesh, and
-/// for an energy of tets on a surface or of triangles on tets.
+/// Convert a mesh and an energy. Return invalid_input if the cells are neither tets nor triangles,
+/// and for an energy of tets on a surface or of triangles on tets.
+/// @param energy  a value of vtkReducedARAP::EnergyType
 Status to_arap(vtkPointSet* mesh, int energy, ArapElements& elements, ArapEnergy& result);
 
-/// Binds a kernel of reduced as-rigid-as-possible deformation with the filter's energy, clusters
-/// and extra weights.
-/// @param input the filter's PoseInput, from pose_input.h.
-/// @param options what the filter says beyond these.
+/// Bind a kernel of reduced as-rigid-as-possible deformation with the filter's energy, clusters and
+/// extra weights.
+/// @param input  the filter's PoseInput, from pose_input.h
+/// @param options  all other options of the filter
 template <typename Filter, typename Kernel, typename Input>
 Status bind_reduced(Filter& filter, Kernel& kernel, const Input& input, ExecutionContext& context,
   ReducedArapOptions options = {})
@@ -43,7 +44,7 @@ Status bind_reduced(Filter& filter, Kernel& kernel, const Input& input, Executio
                              input.weights, input.handles, options);
 }
 
-/// "auto", "spokes and rims", …
+/// Return the name of an energy: "auto", "spokes and rims", …
 const char* arap_energy_name(int energy);
 
 } // namespace bindpose

@@ -8,19 +8,19 @@
 namespace bindpose
 {
 
-/// What a bind was made from: the objects and their modification times, never those of a dataset
-/// (editing a transform raises the handle dataset's own time; a re-executed filter raises its
-/// output's). Equal keys: the bind still holds.
+/// The inputs of a bind: objects and their modification times. The time of a dataset is not used,
+/// because editing a transform raises the handle dataset's own time, and a filter that executes
+/// again raises that of its output. If two keys are equal, the bind is still valid.
 class BindKey
 {
 public:
-  /// An array, points or cell array that the bind reads; null counts, too.
+  /// Add an array, points or cell array that the bind reads; null is allowed and part of the key.
   void add(vtkObject* object)
   {
     this->parts_.push_back(reinterpret_cast<vtkMTimeType>(object));
     this->parts_.push_back(object ? object->GetMTime() : 0);
   }
-  /// The filter's own bind time (see BindModified).
+  /// Add the filter's own bind time (see BindModified).
   void add(vtkMTimeType time) { this->parts_.push_back(time); }
 
   bool operator==(const BindKey& other) const { return this->parts_ == other.parts_; }

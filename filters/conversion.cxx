@@ -1,5 +1,6 @@
-// Between VTK's datasets and the kernels' matrices. Coordinates and connectivity are shared where
-// the layout allows: doubles side by side, 64-bit connectivity of triangles or tets only.
+// Conversion between VTK's datasets and the kernels' matrices. Coordinates and connectivity are
+// shared if the layout allows it: contiguous doubles, and 64-bit connectivity of only triangles or
+// only tets.
 #include "conversion.h"
 
 #include "pseudo_edge_cells.h"
@@ -35,7 +36,7 @@ namespace
 {
 static_assert(sizeof(Index) == sizeof(vtkTypeInt64), "connectivity is shared");
 
-/// Shares a cell array's connectivity when all its cells have as many points as Matrix columns.
+/// Share a cell array's connectivity if all its cells have as many points as Matrix has columns.
 template <typename Matrix>
 bool share_connectivity(vtkCellArray* cells, SharedMatrix<Matrix>& matrix)
 {
@@ -52,8 +53,8 @@ bool share_connectivity(vtkCellArray* cells, SharedMatrix<Matrix>& matrix)
   return true;
 }
 
-/// Fan for triangles and quads, ear cutting for larger polygons; a polygon that cannot be cut
-/// (degenerate) is fanned, which keeps its winding number.
+/// Triangulate a polygon: a fan for triangles and quads, ear cutting for larger polygons. A
+/// degenerate polygon that cannot be cut is split into a fan, which keeps its winding number.
 void triangulate_polygon(vtkIdType count, const vtkIdType* ids, vtkPoints* points,
   std::vector<std::array<Index, 3>>& triangles)
 {
@@ -252,7 +253,7 @@ bool has_volume_cell(vtkUnstructuredGrid* grid)
   vtkUnsignedCharArray* types = grid->GetCellTypesArray();
   for (vtkIdType i = 0; types && i < types->GetNumberOfValues(); ++i)
   {
-    // Linear cells of three dimensions are numbered from VTK_TETRA on.
+    // The types of linear 3D cells start at VTK_TETRA.
     const int type = types->GetValue(i);
     if (type >= VTK_TETRA && type <= VTK_HEXAGONAL_PRISM)
     {
@@ -380,8 +381,8 @@ double cell_value(vtkPolyData* data, const char* name, vtkIdType cell, double fa
   vtkDataArray* array = data->GetCellData()->GetArray(name);
   return array && cell < array->GetNumberOfTuples() ? array->GetComponent(cell, 0) : fallback;
 }
-/// Cells that are edges and faces of cages, polygons as fans: their points are those of cage
-/// vertices, or at the same places.
+/// Add the cells that are edges and faces of cages, polygons as fans. Their points must be those of
+/// cage vertices, or at the same positions.
 Status add_cages(vtkPolyData* data, const std::vector<Index>& handle_of_cell, Handles& handles)
 {
   std::map<vtkIdType, Index> by_point;
@@ -471,7 +472,7 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
     const int kind = static_cast<int>(cell_value(data, "HandleKind", cell, fallback_kind));
     if (kind == pseudo_edge_kind)
     {
-      continue; // only poses know it
+      continue; // pseudo-edges are not handles
     }
     if (kind < -1 || kind > 3)
     {
@@ -514,7 +515,7 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
       cells->push_back(cell);
     }
   }
-  // Parent names a cell in the dataset, a handle in the kernel.
+  // Parent is a cell of the dataset here, and a handle in the kernel.
   for (std::size_t i = 0; i < handles.size(); ++i)
   {
     const Index cell = parents[i];
@@ -548,7 +549,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
   regions->SetName("RegionId");
   vtkNew<vtkIntArray> ownerships;
   ownerships->SetName("Ownership");
-  // A polydata numbers its vertices before its lines: bones take the cells behind all others.
+  // A polydata numbers its vertices before its lines, so bones are the last cells.
   std::vector<Index> order;
   for (const bool bones : { false, true })
   {
@@ -586,7 +587,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
     regions->InsertNextValue(handle.region_id);
     ownerships->InsertNextValue(static_cast<int>(handle.ownership));
   }
-  // Edges of cages come behind the bones, faces behind all lines.
+  // Edges of cages follow the bones, faces follow all lines.
   vtkNew<vtkCellArray> faces;
   for (const bool face : { false, true })
   {

@@ -1,5 +1,5 @@
-// The parser tells what is wrong by error events, some lines long; the first line that says what it
-// is becomes the clause.
+// The parser reports errors by events with several lines. The first line that names the error
+// becomes the clause.
 #include "expression_parser.h"
 
 #include "vtkCallbackCommand.h"
@@ -13,7 +13,7 @@ namespace bindpose
 
 namespace
 {
-/// "ERROR: In …\nvtkExprTkFunctionParser (0x…): message\n\n": the message, in one line.
+/// Return the message of "ERROR: In …\nvtkExprTkFunctionParser (0x…): message\n\n" in one line.
 std::string message_of(const std::string& event)
 {
   const std::size_t begin = event.find("): ");
@@ -45,7 +45,7 @@ ExpressionParser::ExpressionParser()
     });
   this->parser_->AddObserver(vtkCommand::ErrorEvent, keep);
   this->parser_->AddObserver(vtkCommand::WarningEvent, keep);
-  // A value that is not finite would be an error of the parser's, not to be told from others.
+  // Otherwise the parser would report a value that is not finite like any other error.
   this->parser_->ReplaceInvalidValuesOn();
   this->parser_->SetReplacementValue(std::numeric_limits<double>::quiet_NaN());
 }

@@ -12,20 +12,20 @@ class vtkExprTkFunctionParser;
 namespace bindpose
 {
 
-/// Values of expressions in the variable t, by VTK's parser, without its error events.
+/// Evaluates expressions in the variable t with VTK's parser; suppresses its error events.
 class ExpressionParser
 {
 public:
   ExpressionParser();
   ~ExpressionParser();
 
-  /// invalid_input, with a clause that says what is wrong, for a text that is no expression of one
-  /// number. A value that is not finite is a value.
+  /// Evaluate an expression. Return invalid_input, with a clause that names the error, if the text
+  /// is not an expression with one number as its value. The value may be infinite or NaN.
   Status evaluate(const std::string& text, double t, double& value);
 
 private:
   vtkNew<vtkExprTkFunctionParser> parser_;
-  std::string error_; ///< of the parser's last event
+  std::string error_; ///< message of the parser's last event
 };
 
 } // namespace bindpose

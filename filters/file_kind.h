@@ -9,13 +9,13 @@
 namespace bindpose
 {
 
-/// Ending of a path in lower case without its dot ("vtp"); empty when there is none.
+/// Return the extension of a path in lower case without its dot ("vtp"); empty if there is none.
 BINDPOSEFILTERS_EXPORT std::string file_extension(const std::string& path);
 
-/// Word of a list whose words are parted by blanks?
+/// Report whether a word is in a list of words that are separated by blanks.
 BINDPOSEFILTERS_EXPORT bool is_listed(const std::string& word, const std::string& list);
 
-/// invalid_input: there is no file name, or its ending is not in the list.
+/// Return invalid_input if there is no file name or its extension is not in the list.
 BINDPOSEFILTERS_EXPORT Status check_extension(const std::string& path, const std::string& list);
 
 } // namespace bindpose

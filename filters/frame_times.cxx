@@ -1,4 +1,4 @@
-// Frames of a sequence as times of a pipeline: frame k is on from k / fps to (k + 1) / fps.
+// Frames of a sequence as time steps of a pipeline: frame k covers k / fps to (k + 1) / fps.
 #include "frame_times.h"
 
 #include "vtkInformation.h"
@@ -46,7 +46,7 @@ bool asked_time(vtkInformation* output, double& time)
 
 int frame_at(double time, int frames, double frames_per_second)
 {
-  // Times of frames may be off by round-off.
+  // The 1e-6 allows for round-off in the times of frames.
   return static_cast<int>(
     std::floor(std::clamp(time * frames_per_second + 1e-6, 0.0, static_cast<double>(frames - 1))));
 }

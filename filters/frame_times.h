@@ -8,16 +8,19 @@ class vtkInformation;
 namespace bindpose
 {
 
-/// Offers these times at a port, ascending; none: takes all offers back.
+/// Set the time steps of an output port, in ascending order; an empty list removes them.
 void offer_times(vtkInformation* output, const std::vector<double>& times);
 
-/// Offers the times of so many frames at a port, the first at 0 s; of fewer than two frames, none.
+/// Set the time steps of an output port to the times of the frames, the first at 0 s. Fewer than
+/// two frames remove the time steps.
 void offer_frames(vtkInformation* output, int frames, double frames_per_second);
 
-/// Whether a time is asked for that the port offers, and which.
+/// Report whether a time is requested from a port with time steps; `time` is then the requested
+/// time in seconds.
 bool asked_time(vtkInformation* output, double& time);
 
-/// The frame that is on at a time, the first or the last outside of them.
+/// Return the frame at a time in seconds: the last frame that is not later, clamped to the first
+/// and last frames.
 int frame_at(double time, int frames, double frames_per_second);
 
 } // namespace bindpose

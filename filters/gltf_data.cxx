@@ -1,5 +1,6 @@
-// Handles and joints. glTF's joints have a frame and a parent, but no tail and no kind: ours carry
-// both as a note in the file; of other programs' joints the children tell where a bone ends.
+// Conversion between handles and joints. glTF's joints have a frame and a parent, but no tail and
+// no handle type. Joints of Bindpose store both as a note in the file. For joints of other programs
+// the children determine the end of a bone.
 #include "gltf_data.h"
 
 #include "pose/pose_file.h"
@@ -56,7 +57,7 @@ std::vector<GltfJoint> to_joints(const Handles& handles, const std::vector<Affin
 
 namespace
 {
-constexpr double float_error = 2e-6; // of lengths that went through floats
+constexpr double float_error = 2e-6; // relative error of lengths that were stored as floats
 
 bool kind_of(const std::string& word, HandleKind& kind)
 {
@@ -72,10 +73,10 @@ bool kind_of(const std::string& word, HandleKind& kind)
   return false;
 }
 
-/// A handle at each joint. Where the note agrees with the inverse bind matrix it holds; a joint
-/// that was moved since, or one of another program, is a bone to the middle of its children, or a
-/// point without any. Joints at one place become short bones along their y axes: handles at one
-/// place cannot be told apart.
+/// Creates a handle for each joint. A note that agrees with the inverse bind matrix is used. A
+/// joint that was moved since, or that has no note, becomes a bone to the mean of its children, or
+/// a point if it has no children. Joints at the same position become short bones along their y
+/// axes, because two handles cannot be at the same position.
 class HandleMaker
 {
 public:
@@ -123,8 +124,8 @@ public:
   }
 
 private:
-  /// Whether the joint has no weights, although others have some: a control bone. A skin that gives
-  /// all vertices to one joint is a placeholder for weights that are still to be made.
+  /// Report whether the joint is a control bone: it has no weights, although others have. If one
+  /// joint has all weights of a skin, the weights are a placeholder and the result is false.
   bool moves_nothing(std::size_t j) const
   {
     return (this->largest_.array() > 0.0).count() > 1 &&
@@ -185,10 +186,10 @@ private:
   const GltfSkin& skin_;
   std::vector<std::vector<Index>> children_;
   double extent_ = 1.0;
-  Eigen::RowVectorXd largest_; ///< weight of each joint
+  Eigen::RowVectorXd largest_; ///< largest weight of each joint
 };
 
-/// Handle datasets have bones behind all others. order[i]: the joint of handle i.
+/// Sort handles so that bones are last, as in handle datasets. order[i] is the joint of handle i.
 void sort_handles(Handles& handles, std::vector<Index>& order)
 {
   std::vector<Index> place(handles.size());
@@ -220,7 +221,8 @@ void sort_handles(Handles& handles, std::vector<Index>& order)
   handles = std::move(sorted);
 }
 
-/// Rest to posed; what only floats took from the identity is the identity.
+/// Return the transform from rest to posed. A transform that differs from the identity only by
+/// float round-off is replaced by the identity.
 Affine transform_of(const Eigen::Affine3d& posed, const Eigen::Affine3d& rest, double extent)
 {
   const Eigen::Affine3d map = posed * rest.inverse();
@@ -304,7 +306,7 @@ Status read_gltf(const std::string& path, GltfData& data)
   {
     return Status::invalid_input(path + ": " + usable.message);
   }
-  // Where a handle is its note's, so is its frame, to all digits.
+  // If a handle comes from its note, its frame replaces the joint's frame, to have all digits.
   std::vector<Eigen::Affine3d> rest;
   std::vector<Eigen::Affine3d> posed;
   Weights weights(skin.weights.rows(), skin.weights.cols());

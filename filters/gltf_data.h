@@ -11,39 +11,39 @@
 namespace bindpose
 {
 
-/// The joint that stands for a handle: its origin is the pivot, its y axis runs along a bone.
+/// Return the frame of the joint for a handle: its origin is the pivot, its y axis is along a bone.
 Eigen::Affine3d joint_frame(const Handle& handle);
 
 Eigen::Affine3d to_affine(const Affine& transform);
 
-/// A joint a handle, in the order of the handles, posed as the transforms say, with notes of what
-/// glTF does not say of handles.
+/// Return one joint per handle, in the order of the handles, posed by the transforms. Notes store
+/// the properties of handles that glTF cannot express.
 std::vector<GltfJoint> to_joints(const Handles& handles, const std::vector<Affine>& transforms);
 
-/// What a glTF file holds.
+/// Contents of a glTF file.
 struct GltfData
 {
-  vtkSmartPointer<vtkPolyData> mesh; ///< with `Weights`, when there is a skin
-  vtkSmartPointer<vtkPolyData> handles; ///< without a cell, when there is none
+  vtkSmartPointer<vtkPolyData> mesh; ///< with `Weights` if there is a skin
+  vtkSmartPointer<vtkPolyData> handles; ///< without cells if there is no skin
   Handles handle_list;
   std::vector<Pose> poses; ///< the frames of its animation
   double frames_per_second = 24.0;
 };
 
-/// Reads a file; see vtkGLTFSkinReader.
+/// Read a file; see vtkGLTFSkinReader.
 Status read_gltf(const std::string& path, GltfData& data);
 
-/// A file for a filter that is asked for frame by frame: read anew when the filter was modified or
-/// the file has changed.
+/// Caches a file for a filter that is updated frame by frame. The file is read again if the filter
+/// was modified or the file has changed.
 class GltfFile
 {
 public:
   Status read(const std::string& path, vtkMTimeType modified);
-  /// What the last read() found; nobody may change it.
+  /// Return the data of the last read(). It is shared and must not be modified.
   const GltfData& data() const { return this->data_; }
 
 private:
-  std::string path_; ///< empty: nothing was read
+  std::string path_; ///< empty: no file has been read
   vtkMTimeType modified_ = 0;
   std::filesystem::file_time_type written_;
   std::uintmax_t size_ = 0;

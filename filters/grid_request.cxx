@@ -1,5 +1,5 @@
-// A grid is centred on its box: where a whole number of steps does not fit, it stands out equally
-// on both sides.
+// A grid is centered on its box. If the box is not a whole number of steps wide, the grid extends
+// beyond it equally on both sides.
 #include "grid_request.h"
 
 #include <cmath>
@@ -11,17 +11,18 @@ namespace bindpose
 
 namespace
 {
-/// 8 GiB a thousand times over: beyond it a typing error is more likely than a wish.
+/// Upper limit of the number of samples. A larger request (8 TB of doubles) is probably a typing
+/// error.
 constexpr double most_samples = 1e12;
 
-/// Samples along each side at these steps. A side is a whole number of steps but for rounding,
-/// which must not add a sample.
+/// Return the number of samples along each side for a step size. The 1e-9 keeps rounding from
+/// adding a sample to a side that is a whole number of steps long.
 Vec3 counts_at(const Vec3& size, const Vec3& step)
 {
   return (size.cwiseQuotient(step).array() - 1e-9).ceil().max(0.0) + 1.0;
 }
 
-/// The smallest step of cubic voxels at which there are no more samples than that.
+/// Return the smallest step of cubic voxels with at most this number of samples.
 double step_for_count(const Vec3& size, double count)
 {
   double fine = 0.0;
@@ -83,7 +84,7 @@ Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid
   if (has_dimensions)
   {
     count = Vec3(n[0], n[1], n[2]);
-    // A single sample spans nothing: it lies in the middle.
+    // A single sample has no extent: it is in the middle.
     const Vec3 step =
       (count.array() > 1.0).select((size.array() / (count.array() - 1.0)).matrix(), Vec3::Zero());
     const double largest = step.maxCoeff() > 0.0 ? step.maxCoeff() : 1.0;

@@ -1,5 +1,5 @@
-// The dataset becomes a list of handles, the list is edited, and a dataset is made of it; then
-// every array that the list does not know is carried over, cell by cell.
+// The dataset is converted to a list of handles, the list is edited, and a new dataset is created
+// from it. Then every array that is not part of the list is copied, cell by cell.
 #include "handle_edit_cells.h"
 
 #include "pseudo_edge_cells.h"
@@ -19,7 +19,7 @@ namespace bindpose
 {
 namespace
 {
-constexpr double none = std::numeric_limits<double>::quiet_NaN(); // of a colour
+constexpr double none = std::numeric_limits<double>::quiet_NaN(); // no color
 
 const char* const pose_arrays[4] = { "Mode", "Transform", "Stretch", "Twist" };
 
@@ -28,7 +28,7 @@ bool is_pose_array(const std::string& name)
   return std::find(std::begin(pose_arrays), std::end(pose_arrays), name) != std::end(pose_arrays);
 }
 
-/// The array Color as doubles, with a tuple a cell: made, or made anew, when it is not.
+/// Return the array Color as doubles with one tuple per cell; create or convert it if necessary.
 vtkDataArray* colours_of(vtkPolyData* data)
 {
   vtkDataArray* before = data->GetCellData()->GetArray("Color");
@@ -55,14 +55,15 @@ vtkDataArray* colours_of(vtkPolyData* data)
   return data->GetCellData()->GetArray("Color");
 }
 
-/// Arrays of `before` that `now` lacks, or whose numbers follow the handles.
+/// Copy the arrays of `before` that `now` lacks, and the pose arrays, whose values follow the
+/// handles.
 void carry_arrays(vtkPolyData* before, vtkPolyData* now, const std::vector<Index>& source,
   const std::vector<Index>& model)
 {
   vtkCellData* from = before->GetCellData();
   if (from->GetArray("Color"))
   {
-    colours_of(before); // new handles have none, which unsigned chars cannot say
+    colours_of(before); // new handles have NaN, which unsigned chars cannot store
   }
   for (int a = 0; a < from->GetNumberOfArrays(); ++a)
   {
@@ -128,7 +129,7 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
     return status;
   }
   const vtkSmartPointer<vtkPolyData> now = to_polydata(after.handles);
-  // to_polydata() puts bones behind all others.
+  // to_polydata() numbers bones last.
   std::vector<Index> cell_of_handle(after.handles.size(), -1);
   Index next = 0;
   for (const bool bones : { false, true })
@@ -197,7 +198,7 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
 
 namespace
 {
-/// Of one cell, in an array of one number a cell that is made, of zeros, when absent.
+/// Set the value of one cell in an array of one number per cell; create it with zeros if absent.
 template <typename Array>
 void set_number(vtkPolyData* data, const char* name, Index cell, double value)
 {

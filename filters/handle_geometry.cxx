@@ -1,4 +1,4 @@
-// Handle datasets as points, segments and triangles.
+// Conversion of handle datasets to points, segments and triangles.
 #include "handle_geometry.h"
 
 #include "conversion.h"
@@ -14,7 +14,7 @@ namespace bindpose
 
 namespace
 {
-/// Sides of all cage elements, then bones.
+/// Return the bones and the sides of all cage elements.
 std::vector<std::array<Index, 2>> segments_of(const HandleGeometry& geometry)
 {
   std::vector<std::array<Index, 2>> segments = geometry.bones;
@@ -62,7 +62,7 @@ Status to_handle_geometry(vtkPolyData* data, HandleGeometry& geometry)
       geometry.bones.push_back({ geometry.point_of.back(), add(handle.tail) });
     }
   }
-  // Cage elements are no handles, but weights are linear along them.
+  // Cage elements are not handles, but weights are linear along them.
   vtkDataArray* kinds = data->GetCellData()->GetArray("HandleKind");
   vtkNew<vtkIdList> ids;
   for (vtkIdType cell = 0; kinds && cell < data->GetNumberOfCells(); ++cell)
@@ -75,7 +75,7 @@ Status to_handle_geometry(vtkPolyData* data, HandleGeometry& geometry)
     std::vector<Index> element;
     for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
     {
-      element.push_back(add(Vec3(data->GetPoint(ids->GetId(k))))); // checked by to_handles
+      element.push_back(add(Vec3(data->GetPoint(ids->GetId(k))))); // ids were checked by to_handles
     }
     geometry.cage_elements.push_back(std::move(element));
   }

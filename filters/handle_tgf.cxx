@@ -1,5 +1,5 @@
-// The way back from vtkHandleFileReader: points first, then bones, so that the columns of the file
-// are those of the handles.
+// The inverse of vtkHandleFileReader: points first, then bones, so that the columns of the file are
+// those of the handles.
 #include "handle_tgf.h"
 
 #include <algorithm>

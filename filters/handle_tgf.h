@@ -8,10 +8,11 @@
 namespace bindpose
 {
 
-/// Points, bones and cage vertices with their edges as a graph for write_tgf(). Ends of bones at
-/// the same place are one node: that is how a .tgf file tells parents. Names of bones are not kept,
-/// nor the pose; a warning names the handles whose parents such a file cannot store.
-/// invalid_input, naming it, for what such a file cannot hold: a region, a face of a cage.
+/// Convert points, bones and cage vertices with their edges to a graph for write_tgf(). Ends of
+/// bones at the same position become one node, because a .tgf file encodes parents by shared nodes.
+/// Names of bones and the pose are not stored. A warning names the handles whose parents a .tgf
+/// file cannot store. Return invalid_input, with its name, for a region or a face of a cage, which
+/// a .tgf file cannot store.
 BINDPOSEFILTERS_EXPORT Status to_tgf(const Handles& handles, Tgf& graph);
 
 } // namespace bindpose

@@ -1,5 +1,6 @@
-// A row (a point) an instance: arrays named after handles say how these are posed, and what there
-// is no array of keeps the pose of the handles. A composite has a handle dataset an instance.
+// A table has one row, and a point set one point, per instance. Arrays named after handles contain
+// their transforms; handles without an array keep the base pose. A composite has one handle dataset
+// per instance.
 #include "instance_poses.h"
 
 #include "vtkCompositeDataIterator.h"
@@ -42,7 +43,7 @@ Affine affine_of(vtkDataArray* array, vtkIdType tuple)
   return affine;
 }
 
-/// The same handles, in the same order.
+/// Report whether two lists contain the same handles in the same order.
 bool same_handles(const Handles& a, const Handles& b)
 {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),

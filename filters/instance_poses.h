@@ -8,17 +8,18 @@ class vtkDataObject;
 namespace bindpose
 {
 
-/// What the instances of a crowd are told.
+/// Poses and placements of the instances of a crowd.
 struct InstancePoses
 {
-  std::vector<Pose> poses; ///< one an instance
-  std::vector<Affine> placements; ///< where it stands; empty: none is placed
+  std::vector<Pose> poses; ///< one per instance
+  std::vector<Affine> placements; ///< one per instance; empty: no instance is placed
 };
 
-/// Poses of instances as vtkCrowdDeformation documents them: rows of a table, points, or a
-/// composite of handle datasets. `base` is the pose of what an instance is not told.
-/// invalid_input, naming instance and handle: none at all, arrays of a wrong size, an unknown mode,
-/// other handles, numbers that are not finite. A warning when no array is that of a handle.
+/// Convert the poses of instances as documented in vtkCrowdDeformation: rows of a table, points, or
+/// a composite of handle datasets. `base` is the pose of handles without an array. Return
+/// invalid_input, with instance and handle, if there is no instance, or for arrays of a wrong size,
+/// an unknown mode, other handles, or numbers that are not finite. A warning is issued if there is
+/// neither an array named after a handle nor a Mode array.
 Status to_instance_poses(
   vtkDataObject* data, const Handles& handles, const Pose& base, InstancePoses& instances);
 

@@ -6,8 +6,8 @@
 namespace bindpose
 {
 
-/// The surface of what a dataset is: the boundary of tets, else the 2D cells. Errors of
-/// to_surface().
+/// Return the outer surface of a dataset: the boundary of its tets, otherwise its 2D cells. The
+/// errors are those of to_surface().
 BINDPOSEFILTERS_EXPORT Status to_outer_surface(vtkDataSet* data, SurfaceInput& surface);
 
 } // namespace bindpose

@@ -11,8 +11,8 @@
 namespace bindpose
 {
 
-/// For RequestDataObject: makes the output of a port an empty object of the same class as `like`,
-/// unless it is one already. Nothing when `like` is null.
+/// Replace the output of a port by an empty object of the class of `like`, unless it has this class
+/// already; for RequestDataObject. Do nothing if `like` is null.
 inline void match_output_type(vtkDataObject* like, vtkInformationVector* output, int port = 0)
 {
   vtkInformation* info = output->GetInformationObject(port);

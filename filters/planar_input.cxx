@@ -1,4 +1,4 @@
-// From images, curves and handle datasets to points and segments in the plane.
+// Conversion of images, curves and handle datasets to points and segments in the plane.
 #include "planar_input.h"
 
 #include "conversion.h"
@@ -22,7 +22,7 @@ namespace bindpose
 
 namespace
 {
-/// Where an image keeps its alpha.
+/// Array and component of an image's alpha.
 struct Alpha
 {
   vtkDataArray* array = nullptr;
@@ -200,7 +200,7 @@ Status to_planar_input(vtkPolyData* curves, PlanarInput& input)
     }
     box.add(points.row(v).transpose());
   }
-  constexpr double flat = 1e-6; // of the diagonal: what conversions between formats round
+  constexpr double flat = 1e-6; // fraction of the diagonal; file formats round coordinates
   if (box.upper.z() - box.lower.z() > flat * (box.upper - box.lower).head<2>().norm())
   {
     std::string range = std::to_string(box.lower.z()) + " to " + std::to_string(box.upper.z());

@@ -15,22 +15,23 @@ namespace bindpose
 {
 class ExecutionContext;
 
-/// What vtkPlanarShape triangulates, in the coordinates of its input.
+/// The input of the triangulation of vtkPlanarShape, in the coordinates of the filter's input.
 struct PlanarInput
 {
   PlanePoints points;
   Segments segments;
   double z = 0.0;
-  Vec2 lower = Vec2::Zero(); ///< the box that texture coordinates 0 to 1 cover
+  Vec2 lower = Vec2::Zero(); ///< lower corner of the box that texture coordinates 0 to 1 cover
   Vec2 upper = Vec2::Zero();
-  Report report; ///< what was found: domain, counts
+  Report report; ///< domain and counts
 };
 
-/// The outline of an image: of its alpha, or all around it when it has none or when `rectangle`.
+/// Return the outline of an image: of its alpha, or the border of the image if it has no alpha or
+/// with `rectangle`.
 Status to_planar_input(vtkImageData* image, bool rectangle, const ImageOutlineOptions& options,
   PlanarInput& input, ExecutionContext& context);
 
-/// The lines and the sides of the polygons of a polydata in a plane z = const.
+/// Return the lines and the sides of the polygons of a polydata in a plane z = const.
 Status to_planar_input(vtkPolyData* curves, PlanarInput& input);
 
 } // namespace bindpose

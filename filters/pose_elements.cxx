@@ -1,4 +1,4 @@
-// FE meshes are posed, too: a cell that is no tet is split as VTK splits it.
+// FE meshes can be posed too: a cell that is not a tet is split with VTK's triangulation.
 #include "pose_elements.h"
 
 #include "vtkCell.h"
@@ -21,7 +21,7 @@ namespace bindpose
 
 namespace
 {
-/// Simplices of all cells of volume, and the cells that they come from.
+/// Return the simplices of all volume cells, and the cell of each simplex.
 void split_volume_cells(vtkPointSet* mesh, std::vector<Index>& corners, std::vector<Index>& cells)
 {
   vtkNew<vtkGenericCell> cell;
@@ -101,7 +101,7 @@ Status measure_stretch(ExecutionContext& context, const ElementStretchOptions& o
     const Index cell =
       elements.cell_of_element.empty() ? static_cast<Index>(e) : elements.cell_of_element[e];
     double* of_cell = array->GetPointer(2 * cell);
-    of_cell[0] = std::fmax(of_cell[0], stretch.largest[e]); // a number, where one of both is none
+    of_cell[0] = std::fmax(of_cell[0], stretch.largest[e]); // fmax ignores NaN
     of_cell[1] = std::fmin(of_cell[1], stretch.smallest[e]);
   }
   result->GetCellData()->AddArray(array);

@@ -7,25 +7,26 @@
 namespace bindpose
 {
 
-/// A mesh's cells as the simplices whose stretch can be told.
+/// The cells of a mesh as simplices, for measuring their stretch.
 struct PoseElements
 {
   SharedMatrix<Tets> tets;
   SharedMatrix<Triangles> triangles;
-  /// Cell that each simplex comes from; empty when simplex i is cell i.
+  /// Cell of each simplex; empty if simplex i is cell i.
   std::vector<Index> cell_of_element;
-  bool volume = false; ///< tets count, not triangles
+  bool volume = false; ///< the elements are the tets, otherwise the triangles
 };
 
-/// The cells of volume as tets (hexes and others are split), else the 2D cells as triangles. Cells
-/// that cannot be read leave none: whoever needs them says so.
+/// Return the volume cells as tets (hexes and others are split), otherwise the 2D cells as
+/// triangles. If the cells are invalid, the result is empty; filters that need the cells report the
+/// error.
 PoseElements to_pose_elements(vtkPointSet* mesh);
 
-/// The shapes of those that count.
+/// Return the rest shapes of the tets or triangles.
 RestElements to_rest_elements(const PoseElements& elements, PointsView rest);
 
-/// The kernel's report; with options.values the cell array Stretch of the result has the largest
-/// and smallest stretch of each cell, NaN where there is none.
+/// Measure the stretch. Return the kernel's report. With options.values the cell array Stretch of
+/// the result gets the largest and smallest stretch of each cell, NaN for cells without elements.
 Status measure_stretch(ExecutionContext& context, const ElementStretchOptions& options,
   const PoseElements& elements, const RestElements& rest, PointsView posed, vtkDataSet* result);
 

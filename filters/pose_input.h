@@ -5,7 +5,7 @@
 #include "pose/arap_energy.h"
 #include "vtkPoseAlgorithm.h"
 
-/// What vtkBindAlgorithm hands to its subclasses.
+/// Input of the subclasses of vtkBindAlgorithm.
 struct vtkBindAlgorithm::PoseInput
 {
   vtkPointSet* mesh;
@@ -13,17 +13,17 @@ struct vtkBindAlgorithm::PoseInput
   bindpose::WeightsView weights; ///< #V x #handles
   const bindpose::Handles& handles;
   const bindpose::Pose& pose;
-  vtkPolyData* handle_data; ///< with what is no handle: pseudo-edges
-  const std::vector<bindpose::Index>& cells; ///< of the handles, in it
+  vtkPolyData* handle_data; ///< including cells that are not handles: pseudo-edges
+  const std::vector<bindpose::Index>& cells; ///< cells of the handles in handle_data
 };
 
-/// And vtkPoseAlgorithm to its own.
+/// Output of the subclasses of vtkPoseAlgorithm.
 struct vtkPoseAlgorithm::PosedPoints
 {
   bindpose::Points points;
-  /// One a handle, as used; empty: none are attached to the output.
+  /// The transforms that were used, one per handle; if empty, none are attached to the output.
   std::vector<bindpose::Affine> transforms;
-  /// Those that the energy was measured against, of whoever wants them attached; else empty.
+  /// The groups and rotations of the energy, if the filter attaches them; otherwise null and empty.
   const bindpose::RotationGroups* groups = nullptr;
   std::vector<Eigen::Matrix3d> rotations;
 };

@@ -1,4 +1,4 @@
-// Pseudo-edges are cells of the handle dataset, but no handles.
+// Pseudo-edges are cells of the handle dataset, but they are not handles.
 #include "pseudo_edge_cells.h"
 
 #include "vtkCellArray.h"
@@ -67,7 +67,7 @@ Status to_pseudo_edges(
 
 void add_pseudo_edges(vtkPolyData* data, const std::vector<Index>& cells, const PseudoEdges& edges)
 {
-  // The points first: a polydata whose cells change forgets them.
+  // Collect the points first, because changing the cells of a polydata removes them.
   std::vector<std::array<vtkIdType, 2>> ends;
   vtkNew<vtkIdList> ids;
   for (const PseudoEdge& edge : edges)
@@ -87,7 +87,7 @@ void add_pseudo_edges(vtkPolyData* data, const std::vector<Index>& cells, const 
     lines->InsertNextCell(2, points.data());
   }
   data->SetLines(lines);
-  data->DeleteCells(); // of the old numbering
+  data->DeleteCells(); // cells with the old numbering
   const vtkIdType count = data->GetNumberOfCells();
   for (int i = 0; i < data->GetCellData()->GetNumberOfArrays(); ++i)
   {

@@ -60,7 +60,7 @@ vtkSmartPointer<vtkAbstractArray> make_array(const Report::Value& value)
     value);
 }
 
-/// A list's key says so: a list of one must not come back as a number.
+/// Report whether a key is that of a list, so that a list of one entry is read as a list.
 bool is_list(const std::string& key)
 {
   return key.find("[]") != std::string::npos;
@@ -146,7 +146,7 @@ Report read_report(vtkDataObject* data)
     }
     else if (auto* numbers = vtkDataArray::SafeDownCast(array))
     {
-      vtkNew<vtkIdTypeArray> integers; // files bring them back as another integer type
+      vtkNew<vtkIdTypeArray> integers; // files may store them as another integer type
       integers->DeepCopy(numbers);
       report.set(key, values_of<std::int64_t>(key, integers.Get()));
     }

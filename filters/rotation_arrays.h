@@ -11,9 +11,10 @@ class vtkPointData;
 namespace bindpose
 {
 
-/// Adds the point arrays RotationCluster, which rotation each vertex follows (-1: none), and
-/// Rotation, its axis times its angle in degrees.
-/// @param clusters  the first, made where it is null: it is the same for all poses of a bind
+/// Add the point arrays RotationCluster, the index of the rotation that each vertex follows (-1:
+/// none), and Rotation, its axis times its angle in degrees.
+/// @param clusters  the array RotationCluster; created if null, because it is the same for all
+/// poses of a bind
 void add_rotations(const RotationGroups& groups, const std::vector<Eigen::Matrix3d>& rotations,
   vtkSmartPointer<vtkIntArray>& clusters, vtkPointData* data);
 

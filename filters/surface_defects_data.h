@@ -11,10 +11,10 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// The places as cells of their own on the surface's points: vertices, lines, triangles, in this
-/// order. Point array `OriginalPointIds`; cell arrays `Defect` (int, see Defect), `DefectName`,
-/// `OriginalCellIds` and `CrossedCellIds` (cells of the surface, -1: none), `Component`,
-/// `InwardComponent` (number of the component that is inside out, -1: none).
+/// Return the defects as separate cells on the surface's points: vertices, lines, triangles, in
+/// this order. Point array: `OriginalPointIds`; cell arrays: `Defect` (int, see Defect),
+/// `DefectName`, `OriginalCellIds` and `CrossedCellIds` (cells of the surface, -1: none),
+/// `Component`, `InwardComponent` (index of the component that is inside out, -1: none).
 /// `cell_of_triangle` may be empty, see SurfaceInput.
 BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> to_polydata(
   const std::vector<DefectPlace>& places, PointsView points,

@@ -13,8 +13,8 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Names of the mesh's point arrays that say what is asked of weights (see vtkWeightsAlgorithm).
-/// An empty name: not looked for.
+/// Names of the mesh's point arrays with the terms of weights (see vtkWeightsAlgorithm). An empty
+/// name disables the array.
 struct TermArrayNames
 {
   std::string rigidity = "Rigidity";
@@ -27,17 +27,18 @@ struct TermArrayNames
   std::vector<std::string> all() const;
 };
 
-/// What the mesh's arrays ask for; what is not there is off. invalid_input where an array has the
-/// wrong number of components, or a label or id is no whole number.
+/// Convert the mesh's arrays to terms; missing arrays disable their term. Return invalid_input if
+/// an array has the wrong number of components, or a label or id is not an integer.
 Status to_terms(
   vtkDataSet* mesh, const TermArrayNames& names, Index handle_count, WeightTerms& terms);
 
-/// The cell array of a handle dataset with two components: least and largest weight of a handle.
+/// Name of the cell array of a handle dataset with the smallest and largest weight of each handle
+/// (two components).
 constexpr const char* handle_bounds_name = "WeightBounds";
 
-/// Its values, `everywhere` where they are NaN; nothing where there is no array and `everywhere` is
-/// 0, 1.
-/// @param cells of the dataset, one a handle.
+/// Convert the bounds of the handles. NaN is replaced by `everywhere`. If there is no array and
+/// `everywhere` is 0, 1, the terms have no bounds.
+/// @param cells  cells of the dataset, one per handle
 Status to_handle_bounds(vtkPolyData* handles, const std::vector<Index>& cells,
   const double (&everywhere)[2], WeightTerms& terms);
 

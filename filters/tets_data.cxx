@@ -51,7 +51,7 @@ vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(
   {
     grid->GetCellData()->AddArray(to_array("InsideFraction", result.inside_fractions));
   }
-  // Unlike the report it stays when the tets are written and read again.
+  // Unlike the report, this array is kept when the tets are written and read again.
   vtkNew<vtkStringArray> name;
   name->SetName("Method");
   name->InsertNextValue(method);

@@ -13,9 +13,9 @@ class vtkUnstructuredGrid;
 namespace bindpose
 {
 
-/// Output 0 of vtkTetrahedralizeSurface: tets with `OriginalPointIds`, `WindingNumber`, `Label`,
-/// `MinDihedralAngle` and, of embed, `InsideFraction`; field data `Method`.
-/// @param method  what the report says
+/// Return output 0 of vtkTetrahedralizeSurface: tets with `OriginalPointIds`, `WindingNumber`,
+/// `Label`, `MinDihedralAngle` and, for embed, `InsideFraction`; field data `Method`.
+/// @param method  the method as in the report
 BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(
   const TetrahedralizeResult& result, const std::string& method);
 

@@ -1,4 +1,4 @@
-// Glue around automatic/automatic_handles.h: the surface goes in, the handles become cells.
+// Connects automatic/automatic_handles.h to VTK: converts the surface and turns handles into cells.
 #include "vtkAutomaticHandles.h"
 
 #include "automatic/automatic_handles.h"

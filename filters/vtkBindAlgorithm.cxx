@@ -1,6 +1,6 @@
-// The cache key holds the modification times of the arrays that a bind reads, never those of a
-// dataset: editing `Transform` raises the handle dataset's time, and a filter upstream that runs
-// again raises its output's, though neither changes what was bound.
+// The cache key contains the modification times of the arrays that a bind reads, and none of a
+// dataset. Editing `Transform` raises the handle dataset's time, and an upstream filter that
+// executes again raises its output's time, but neither changes the input of the bind.
 #include "vtkBindAlgorithm.h"
 
 #include "base/execution.h"
@@ -32,9 +32,9 @@ struct vtkBindAlgorithm::Cache
   std::vector<Index> cells;
   SharedMatrix<Points> points;
   SharedMatrix<Weights> weights;
-  Status status; // of the bind: its report and warnings stand on every output
+  Status status; // status of the bind: its report and warnings are part of every output
 
-  // of the present execution
+  // state of the current execution
   bool bound_now = false;
   std::vector<std::string> pose_warnings;
   Pose pose;
@@ -43,10 +43,12 @@ struct vtkBindAlgorithm::Cache
 
 namespace
 {
-/// Of the size of a transform's columns: less volume than this is none.
+/// Determinant, relative to the size of a transform's columns, below which the transform has no
+/// volume.
 constexpr double no_volume = 1e-12;
 
-/// What full handles do that no motion of a body does, named.
+/// Return warnings, with names, for handles in mode full whose transform is a reflection or is
+/// singular.
 std::vector<std::string> warnings_of(const Handles& handles, const Pose& pose)
 {
   std::vector<Index> mirrored, collapsed;
@@ -110,7 +112,8 @@ void vtkBindAlgorithm::BindModified()
 int vtkBindAlgorithm::RequestInformation(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
 {
-  // The executive passes on what port 0 says of times; poses' times come before a mesh's.
+  // The executive copies the time steps of port 0. Those of poses take precedence over those of a
+  // mesh.
   using SDDP = vtkStreamingDemandDrivenPipeline;
   vtkInformation* info = output->GetInformationObject(0);
   for (int port = this->GetNumberOfInputPorts() - 1; port > 0; --port)

@@ -1,19 +1,21 @@
 /**
  * @class   vtkBindAlgorithm
- * @brief   what the filters that bind a mesh to its handles share: the bind cache
+ * @brief   base class of the filters that bind a mesh to its handles: the bind cache
  *
- * Port 0 is the mesh at rest with its weights (any vtkPointSet, point array `Weights` with a
- * component a handle), port 1 the handles with their pose (see filters/README.md).
+ * Port 0 is the mesh at rest with its weights: any vtkPointSet with the point array `Weights`, one
+ * component per handle. Port 1 is the handles with their pose (see filters/README.md).
  *
- * **Bind and pose.** What depends on the rest mesh, the weights or the rest handles only is done
- * once, in Bind(), and kept; moving handles (Transform, Mode, Stretch, Twist) does not run it. The
- * bind is made again when points, cells, the weights array or the handles' rest arrays change, told
- * by their own modification times, or a bind parameter of the filter. GetNumberOfBinds() counts.
+ * **Bind and pose.** Bind() does all work that depends only on the rest mesh, the weights and the
+ * rest handles. Its result is cached. Moving handles (Transform, Mode, Stretch, Twist) does not run
+ * Bind() again. A change of points, cells, the weights array, the handles' rest arrays or a bind
+ * parameter of the filter runs it again. Arrays are compared by their own modification times.
+ * GetNumberOfBinds() counts the runs.
  *
- * **Errors**: no mesh, no handles, no array of that name, an array with another number of tuples
- * than points or of components than handles, a component that is named after another handle than
- * its own, weights that are not finite. Warnings: rows that do not sum to one; handles in mode full
- * whose transform is a reflection or scales a direction to zero, by name.
+ * **Errors**: no mesh, no handles, no array of that name, an array whose number of tuples is not
+ * the number of points or whose number of components is not the number of handles, a component that
+ * is named after a different handle, weights that are not finite. Warnings: rows that do not sum to
+ * one; the names of handles in mode full whose transform is a reflection or scales a direction to
+ * zero.
  */
 
 #ifndef vtkBindAlgorithm_h
@@ -37,37 +39,41 @@ public:
   std::string GetArrayName() { return this->ArrayName; }
   ///@}
 
-  /// How often Bind() has run.
+  /// Number of times that Bind() has run.
   vtkGetMacro(NumberOfBinds, int);
 
 protected:
   vtkBindAlgorithm();
   ~vtkBindAlgorithm() override;
 
-  /// Whether the mesh must have weights. Default: yes. Without, PoseInput's are empty.
+  /// Report whether the mesh must have weights. Default: true. If false, PoseInput::weights is
+  /// empty.
   virtual bool NeedsWeights() const { return true; }
-  /// Whether there must be handles. Default: yes. Without, PoseInput's are empty.
+  /// Report whether there must be handles. Default: true. If false, PoseInput::handles may be
+  /// empty.
   virtual bool NeedsHandles() const { return true; }
 
-  /// The mesh's point arrays that a bind reads. Default: the weights, if it needs them.
+  /// Return the names of the mesh's point arrays that the bind reads. Default: the weights, if they
+  /// are needed.
   virtual std::vector<std::string> BindArrays();
 
-  /// Mesh, weights, handles and pose as the kernels want them; valid during a call.
+  /// Mesh, weights, handles and pose in the types of the kernels; valid during a call.
   struct PoseInput;
 
   /**
-   * Takes what does not depend on the pose. What it needs later it keeps itself; views of the input
-   * are valid during the call only. Its report is attached to every output until the next bind.
+   * Compute everything that does not depend on the pose. A subclass stores what it needs later,
+   * because views of the input are valid only during the call. The report is attached to every
+   * output until the next bind.
    */
   virtual bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) = 0;
 
-  /// Whether the method finds rotations that a pose leaves free: handles in mode automatic that
-  /// only move then have mode position.
+  /// Report whether the method finds the rotations that a pose leaves free. If true, handles in
+  /// mode automatic that are only translated get mode position.
   virtual bool FindsRotations() { return false; }
 
-  /// Setters of bind parameters call this instead of Modified().
+  /// Mark a bind parameter as modified; setters of bind parameters call this instead of Modified().
   void BindModified();
-  /// What most of them are.
+  /// Set a bind parameter; the implementation of most setters.
   template <typename Value>
   void SetBindParameter(Value& parameter, const Value& value)
   {
@@ -78,21 +84,22 @@ protected:
     }
   }
 
-  /// Handles that move with time make the output do so; of several ports the last counts.
+  /// Copy the time steps of the inputs to the output, so that handles that move with time move the
+  /// output. If several ports have time steps, the last port counts.
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
   ///@{
   /**
-   * For Execute(): converts the inputs and binds them unless the last bind holds. When the status
-   * is usable GetPoseInput() is valid until Execute() returns.
+   * Convert the inputs, and bind them unless the last bind is still valid; for Execute(). If the
+   * status is usable, GetPoseInput() is valid until Execute() returns.
    */
   bindpose::Status Prepare(vtkInformationVector** input, bindpose::ExecutionContext& context);
   const PoseInput& GetPoseInput() const;
   ///@}
 
-  /// A pose's status with what the bind reported in front; its warnings are said once, when it is
-  /// made.
+  /// Return the status of a pose with the report of the bind in front. Warnings of a bind are
+  /// issued only once, when it is computed.
   bindpose::Status WithBindReport(const bindpose::Status& posed) const;
 
 private:

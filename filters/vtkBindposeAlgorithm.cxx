@@ -1,14 +1,15 @@
-// The one place where kernels meet the pipeline: an execution context is made from the
-// algorithm's progress and abort, Execute() is called, and its status becomes report, error event
+// Connects the kernels to the pipeline. An execution context with the algorithm's progress and
+// abort flag is created, Execute() is called, and its status is converted to report, error event
 // and error code.
 //
-// Why GetMTime is overridden: in VTK 9.1 a filter whose RequestData failed or was aborted counts as
-// executed; the executive would hand on its empty output for ever.
+// GetMTime is overridden because in VTK 9.1 a filter whose RequestData failed or was aborted counts
+// as executed. Without the override the executive would reuse its empty output in all later
+// updates.
 //
-// Pieces: by default the executive asks a filter's inputs for the piece that is asked of its
-// output, and half a surface encloses nothing, half a mesh has other weights. So piece 0 is the
-// whole. The other pieces ask upstream for the same piece, which is empty there, too, and costs
-// nothing.
+// Pieces: by default the executive requests from a filter's inputs the piece that is requested from
+// its output. But half a surface encloses nothing, and half a mesh has other weights. Therefore
+// piece 0 is the whole. The other pieces request the same piece upstream, which is empty there,
+// too, and costs nothing.
 #include "vtkBindposeAlgorithm.h"
 
 #include "base/execution.h"
@@ -185,8 +186,8 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     [this]() { return this->GetAbortExecute() != 0; });
   context.set_threads(this->NumberOfThreads);
 
-  // With a composite input the executive calls once per block. The first failure is the outcome of
-  // them all, and a cancel ends them all.
+  // With a composite input the executive calls this function once per block. The first failure is
+  // the status of all blocks, and a cancel stops all of them.
   const bool later_block = this->GetProgressShift() > 0.0;
   const bool failed_before = later_block && !this->LastStatus->usable();
   bindpose::Status status;

@@ -1,23 +1,25 @@
 /**
  * @class   vtkBindposeAlgorithm
- * @brief   what all filters of Bindpose share: status, report, progress, cancel
+ * @brief   base class of all Bindpose filters: status, report, progress and cancellation
  *
- * A subclass implements Execute(): validate, convert, call the kernel, attach arrays, and return
- * the kernel's status. This class does the rest, so that every filter keeps the same contract:
+ * A subclass implements Execute(). It validates and converts the input, calls the kernel, attaches
+ * arrays and returns the kernel's status. This class does the rest, so that every filter has the
+ * same contract:
  *
- * - **Report.** GetReportJSON() returns what was measured (status, message, warnings, counts,
- *   residuals, seconds per phase, memory …) as a JSON object. Every output carries it as field data
- *   arrays `Report.KEY`, without seconds and memory: equal results are equal files.
- * - **Failure.** A status that is neither ok nor not_converged calls vtkErrorMacro, sets the error
- *   code and leaves all outputs empty but for the report. The pipeline goes on (RequestData
- *   returns 1), so that downstream filters do not keep stale output: each of ours repeats the
- *   status it finds on its input.
- * - **Cancel.** SetAbortExecute(1), from any thread or from an observer of ProgressEvent, ends the
- *   execution within 200 ms (but for a single named factorisation). Outputs are empty, the status
- *   is CANCELLED; no error event.
- * - **Again.** After a failure or cancel the next Update() executes again.
- * - **Pieces.** With several processes the first one does the work: every input is asked for as a
- *   whole by piece 0, and all other pieces are empty. A filter that makes its pieces itself
+ * - **Report.** GetReportJSON() returns the measurements (status, message, warnings, counts,
+ *   residuals, seconds per phase, memory …) as a JSON object. Every output carries them as field
+ *   data arrays `Report.KEY`. Seconds and memory are left out, so that equal results give equal
+ *   files.
+ * - **Failure.** A status other than ok and not_converged calls vtkErrorMacro, sets the error code
+ *   and leaves all outputs empty except for the report. The pipeline continues (RequestData returns
+ *   1), so that downstream filters do not keep stale output. Each downstream Bindpose filter
+ *   repeats the failure that it finds on its input.
+ * - **Cancel.** SetAbortExecute(1) ends the execution within 200 ms, except inside a single named
+ *   factorization. It may be called from any thread or from an observer of ProgressEvent. The
+ *   outputs are empty, the status is CANCELLED, and no error event is invoked.
+ * - **Retry.** After a failure or cancel the next Update() executes again.
+ * - **Pieces.** With several processes the first process does the work: piece 0 requests every
+ *   input as a whole, and all other pieces are empty. A filter that can produce pieces itself
  *   overrides MakesPieces().
  */
 
@@ -57,42 +59,43 @@ public:
 
   ///@{
   /**
-   * Outcome of the last execution: one of StatusType, its word ("ok", "invalid_input", …), and one
-   * sentence that is empty when all went well.
+   * Outcome of the last execution: one of StatusType, its name ("ok", "invalid_input", …), and a
+   * message of one sentence, which is empty on success.
    */
   int GetStatus();
   std::string GetStatusAsString();
   std::string GetStatusMessage();
   ///@}
 
-  /// Report of the last execution as a JSON object; "{}" before the first.
+  /// Return the report of the last execution as a JSON object, "{}" before the first execution.
   std::string GetReportJSON();
 
-  /// The same for C++.
+  /// Return the report of the last execution (C++ only).
   VTK_WRAPEXCLUDE const bindpose::Report& GetReport();
 
-  /// The report that a data object carries, whoever made it, as a JSON object; "{}" when it has
-  /// none. It has no seconds.
+  /// Return the report in the field data of a data object as a JSON object, "{}" if there is none.
+  /// The report may come from any filter. It contains no seconds.
   static std::string GetReportJSONOf(vtkDataObject* data);
 
   ///@{
   /**
-   * Threads to use; 0 (default) for all cores. Results do not depend on it, so changing it does
-   * not execute the filter again.
+   * Number of threads; 0 (default) means all cores. The results do not depend on it, so changing it
+   * does not execute the filter again.
    */
   void SetNumberOfThreads(int threads) { this->NumberOfThreads = threads < 0 ? 0 : threads; }
   int GetNumberOfThreads() { return this->NumberOfThreads; }
   ///@}
 
   ///@{
-  /// The data object of an input or output port, as other VTK filters have them.
+  /// Data object of an input or output port, as in other VTK filters.
   void SetInputData(vtkDataObject* data) { this->SetInputData(0, data); }
   void SetInputData(int port, vtkDataObject* data) { this->SetInputDataInternal(port, data); }
   vtkDataObject* GetInput(int port = 0);
   vtkDataSet* GetOutput(int port = 0);
   ///@}
 
-  /// Later than any output after a failure or cancel, so that the next Update() executes again.
+  /// Return the modification time. After a failure or cancel it is later than that of any output,
+  /// so that the next Update() executes again.
   vtkMTimeType GetMTime() override;
 
   vtkTypeBool ProcessRequest(
@@ -103,7 +106,7 @@ protected:
   ~vtkBindposeAlgorithm() override;
 
   ///@{
-  /// The pipeline's earlier passes; each returns 1 unless a subclass has something to do.
+  /// Earlier passes of the pipeline. The default implementations return 1.
   virtual int RequestDataObject(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output);
   virtual int RequestInformation(
@@ -112,19 +115,19 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output);
   ///@}
 
-  /// Whether Execute() makes the piece or extent that is asked for, and RequestUpdateExtent() what
-  /// it needs. Default: no, see above.
+  /// Report whether Execute() produces only the requested piece or extent, and
+  /// RequestUpdateExtent() requests the input that it needs. Default: false, see above.
   virtual bool MakesPieces() { return false; }
 
-  /// Asks for all of an input, for RequestUpdateExtent().
+  /// Request the whole input; for RequestUpdateExtent().
   static void AskForAll(vtkInformation* input);
 
-  /// The piece of an output that is asked for.
+  /// Return the requested piece of an output.
   static int GetPiece(vtkInformation* output);
 
   /**
-   * The filter's work. Outputs are fresh or stale: write or Initialize() all of them. What the
-   * returned status reports is attached to every output. May throw: an exception becomes
+   * Do the filter's work. Outputs are new or contain old data: write or Initialize() all of them.
+   * The report of the returned status is attached to every output. An exception becomes
    * INTERNAL_ERROR.
    */
   virtual bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,

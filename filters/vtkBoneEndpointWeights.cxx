@@ -1,5 +1,6 @@
-// Glue around the kernel bindpose::endpoint_weights(), which asks for bounded biharmonic weights of
-// handles of its own: on tets as they are, for a surface where the weights filters solve, too.
+// Connects the kernel bindpose::endpoint_weights() to VTK. The kernel calls back for bounded
+// biharmonic weights of its own handles. Tets are solved as they are, surfaces in the domains of
+// the weights filters.
 #include "vtkBoneEndpointWeights.h"
 
 #include "bind_key.h"
@@ -28,7 +29,7 @@ namespace
 {
 constexpr const char* array_name = "EndpointWeights";
 
-/// Bounded biharmonic weights at the domain's own points.
+/// Compute bounded biharmonic weights at the domain's own points.
 Status solve_bounded(const bindpose::Domain& domain, WeightsDomain where, const Handles& handles,
   ExecutionContext& context, Weights& weights)
 {
@@ -61,7 +62,7 @@ Status solve_bounded(const bindpose::Domain& domain, WeightsDomain where, const 
   }
   if (status.usable())
   {
-    weights = result.weights.topRows(domain.points.rows()); // the mesh's own points come first
+    weights = result.weights.topRows(domain.points.rows()); // the mesh's own points are first
   }
   return status;
 }
@@ -146,7 +147,7 @@ Status vtkBoneEndpointWeights::Execute(
   status.report.set("binds", this->NumberOfBinds);
   if (!bind && !status.warnings.empty())
   {
-    // A warning is told once.
+    // Warnings are issued only when they are new.
     status.report.set("warnings[]", status.warnings);
     status.warnings.clear();
   }

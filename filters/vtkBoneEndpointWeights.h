@@ -1,26 +1,28 @@
 /**
  * @class   vtkBoneEndpointWeights
- * @brief   how far along each bone every point of a mesh is
+ * @brief   computes the position of every point of a mesh along each bone
  *
  * Stretchable, twistable bones (Jacobson and Sorkine 2011; vtkSkinningDeformation) need a second
- * weight a bone, 0 at its head to 1 at its tail, which says how much of a stretch and which mixture
- * of both twists a point gets:
- * - **PROJECTION** onto the bone, clamped: at once, but the same for all that is beside the bone;
+ * weight per bone, 0 at its head to 1 at its tail. It determines the fraction of a stretch and the
+ * mixture of both twists that apply to a point. The methods are:
+ * - **PROJECTION** onto the bone, clamped: immediate, but constant in planes across the bone;
  * - **JOINTS**: W_tail / (W_head + W_tail) of bounded biharmonic weights with all ends of bones as
- *   point handles, one problem for all bones: aware of the shape, smooth beyond the ends;
- * - **BOUNDED**: a bounded biharmonic problem for each bone in which the weight is linear along
- *   it: exact on the bone, the most work.
+ *   point handles, one problem for all bones: shape-aware, smooth beyond the ends;
+ * - **BOUNDED**: one bounded biharmonic problem per bone in which the weight is linear along the
+ *   bone: exact on the bone, the most expensive.
  *
- * Ports: vtkMeshAndHandlesAlgorithm. The output is the mesh with the point array `EndpointWeights`,
- * a component a handle, named after it; NaN for handles that are no bones. The array can be painted
- * over before it is used.
+ * Ports: see vtkMeshAndHandlesAlgorithm. The output is the mesh with the point array
+ * `EndpointWeights`, with one component per handle, named after the handle; NaN for handles that
+ * are not bones. Users may paint over the array before it is used.
  *
- * Surfaces are solved on in the Domain of vtkWeightsAlgorithm, default AUTO; tets as they are. The
- * result is kept while points, cells, the handles' rest and this filter's parameters stay.
+ * Surfaces are solved in the Domain of vtkWeightsAlgorithm, default AUTO; tets are solved as they
+ * are. The result is cached until points, cells, the handles' rest data or this filter's parameters
+ * change.
  *
- * Errors: no bone; what vtkBoundedBiharmonicWeights refuses. Status not_converged (with the result)
- * when a column misses the certificate. Cost: none, that of bounded weights for the joints, or for
- * two handles a bone.
+ * Errors: no bone; all input that vtkBoundedBiharmonicWeights rejects. The status is not_converged
+ * (with the result) if a column misses the certificate. Cost: PROJECTION is free; JOINTS costs as
+ * much as bounded weights for the joints, BOUNDED as much as bounded weights for two handles per
+ * bone.
  *
  * Report: method, counts.{vertices, handles, bones, problems}, binds.
  */
@@ -47,7 +49,7 @@ public:
   };
 
   ///@{
-  /// Default JOINTS. Out of range: clamped.
+  /// Default JOINTS. Values out of range are clamped.
   vtkSetClampMacro(Method, int, PROJECTION, BOUNDED);
   vtkGetMacro(Method, int);
   void SetMethodToProjection() { this->SetMethod(PROJECTION); }
@@ -56,13 +58,13 @@ public:
   ///@}
 
   ///@{
-  /// Where to solve for a surface: vtkWeightsAlgorithm's SURFACE, AUTO (default), VOLUME,
+  /// Domain in which a surface is solved: vtkWeightsAlgorithm's SURFACE, AUTO (default), VOLUME or
   /// EMBEDDING.
   vtkSetClampMacro(Domain, int, 0, 3);
   vtkGetMacro(Domain, int);
   ///@}
 
-  /// How often the weights were made.
+  /// Number of times that the weights were computed.
   vtkGetMacro(NumberOfBinds, int);
 
 protected:

@@ -1,4 +1,4 @@
-// Glue around the kernel bindpose::bounded_biharmonic_weights().
+// Connects the kernel bindpose::bounded_biharmonic_weights() to VTK.
 #include "vtkBoundedBiharmonicWeights.h"
 
 #include "weights/bounded_biharmonic_weights.h"

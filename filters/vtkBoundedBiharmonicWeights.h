@@ -2,14 +2,15 @@
  * @class   vtkBoundedBiharmonicWeights
  * @brief   smooth, local weights between 0 and 1
  *
- * For each handle the function of least bending energy (the integral of its squared Laplacian) that
- * is 1 on the handle, 0 on all others and nowhere below 0 or above 1. Smooth also at handles, aware
- * of the shape, local. Solved to a certificate by an active-set method, or by an interior-point
- * method where that does not end; all handles share one symbolic analysis and are solved at the
- * same time. Cost: 3 to 6 sparse factorisations a handle, three to five times that where the
- * interior-point method is needed (10k vertices of a lattice: 0.3 to 0.7 s a handle on one core).
+ * The weight of a handle is the function of least bending energy (the integral of its squared
+ * Laplacian) that is 1 on the handle, 0 on all other handles and between 0 and 1 everywhere. It is
+ * smooth, also at handles, shape-aware and local. An active-set method solves it to a certificate;
+ * an interior-point method takes over where the active-set method does not terminate. All handles
+ * share one symbolic analysis and are solved in parallel. Cost: 3 to 6 sparse factorizations per
+ * handle, three to five times that where the interior-point method is needed (10k vertices of a
+ * lattice: 0.3 to 0.7 s per handle on one core).
  *
- * Ports, arrays, certificate, bind cache, report and errors: vtkWeightsAlgorithm.
+ * Ports, arrays, certificate, bind cache, report and errors: see vtkWeightsAlgorithm.
  *
  * @par Thanks:
  * Jacobson, Baran, Popovic, Sorkine, "Bounded Biharmonic Weights for Real-Time Deformation", ACM

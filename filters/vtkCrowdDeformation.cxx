@@ -1,5 +1,5 @@
-// Glue around the kernel bindpose::Crowd: the bind keeps one space of deformations, an execution
-// asks it for the transforms of every instance and blends them all at once.
+// Connects the kernel bindpose::Crowd to VTK. The bind stores one space of deformations. An
+// execution computes the transforms of all instances and blends all instances in one call.
 #include "vtkCrowdDeformation.h"
 
 #include "arap_input.h"
@@ -62,7 +62,7 @@ vtkSmartPointer<vtkDoubleArray> to_array(const std::vector<Affine>& transforms, 
   return array;
 }
 
-/// All in one data set; `Append` is VTK's filter for their class, `Data`.
+/// Append all instances to one dataset. `Append` is VTK's filter for their class `Data`.
 template <typename Append, typename Data>
 void append(const std::vector<vtkSmartPointer<vtkPointSet>>& instances, vtkDataObject* result)
 {

@@ -2,37 +2,36 @@
  * @class   vtkCrowdDeformation
  * @brief   poses many instances of a mesh, each as rigidly as its own pose allows
  *
- * A mesh is bound once, as by vtkReducedARAP, and posed as often as there are instances; each has a
- * pose and a place of its own (Jacobson et al. 2012: their crowd). What an instance adds to the
- * memory are its points, in single precision, and 72 bytes a cluster.
+ * A mesh is bound once, as by vtkReducedARAP, and posed once per instance. Each instance has its
+ * own pose and placement (Jacobson et al. 2012: their crowd). An instance adds its points in single
+ * precision and 72 bytes per cluster to the memory.
  *
- * **Input 0, 1**: the mesh at rest with its weights and the handles (see vtkBindAlgorithm).
+ * **Inputs 0 and 1**: the mesh at rest with its weights and the handles (see vtkBindAlgorithm).
  * **Input 2**: the instances, as one of
- * - points (vtkPointSet), an instance a point, which stands there: the point is added to where the
- *   posed mesh is;
- * - a vtkTable, an instance a row.
- *   Point (row) arrays, all optional: one named after a handle, with 12 components, is its
- *   `Transform` (3x4, row by row, rest to posed, before the instance is placed), with 3 a
- *   translation; `Mode` has a component a handle; `Placement` is where the instance stands, 12
- *   numbers (3x4) or 3, and comes before the points. A handle without an array has the pose that
- *   input 1 says;
- * - a composite of vtkPolyData (vtkMultiBlockDataSet, vtkPartitionedDataSetCollection, …), an
- *   instance a block: the handles of input 1, each time posed otherwise, as vtkPoseHandles does; a
- *   field data array `Placement` says where it stands.
+ * - points (vtkPointSet), one point per instance: the point is added to the positions of the posed
+ *   mesh;
+ * - a vtkTable, one row per instance.
+ *   Point (row) arrays, all optional: an array named after a handle contains its `Transform`. It
+ *   has 12 components (3x4, row by row, rest to posed, before the placement) or 3 (a translation).
+ *   `Mode` has one component per handle. `Placement` positions the instance, 12 numbers (3x4) or
+ *   3, and takes precedence over the points. A handle without an array has the pose of input 1;
+ * - a composite of vtkPolyData (vtkMultiBlockDataSet, vtkPartitionedDataSetCollection, …), one
+ *   block per instance: the handles of input 1 in the pose of the instance, as vtkPoseHandles
+ *   returns them. The field data array `Placement` positions the instance.
  *
- * **Output**: a vtkPartitionedDataSetCollection with a data set an instance, named "instance 0", …;
- * cells and arrays are the mesh's own objects, points are floats, normals of a vtkPolyData follow.
- * With OutputType APPENDED all instances in one data set of the mesh's class, with the point array
- * `Instance`. Field data of an instance: `HandleTransforms`, as of vtkReducedARAP, before it is
- * placed.
+ * **Output**: a vtkPartitionedDataSetCollection with one dataset per instance, named "instance 0",
+ * … Cells and arrays are the mesh's own objects; points are floats; normals of a vtkPolyData are
+ * updated. With OutputType APPENDED the output is one dataset of the mesh's class with all
+ * instances and the point array `Instance`. Field data of an instance: `HandleTransforms`, as in
+ * vtkReducedARAP, before the placement.
  *
- * An instance begins with the rotations of its last pose (WarmStart): a crowd that moves needs few
+ * An instance starts from the rotations of its last pose (WarmStart), so a moving crowd needs few
  * iterations.
  *
  * Report: method, counts (instances, not_converged, clusters and more), iterations and
- * single_precision_iterations (of all), row_sum_error, seconds.bind, seconds.solve, seconds.skin.
- * Status NOT_CONVERGED, with an output, when MaximumIterations were not enough for an instance.
- * Errors name the instance.
+ * single_precision_iterations (summed over instances), row_sum_error, seconds.bind, seconds.solve,
+ * seconds.skin. The status is NOT_CONVERGED, with an output, if an instance did not converge within
+ * MaximumIterations. Error messages name the instance.
  *
  * @sa vtkReducedARAP
  */
@@ -50,7 +49,7 @@ public:
   vtkTypeMacro(vtkCrowdDeformation, vtkBindAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The instances: SetInputData(2, instances).
+  /// Set the instances, like SetInputData(2, instances).
   void SetInstancesData(vtkDataObject* instances) { this->SetInputData(2, instances); }
   void SetInstancesConnection(vtkAlgorithmOutput* instances)
   {
@@ -58,7 +57,7 @@ public:
   }
 
   ///@{
-  /// As vtkReducedARAP's, all bind parameters.
+  /// Like those of vtkReducedARAP; all are bind parameters.
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);
   void SetNumberOfClusters(int clusters);
@@ -70,41 +69,41 @@ public:
   ///@}
 
   ///@{
-  /// Weights of at most this size count as zero when points are moved, 0 to 1. Default 0. A bind
+  /// Weights up to this size count as zero when points are moved, 0 to 1. Default 0. A bind
   /// parameter.
   void SetSmallestWeight(double smallest);
   vtkGetMacro(SmallestWeight, double);
   ///@}
 
   ///@{
-  /// Most iterations of an instance, 0 to 1e6. Default 100.
+  /// Maximum number of iterations per instance, 0 to 1e6. Default 100.
   vtkSetClampMacro(MaximumIterations, int, 0, 1000000);
   vtkGetMacro(MaximumIterations, int);
   ///@}
 
   ///@{
-  /// An instance is solved when an iteration lowers its energy by no more than this share. Default
-  /// 1e-6; 0 runs all iterations.
+  /// Convergence tolerance: an instance is solved when an iteration lowers its energy by no more
+  /// than this fraction. Default 1e-6; 0 runs all iterations.
   vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
   vtkGetMacro(Tolerance, double);
   ///@}
 
   ///@{
-  /// Iterates that the acceleration looks back on, 0 (none) to 50. Default 5.
+  /// Number of previous iterates that the acceleration uses, 0 (none) to 50. Default 5.
   vtkSetClampMacro(AndersonWindow, int, 0, 50);
   vtkGetMacro(AndersonWindow, int);
   ///@}
 
   ///@{
-  /// Whether an instance starts from its last rotations (default on) or from a guess by its
-  /// handles' own motions (off: the result depends on the pose only).
+  /// Start an instance from its last rotations (on, the default) or from an estimate based on its
+  /// handles' own motions (off: the result depends only on the pose).
   vtkSetMacro(WarmStart, bool);
   vtkGetMacro(WarmStart, bool);
   vtkBooleanMacro(WarmStart, bool);
   ///@}
 
   ///@{
-  /// As vtkReducedARAP's. Default on.
+  /// Like that of vtkReducedARAP. Default on.
   vtkSetMacro(MixedPrecision, bool);
   vtkGetMacro(MixedPrecision, bool);
   vtkBooleanMacro(MixedPrecision, bool);
@@ -117,12 +116,12 @@ public:
   };
 
   ///@{
-  /// One data set an instance, or one of all. Default COLLECTION.
+  /// One dataset per instance, or one dataset with all instances. Default COLLECTION.
   vtkSetClampMacro(OutputType, int, COLLECTION, APPENDED);
   vtkGetMacro(OutputType, int);
   ///@}
 
-  /// The collection, or the data set of all instances.
+  /// Return the collection, or the dataset of all instances.
   vtkDataObject* GetOutput() { return this->GetOutputDataObject(0); }
 
 protected:

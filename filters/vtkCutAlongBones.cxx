@@ -1,4 +1,4 @@
-// Glue around the kernel bindpose::cut_along_bones(): its sides become labels and region handles.
+// Connects the kernel bindpose::cut_along_bones() to VTK: sides become labels and region handles.
 #include "vtkCutAlongBones.h"
 
 #include "base/execution.h"
@@ -23,7 +23,7 @@ vtkStandardNewMacro(vtkCutAlongBones);
 
 namespace
 {
-/// The colours that handles have, by what they are; null where there are none.
+/// Color arrays of bones (left, right) and other handles; null if absent.
 struct ColorArrays
 {
   vtkDataArray* left = nullptr;
@@ -52,7 +52,7 @@ Status to_color_arrays(vtkPolyData* handles, ColorArrays& colors)
   return {};
 }
 
-/// The first bone of each bone's curve; every other handle is its own.
+/// Find the first bone of each bone's curve; for other handles, the handle itself.
 Status to_curves(vtkPolyData* handle_data, const Handles& handles, const std::vector<Index>& cells,
   std::vector<Index>& first)
 {
@@ -75,7 +75,7 @@ Status to_curves(vtkPolyData* handle_data, const Handles& handles, const std::ve
   return {};
 }
 
-/// The handles put out and their colours.
+/// The output handles and their colors.
 struct Sides
 {
   Handles handles;
@@ -157,7 +157,7 @@ Status vtkCutAlongBones::Execute(
     return status;
   }
 
-  // Labels of the sides come after those that the mesh has.
+  // Labels of the sides start after the mesh's own labels.
   vtkDataArray* old_labels = mesh->GetPointData()->GetArray("RegionId");
   const auto base = old_labels ? static_cast<Index>(std::max(0.0, old_labels->GetRange(0)[1])) : 0;
   Sides sides;
@@ -189,7 +189,7 @@ Status vtkCutAlongBones::Execute(
   }
   for (Handle& handle : sides.handles)
   {
-    handle.parent = -1; // it may have been a bone
+    handle.parent = -1; // the parent may have been a bone
   }
   const Status checked = check_handles(sides.handles);
   if (!checked.ok())

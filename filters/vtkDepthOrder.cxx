@@ -1,5 +1,5 @@
-// Glue around the kernel bindpose::depth_order(). Points move in doubles: ties are a millionth of
-// the shape.
+// Connects the kernel bindpose::depth_order() to VTK. Points are stored as doubles, because ties
+// are a millionth of the shape's diagonal.
 #include "vtkDepthOrder.h"
 
 #include "base/execution.h"

@@ -1,17 +1,17 @@
 /**
  * @class   vtkDepthOrder
- * @brief   which part of a planar shape is in front where a pose makes it overlap itself
+ * @brief   computes which part of a planar shape is in front where its pose overlaps itself
  *
- * Each handle has a layer; the depth of a point is depth = sum_j w_j d_j, smooth over the shape and
- * nearly the handle's own layer around it. What is larger is in front for a camera that looks along
- * -z. With Displace on, the points move to z + Scale * depth, so that an ordinary depth buffer
- * shows limbs in the order of their layers. Where layers are equal, handles later in the list are
- * in front: by Tie of a layer from the first to the last, in z only.
+ * Each handle has a layer. The depth of a point is depth = sum_j w_j d_j: smooth over the shape and
+ * nearly the handle's own layer around the handle. A larger depth is in front for a camera that
+ * looks along -z. With Displace on, the points move to z + Scale * depth, so that an ordinary depth
+ * buffer shows limbs in the order of their layers. If layers are equal, handles later in the list
+ * are in front: the displacement in z grows by up to Tie layers from the first to the last handle.
  *
  * **Input 0**: a mesh with weights, usually posed and with z = const (any vtkPointSet; see
- * vtkWeightsAlgorithm). **Input 1**: the handles, with a cell array `Layer` of a number each, whole
- * or not; without it all are 0. **Output**: input 0 with the double point array `Depth`, and
- * displaced points when asked for.
+ * vtkWeightsAlgorithm). **Input 1**: the handles, with the cell array `Layer`, one integer or real
+ * number per handle; without it all layers are 0. **Output**: input 0 with the double point array
+ * `Depth`, and with displaced points if Displace is on.
  *
  * Report: counts.{vertices, handles}, least_depth, largest_depth, scale (used), seconds.order.
  * Errors: no weights of that name, weights of other handles or with a number that is not finite, a
@@ -53,14 +53,15 @@ public:
   ///@}
 
   ///@{
-  /// Length of one layer along z, > 0. 0 (default): a thousandth of the mesh's diagonal.
+  /// Length of one layer along z, above 0. With 0 (default) it is a thousandth of the mesh's
+  /// diagonal.
   vtkSetClampMacro(Scale, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Scale, double);
   ///@}
 
   ///@{
-  /// How much of a layer the last handle is before the first where layers are equal, >= 0. Default
-  /// 0.001.
+  /// Depth difference between the last and the first handle where layers are equal, in layers, >=
+  /// 0. Default 0.001.
   vtkSetClampMacro(Tie, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Tie, double);
   ///@}

@@ -2,15 +2,15 @@
  * @class   vtkFarthestPointHandles
  * @brief   spreads point handles p1, p2, … evenly over a surface
  *
- * The first handle is the vertex farthest from the vertices' centroid, each next one the vertex
- * farthest in space from all handles before it; ties go to the smaller point id, so the same
- * surface always gives the same handles, and fewer handles are the first of more. Good for a first
- * look at weights on a mesh that has no skeleton yet: handles land on tips (fingers, ears, feet)
- * first.
+ * The first handle is the vertex farthest from the vertices' centroid. Each next handle is the
+ * vertex farthest in space from all handles before it. Ties go to the smaller point id, so the same
+ * surface always gives the same handles, and a smaller number of handles gives the first of a
+ * larger number. This is useful for a first look at weights on a mesh without a skeleton: the first
+ * handles are at tips (fingers, ears, feet).
  *
- * Input: a surface (vtkPointSet with 2D cells), or tets, whose boundary counts. Output: a handle
+ * Input: a surface (vtkPointSet with 2D cells), or tets, whose boundary is used. Output: a handle
  * dataset in the rest pose.
- * INVALID_INPUT when the surface has fewer different vertices than handles asked for.
+ * The status is INVALID_INPUT if the surface has fewer different vertices than NumberOfHandles.
  * Cost: NumberOfHandles passes over the points.
  *
  * Report: `counts.vertices`, `counts.handles`, `handles[].name`, `handles[].kind`,

@@ -1,5 +1,5 @@
-// Glue around the kernel bindpose::FullArap: the bind keeps what does not depend on the pose, the
-// kernel itself keeps the factorisation for as long as no mode changes.
+// Connects the kernel bindpose::FullArap to VTK. The bind stores everything that does not depend on
+// the pose. The kernel caches the factorization until a mode changes.
 #include "vtkFullARAP.h"
 
 #include "arap_input.h"

@@ -1,33 +1,38 @@
 /**
  * @class   vtkFullARAP
- * @brief   poses a mesh as rigidly as its handles allow, every vertex on its own: no weights
+ * @brief   poses a mesh as rigidly as its handles allow, without weights: every vertex is an
+ *   unknown
  *
  * As-rigid-as-possible deformation (Sorkine and Alexa 2007, As-rigid-as-possible surface modeling;
- * Liu et al. 2008; Chao et al. 2010): the energies and the handles' modes of vtkReducedARAP, but
- * every vertex is an unknown and every vertex or element has a rotation of its own. The result
- * bends less than the reduced one and may have kinks at handles; an iteration takes milliseconds
- * for each ten thousand vertices instead of microseconds. To compare with, and for meshes without
- * weights.
+ * Liu et al. 2008; Chao et al. 2010). The energies and the handles' modes are those of
+ * vtkReducedARAP, but every vertex is an unknown, and every vertex or element has its own rotation.
+ * The result bends less than that of vtkReducedARAP and may have kinks at handles. An iteration
+ * takes milliseconds per ten thousand vertices instead of microseconds. Use it for comparison and
+ * for meshes without weights.
  *
- * A handle in mode `full` (0) takes its vertices with it: a point or cage vertex the vertex at its
- * place, a bone those along it, a region those of its label (point array RegionArrayName). In mode
- * `position` (1) its pivot goes where `Transform` takes it, of a region the middle of its vertices;
- * in mode `free` (2) nothing is asked. Where no vertex is, the point of the cell there is held;
- * beside the mesh the nearest point of the mesh, with a warning. Parts that nothing holds stay.
+ * A handle in mode `full` (0) moves its vertices: a point or cage vertex moves the vertex at its
+ * position, a bone the vertices along it, a region the vertices with its label (point array
+ * RegionArrayName). In mode `position` (1) the `Transform` gives the target of the pivot; the pivot
+ * of a region is the mean of its vertices. In mode `free` (2) the handle constrains nothing. If no
+ * vertex is at the position of a handle, the handle constrains the point of the cell there. If the
+ * handle is off the mesh, it constrains the nearest point of the mesh, with a warning. Components
+ * without constraints do not move.
  *
- * A solve alternates best rotations and best positions (one sparse factorisation for each choice of
- * modes, kept between poses) with Anderson acceleration (Peng et al. 2018), and never raises the
- * energy.
+ * A solve alternates between optimal rotations and optimal positions with Anderson acceleration
+ * (Peng et al. 2018). It uses one sparse factorization per choice of modes, cached between poses.
+ * It never raises the energy.
  *
- * Ports, bind cache and errors: vtkPoseAlgorithm; the mesh needs no weights, and ArrayName is not
- * used. Port 0 is a surface (vtkPolyData, or a grid of 2D cells) or a vtkUnstructuredGrid of tets.
+ * Ports, bind cache and errors: see vtkPoseAlgorithm. The mesh needs no weights, and ArrayName is
+ * not used. Port 0 is a surface (vtkPolyData, or a grid of 2D cells) or a vtkUnstructuredGrid of
+ * tets.
  *
- * Report: method (the energy), counts (rotations, constrained among them), energy, iterations,
- * microseconds_per_iteration, constraint_residual (in diagonals), seconds.bind, seconds.factor,
- * seconds.solve. Status NOT_CONVERGED, with an output, when MaximumIterations were not enough for
- * Tolerance. Warnings name handles that contradict each other or are redundant.
+ * Report: method (the energy), counts (including rotations and constrained), energy, iterations,
+ * microseconds_per_iteration, constraint_residual (in bounding-box diagonals), seconds.bind,
+ * seconds.factor, seconds.solve. The status is NOT_CONVERGED, with an output, if Tolerance was not
+ * reached within MaximumIterations. Warnings name handles that contradict each other or are
+ * redundant.
  *
- * Errors: besides vtkPoseAlgorithm's a mesh without area or volume, a region without vertices.
+ * Errors: those of vtkPoseAlgorithm, a mesh without area or volume, and a region without vertices.
  *
  * @sa vtkReducedARAP
  */
@@ -57,10 +62,11 @@ public:
 
   ///@{
   /**
-   * Which edges share a rotation: those of the elements around a vertex (spokes and rims), those
-   * that end at it (spokes, without edges of negative cotangent weight), of a tet or of a triangle.
-   * Default AUTO: TETRAHEDRA on tets, SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a surface and
-   * TRIANGLES on tets are errors. A bind parameter.
+   * Sets of edges that share a rotation: the edges of the elements around a vertex
+   * (SPOKES_AND_RIMS), the edges that end at a vertex (SPOKES, without edges of negative cotangent
+   * weight), the edges of a tet, or the edges of a triangle. Default AUTO: TETRAHEDRA on tets,
+   * SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a surface and TRIANGLES on tets are errors. A bind
+   * parameter.
    */
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);
@@ -74,31 +80,32 @@ public:
   ///@}
 
   ///@{
-  /// Most iterations of a solve, 0 to 1e6. Default 500.
+  /// Maximum number of iterations per solve, 0 to 1e6. Default 500.
   vtkSetClampMacro(MaximumIterations, int, 0, 1000000);
   vtkGetMacro(MaximumIterations, int);
   ///@}
 
   ///@{
   /**
-   * A solve ends when an iteration lowers the energy by no more than this share of it (or of 1e-6
-   * of the rest energy, when hardly anything bends). Default 1e-6; 0 runs all iterations.
+   * Convergence tolerance: a solve ends when an iteration lowers the energy by no more than this
+   * fraction of the energy, or of 1e-6 of the rest energy if that is more. Default 1e-6; 0 runs all
+   * iterations.
    */
   vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
   vtkGetMacro(Tolerance, double);
   ///@}
 
   ///@{
-  /// Iterates that the acceleration looks back on, 0 (none) to 50. Default 5.
+  /// Number of previous iterates that the acceleration uses, 0 (none) to 50. Default 5.
   vtkSetClampMacro(AndersonWindow, int, 0, 50);
   vtkGetMacro(AndersonWindow, int);
   ///@}
 
   ///@{
   /**
-   * Whether a solve starts from the rotations of the last one (default on: drags converge in few
-   * iterations and keep their twists) or from a guess by the handles' own motions (off: the result
-   * depends on the pose only).
+   * Start a solve from the rotations of the last solve (on, the default: drags converge in few
+   * iterations and keep their twists) or from an estimate based on the handles' own motions (off:
+   * the result depends only on the pose).
    */
   vtkSetMacro(WarmStart, bool);
   vtkGetMacro(WarmStart, bool);
@@ -107,9 +114,9 @@ public:
 
   ///@{
   /**
-   * Whether the output gets the point arrays `RotationCluster`, the number of the rotation that a
-   * vertex follows, and `Rotation`, its axis times its angle in degrees, 0 to 180: see
-   * vtkReducedARAP. Default off.
+   * Add two point arrays to the output: `RotationCluster`, the index of the rotation that a vertex
+   * follows, and `Rotation`, its axis times its angle in degrees, 0 to 180. See vtkReducedARAP.
+   * Default off.
    */
   vtkSetMacro(RotationArrays, bool);
   vtkGetMacro(RotationArrays, bool);

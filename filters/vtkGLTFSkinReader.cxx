@@ -1,4 +1,4 @@
-// The kernel reads the file; gltf_data makes handles of its joints.
+// The kernel reads the file; gltf_data converts its joints to handles.
 #include "vtkGLTFSkinReader.h"
 
 #include "base/execution.h"
@@ -44,7 +44,7 @@ int vtkGLTFSkinReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
 {
   int frames = 0;
-  // What is wrong with the file, Execute() says.
+  // Execute() reports errors of the file.
   if (this->Frame < 0 && this->FileName &&
     check_extension(this->FileName, GetFileExtensions()).ok() &&
     this->Internal->file.read(this->FileName, this->GetMTime()).ok())
@@ -101,7 +101,8 @@ Status vtkGLTFSkinReader::Execute(
   mesh->ShallowCopy(data.mesh);
   handles->ShallowCopy(data.handles);
   int frame = this->Frame;
-  for (int port = 0; port < 2; ++port) // the handles' time counts; the mesh is the same at all
+  // The handles' time takes precedence; the mesh is the same at all times.
+  for (int port = 0; port < 2; ++port)
   {
     double time = 0.0;
     if (asked_time(output->GetInformationObject(port), time))

@@ -2,41 +2,42 @@
  * @class   vtkGLTFSkinReader
  * @brief   reads a skinned mesh from a glTF 2.0 file: mesh with weights, handles, poses
  *
- * Reads .glb and .gltf files of vtkGLTFSkinWriter, Blender and other programs: the triangles and
- * the first skin that a mesh uses, with all meshes that use it. A file without a skin gives its
- * meshes, where their nodes put them, and no handle.
+ * Reads .glb and .gltf files of vtkGLTFSkinWriter, Blender and other programs. It reads the
+ * triangles and the first skin that a mesh uses, with all meshes that use this skin. A file without
+ * a skin gives its meshes in the positions of their nodes, and no handle.
  *
- * **Output 0**: the mesh (vtkPolyData), with the point array `Weights`, a component a joint, rows
- * summing to one (what the rest joint of vtkGLTFSkinWriter holds is lacking again), with normals,
- * texture coordinates (`TCoords`) and vertex colours (`Colors`) where the file has them.
- * **Output 1**: the handles (see filters/README.md). A joint that vtkGLTFSkinWriter made of a
- * handle becomes that handle again, unless it was bound anew at another place; of others those with
- * children become bones to the middle of these, those without points. Their
- * `Ownership` is 1, so that a bind skips helper joints that share all vertices with others, and 2
- * for joints without weights in the file (control bones). Their rest places are those
- * of the inverse bind matrices, their `Transform` is how the nodes stand (Frame: how the animation
- * has them): posing the mesh by linear blend skinning gives what a glTF viewer shows.
+ * **Output 0**: the mesh (vtkPolyData) with the point array `Weights`, one component per joint.
+ * Rows sum to one, except that the weights of vtkGLTFSkinWriter's rest joint are left out. Normals,
+ * texture coordinates (`TCoords`) and vertex colors (`Colors`) are read if the file has them.
+ * **Output 1**: the handles (see filters/README.md). A joint that vtkGLTFSkinWriter wrote for a
+ * handle becomes that handle again, unless its bind position has changed since. Of the other
+ * joints, those with children become bones that end at the mean of the children; those without
+ * children become points. Their `Ownership` is 1, so that a bind skips helper joints that share all
+ * vertices with other joints. It is 2 for joints without weights in the file (control bones). The
+ * inverse bind matrices give the rest positions. The `Transform` is that of the nodes, or of the
+ * animation at Frame. Posing the mesh by linear blend skinning therefore gives the shape that a
+ * glTF viewer shows.
  *
- * **Animation**: the first that moves a joint, a frame a key where keys are evenly spaced, else 24
- * a second; as GetPoseJSON(), which vtkPoseHandles takes, or frame by frame with Frame. A pose file
- * has no word for uneven scales and shears: one warning counts the handles that have some. Scales
- * that differ by roundoff of the file (1e-5 of the matrix) are even.
+ * **Animation**: the first animation that moves a joint is read. It has one frame per key if keys
+ * are evenly spaced, otherwise 24 frames per second. It is available as GetPoseJSON(), which
+ * vtkPoseHandles takes, or frame by frame with Frame. A pose file cannot store non-uniform scales
+ * and shears; one warning counts the handles with such transforms. Differences between scales
+ * within the round-off of the file (1e-5 of the matrix) are ignored.
  *
- * **Time.** With an animation and Frame -1 the reader is a source of time: it offers the times of
- * the frames, and who asks for a time gets the handles of the frame that is on then. The mesh is
- * the same at all times, so filters behind it keep their bind. The file is read anew when it has
- * changed.
+ * **Time.** With an animation and Frame -1 the reader provides the time steps of the frames. If a
+ * time is requested, the output is the frame at that time. The mesh is the same at all times, so
+ * downstream filters keep their bind. The file is read again if it has changed.
  *
  * Not read: other animations, materials, textures, morph targets, cameras, lights. One warning
- * lists what the file has of these. Compressed meshes are an error.
+ * lists those that the file contains. Compressed meshes are an error.
  *
- * A missing, truncated or broken file gives INVALID_INPUT with one sentence that names it; never a
- * crash, never half a mesh.
+ * A missing, truncated or invalid file gives INVALID_INPUT with one sentence that names it. It
+ * never causes a crash or a partial mesh.
  *
  * Report: counts.vertices, counts.triangles, counts.joints, counts.skins, counts.frames,
  * counts.animations, counts.materials, counts.unweighted_vertices, counts.skipped_primitives,
- * counts.morph_targets, not_kept[] (what the warning lists), sets,
- * frames_per_second, handles[].name, handles[].kind.
+ * counts.morph_targets, not_kept[] (the list in the warning), sets, frames_per_second,
+ * handles[].name, handles[].kind.
  *
  * @sa vtkGLTFSkinWriter vtkMeshFileReader vtkHandleFileReader
  */
@@ -62,21 +63,22 @@ public:
   ///@}
 
   ///@{
-  /// Frame of the animation that the handles stand in, from 0; -1 (default): that of the time which
-  /// is asked for, or as the nodes stand. A frame that is not there is an error.
+  /// Frame of the animation for the handles, from 0. -1 (default): the frame at the requested time,
+  /// or the transforms of the nodes if no time is requested. A frame that does not exist is an
+  /// error.
   vtkSetMacro(Frame, int);
   vtkGetMacro(Frame, int);
   ///@}
 
   ///@{
-  /// Of the last Update(): frames of the animation, 0 without one, and the animation as a pose
-  /// file, empty without one.
+  /// Results of the last Update(): the number of frames of the animation (0 without an animation),
+  /// and the animation as a pose file (empty without an animation).
   vtkGetMacro(NumberOfFrames, int);
   vtkGetMacro(FramesPerSecond, double);
   std::string GetPoseJSON() { return this->PoseJSON; }
   ///@}
 
-  /// The endings that can be read, lower case, without dots, parted by blanks.
+  /// File name extensions that can be read, in lower case, without dots, separated by blanks.
   static const char* GetFileExtensions() { return "glb gltf"; }
 
 protected:

@@ -1,5 +1,5 @@
-// The kernel writes; here the mesh becomes triangles, the handles joints and the frames places of
-// both.
+// The kernel writes the file. This filter converts the mesh to triangles, the handles to joints,
+// and the frames to positions of points and joints.
 #include "vtkGLTFSkinWriter.h"
 
 #include "base/execution.h"
@@ -28,11 +28,11 @@ vtkStandardNewMacro(vtkGLTFSkinWriter);
 
 namespace
 {
-/// What is written of the mesh: the points on its surface.
+/// The written part of the mesh: the points on its surface.
 struct Surface
 {
-  Triangles triangles; ///< in the order of `points`
-  std::vector<Index> points; ///< of the mesh
+  Triangles triangles; ///< ids are indices into `points`
+  std::vector<Index> points; ///< ids of points of the mesh
 
   Points take(PointsView all) const
   {
@@ -45,7 +45,8 @@ struct Surface
   }
 };
 
-/// A surface keeps all its points in their order; of tets the boundary's are left.
+/// Return the surface. A surface keeps all its points in order; tets keep only the boundary's
+/// points.
 Status to_written_surface(vtkDataSet* mesh, Surface& surface)
 {
   Domain domain;
@@ -86,7 +87,8 @@ Status to_written_surface(vtkDataSet* mesh, Surface& surface)
   return status;
 }
 
-/// Rows of an array, as many columns as the matrix has; no rows when there is no such array.
+/// Return the rows of an array with as many columns as the matrix; no rows if there is no such
+/// array.
 template <typename Matrix>
 void take_rows(vtkDataArray* array, const Surface& surface, Matrix& rows)
 {
@@ -127,7 +129,7 @@ Status take_colors(vtkPointData* data, const char* name, const Surface& surface,
   return {};
 }
 
-/// The transforms that a posed mesh says it was moved by.
+/// Return the transforms stored with a posed mesh.
 Status take_transforms(vtkDataSet* frame, const Handles& handles, std::vector<Affine>& transforms)
 {
   vtkDataArray* array = frame->GetFieldData()->GetArray("HandleTransforms");
@@ -161,7 +163,7 @@ void add_warnings(const Status& from, Status& to)
   to.warnings.insert(to.warnings.end(), from.warnings.begin(), from.warnings.end());
 }
 
-/// Weights, joints and how they stand.
+/// Return weights, joints and the pose of the joints.
 Status take_skin(vtkPointSet* mesh, const std::string& array_name, vtkPolyData* handle_data,
   const Surface& surface, Handles& handles, Pose& pose, GltfSkin& skin)
 {
@@ -233,7 +235,7 @@ Status take_poses(const std::string& path, const Handles& handles, const Pose& b
   {
     return status;
   }
-  std::vector<std::string> made_warnings; // the same of every frame, mostly
+  std::vector<std::string> made_warnings; // usually the same for every frame
   std::string unused;
   for (const PoseEdits& edits : sequence.frames)
   {
@@ -335,7 +337,7 @@ Status vtkGLTFSkinWriter::Execute(
     status = take_frames(input[2], surface, mesh->GetNumberOfPoints(), handles, morph, skin);
     for (GltfJoint& joint : skin.joints)
     {
-      // Joints move what the targets have moved already.
+      // The morph targets contain the motion already, so the joints are at rest.
       joint.posed = morph ? joint.rest : joint.posed;
     }
   }

@@ -2,46 +2,48 @@
  * @class   vtkGLTFSkinWriter
  * @brief   writes a mesh with weights and its handles as a skinned glTF 2.0 file
  *
- * For Blender, game engines and viewers: drop the file in and pose it. A skin of glTF is linear
- * blend skinning, so what moves there is what vtkSkinningDeformation's linear blend computes.
+ * The file can be posed in Blender, game engines and viewers. A skin of glTF is linear blend
+ * skinning, so the motion there is that of vtkSkinningDeformation's linear blend.
  *
  * **Input 0**: the mesh, any vtkPointSet. Tets are written as their boundary surface, polygons as
- * triangles; normals, texture coordinates and vertex colours (ColorArrayName) go along. **Input 1**
- * (optional): the handles that the point array `Weights` was made for; without, the mesh alone is
- * written. **Input 2** (optional, several): the frames of an animation, which are the mesh as
- * vtkPoseAlgorithm's filters posed it. Or PoseFileName names a sequence of poses. **Output 0**: the
- * surface that was written.
+ * triangles. Normals, texture coordinates and vertex colors (ColorArrayName) are written too.
+ * **Input 1** (optional): the handles for which the point array `Weights` was computed; without
+ * handles only the mesh is written. **Input 2** (optional, several connections): the frames of an
+ * animation, which are the mesh as posed by vtkPoseAlgorithm's filters. PoseFileName, a sequence of
+ * poses, is the alternative. **Output 0**: the surface that was written.
  *
- * **Joints**: each handle is a joint: points, regions and cage vertices where they are, bones at
- * their heads with the y axis along them. Handles hang on their `Parent` (bones that share ends
- * do), so that in other programs a forearm follows its upper arm; transforms here are absolute, so
- * they are converted. Kind, tail, region and cage travel as extras for vtkGLTFSkinReader.
- * `Transform` of the handles is how the nodes stand; the mesh is bound at rest.
+ * **Joints**: each handle becomes a joint. Points, regions and cage vertices are joints at their
+ * positions; bones are joints at their heads with the y axis along the bone. Joints are children of
+ * the joint of their `Parent` (bones that share ends are), so that in other programs a forearm
+ * follows its upper arm. Transforms of handles are absolute and are converted. Kind, tail, region
+ * and cage are stored as extras for vtkGLTFSkinReader. The `Transform` of the handles determines
+ * the nodes; the mesh is bound at rest.
  *
- * **Weights**: all that are not zero, in as many sets of four (JOINTS_0, WEIGHTS_0, JOINTS_1, …) as
- * the fullest vertex needs, or MaximumInfluences, the largest. glTF demands rows that sum to one:
- * where one lacks more than 1e-6, a further joint `rest`, which never moves, holds what lacks: that
- * is what our skinning does with such rows, exactly. Negative weights and rows above one have no
- * place in glTF; they are clamped and divided by their sum, with a warning.
+ * **Weights**: all nonzero weights are written, in as many sets of four (JOINTS_0, WEIGHTS_0,
+ * JOINTS_1, …) as the vertex with most weights needs, or only the MaximumInfluences largest
+ * weights. glTF requires rows that sum to one. If a row lacks more than 1e-6, an additional joint
+ * `rest`, which never moves, gets the remainder. This reproduces exactly how Bindpose's skinning
+ * handles such rows. glTF does not allow negative weights or rows above one; they are clamped and
+ * divided by their sum, with a warning.
  *
- * **Animation**: JOINTS writes translation, rotation and scale of the joints a frame, for linear
- * blend rigs. What they cannot hold (shear, uneven scale off the joint's axes, and of frames posed
- * by other methods what is no blend of the handles' transforms, the field data `HandleTransforms`)
- * is told: animation_error is the largest distance, as a fraction of the diagonal, of a vertex as
- * the file moves it from where it belongs. MORPH writes the frames' points as morph targets: right
- * for every method (reduced and full as-rigid-as-possible, dual quaternions), 12 bytes a vertex and
- * frame. The joints rest then.
+ * **Animation**: JOINTS writes translation, rotation and scale of the joints per frame, for linear
+ * blend rigs. Joints cannot represent shear or non-uniform scale off the joint's axes. They also
+ * cannot represent frames of other methods that are not a blend of the handles' transforms (field
+ * data `HandleTransforms`). animation_error reports the largest distance between a vertex as the
+ * file moves it and its correct position, as a fraction of the diagonal. MORPH writes the frames'
+ * points as morph targets. This is correct for every method (reduced and full as-rigid-as-possible,
+ * dual quaternions) and takes 12 bytes per vertex and frame. The joints are then at rest.
  *
- * The file is written beside its target and renamed at the end; a failure or cancel leaves nothing
- * behind. An existing file is an error unless Overwrite is on.
+ * The file is written under a temporary name next to its target and renamed at the end; a failure
+ * or cancel leaves no file. An existing file is an error unless Overwrite is on.
  *
- * Report: counts.{vertices, triangles, joints, frames, dropped_weights}, sets, rest_joint (yes,
- * no), dropped_share (the largest part of a row that MaximumInfluences dropped), pose_error,
+ * Report: counts.{vertices, triangles, joints, frames, dropped_weights}, sets, rest_joint (yes or
+ * no), dropped_share (the largest fraction of a row that MaximumInfluences dropped), pose_error,
  * animation (joints, morph), animation_error, file_bytes.
  *
- * Errors (INVALID_INPUT, one sentence): no triangles or tets, weights that do not fit the handles,
- * numbers that are no finite floats, frames with another number of points or without
- * HandleTransforms, a broken pose file, more than 4 GB, an unwritable place.
+ * Errors (INVALID_INPUT, one sentence): no triangles or tets, weights that do not match the
+ * handles, numbers that are not finite floats, frames with a different number of points or without
+ * HandleTransforms, an invalid pose file, more than 4 GB, an output path that cannot be written.
  *
  * Call Write(), or Update().
  *
@@ -61,7 +63,7 @@ public:
   vtkTypeMacro(vtkGLTFSkinWriter, vtkBindposeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// How frames are written.
+  /// Representation of frames in the file.
   enum AnimationType
   {
     JOINTS = 0,
@@ -69,13 +71,13 @@ public:
   };
 
   ///@{
-  /// Path of the file: .glb (binary) or .gltf (text with the numbers in it). Default: none.
+  /// Path of the file: .glb (binary) or .gltf (text with embedded numbers). Default: none.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
 
   ///@{
-  /// Replace an existing file? Default: off.
+  /// Replace an existing file. Default: off.
   vtkSetMacro(Overwrite, bool);
   vtkGetMacro(Overwrite, bool);
   vtkBooleanMacro(Overwrite, bool);
@@ -88,15 +90,15 @@ public:
   ///@}
 
   ///@{
-  /// Point array of unsigned chars, 3 or 4 a point, for the vertex colours. Default: none, the
-  /// active scalars when they are such ones.
+  /// Point array of unsigned chars, 3 or 4 components, for the vertex colors. Default: none, which
+  /// means the active scalars if they have this type.
   vtkSetStringMacro(ColorArrayName);
   vtkGetStringMacro(ColorArrayName);
   ///@}
 
   ///@{
-  /// Weights of a vertex that are written, the largest, 4 for programs that take no more; 0
-  /// (default): all.
+  /// Maximum number of weights written per vertex, the largest; 4 for programs that read no more. 0
+  /// (default): no limit.
   vtkSetClampMacro(MaximumInfluences, int, 0, 65535);
   vtkGetMacro(MaximumInfluences, int);
   ///@}
@@ -108,36 +110,36 @@ public:
   ///@}
 
   ///@{
-  /// Sequence of poses (.json, see vtkPoseHandles) that becomes an animation of the joints, when
+  /// Sequence of poses (.json, see vtkPoseHandles) that is written as an animation of the joints if
   /// input 2 has no frames. Default: none.
   vtkSetFilePathMacro(PoseFileName);
   vtkGetFilePathMacro(PoseFileName);
   ///@}
 
   ///@{
-  /// Of the frames of input 2, above 0. Default: 24.
+  /// Frames per second of input 2, above 0. Default: 24.
   vtkSetMacro(FramesPerSecond, double);
   vtkGetMacro(FramesPerSecond, double);
   ///@}
 
   ///@{
-  /// The handles: SetInputData(1, handles).
+  /// Set the handles, like SetInputData(1, handles).
   void SetHandlesData(vtkDataObject* handles) { this->SetInputData(1, handles); }
   void SetHandlesConnection(vtkAlgorithmOutput* handles) { this->SetInputConnection(1, handles); }
   ///@}
 
   ///@{
-  /// Frames of the animation, in their order.
+  /// Frames of the animation, in order.
   void AddFrameData(vtkDataObject* frame) { this->AddInputDataObject(2, frame); }
   void AddFrameConnection(vtkAlgorithmOutput* frame) { this->AddInputConnection(2, frame); }
   void RemoveFrames() { this->RemoveAllInputConnections(2); }
   ///@}
 
-  /// Executes the pipeline and writes, again even if nothing changed. Returns 1 when the file is
-  /// there; otherwise 0, and GetStatusMessage() says why.
+  /// Execute the pipeline and write the file, even if nothing has changed. Return 1 if the file was
+  /// written; otherwise return 0, and GetStatusMessage() returns the reason.
   int Write();
 
-  /// The endings that can be written, lower case, without dots, parted by blanks.
+  /// File name extensions that can be written, in lower case, without dots, separated by blanks.
   static const char* GetFileExtensions() { return "glb gltf"; }
 
 protected:

@@ -1,6 +1,6 @@
-// A .tgf graph becomes handles: first the nodes without a bone, then the bones, parents from shared
-// nodes. A .vtp file goes through vtkMeshFileReader and gets the arrays it misses. The joints of a
-// glTF file are handles by gltf_data.
+// A .tgf graph is converted to handles: first the nodes without a bone, then the bones, with
+// parents from shared nodes. A .vtp file is read by vtkMeshFileReader, and missing arrays are
+// added. gltf_data converts the joints of a glTF file.
 #include "vtkHandleFileReader.h"
 
 #include "base/execution.h"
@@ -31,7 +31,8 @@ using bindpose::Handles;
 using bindpose::Index;
 using bindpose::Status;
 
-/// @param pseudo_edges those between nodes that are points.
+/// Convert a graph to handles.
+/// @param pseudo_edges  the pseudo-edges between nodes that are points
 Handles to_handles(const bindpose::Tgf& graph, bindpose::PseudoEdges& pseudo_edges)
 {
   std::vector<char> in_bone(graph.nodes.size(), 0);
@@ -150,7 +151,7 @@ Status read_tgf(const std::string& path, vtkPolyData* output)
 Status read_vtp(const std::string& path, vtkPolyData* output)
 {
   vtkNew<vtkMeshFileReader> reader;
-  vtkNew<vtkCallbackCommand> silent; // our status repeats what the reader says
+  vtkNew<vtkCallbackCommand> silent; // this filter's status repeats the reader's message
   reader->AddObserver(vtkCommand::ErrorEvent, silent);
   reader->SetFileName(path.c_str());
   reader->Update();
@@ -176,7 +177,7 @@ Status read_vtp(const std::string& path, vtkPolyData* output)
   output->ShallowCopy(data);
   if (static_cast<Index>(handles.size()) == data->GetNumberOfCells())
   {
-    // Every cell is a handle: cells of the complete dataset and of the file agree.
+    // Every cell is a handle, so the cells of the complete dataset and of the file agree.
     auto complete = bindpose::to_polydata(handles);
     for (int i = 0; i < complete->GetCellData()->GetNumberOfArrays(); ++i)
     {
@@ -195,7 +196,7 @@ Status read_gltf_handles(const std::string& path, vtkPolyData* output)
 {
   bindpose::GltfData gltf;
   Status status = bindpose::read_gltf(path, gltf);
-  status.warnings.clear(); // of the mesh
+  status.warnings.clear(); // those concern the mesh
   status.report = {};
   if (status.ok() && gltf.handle_list.empty())
   {

@@ -1,26 +1,28 @@
 /**
  * @class   vtkHandleFileReader
- * @brief   reads handles: points and bones from a .tgf file, all kinds from .vtp and .glb files
+ * @brief   reads handles: points and bones from .tgf files, all types from .vtp and .glb files
  *
- * The output is a handle dataset: one handle a cell, one cell a column of the weights, with the
- * cell arrays HandleName, HandleKind, Parent, RegionId, Mode, Transform, Stretch and Twist.
+ * The output is a handle dataset: one handle per cell, in the order of the columns of the weights,
+ * with the cell arrays HandleName, HandleKind, Parent, RegionId, Mode, Transform, Stretch and
+ * Twist.
  *
  * A .tgf file (Jacobson's Trivial Graph Format) has lines "id x y z [text]", a line "#", and edges
- * "from to [is_bone is_pseudo is_cage]". Every node that no bone uses is a point handle; its text
- * is its name, else p1, p2, … by order among the points. Bones are named b1, b2, … in file order.
- * Columns are points, then bones. A bone whose head is the tail of another has that one as parent
- * (the first in file order). Nodes of cage edges are cage vertices, along whose edges weights are
- * linear. Pseudo-edges between points are lines of HandleKind -2, which make no handle but tell how
- * points turn (vtkSkinningDeformation); all other edges are left out, and a warning counts them.
+ * "from to [is_bone is_pseudo is_cage]". Every node that no bone uses is a point handle. Its text
+ * is its name; without text it is p1, p2, … by its order among the points. Bones are named b1, b2,
+ * … in file order. Columns are points, then bones. If the head of a bone is the tail of another
+ * bone, that bone (the first in file order) is its parent. Nodes of cage edges are cage vertices,
+ * and weights are linear along the cage edges. Pseudo-edges between points are lines of HandleKind
+ * -2. They are not handles but determine how points rotate (vtkSkinningDeformation). All other
+ * edges are left out, and a warning counts them.
  *
- * A .vtp file is taken cell by cell (vertices are points, lines are bones unless HandleKind says
- * otherwise); missing arrays get their defaults, all others are kept.
+ * A .vtp file is read cell by cell: vertices are points and lines are bones unless HandleKind
+ * states another type. Missing arrays get their defaults; all other arrays are kept.
  *
- * The joints of the skin in a .glb or .gltf file are handles as vtkGLTFSkinReader says.
+ * The joints of the skin in a .glb or .gltf file become handles as in vtkGLTFSkinReader.
  *
- * INVALID_INPUT, naming the file, for what cannot be read and for handles that cannot be used: an
- * empty or doubled name, a coordinate that is not finite, a bone of length zero, two handles at the
- * same place, a cycle of parents.
+ * The status is INVALID_INPUT, with the file name, for a file that cannot be read and for handles
+ * that cannot be used: an empty or duplicate name, a coordinate that is not finite, a bone of
+ * length zero, two handles at the same position, a cycle of parents.
  *
  * Report: `counts.handles`, `handles[].name`, `handles[].kind`.
  */
@@ -44,7 +46,7 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
-  /// The endings that can be read, lower case, without dots, parted by blanks.
+  /// File name extensions that can be read, in lower case, without dots, separated by blanks.
   static const char* GetFileExtensions() { return "tgf vtp glb gltf"; }
 
 protected:

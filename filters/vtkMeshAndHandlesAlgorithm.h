@@ -1,9 +1,9 @@
 /**
  * @class   vtkMeshAndHandlesAlgorithm
- * @brief   what the filters of a mesh and its handles share: their ports
+ * @brief   base class of the filters with a mesh and its handles: the ports
  *
  * **Input 0**: the mesh, any vtkPointSet. **Input 1**: the handles, a vtkPolyData (see
- * filters/README.md). **Output 0**: of the mesh's own class.
+ * filters/README.md). **Output 0**: a dataset of the same class as the mesh.
  */
 
 #ifndef vtkMeshAndHandlesAlgorithm_h
@@ -17,7 +17,7 @@ class BINDPOSEFILTERS_EXPORT vtkMeshAndHandlesAlgorithm : public vtkBindposeAlgo
 public:
   vtkAbstractTypeMacro(vtkMeshAndHandlesAlgorithm, vtkBindposeAlgorithm);
 
-  /// The handles: SetInputData(1, handles).
+  /// Set the handles, like SetInputData(1, handles).
   void SetHandlesData(vtkDataObject* handles) { this->SetInputData(1, handles); }
   void SetHandlesConnection(vtkAlgorithmOutput* handles) { this->SetInputConnection(1, handles); }
 

@@ -1,7 +1,7 @@
-// The ending chooses the reader. Our own kernels read the formats that VTK lacks or reads with a
-// loss (floats, vertices doubled where normals differ); for the others a VTK reader runs with
-// observers on it, so that its errors become the one sentence of our status. What comes out is
-// checked before it goes on: VTK's readers hand on ids out of range.
+// The file name extension determines the reader. Bindpose's kernels read the formats that VTK does
+// not support or reads with a loss (floats, vertices duplicated where normals differ). A VTK reader
+// with observers reads the others, and its errors become the one sentence of the status. The result
+// is checked before it is passed on, because VTK's readers do not check that ids are in range.
 #include "vtkMeshFileReader.h"
 
 #include "base/execution.h"
@@ -71,7 +71,7 @@ public:
   vtkCommand* GetCommand() { return this->Command; }
   bool Caught() const { return !this->First.empty(); }
 
-  /// What follows "vtkClass (0x…): " in VTK's message, on one line.
+  /// Return the text after "vtkClass (0x…): " in VTK's message, in one line.
   std::string Sentence() const
   {
     std::string text = this->First;
@@ -167,16 +167,16 @@ template <typename Reader>
 void watch(ErrorCatcher& errors, Reader* reader)
 {
   errors.Watch(reader);
-  errors.Watch(reader->GetExecutive()); // it reports a failed request once more
+  errors.Watch(reader->GetExecutive()); // it reports a failed request a second time
   if constexpr (std::is_base_of_v<vtkXMLReader, Reader>)
   {
-    // An XML reader works through two objects of its own.
+    // An XML reader uses two internal objects.
     reader->SetReaderErrorObserver(errors.GetCommand());
     reader->SetParserErrorObserver(errors.GetCommand());
   }
 }
 
-/// Runs one of VTK's readers.
+/// Read a file with one of VTK's readers.
 template <typename Reader>
 Status read_by_vtk(const std::string& path, vtkDataObject* output)
 {
@@ -248,15 +248,16 @@ Status check_output(const std::string& path, vtkDataObject* output)
   return status;
 }
 
-/// A MEDIT file with tets is a grid, one without is a surface. Its keywords stand on lines of
-/// their own, so a search of the text is enough.
+/// Report whether a MEDIT file has tets: then it is a grid, otherwise a surface. Its keywords are
+/// on separate lines, so a text search is sufficient.
 bool has_tets(const std::string& path)
 {
   std::string text;
   return bindpose::read_file(path, text).ok() && text.find("Tetrahedra") != std::string::npos;
 }
 
-/// What the file will give; a broken file gives a polydata, whose report says what is wrong.
+/// Return an empty output of the file's type. An invalid file gives a polydata with the error in
+/// its report.
 vtkSmartPointer<vtkDataObject> make_output(const std::string& path)
 {
   const std::string extension = bindpose::file_extension(path);
@@ -320,7 +321,7 @@ int vtkMeshFileReader::RequestDataObject(
 int vtkMeshFileReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
 {
-  // Downstream asks an image by extents: it needs the whole one beforehand.
+  // Downstream filters request an image by extents, so the whole extent is needed beforehand.
   const std::string path = this->FileName ? this->FileName : "";
   std::string text;
   if (bindpose::file_extension(path) != "vti" || !bindpose::read_file(path, text).ok())
@@ -354,7 +355,8 @@ bindpose::Status vtkMeshFileReader::Execute(
   std::string text;
   if (status.ok())
   {
-    // Says in one way for all formats: missing, a directory, unreadable, empty.
+    // This reports in the same way for all formats that a file is missing, a directory, unreadable
+    // or empty.
     status = bindpose::read_file(path, text);
     text.clear();
   }

@@ -1,25 +1,26 @@
 /**
  * @class   vtkMeshFileReader
- * @brief   reads any mesh file that Bindpose knows, whatever its ending
+ * @brief   reads mesh files in all formats that Bindpose supports
  *
- * | ending | content | output |
+ * | extension | content | output |
  * |---|---|---|
  * | .off .obj .ply | surface, polygons kept, doubles | vtkPolyData |
  * | .stl | surface, equal vertices merged | vtkPolyData |
  * | .vtp | surface or handles with arrays | vtkPolyData |
  * | .vtu | tets or other cells with arrays | vtkUnstructuredGrid |
  * | .vti | image (volume) with arrays | vtkImageData |
- * | .vtk | VTK's old format | what the file holds |
+ * | .vtk | VTK's legacy format | as in the file |
  * | .mesh | MEDIT, ASCII: tets, else triangles | vtkUnstructuredGrid, vtkPolyData |
  * | .glb .gltf | triangles, `Weights` of a skin: see vtkGLTFSkinReader | vtkPolyData |
  *
- * OFF, OBJ, PLY, STL and MEDIT files are read by Bindpose itself: coordinates are doubles, and
- * vertices stay shared whatever texture coordinates and normals the file carries; those are not
- * read. An OBJ file without a face gives its lines.
+ * Bindpose's own readers read OFF, OBJ, PLY, STL and MEDIT files. Coordinates are doubles. Texture
+ * coordinates and normals are not read and do not split vertices. An OBJ file without a face gives
+ * its lines.
  *
- * A missing, empty, truncated or wrong file, and coordinates that are not finite in the text
- * formats, give INVALID_INPUT with one sentence that names the file (and line, where there are
- * lines); never a crash, never half a mesh. See vtkBindposeAlgorithm for how failures travel.
+ * A missing, empty, truncated or invalid file gives INVALID_INPUT with one sentence that names the
+ * file and, for text formats, the line; so do coordinates in text formats that are not finite. Such
+ * a file never causes a crash or a partial mesh. See vtkBindposeAlgorithm for the propagation of
+ * failures.
  *
  * Report: `format`, `counts.vertices`, `counts.cells`, `counts.skipped_cells` (entries with fewer
  * than three corners).
@@ -44,7 +45,7 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
-  /// The endings that can be read, lower case, without dots, parted by blanks.
+  /// File name extensions that can be read, in lower case, without dots, separated by blanks.
   static const char* GetFileExtensions() { return "obj off ply stl vtp vtu vti vtk mesh glb gltf"; }
 
 protected:

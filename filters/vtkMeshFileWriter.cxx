@@ -1,5 +1,5 @@
-// The ending chooses the writer; each writes to the temporary file of an AtomicFile, which is
-// renamed when all went well.
+// The file name extension determines the writer. Each writer writes to the temporary file of an
+// AtomicFile, which is renamed on success.
 #include "vtkMeshFileWriter.h"
 
 #include "base/execution.h"
@@ -43,7 +43,7 @@ void choose_encoding(Writer* writer)
 {
   if constexpr (std::is_base_of_v<vtkXMLWriter, Writer>)
   {
-    // Raw bytes behind the header: base64 would cost a third more; LZ4 is as quick as the disk.
+    // Raw appended data, because base64 is a third larger. LZ4 is as fast as the disk.
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
     writer->SetCompressorTypeToLZ4();
@@ -59,7 +59,8 @@ Status write_by_vtk(vtkDataSet* data, const std::string& path)
 {
   vtkNew<Writer> writer;
   choose_encoding(writer.Get());
-  vtkNew<vtkCallbackCommand> silent; // the status tells it; an observer keeps VTK from printing
+  // The status contains the error; the observer keeps VTK from printing it.
+  vtkNew<vtkCallbackCommand> silent;
   writer->AddObserver(vtkCommand::ErrorEvent, silent);
   writer->SetInputDataObject(data);
   writer->SetFileName(path.c_str());
@@ -70,7 +71,7 @@ Status write_by_vtk(vtkDataSet* data, const std::string& path)
   return {};
 }
 
-/// Keeps polygons; other 2D cells (strips, an unstructured grid's) become triangles.
+/// Keep polygons; convert other 2D cells (strips, cells of an unstructured grid) to triangles.
 Status to_polygons(vtkDataSet* data, bindpose::PolygonMesh& mesh)
 {
   auto* surface = vtkPolyData::SafeDownCast(data);
@@ -223,7 +224,7 @@ bindpose::Status vtkMeshFileWriter::Execute(
     data, bindpose::file_extension(path), this->ArrayName ? this->ArrayName : "", file.temporary());
   if (!status.ok())
   {
-    // The text may name the temporary file, which is no name for a user.
+    // The message may contain the temporary file name, which means nothing to users.
     const std::size_t at = status.message.find(file.temporary());
     status.message = at == std::string::npos
       ? "cannot write " + path + ": " + status.message

@@ -1,10 +1,10 @@
 /**
  * @class   vtkMeshFileWriter
- * @brief   writes any dataset of Bindpose to a file that is there whole or not at all
+ * @brief   writes any dataset of Bindpose to a file, either completely or not at all
  *
- * The ending of FileName decides:
+ * The extension of FileName determines the format:
  *
- * | ending | takes | keeps |
+ * | extension | accepts | keeps |
  * |---|---|---|
  * | .vtp | vtkPolyData | everything |
  * | .vtu | vtkUnstructuredGrid | everything |
@@ -13,11 +13,12 @@
  * | .off .obj .ply | surfaces (2D cells) | doubles, polygons |
  * | .stl | surfaces (2D cells) | floats, triangles |
  * | .mesh | tets or surfaces | doubles |
- * | .dmat | any dataset with the point array ArrayName | that array alone, #points x #components |
+ * | .dmat | any dataset with the point array ArrayName | only that array, #points x #components |
  *
- * The file is written beside its target and renamed at the end; a failure, a cancel or an exception
- * leaves nothing behind. An existing file is an error unless Overwrite is on. All errors are
- * INVALID_INPUT with one sentence: a dataset that the ending cannot hold, an unwritable place.
+ * The file is written under a temporary name next to its target and renamed at the end; a failure,
+ * a cancel or an exception leaves no file. An existing file is an error unless Overwrite is on. All
+ * errors are INVALID_INPUT with one sentence: a dataset that the format cannot store, an output
+ * path that cannot be written.
  *
  * Call Write(). The filter has no output.
  */
@@ -42,23 +43,23 @@ public:
   ///@}
 
   ///@{
-  /// Replace an existing file? Default: off.
+  /// Replace an existing file. Default: off.
   vtkSetMacro(Overwrite, bool);
   vtkGetMacro(Overwrite, bool);
   vtkBooleanMacro(Overwrite, bool);
   ///@}
 
   ///@{
-  /// Point array that a .dmat file gets. Default: "Weights".
+  /// Point array that is written to a .dmat file. Default: "Weights".
   vtkSetStringMacro(ArrayName);
   vtkGetStringMacro(ArrayName);
   ///@}
 
-  /// Executes the pipeline and writes, again even if nothing changed. Returns 1 when the file is
-  /// there; otherwise 0, and GetStatusMessage() says why.
+  /// Execute the pipeline and write the file, even if nothing has changed. Return 1 if the file was
+  /// written; otherwise return 0, and GetStatusMessage() returns the reason.
   int Write();
 
-  /// The endings that can be written, lower case, without dots, parted by blanks.
+  /// File name extensions that can be written, in lower case, without dots, separated by blanks.
   static const char* GetFileExtensions() { return "vtp vtu vti vtk ply stl obj off mesh dmat"; }
 
 protected:

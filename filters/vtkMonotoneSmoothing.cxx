@@ -1,4 +1,4 @@
-// Glue around the kernel bindpose::monotone_smoothing().
+// Connects the kernel bindpose::monotone_smoothing() to VTK.
 #include "vtkMonotoneSmoothing.h"
 
 #include "base/execution.h"
@@ -43,7 +43,8 @@ std::string point_arrays(vtkDataSet* mesh)
   return names.empty() ? "it has none" : "it has " + names;
 }
 
-/// @param name empty: the active scalars.
+/// Convert the data array.
+/// @param name  name of the array; empty: the active scalars
 Status to_data(
   vtkDataArray* array, vtkDataSet* mesh, const std::string& name, Eigen::VectorXd& data)
 {

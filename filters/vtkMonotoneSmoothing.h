@@ -1,47 +1,48 @@
 /**
  * @class   vtkMonotoneSmoothing
- * @brief   smooths data on a mesh and leaves the extrema that are asked for, no other
+ * @brief   smooths data on a mesh and keeps only the requested extrema
  *
- * Topological simplification: of all functions whose only local extrema are the given ones, the one
- * that is smooth and near to the data: the least of int |k-harmonic derivative of w|^2 + DataWeight
- * int (w - data)^2, on the mesh scaled to size 1 and data scaled to a range of 1, so that units,
- * place and turn of both do not show.
+ * Topological simplification: of all functions whose only local extrema are the listed ones, the
+ * filter computes the smooth function nearest to the data. It minimizes int |k-harmonic derivative
+ * of w|^2 + DataWeight int (w - data)^2. The mesh is scaled to size 1 and the data to a range of 1,
+ * so that the result does not depend on their units, nor on the position and rotation of the mesh.
  *
- * **Input**: tets (of positive volume) or a triangle surface, as of vtkWeightsAlgorithm, with a
- * point array of one component: the active scalars, or what SetInputArrayToProcess(0, 0, 0,
- * vtkDataObject::FIELD_ASSOCIATION_POINTS, name) says.
+ * **Input**: tets (of positive volume) or a triangle surface, as for vtkWeightsAlgorithm, with a
+ * point array of one component: the active scalars, or the array set by SetInputArrayToProcess(0,
+ * 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name).
  *
- * **Which extrema**: those of the point array `Extrema` (above 0 a maximum, below 0 a minimum, 0
- * neither; see SetExtremaArrayName) where the mesh has it; else those of the data that are more
- * persistent than Persistence, or the NumberOfExtrema most persistent ones. Every connected part
- * needs a maximum and a minimum; a part where the list has none becomes constant, with a warning.
+ * **List of extrema**: the point array `Extrema` (above 0 a maximum, below 0 a minimum, 0 neither;
+ * see SetExtremaArrayName) if the mesh has it. Otherwise the list contains the extrema of the data
+ * whose persistence is above Persistence, or the NumberOfExtrema most persistent ones. Every
+ * connected component needs a maximum and a minimum; a component without listed extrema becomes
+ * constant, with a warning.
  *
- * With KeepValues the extrema keep the data's values. A DataWeight of 0 leaves nothing of the data
- * but these: the smoothest function with such extrema through such values. That is the way to
- * weights with extrema of one's own choice (those of vtkMonotoneWeights have their maximum on one
- * handle and their minima on the others).
+ * With KeepValues the extrema keep the data's values. With a DataWeight of 0 only these values
+ * matter: the result is the smoothest function with the listed extrema and values. This gives
+ * weights with arbitrary extrema (a weight of vtkMonotoneWeights has its maximum on one handle and
+ * its minima on the others).
  *
  * **Output**: input 0 with the double point array `Smoothed` (SetResultArrayName), the active
  * scalars, and `SmoothedExtrema`, the list that was used (signed chars), which can be edited and
- * given back. Field data: `SmoothedRelativeGap` and `SmoothedKKTResidual`, the certificate of the
- * quadratic program. **Output 1**: its local extrema (vtkPolyData, a vertex each): point arrays
- * `Kind` (1 maximum, -1 minimum), `Value`, `DataValue`, `Persistence` (share of the range),
- * `PointId`, `Listed` (0: an extremum with a persistence above 1e-3 that is not in the list; there
- * is none).
+ * used as input. Field data: `SmoothedRelativeGap` and `SmoothedKKTResidual`, the certificate of
+ * the quadratic program. **Output 1**: the local extrema of the result (vtkPolyData, one vertex per
+ * extremum): point arrays `Kind` (1 maximum, -1 minimum), `Value`, `DataValue`, `Persistence`
+ * (fraction of the range), `PointId`, `Listed` (0: an extremum with a persistence above 1e-3 that
+ * is not in the list; the result has no such extremum).
  *
- * Points in no cell that has a size keep their data. Constant data stay as they are, with a
- * warning.
+ * Points that belong only to cells without area or volume keep their data. Constant data do not
+ * change, with a warning.
  *
  * Report: method, extrema_from (list, persistence or count), counts.{vertices, components, maxima,
  * minima, data_extrema (with a persistence above 1e-3), floods}, interior_extrema (not in the
  * list), relative_gap, kkt_residual, order_violation, iterations, energy.{total, smoothness, data},
- * rounds[].energy, data_length (detail finer than about six times this goes, in the mesh's unit),
- * largest_difference and rms_difference to the data, extrema[].{vertex, kind, value, data,
- * persistence}. Errors: no array, one with several components or with values that are not finite, a
- * list without a maximum or minimum in a connected part, kept values that no such function can
- * have. NOT_CONVERGED when the certificate is not reached.
+ * rounds[].energy, data_length (detail finer than about six times this length is removed; in the
+ * mesh's unit), largest_difference and rms_difference to the data, extrema[].{vertex, kind, value,
+ * data, persistence}. Errors: no array, an array with several components or with values that are
+ * not finite, a list without a maximum or minimum in a connected component, kept values that no
+ * such function can have. The status is NOT_CONVERGED if the certificate is not reached.
  *
- * Cost: 15 to 30 factorisations of the energy, for each rebuild again.
+ * Cost: 15 to 30 factorizations of the energy, and the same again for each rebuild.
  *
  * @par Thanks:
  * Jacobson, Weinkauf, Sorkine, "Smooth Shape-Aware Functions with Controlled Extrema", Computer
@@ -72,9 +73,9 @@ public:
 
   ///@{
   /**
-   * How faithful to be, 0 and more: detail finer than about six times DataWeight^(-1 / 2 k) of the
-   * mesh's size is smoothed away; that is 0.03 for the default 1e6 and k = 2, 0.1 for k = 3. The
-   * size is sqrt(12) times the root mean square distance from the centroid, a box's diagonal. 0:
+   * Fidelity to the data, >= 0. Detail finer than about six times DataWeight^(-1 / 2 k) of the
+   * mesh's size is smoothed away: 0.03 for the default 1e6 and k = 2, 0.1 for k = 3. The size is
+   * sqrt(12) times the root mean square distance from the centroid: the diagonal of a box. For 0
    * see above.
    */
   vtkSetMacro(DataWeight, double);
@@ -82,27 +83,27 @@ public:
   ///@}
 
   ///@{
-  /// Name of the point array of extrema, "Extrema" by default; empty: not looked for.
+  /// Name of the point array of extrema, "Extrema" by default; an empty name disables it.
   void SetExtremaArrayName(const std::string& name);
   std::string GetExtremaArrayName() { return this->ExtremaArrayName; }
   ///@}
 
   ///@{
-  /// Without a list: extrema of the data whose persistence is a larger share of the data's range
-  /// stay. From 0 to below 1, default 0.05.
+  /// Without a list: extrema of the data are kept if their persistence exceeds this fraction of the
+  /// data's range. At least 0 and below 1, default 0.05.
   vtkSetMacro(Persistence, double);
   vtkGetMacro(Persistence, double);
   ///@}
 
   ///@{
-  /// Without a list: so many of the most persistent extrema stay, at least a maximum and a minimum
-  /// of each connected part. Default 0: by Persistence.
+  /// Without a list: number of the most persistent extrema that are kept, and at least a maximum
+  /// and a minimum per connected component. Default 0: use Persistence.
   vtkSetMacro(NumberOfExtrema, vtkIdType);
   vtkGetMacro(NumberOfExtrema, vtkIdType);
   ///@}
 
   ///@{
-  /// Extrema keep the data's values. Default off: they are found, too.
+  /// Extrema keep the data's values. Default off: the values at extrema are unknowns too.
   vtkSetMacro(KeepValues, bool);
   vtkGetMacro(KeepValues, bool);
   vtkBooleanMacro(KeepValues, bool);
@@ -116,24 +117,26 @@ public:
 
   ///@{
   /**
-   * What says which way the result rises. UNCONSTRAINED (default): the smooth function without any
-   * order, freed from other extrema: nearest to the data. HARMONIC: the harmonic function with the
-   * extrema as boundary values, which knows nothing of the data between them.
+   * Function that determines the direction in which the result increases. UNCONSTRAINED (default):
+   * the smooth function without order constraints, after removal of other extrema; it is nearest to
+   * the data. HARMONIC: the harmonic function with the extrema as boundary values, which does not
+   * depend on the data between them.
    */
   vtkSetClampMacro(Guide, int, 0, 1);
   vtkGetMacro(Guide, int);
   ///@}
 
   ///@{
-  /// How often the way it rises is taken anew from the result and solved for again; ends early
-  /// where that gains nothing. The energy never rises. 0 and more, default 1.
+  /// Number of rebuilds, >= 0, default 1. A rebuild derives the order constraints from the result
+  /// and solves again. Rebuilding ends early if it does not lower the energy. The energy never
+  /// increases.
   vtkSetMacro(Rebuilds, int);
   vtkGetMacro(Rebuilds, int);
   ///@}
 
   ///@{
-  /// By which share of the data's range each point is at least above a lower and below a higher
-  /// neighbour, 0 to 1. Default 0; above it extrema are strict.
+  /// Minimum difference between each point and a lower and a higher neighbor, as a fraction of the
+  /// data's range, 0 to 1. Default 0; above 0 extrema are strict.
   vtkSetMacro(Epsilon, double);
   vtkGetMacro(Epsilon, double);
   ///@}
@@ -145,20 +148,20 @@ public:
   ///@}
 
   ///@{
-  /// Iterations of each solve. Default 100.
+  /// Maximum number of iterations per solve. Default 100.
   vtkSetMacro(MaximumIterations, int);
   vtkGetMacro(MaximumIterations, int);
   ///@}
 
   ///@{
-  /// MiB that the whole process may hold; 0 (default): as much as the machine has available. What
-  /// would take more is refused before it is factored.
+  /// Memory limit of the whole process in MiB; 0 (default): the available memory of the machine. A
+  /// computation that needs more is refused before the factorization.
   vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(MemoryLimit, int);
   ///@}
 
   ///@{
-  /// Name of the array that is made. Default "Smoothed".
+  /// Name of the result array. Default "Smoothed".
   void SetResultArrayName(const std::string& name);
   std::string GetResultArrayName() { return this->ResultArrayName; }
   ///@}

@@ -1,4 +1,4 @@
-// Glue around the kernel bindpose::monotone_weights().
+// Connects the kernel bindpose::monotone_weights() to VTK.
 #include "vtkMonotoneWeights.h"
 
 #include "weights/monotone_weights.h"

@@ -2,13 +2,13 @@
  * @class   vtkMonotoneWeights
  * @brief   bounded weights without extrema between handles
  *
- * As vtkBoundedBiharmonicWeights, and each weight rises and falls as a guide does that has its
- * extrema on the handles only: no far-away bumps, no small features that swell. Costs about twice
- * the time of bounded weights.
+ * The weights are those of vtkBoundedBiharmonicWeights with one more constraint: each weight
+ * increases and decreases like a guide function whose extrema are only at the handles. This avoids
+ * distant bumps and small features that swell. It takes about twice the time of bounded weights.
  *
- * Maxima and minima of one's own choice instead of handles: vtkMonotoneSmoothing.
+ * For maxima and minima at arbitrary points instead of handles see vtkMonotoneSmoothing.
  *
- * Ports, arrays, certificate, bind cache, report and errors: vtkWeightsAlgorithm.
+ * Ports, arrays, certificate, bind cache, report and errors: see vtkWeightsAlgorithm.
  *
  * @par Thanks:
  * Jacobson, Weinkauf, Sorkine, "Smooth Shape-Aware Functions with Controlled Extrema", Computer

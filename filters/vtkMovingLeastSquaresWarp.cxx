@@ -1,4 +1,4 @@
-// Glue around the kernel bindpose::MovingLeastSquares.
+// Connects the kernel bindpose::MovingLeastSquares to VTK.
 #include "vtkMovingLeastSquaresWarp.h"
 
 #include "pose/moving_least_squares.h"

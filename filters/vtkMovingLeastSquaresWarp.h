@@ -1,23 +1,25 @@
 /**
  * @class   vtkMovingLeastSquaresWarp
- * @brief   poses a mesh by the rigid motions that fit its handles best, near ones most
+ * @brief   poses a mesh by rigid motions that fit its handles, weighted by inverse distance
  *
  * The rigid warp of Schaefer, McPhail and Warren, "Image Deformation Using Moving Least Squares",
- * 2006: each point moves by the rigid motion that takes the handles nearest to where they are
- * posed, each counting by 1 / distance^(2 Exponent). Handles are interpolated, rigid poses are
- * exact, and no weights are needed. What it does not know is the shape: a hand beside a hip moves
- * with it. It is here to compare with, and for images that are bent as a whole.
+ * 2006. Each point moves by the rigid motion that best takes the handles to their posed positions.
+ * Each handle is weighted by 1 / distance^(2 Exponent). Handles are interpolated, rigid poses are
+ * exact, and no weights are needed. The method ignores the shape: a hand next to a hip moves with
+ * the hip. Use it for comparison, and for images that are bent as a whole.
  *
- * Points, cage vertices and regions (their pivots) count by where they go, bones by where their
- * segment goes; how a point turns, and how a bone turns about itself, is not asked. Handles in mode
- * position count as a translation, those in mode free do not count. A flat mesh (z = const) whose
- * handles stay at one z is turned within its plane, all else in space.
+ * Points, cage vertices and regions (their pivots) contribute by their posed positions, bones by
+ * their posed segments. The rotation of a point, and of a bone about itself, has no effect. Handles
+ * in mode position count as a translation; handles in mode free do not count. A flat mesh (z =
+ * const) whose handles keep one common z is rotated within its plane; all other meshes are rotated
+ * in space.
  *
- * Ports and bind cache: vtkPoseAlgorithm; the mesh needs no weights, and ArrayName is not used.
- * Bind: handles' shares at every point, 24 bytes each. Cost of a pose: one rotation fit a point.
+ * Ports and bind cache: see vtkPoseAlgorithm. The mesh needs no weights, and ArrayName is not used.
+ * The bind stores 24 bytes per point and handle. A pose costs one rotation fit per point.
  *
- * Report: seconds.bind, seconds.warp, counts, exponent, planar (1 when turned within the plane).
- * Errors: no mesh, no handles, an exponent outside 1 to 8. All handles free is a warning.
+ * Report: seconds.bind, seconds.warp, counts, exponent, planar (1 if rotated within the plane).
+ * Errors: no mesh, no handles, an exponent outside 1 to 8. A warning is issued if all handles are
+ * free.
  *
  * @sa vtkSkinningDeformation vtkReducedARAP
  */
@@ -36,8 +38,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Handles count by 1 / distance^(2 Exponent): more makes their surroundings more rigid. 1 to 8.
-  /// Default 1. A bind parameter.
+  /// Handles are weighted by 1 / distance^(2 Exponent); a larger exponent makes their surroundings
+  /// more rigid. 1 to 8. Default 1. A bind parameter.
   void SetExponent(double exponent);
   vtkGetMacro(Exponent, double);
   ///@}

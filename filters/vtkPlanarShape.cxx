@@ -1,5 +1,5 @@
-// Glue around the kernels bindpose::image_outline and bindpose::planar_shape: see
-// inside/image_outline.h and inside/planar_shape.h.
+// Connects the kernels bindpose::image_outline and bindpose::planar_shape to VTK: see
+// planar/image_outline.h and planar/planar_shape.h.
 #include "vtkPlanarShape.h"
 
 #include "conversion.h"
@@ -67,7 +67,7 @@ void add_point_arrays(
     for (int k = 0; k < 2; ++k)
     {
       const double share = (shape.points(v, k) - input.lower[k]) / size[k];
-      texture->SetComponent(v, k, std::clamp(share, 0.0, 1.0)); // rounding
+      texture->SetComponent(v, k, std::clamp(share, 0.0, 1.0)); // clamp rounding errors
     }
     ids->SetValue(v, shape.original_vertices[v]);
   }

@@ -1,41 +1,44 @@
 /**
  * @class   vtkPlanarShape
- * @brief   quality triangles of what an image shows, or of what curves in a plane enclose
+ * @brief   creates quality triangles of an image's shape, or of the region that planar curves
+ *   enclose
  *
- * What has to bend in the plane becomes a mesh: the cut-out of an image by its alpha, the whole
- * image, or a drawing of lines, however open or crossing.
+ * The filter meshes shapes for deformation in the plane: the cut-out of an image by its alpha, the
+ * whole image, or a line drawing, which may be open and may cross itself.
  *
  * **Input 0**: one of
- * - a vtkImageData of one layer across z. Its alpha is the point array `Alpha` (one component) or
- *   the last component of scalars with 2 or 4; unsigned integers count from 0 to the largest of
- *   their type, others from 0 to 1. The shape is where alpha is at least 0.5: contour between the
- *   pixels' centres, simplified by no more than Simplify, holes kept. Without alpha, or with
- *   Rectangle on, it is the whole image. An image reaches half a spacing beyond its outer points.
+ * - a vtkImageData with one layer along z. Its alpha is the point array `Alpha` (one component) or
+ *   the last component of scalars with 2 or 4 components. Unsigned integers range from 0 to the
+ *   maximum of their type, other types from 0 to 1. The shape is the region where alpha is at least
+ *   0.5: a contour between the pixels' centers, simplified by no more than Simplify, with holes.
+ *   Without alpha, or with Rectangle on, it is the whole image. An image extends half a spacing
+ *   beyond its outer points.
  * - a vtkPolyData with lines or polygons in a plane z = const (other cells are ignored and
- * counted). They run counter-clockwise around what is inside, clockwise around holes, and are split
- * exactly where they cross; the generalized winding number decides what is inside
- * (WindingThreshold).
+ *   counted). They run counter-clockwise around the inside and clockwise around holes, and are
+ *   split exactly where they cross. The generalized winding number determines the inside
+ *   (WindingThreshold).
  *
- * **Input 1** (optional): handles (see vtkHandleFileReader); z is ignored. Points, cage vertices
- * and the ends of bones become points of the mesh, bones and cage edges rows of edges, as far as
- * they lie inside.
+ * **Input 1** (optional): handles (see vtkHandleFileReader); z is ignored. Inside the shape,
+ * points, cage vertices and the ends of bones become points of the mesh, and bones and cage edges
+ * become chains of edges.
  *
  * **Output**: a vtkPolyData of triangles, counter-clockwise seen from +z, with the point arrays
  * `TCoords` (texture coordinates: 0 to 1 over the image, or over the curves' bounds) and
  * `OriginalPointIds` (id of the input point, or of the point of an image's outline, ascending; -1
- * for new points) and the cell array `WindingNumber` (double, at the triangles' centres).
+ * for new points) and the cell array `WindingNumber` (double, at the triangles' centers).
  *
  * Report: counts.{points, segments, crossings, open_ends, vertices, triangles, kept_points,
  * outside_handles, ignored_cells, pixels, inside_pixels, contour_points, outline_points, loops},
- * area, min_angle (degrees), longest_edge, turned (1: the curves ran clockwise and were turned),
- * grid (what is nearer was merged, 0 mostly), domain ("alpha", "rectangle" or "curves"),
- * handles[].{name, vertex} (the point's id, of a bone the head's, -1 outside), seconds.{outline,
- * arrange, winding, fill}.
+ * area, min_angle (degrees), longest_edge, turned (1: the curves ran clockwise and were reversed),
+ * grid (distance below which points were merged, usually 0), domain ("alpha", "rectangle" or
+ * "curves"), handles[].{name, vertex} (the id of the handle's point, for a bone of its head; -1
+ * outside), seconds.{outline, arrange, winding, fill}.
  *
- * Errors: invalid_input for an image without pixels, with several layers, turned or transparent
- * everywhere; for curves that are not there, not in a plane z = const, all on one line, not finite,
- * with ids out of range, or that enclose nothing; for parameters out of range. unavailable without
- * the helper program bindpose-mesher (built with the packages libcgal-dev and libtet1.5-dev).
+ * Errors: invalid_input for an image without pixels, with several layers, with a rotated direction,
+ * or transparent everywhere; for missing curves and curves that are not in a plane z = const, all
+ * on one line, not finite, with ids out of range, or that enclose nothing; for parameters out of
+ * range. The status is unavailable without the helper program bindpose-mesher (built with the
+ * packages libcgal-dev and libtet1.5-dev).
  *
  * @par Thanks:
  * Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding
@@ -58,26 +61,27 @@ public:
   vtkTypeMacro(vtkPlanarShape, vtkBindposeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The handles, by a connection; null for none.
+  /// Set the connection of the handles; null for no handles.
   void SetHandlesConnection(vtkAlgorithmOutput* handles) { this->SetInputConnection(1, handles); }
 
   ///@{
-  /// The whole image, whatever its alpha. Default: off.
+  /// Mesh the whole image and ignore its alpha. Default: off.
   vtkSetMacro(Rectangle, bool);
   vtkGetMacro(Rectangle, bool);
   vtkBooleanMacro(Rectangle, bool);
   ///@}
 
   ///@{
-  /// Pixels that simplifying may move an image's outline by, 0 to 1; default 0.5.
+  /// Largest distance in pixels by which simplification may move an image's outline, 0 to 1;
+  /// default 0.5.
   vtkSetMacro(Simplify, double);
   vtkGetMacro(Simplify, double);
   ///@}
 
   ///@{
   /**
-   * Inside is where the curves' winding number is at least this, above 0; default 0.5. 1.5 keeps
-   * only what is enclosed twice.
+   * Winding number of the curves at or above which a point is inside, above 0; default 0.5. The
+   * value 1.5 keeps only regions that are enclosed twice.
    */
   vtkSetMacro(WindingThreshold, double);
   vtkGetMacro(WindingThreshold, double);
@@ -85,8 +89,8 @@ public:
 
   ///@{
   /**
-   * Smallest angle of a triangle in degrees, 0 to 33; default 30. Where the input's own angles are
-   * smaller they stay.
+   * Smallest angle of a triangle in degrees, 0 to 33; default 30. Smaller angles of the input
+   * itself remain.
    */
   vtkSetMacro(MinAngle, double);
   vtkGetMacro(MinAngle, double);
@@ -95,20 +99,20 @@ public:
   ///@{
   /**
    * Longest edge of a triangle, as a fraction of the shape's diagonal, 1e-4 or more; default 0.02;
-   * 0: no bound.
+   * 0: no limit.
    */
   vtkSetMacro(Edge, double);
   vtkGetMacro(Edge, double);
   ///@}
 
   ///@{
-  /// Seconds that the helper process may take, above 0; default 120.
+  /// Time limit of the helper process in seconds, above 0; default 120.
   vtkSetMacro(TimeLimit, double);
   vtkGetMacro(TimeLimit, double);
   ///@}
 
   ///@{
-  /// MiB of address space that the helper process may take; 0 (default): no limit.
+  /// Limit of the helper process's address space in MiB; 0 (default): no limit.
   vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(MemoryLimit, int);
   ///@}

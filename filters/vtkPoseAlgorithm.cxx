@@ -1,5 +1,5 @@
-// Output and stretch are the same for every way to pose; only what a bind keeps and how points are
-// moved differ.
+// Output and stretch are the same for all methods; only the bind and the motion of the points
+// differ.
 #include "vtkPoseAlgorithm.h"
 
 #include "base/execution.h"

@@ -1,21 +1,21 @@
 /**
  * @class   vtkPoseAlgorithm
- * @brief   what the filters of pose time share: ports, bind cache, output
+ * @brief   base class of the filters that pose a mesh: ports, bind cache and output
  *
- * Ports, bind cache and errors: vtkBindAlgorithm; moving handles runs Deform() alone. The output is
- * the mesh with moved points (doubles); cells and arrays are the input's own objects. Point normals
- * of a vtkPolyData (the active ones, when it has some) follow. The field data array
- * `HandleTransforms` has the transforms that were used, #handles x 12 (3x4, row by row, rest to
- * posed): what a filter found for handles that are not in mode full.
+ * Ports, bind cache and errors: see vtkBindAlgorithm. Moving handles runs only Deform(). The output
+ * is the mesh with moved points (doubles); its cells and arrays are the input's own objects. The
+ * active point normals of a vtkPolyData are updated. The field data array `HandleTransforms`
+ * contains the transforms that were used, #handles x 12 (3x4, row by row, rest to posed). For
+ * handles that are not in mode full they are the transforms that the filter found.
  *
- * **Stretch.** The report of every pose says how much it stretches the mesh's tets, or its
- * triangles where there are none (cells of other kinds are split): counts.elements,
- * counts.inverted_elements (turned inside out; of triangles only in flat shapes, z = const),
- * counts.stretched_elements (beyond StretchLimit), largest_stretch and smallest_stretch (singular
- * values of the deformation gradient, 1 at rest). Inverted elements are a warning.
+ * **Stretch.** The report of every pose states how much the pose stretches the mesh's tets, or its
+ * triangles if there are no tets (other cells are split): counts.elements, counts.inverted_elements
+ * (turned inside out; for triangles only in flat shapes, z = const), counts.stretched_elements
+ * (beyond StretchLimit), largest_stretch and smallest_stretch (singular values of the deformation
+ * gradient, 1 at rest). Inverted elements cause a warning.
  *
- * The `Stretch` and `Twist` of bones are used by stretchable bones (vtkSkinningDeformation) only. A
- * warning says so if a pose has some and the method ignores them.
+ * Only stretchable bones (vtkSkinningDeformation) use the `Stretch` and `Twist` of bones. For all
+ * other methods a pose with such values causes a warning.
  */
 
 #ifndef vtkPoseAlgorithm_h
@@ -38,9 +38,9 @@ public:
 
   ///@{
   /**
-   * An element counts as stretched when some direction in it becomes more than StretchLimit times
-   * as long, or less than 1 / StretchLimit. Default 2; at least 1, or 0: elements are not looked
-   * at, which saves about 50 ns a tet and 10 ns a triangle.
+   * Stretch limit. An element counts as stretched if a direction in it becomes more than
+   * StretchLimit times as long, or less than 1 / StretchLimit times. Default 2; at least 1. With 0
+   * the stretch is not measured, which saves about 50 ns per tet and 10 ns per triangle.
    */
   vtkSetMacro(StretchLimit, double);
   vtkGetMacro(StretchLimit, double);
@@ -48,8 +48,9 @@ public:
 
   ///@{
   /**
-   * Whether the output gets the cell array `Stretch`: the largest and the smallest stretch of each
-   * cell, the smallest less than zero where it is inverted. Default off; needs a StretchLimit.
+   * Add the cell array `Stretch` to the output: the largest and the smallest stretch of each cell.
+   * The smallest is negative if the cell is inverted. Default off; needs a StretchLimit other than
+   * 0.
    */
   vtkSetMacro(StretchArray, bool);
   vtkGetMacro(StretchArray, bool);
@@ -60,20 +61,20 @@ protected:
   vtkPoseAlgorithm();
   ~vtkPoseAlgorithm() override;
 
-  /// A bindpose::Points, #V x 3, and the transforms that moved them.
+  /// A bindpose::Points, #V x 3, and the transforms that moved the points.
   struct PosedPoints;
 
-  /// Computes the posed points.
+  /// Compute the posed points.
   virtual bindpose::Status Deform(
     const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) = 0;
 
-  /// Computes the posed normals of a vtkPolyData that has some, after Deform(). Here: area-weighted
-  /// normals of the posed polygons.
+  /// Compute the posed normals of a vtkPolyData with normals, after Deform(). The default
+  /// implementation computes area-weighted normals of the posed polygons.
   virtual bindpose::Status DeformNormals(const PoseInput& input,
     bindpose::ExecutionContext& context, const PosedPoints& posed, PosedPoints& normals);
 
-  /// What the method does with `Stretch` and `Twist` of the bones; a warning tells when a pose has
-  /// some that it ignores. Here: what methods that find transforms do.
+  /// Return how the method uses the `Stretch` and `Twist` of bones. A warning is issued if the pose
+  /// has values that the method ignores. The default is that of the methods that find transforms.
   virtual bindpose::StretchUse GetStretchUse();
 
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
@@ -86,7 +87,7 @@ private:
   double StretchLimit = 2.0;
   bool StretchArray = false;
   struct BindParts;
-  std::unique_ptr<BindParts> OfBind; ///< what is the same for all poses of a bind, once asked for
+  std::unique_ptr<BindParts> OfBind; ///< Shared by all poses of a bind; computed on first use.
 };
 
 #endif

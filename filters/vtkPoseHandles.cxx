@@ -1,5 +1,5 @@
-// The text is parsed against the handles' names, one frame of it becomes a pose on top of the one
-// that the input carries, and the pose's arrays take the place of the input's.
+// The text is parsed with the handles' names. One frame is combined with the pose of the input, and
+// the resulting arrays replace the pose arrays of the input.
 #include "vtkPoseHandles.h"
 
 #include "base/execution.h"
@@ -71,7 +71,7 @@ bool vtkPoseHandles::IsFrom(const char* endings) const
   return this->FileName && is_listed(file_extension(this->FileName), endings);
 }
 
-/// The pose and where it is from, as the beginning of a sentence; empty: not from a file.
+/// Return the text of the pose, and its source as the beginning of a message (empty for PoseJSON).
 Status vtkPoseHandles::ReadText(std::string& text, std::string& source)
 {
   text = this->PoseJSON;
@@ -96,7 +96,7 @@ int vtkPoseHandles::RequestInformation(
 {
   vtkInformation* info = output->GetInformationObject(0);
   offer_times(info, {});
-  // What is wrong with the file or the text, Execute() says.
+  // Execute() reports errors of the file or the text.
   if (this->IsFrom("glb gltf"))
   {
     if (this->Internal->gltf.read(this->FileName, this->GetMTime()).ok())
@@ -206,7 +206,7 @@ Status vtkPoseHandles::Execute(
   return status;
 }
 
-/// One pose of all handles.
+/// Assign a matrix as the pose of all handles.
 Status vtkPoseHandles::TakeDMAT(const Handles& handles, Pose& pose)
 {
   Weights matrix;
@@ -239,7 +239,7 @@ Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose
   }
   const std::vector<std::string> warnings = status.warnings;
   const GltfData& data = this->Internal->gltf.data();
-  std::vector<Pose> standing; // of the nodes, without an animation
+  std::vector<Pose> standing; // transforms of the nodes, if there is no animation
   if (data.poses.empty())
   {
     std::vector<Index> cells;

@@ -15,35 +15,37 @@
  * by the transform that it inherits from its parent (cell array `Parent`), as in glTF. Handles that
  * the pose does not mention inherit it as well. "space": "world" disables the inheritance. A child
  * of a bone that stretches or twists moves with the cross-section of the bone to which it is
- * attached. `head` and `tail` are world positions. The transform replaces that of the input.
+ * attached. `head` and `tail` are world positions. The resulting transform replaces that of the
+ * input.
  *
- * **Modes.** A handle without "mode" keeps its mode of the input, automatic (5) if there is no
- * array Mode. If that is automatic and the pose gives more than a translation, the mode becomes
- * full. So as-rigid-as-possible methods find the rotations of points and of translated bones (see
- * vtkReducedARAP), and skinning uses transforms as they are.
+ * **Modes.** A handle without "mode" keeps its mode of the input, or gets mode automatic (5) if
+ * there is no array Mode. If the mode is automatic and the pose contains more than a translation,
+ * the mode becomes full. As-rigid-as-possible methods therefore find the rotations of points and of
+ * translated bones (see vtkReducedARAP), and skinning uses transforms as they are.
  *
  * A text without "version" has version 1: the default space is "world", and handles that are not
  * mentioned keep their transform. A warning is issued once if version 2 would give another pose.
  *
- * **Expressions.** Any number of a handle may be a text, an expression in `t`, the time in seconds:
- * "translate": ["0.2 * sin(6.28 * t)", 0, 0] (vtkExprTkFunctionParser; its functions and
- * constants). In a sequence t is the frame's own time, its number / fps.
+ * **Expressions.** Any number of a handle may be given as a string with an expression in `t`, the
+ * time in seconds: "translate": ["0.2 * sin(6.28 * t)", 0, 0]. vtkExprTkFunctionParser defines the
+ * functions and constants. In a sequence t is the time of the frame: its number / fps.
  *
- * **Time.** The filter is a source of time: a sequence or the animation of a glTF file offers the
- * times of its frames, expressions the range from 0 to EndTime. Who asks for a time gets the frame
- * that is on then, or the expressions' values; who asks for none, Frame and Time.
+ * **Time.** The filter provides time steps to the pipeline: a sequence or the animation of a glTF
+ * file has the times of its frames, expressions have the range from 0 to EndTime. If a time is
+ * requested, the output is the frame at that time or the values of the expressions. If no time is
+ * requested, Frame and Time are used.
  *
- * Errors: a broken file, an unknown handle, an expression that cannot be read or has no finite
+ * Errors: an invalid file, an unknown handle, an expression that cannot be parsed or has no finite
  * value at the time. Without FileName and PoseJSON the input is passed on.
  *
- * FileName may also name a .glb or .gltf file: its animation, or without one how its nodes stand,
- * is assigned by the names of joints and handles (see vtkGLTFSkinReader); handles that are not
- * joints follow their parents. Or a .dmat file of libigl,
- * which poses all handles, points before bones: (d + 1) m x d numbers, a transposed transform a
- * handle (d = 3, or 2 in a plane), or 4 b x 1, a rotation (x, y, z, w) a bone about its head,
- * before its parent's.
+ * FileName may also name a .glb or .gltf file. Its animation, or the transforms of its nodes if
+ * there is none, is assigned by the names of joints and handles (see vtkGLTFSkinReader). Handles
+ * that are not joints follow their parents. FileName may also name a .dmat file of libigl, which
+ * poses all handles, points before bones. It contains (d + 1) m x d numbers, a transposed transform
+ * per handle (d = 3, or 2 in a plane), or 4 b x 1 numbers, a rotation (x, y, z, w) per bone about
+ * its head, which is applied before its parent's rotation.
  *
- * All other arrays are the input's own objects, so that filters behind it keep their bind.
+ * All other arrays are the input's own objects, so that downstream filters keep their bind.
  */
 
 #ifndef vtkPoseHandles_h
@@ -74,37 +76,38 @@ public:
   ///@}
 
   ///@{
-  /// The pose as a file (.json, .dmat; .glb and .gltf for their animation), read anew when the
-  /// filter is updated; when set, PoseJSON is not used.
+  /// Path of the pose file (.json, .dmat; .glb and .gltf for their animation). It is read again at
+  /// every update. If it is set, PoseJSON is not used.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
 
   ///@{
-  /// Frame of a sequence. Default 0; a frame that is not there is an error.
+  /// Frame of a sequence. Default 0; a frame that does not exist is an error.
   vtkSetMacro(Frame, int);
   vtkGetMacro(Frame, int);
   ///@}
 
   ///@{
-  /// What `t` is in expressions of a single pose, when the pipeline asks for no time. Default 0.
+  /// Value of `t` in the expressions of a single pose if the pipeline requests no time, in seconds.
+  /// Default 0.
   vtkSetMacro(Time, double);
   vtkGetMacro(Time, double);
   ///@}
 
   ///@{
-  /// End of the range of times that expressions offer, 0 or more. Default 10.
+  /// End of the time range of expressions in seconds, >= 0. Default 10.
   vtkSetClampMacro(EndTime, double, 0.0, 1e9);
   vtkGetMacro(EndTime, double);
   ///@}
 
-  /// Whether the pose read by the last Update() has expressions.
+  /// Report whether the pose of the last Update() has expressions.
   vtkGetMacro(HasExpressions, bool);
 
   ///@{
-  /// Of the sequence read by the last Update(): a single pose is one frame; 0 before.
+  /// Number of frames of the last Update(): 1 for a single pose, 0 before the first Update().
   vtkGetMacro(NumberOfFrames, int);
-  /// Whether it was a sequence, which may have one frame.
+  /// Report whether the last pose was a sequence, which may have one frame.
   vtkGetMacro(Sequence, bool);
   vtkGetMacro(FramesPerSecond, double);
   ///@}

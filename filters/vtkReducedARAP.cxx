@@ -1,5 +1,5 @@
-// Glue around the kernel bindpose::ReducedArap: the bind keeps its projected matrices, a pose asks
-// it for transforms and blends them.
+// Connects the kernel bindpose::ReducedArap to VTK. The bind stores its projected matrices; a pose
+// computes transforms and blends them.
 #include "vtkReducedARAP.h"
 
 #include "arap_input.h"

@@ -1,38 +1,43 @@
 /**
  * @class   vtkReducedARAP
- * @brief   poses a mesh as rigidly as its handles allow, in microseconds an iteration
+ * @brief   poses a mesh as rigidly as its handles allow, in microseconds per iteration
  *
  * Fast Automatic Skinning Transformations (Jacobson et al. 2012). The posed mesh is a linear blend
- * of one affine transform a handle, as with vtkSkinningDeformation; but only what the user fixes is
- * given, the rest of the transforms is found so that the mesh bends as little as it can:
+ * of one affine transform per handle, as in vtkSkinningDeformation. The user prescribes only some
+ * of the transforms, and the filter computes the others so that the mesh bends as little as
+ * possible:
  * - a handle in mode `full` (0) has its `Transform`;
- * - a handle in mode `position` (1) has its pivot where `Transform` takes it, turns by itself;
- * - a bone in mode `tail` (3) has its tail where Transform and Stretch take it, in mode `ends` (4)
- *   both ends, and finds the rest (how it turns about itself, or about the end);
- * - a handle in mode `free` (2) finds itself;
+ * - a handle in mode `position` (1) has its pivot at the position given by `Transform`; the filter
+ *   computes its rotation;
+ * - a bone in mode `tail` (3) has its tail, and in mode `ends` (4) both ends, at the positions
+ *   given by Transform and Stretch; the filter computes the rest (the rotation about the bone
+ *   itself, or about the end);
+ * - the filter computes the whole transform of a handle in mode `free` (2);
  * - a handle in mode `automatic` (5, also without an array Mode) has mode position if it is a point
  *   or a cage vertex that is at most translated, in the world or relative to its parent, or a bone
- *   that is translated; else it has mode full.
+ *   that is translated. Otherwise it has mode full.
  *
- * With every handle full the result is linear blend skinning. The energy is the sum over clusters
- * of vertices with similar weights of |e' - R e|^2 over their edges e; a solve alternates best
- * rotations R and best transforms, extrapolates between them (Anderson acceleration, Peng et al.
- * 2018) and never raises the energy. Its cost does not depend on the size of the mesh.
+ * If every handle is in mode full, the result is linear blend skinning. The energy is the sum of
+ * |e' - R e|^2 over the edges e of clusters of vertices with similar weights. A solve alternates
+ * between optimal rotations R and optimal transforms and extrapolates between iterations (Anderson
+ * acceleration, Peng et al. 2018). It never raises the energy. Its cost does not depend on the size
+ * of the mesh.
  *
- * Ports, arrays, bind cache and errors: vtkPoseAlgorithm. Port 0 is a surface (vtkPolyData, or a
- * grid of 2D cells) or a vtkUnstructuredGrid of tets: the energy is that of the mesh it is given,
- * tets keep volume, surfaces keep only their skin. The field data array `HandleTransforms` of the
- * output has the found transforms, #handles x 12 (3x4, row by row, rest to posed).
+ * Ports, arrays, bind cache and errors: see vtkPoseAlgorithm. Port 0 is a surface (vtkPolyData, or
+ * a grid of 2D cells) or a vtkUnstructuredGrid of tets. The energy is that of the input mesh: with
+ * tets it preserves volume, with surfaces it preserves only the skin. The field data array
+ * `HandleTransforms` of the output contains the computed transforms, #handles x 12 (3x4, row by
+ * row, rest to posed).
  *
- * Positions that contradict each other are met in the least-squares sense; these, redundant ones
- * and handles without any weight are named in warnings. Weight columns that are empty, doubled or
+ * Contradictory positions are satisfied in the least-squares sense. Warnings name contradictory and
+ * redundant positions and handles without any weight. Weight columns that are empty, duplicate or
  * nearly dependent are harmless.
  *
- * Report: method (the energy), counts (clusters, extra_weights among them), energy, iterations,
- * single_precision_iterations, residual (share of the energy by which the last one lowered it),
- * microseconds_per_iteration, constraint_residual (in diagonals), row_sum_error, seconds.bind,
- * seconds.solve, seconds.skin. Status NOT_CONVERGED, with an output, when MaximumIterations or
- * TimeBudget were not enough for Tolerance.
+ * Report: method (the energy), counts (including clusters and extra_weights), energy, iterations,
+ * single_precision_iterations, residual (fraction of the energy by which the last iteration lowered
+ * it), microseconds_per_iteration, constraint_residual (in bounding-box diagonals), row_sum_error,
+ * seconds.bind, seconds.solve, seconds.skin. The status is NOT_CONVERGED, with an output, if
+ * Tolerance was not reached within MaximumIterations or TimeBudget.
  */
 
 #ifndef vtkReducedARAP_h
@@ -59,25 +64,27 @@ public:
 
   ///@{
   /**
-   * Which edges share a rotation: those of the elements around a vertex (spokes and rims), those
-   * that end at it (spokes, without edges of negative cotangent weight), of a tet or of a triangle.
-   * Default AUTO: TETRAHEDRA on tets, SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a surface and
-   * TRIANGLES on tets are errors. A bind parameter.
+   * Sets of edges that share a rotation: the edges of the elements around a vertex
+   * (SPOKES_AND_RIMS), the edges that end at a vertex (SPOKES, without edges of negative cotangent
+   * weight), the edges of a tet, or the edges of a triangle. Default AUTO: TETRAHEDRA on tets,
+   * SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a surface and TRIANGLES on tets are errors. A bind
+   * parameter.
    */
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);
   ///@}
 
   ///@{
-  /// Rotations fitted in an iteration. Default 0: four a handle. A bind parameter.
+  /// Number of rotations that are fitted per iteration. Default 0: four per handle. A bind
+  /// parameter.
   void SetNumberOfClusters(int clusters);
   vtkGetMacro(NumberOfClusters, int);
   ///@}
 
   ///@{
   /**
-   * Extra weights that let the mesh bend where no handle is. Default 0; 15 is a good number. A bind
-   * parameter.
+   * Number of additional weights that let the mesh bend away from the handles. Default 0; 15 is a
+   * good number. A bind parameter.
    */
   void SetNumberOfExtraWeights(int extra);
   vtkGetMacro(NumberOfExtraWeights, int);
@@ -91,24 +98,25 @@ public:
 
   ///@{
   /**
-   * What they are: smooth bumps around places that are far apart in weights, or skinning eigenmodes
-   * (Benchekroun et al. 2023), the smoothest weights that vanish at the handles. Default BUMPS. A
-   * bind parameter.
+   * Type of the extra weights: smooth bumps around positions that are far apart in weights, or
+   * skinning eigenmodes (Benchekroun et al. 2023), the smoothest weights that vanish at the
+   * handles. Default BUMPS. A bind parameter.
    */
   void SetExtraWeightsKind(int kind);
   vtkGetMacro(ExtraWeightsKind, int);
   ///@}
 
   ///@{
-  /// Most iterations of a solve, 0 to 1e6. Default 100.
+  /// Maximum number of iterations per solve, 0 to 1e6. Default 100.
   vtkSetClampMacro(MaximumIterations, int, 0, 1000000);
   vtkGetMacro(MaximumIterations, int);
   ///@}
 
   ///@{
   /**
-   * A solve ends when an iteration lowers the energy by no more than this share of it (or of 1e-6
-   * of the rest energy, when hardly anything bends). Default 1e-6; 0 runs all iterations.
+   * Convergence tolerance: a solve ends when an iteration lowers the energy by no more than this
+   * fraction of the energy, or of 1e-6 of the rest energy if that is more. Default 1e-6; 0 runs all
+   * iterations.
    */
   vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
   vtkGetMacro(Tolerance, double);
@@ -116,25 +124,25 @@ public:
 
   ///@{
   /**
-   * A solve ends after the iteration in which so many microseconds have passed. Default 0: no
-   * limit. How many iterations that were is in the report; as MaximumIterations, with Tolerance 0
-   * and from the same start, they give the same result again.
+   * Time limit of a solve in microseconds: a solve ends after the iteration that exceeds it.
+   * Default 0: no limit. The report contains the number of iterations. The same number as
+   * MaximumIterations, with Tolerance 0 and the same initial rotations, reproduces the result.
    */
   vtkSetClampMacro(TimeBudget, double, 0.0, 1e12);
   vtkGetMacro(TimeBudget, double);
   ///@}
 
   ///@{
-  /// Iterates that the acceleration looks back on, 0 (none) to 50. Default 5.
+  /// Number of previous iterates that the acceleration uses, 0 (none) to 50. Default 5.
   vtkSetClampMacro(AndersonWindow, int, 0, 50);
   vtkGetMacro(AndersonWindow, int);
   ///@}
 
   ///@{
   /**
-   * Whether a solve starts from the rotations of the last one (default on: drags converge in few
-   * iterations and keep their twists) or from a guess by the handles' own motions (off: the result
-   * depends on the pose only).
+   * Start a solve from the rotations of the last solve (on, the default: drags converge in few
+   * iterations and keep their twists) or from an estimate based on the handles' own motions (off:
+   * the result depends only on the pose).
    */
   vtkSetMacro(WarmStart, bool);
   vtkGetMacro(WarmStart, bool);
@@ -143,10 +151,10 @@ public:
 
   ///@{
   /**
-   * Whether a solve iterates in single precision until its round-off hides whether the energy still
-   * falls, and in double precision from there, at least once (default on: an iteration takes a
-   * third of the time). Off: in double precision from the start. Both end at the same Tolerance;
-   * rest is at rest in both.
+   * Iterate in single precision until its round-off hides the decrease of the energy, and then in
+   * double precision for at least one iteration (on, the default: an iteration takes a third of the
+   * time). Off: iterate in double precision from the start. The tolerance is the same for both
+   * settings, and the rest pose is reproduced by both.
    */
   vtkSetMacro(MixedPrecision, bool);
   vtkGetMacro(MixedPrecision, bool);
@@ -155,9 +163,10 @@ public:
 
   ///@{
   /**
-   * Whether the output gets the point arrays `RotationCluster`, the number of the rotation that a
-   * vertex follows, and `Rotation`, its axis times its angle in degrees, 0 to 180: of rotations of
-   * elements the one that most of its elements have, -1 and 0 where it has none. Default off.
+   * Add two point arrays to the output: `RotationCluster`, the index of the rotation that a vertex
+   * follows, and `Rotation`, its axis times its angle in degrees, 0 to 180. If rotations belong to
+   * elements, the rotation of a vertex is that of most of its elements; without elements it is -1
+   * and 0. Default off.
    */
   vtkSetMacro(RotationArrays, bool);
   vtkGetMacro(RotationArrays, bool);

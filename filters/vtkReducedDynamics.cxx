@@ -1,10 +1,10 @@
-// Glue around the kernel bindpose::ReducedDynamics. The executive calls once for each step that is
-// missing (CONTINUE_EXECUTING, as filters over time do), so that the handles can be asked for the
-// pose of each step's time.
+// Connects the kernel bindpose::ReducedDynamics to VTK. The executive calls once per missing step
+// (CONTINUE_EXECUTING, like other temporal filters), so that the handles can be requested at each
+// step's time.
 //
-// What has been simulated stands until something changes that it depends on. Poses change with time
-// by themselves, so their arrays cannot tell; what can is the time of modification of all that is
-// upstream, which the inputs' executives keep.
+// Simulated steps are valid until one of their inputs changes. Pose arrays change with time, so
+// their modification times cannot detect this. Instead the filter compares the pipeline
+// modification times of everything upstream, which the inputs' executives store.
 #include "vtkReducedDynamics.h"
 
 #include "arap_input.h"
@@ -34,10 +34,10 @@ struct vtkReducedDynamics::Internals
 {
   ReducedDynamics body;
   bool started = false;
-  Index target = 0; ///< step that is asked for
-  Index next = 0; ///< step that the handles are asked for: 0 starts
-  bool more = false; ///< steps are missing after this one
-  std::vector<vtkMTimeType> upstream; ///< that the body has moved by
+  Index target = 0; ///< step that is requested
+  Index next = 0; ///< step for which the handles are requested; 0 starts
+  bool more = false; ///< more steps are needed after this one
+  std::vector<vtkMTimeType> upstream; ///< pipeline modification times of the simulated steps
 };
 
 vtkReducedDynamics::vtkReducedDynamics() : Internal(new Internals) {}
@@ -166,7 +166,8 @@ int vtkReducedDynamics::RequestUpdateExtent(
     return 1;
   }
   const bool timed = info->Has(SDDP::UPDATE_TIME_STEP()) != 0 && this->TimeStep > 0.0;
-  // A time between two steps shows the earlier; that of a step may be off by round-off.
+  // A time between two steps shows the earlier step. The 1e-6 allows for round-off in the times of
+  // steps.
   state.target = timed ? static_cast<Index>(std::floor(std::clamp(
                            info->Get(SDDP::UPDATE_TIME_STEP()) / this->TimeStep + 1e-6, 0.0, 1e7)))
                        : this->Step;
@@ -225,7 +226,7 @@ Status vtkReducedDynamics::Deform(
   options.solve.mixed_precision = this->MixedPrecision;
   if (!state.started && state.next > 0)
   {
-    state.more = true; // the bind is new, and these are not the handles of time 0
+    state.more = true; // the bind is new, and these handles are not those of time 0
   }
   else
   {

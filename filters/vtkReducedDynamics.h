@@ -1,28 +1,29 @@
 /**
  * @class   vtkReducedDynamics
- * @brief   poses a mesh as a body with mass: what handles leave open swings and falls
+ * @brief   poses a mesh as a body with mass: parts that handles do not constrain swing and fall
  *
- * Dynamics in the space of vtkReducedARAP (Jacobson et al. 2012): handles in mode `full` and
- * `position` lead, all else follows its inertia, Gravity and the shape's wish to be rigid. A step
- * is implicit Euler and takes about what a solve of vtkReducedARAP takes; it is stable however long
- * TimeStep is, and longer steps damp swings more. A handle that changes to mode `free` lets go: the
- * body keeps its velocity.
+ * Dynamics in the space of vtkReducedARAP (Jacobson et al. 2012). Handles in mode `full` and
+ * `position` prescribe motion. Inertia, Gravity and the shape's resistance to deformation determine
+ * the rest. A step is implicit Euler and costs about as much as a solve of vtkReducedARAP. It is
+ * stable for any TimeStep; longer steps damp oscillations more. If a handle changes to mode `free`,
+ * it stops constraining the body, and the body keeps its velocity.
  *
- * **Time.** The filter is a source of time: it offers the time steps 0, TimeStep, …,
- * NumberOfSteps * TimeStep, and asks its input of handles for the time of each step (vtkPoseHandles
- * gives the frame of a sequence, or the value of expressions, at that time). At time 0 the body is
- * where vtkReducedARAP puts it, without velocity. What is asked for is simulated from the start, or
- * from the last step if that was earlier and nothing has changed since: the same time gives the
- * same bits. Who asks for no time gets Step.
+ * **Time.** The filter provides the time steps 0, TimeStep, …, NumberOfSteps * TimeStep to the
+ * pipeline, and requests the handles at the time of each step (vtkPoseHandles returns the frame of
+ * a sequence, or the value of expressions, at that time). At time 0 the body has the pose of
+ * vtkReducedARAP and no velocity. A requested time is simulated from the start, or from the last
+ * step if that was earlier and nothing has changed since. The same time gives the same bits. If no
+ * time is requested, the output is Step.
  *
- * With Interactive on the pipeline's time does not matter: every execution is one step with the
- * handles as they are then, until Restart().
+ * With Interactive on, the filter ignores the pipeline's time: every execution is one step with the
+ * current handles, until Restart().
  *
- * Ports, arrays, bind cache and errors: vtkPoseAlgorithm; meshes and energies: vtkReducedARAP.
+ * Ports, arrays, bind cache and errors: see vtkPoseAlgorithm; meshes and energies: see
+ * vtkReducedARAP.
  *
- * Report: what vtkReducedARAP reports of its last step, energy (what the body is bent by),
- * kinetic_energy, time, steps. Status NOT_CONVERGED, with an output, when MaximumIterations were
- * not enough for Tolerance in the last step.
+ * Report: the entries of vtkReducedARAP for the last step, energy (of the deformation),
+ * kinetic_energy, time, steps. The status is NOT_CONVERGED, with an output, if Tolerance was not
+ * reached within MaximumIterations in the last step.
  *
  * @sa vtkReducedARAP
  */
@@ -41,7 +42,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// As vtkReducedARAP's, all bind parameters.
+  /// Like those of vtkReducedARAP; all are bind parameters.
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);
   void SetNumberOfClusters(int clusters);
@@ -53,74 +54,74 @@ public:
   ///@}
 
   ///@{
-  /// Seconds of a step, above 0. Default 1/24.
+  /// Length of a time step in seconds, above 0. Default 1/24.
   void SetTimeStep(double seconds);
   vtkGetMacro(TimeStep, double);
   ///@}
 
   ///@{
-  /// Steps that are offered as the pipeline's time steps, 0 to 1e7. Default 100.
+  /// Number of steps that are provided as the pipeline's time steps, 0 to 1e7. Default 100.
   vtkSetClampMacro(NumberOfSteps, int, 0, 10000000);
   vtkGetMacro(NumberOfSteps, int);
   ///@}
 
   ///@{
-  /// The step that who asks for no time gets, 0 to 1e7. Default 0.
+  /// Step that is output if no time is requested, 0 to 1e7. Default 0.
   vtkSetClampMacro(Step, int, 0, 10000000);
   vtkGetMacro(Step, int);
   ///@}
 
   ///@{
-  /// Acceleration, lengths / s^2. Default 0, 0, 0.
+  /// Acceleration in length units / s^2. Default 0, 0, 0.
   void SetGravity(double x, double y, double z);
   void SetGravity(const double gravity[3]);
   vtkGetVector3Macro(Gravity, double);
   ///@}
 
   ///@{
-  /// Mass per volume (of surfaces per area), above 0. Default 1.
+  /// Mass per volume (for surfaces per area), above 0. Default 1.
   void SetDensity(double density);
   vtkGetMacro(Density, double);
   ///@}
 
   ///@{
   /**
-   * How much the body resists bending: energy per volume (area) of a strain of one, above 0.
-   * Default 1000. Waves run at sqrt(Stiffness / Density) lengths a second; under gravity g a part
-   * of length l sags by about Density g l^2 / Stiffness.
+   * Resistance to bending: energy per volume (area) at a strain of one, above 0. Default 1000.
+   * Waves travel at sqrt(Stiffness / Density) length units per second. Under gravity g a part of
+   * length l sags by about Density g l^2 / Stiffness.
    */
   void SetStiffness(double stiffness);
   vtkGetMacro(Stiffness, double);
   ///@}
 
   ///@{
-  /// Drag of this times mass times velocity, 1 / s, 0 or more. Default 0.
+  /// Drag coefficient in 1 / s, >= 0: the drag is this times mass times velocity. Default 0.
   void SetDamping(double damping);
   vtkGetMacro(Damping, double);
   ///@}
 
   ///@{
-  /// Most iterations of a step, 1 to 1e6. Default 50.
+  /// Maximum number of iterations per step, 1 to 1e6. Default 50.
   void SetMaximumIterations(int iterations);
   vtkGetMacro(MaximumIterations, int);
   ///@}
 
   ///@{
-  /// A step ends when an iteration lowers what it minimises by no more than this share. Default
-  /// 1e-6; 0 runs all iterations.
+  /// Convergence tolerance: a step ends when an iteration lowers the minimized function by no more
+  /// than this fraction. Default 1e-6; 0 runs all iterations.
   void SetTolerance(double tolerance);
   vtkGetMacro(Tolerance, double);
   ///@}
 
   ///@{
-  /// As vtkReducedARAP's, of each step. Default on.
+  /// Like that of vtkReducedARAP, for each step. Default on.
   void SetMixedPrecision(bool mixed);
   vtkGetMacro(MixedPrecision, bool);
   vtkBooleanMacro(MixedPrecision, bool);
   ///@}
 
   ///@{
-  /// One step at each execution, see above. Default off.
+  /// Compute one step per execution, see above. Default off.
   void SetInteractive(bool interactive);
   vtkGetMacro(Interactive, bool);
   vtkBooleanMacro(Interactive, bool);
@@ -128,16 +129,16 @@ public:
 
   ///@{
   /**
-   * Whether the output gets the point arrays `RotationCluster`, the number of the rotation that a
-   * vertex follows, and `Rotation`, its axis times its angle in degrees, 0 to 180: see
-   * vtkReducedARAP. Default off.
+   * Add two point arrays to the output: `RotationCluster`, the index of the rotation that a vertex
+   * follows, and `Rotation`, its axis times its angle in degrees, 0 to 180. See vtkReducedARAP.
+   * Default off.
    */
   vtkSetMacro(RotationArrays, bool);
   vtkGetMacro(RotationArrays, bool);
   vtkBooleanMacro(RotationArrays, bool);
   ///@}
 
-  /// The next execution begins at time 0.
+  /// Make the next execution start at time 0.
   void Restart();
 
   vtkTypeBool ProcessRequest(

@@ -1,4 +1,4 @@
-// Glue around the kernel bindpose::Skinning: the bind keeps its sparse weights.
+// Connects the kernel bindpose::Skinning to VTK: the bind stores its sparse weights.
 #include "vtkSkinningDeformation.h"
 
 #include "pose/rotation_centres.h"
@@ -47,10 +47,10 @@ Status check_endpoints(WeightsView endpoints, const Handles& handles, const std:
 struct vtkSkinningDeformation::Internals
 {
   Skinning skinning;
-  SharedMatrix<Weights> endpoints; // size 0: there are none
-  Points centers; // at rest, once they are asked for
+  SharedMatrix<Weights> endpoints; // size 0: none
+  Points centers; // at rest, computed on first use
   Status of_centers;
-  std::optional<bindpose::PseudoEdges> edges; // automatic ones, once they are asked for
+  std::optional<bindpose::PseudoEdges> edges; // automatic ones, computed on first use
   std::vector<Affine> transforms;
 };
 
@@ -143,7 +143,7 @@ Status vtkSkinningDeformation::FindCenters(
   return internal.of_centers;
 }
 
-/// Those of the pose, with what pseudo-edges turn.
+/// Compute the transforms of the pose, with the rotations of pseudo-edges.
 Status vtkSkinningDeformation::FindTransforms(const PoseInput& input, ExecutionContext& context)
 {
   Internals& internal = *this->Internal;
@@ -242,7 +242,8 @@ Status vtkSkinningDeformation::DeformNormals(
 {
   if (this->Method == STRETCHABLE_BONES)
   {
-    // A stretch changes slopes through the endpoint weights, too: those of the posed polygons.
+    // A stretch also changes slopes through the endpoint weights. Use the normals of the posed
+    // polygons.
     return this->Superclass::DeformNormals(input, context, posed, normals);
   }
   const SharedMatrix<Weights> rest = to_matrix(input.mesh->GetPointData()->GetNormals());

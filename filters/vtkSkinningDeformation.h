@@ -2,34 +2,36 @@
  * @class   vtkSkinningDeformation
  * @brief   poses a mesh by blending its handles' transforms
  *
- * Moves every point of the mesh by the transforms of the handles, blended with the point's weights:
+ * The filter moves every point of the mesh by the transforms of the handles, blended with the
+ * point's weights:
  * - **linear blend** (Magnenat-Thalmann et al. 1988): v' = sum_j w_j T_j v. Fast and exact for
  *   affine handles; twists by large angles lose volume.
- * - **dual quaternion** (Kavan et al. 2008): blends rigid motions; scale and shear are blended
- *   linearly before. Twists keep their radius.
- * - **stretchable bones** (Jacobson and Sorkine 2011): linear blend in which bones also do their
- *   `Stretch` and `Twist` along themselves: what is beyond the tail is moved along, not scaled, and
- *   a twist keeps the radius. How far along a bone a point is, is its endpoint weight, 0 at the
- *   head to 1 at the tail: the component of that handle in the point array `EndpointWeights`
- *   (vtkBoneEndpointWeights, or painted), where it is missing or NaN the projection to the bone.
- *   Other handles are blended linearly.
- * - **centers of rotation** (Le and Hodgins 2016): a point turns by the blended rotations about a
- *   center of its own, the mean place of all of the mesh with similar weights, which moves by
- *   linear blend. Twists and bends keep their radius, without the bulge of dual quaternions.
- *   Centers are made when they are asked for first, and kept with the bind.
+ * - **dual quaternion** (Kavan et al. 2008): blends rigid motions, after scale and shear have been
+ *   blended linearly. Twists keep their radius.
+ * - **stretchable bones** (Jacobson and Sorkine 2011): linear blend in which bones also apply their
+ *   `Stretch` and `Twist` along themselves. Points beyond the tail are moved, not scaled, and a
+ *   twist keeps the radius. The position of a point along a bone is its endpoint weight, 0 at the
+ *   head to 1 at the tail: the component of that handle in the point array `EndpointWeights` (from
+ *   vtkBoneEndpointWeights, or painted). If it is missing or NaN, the projection to the bone is
+ *   used. Other handles are blended linearly.
+ * - **centers of rotation** (Le and Hodgins 2016): a point is rotated by the blended rotations
+ *   about its own center, the mean position of the parts of the mesh with similar weights, which
+ *   moves by linear blend. Twists and bends keep their radius, without the bulge of dual
+ *   quaternions. The centers are computed on first use and cached with the bind.
  *
- * **Pseudo-edges** (Jacobson et al. 2011) let points be dragged only: lines between point handles
- * (HandleKind -2, or found automatically), which bend nothing themselves, turn each point by the
- * mean of the least rotations that take its edges from rest to where their ends are posed, on top
- * of what its `Transform` turns. In a plane a rigid motion of all points is found exactly; in space
- * an edge does not see a turn about itself. Points without edges keep their own rotation.
+ * **Pseudo-edges** (Jacobson et al. 2011) are lines between point handles (HandleKind -2, or found
+ * automatically). With them users only need to translate points. They are not part of the blend
+ * themselves. Each point is rotated by the mean of the smallest rotations that take its edges from
+ * rest to the posed ends, in addition to the rotation of its `Transform`. In a plane a rigid motion
+ * of all points is found exactly; in space an edge does not determine the rotation about itself.
+ * Points without edges keep their own rotation.
  *
- * Ports, arrays, bind cache and errors: vtkPoseAlgorithm. Handles whose mode is position count as a
- * translation, free ones as identity (with a warning): skinning finds nothing by itself, see
- * vtkReducedARAP. Works on any vtkPointSet, FE meshes included.
+ * Ports, arrays, bind cache and errors: see vtkPoseAlgorithm. Handles in mode position count as a
+ * translation, handles in mode free as identity (with a warning). Skinning does not compute
+ * transforms; see vtkReducedARAP for that. The filter accepts any vtkPointSet, including FE meshes.
  *
- * Report: method, seconds.bind, seconds.skin, counts (pseudo_edges and centers
- * among them), row_sum_error.
+ * Report: method, seconds.bind, seconds.skin, counts (including pseudo_edges and centers),
+ * row_sum_error.
  */
 
 #ifndef vtkSkinningDeformation_h
@@ -54,7 +56,7 @@ public:
   };
 
   ///@{
-  /// How transforms are blended. Default LINEAR_BLEND. A pose parameter: changing it keeps the
+  /// Method of blending transforms. Default LINEAR_BLEND. A pose parameter: changing it keeps the
   /// bind.
   vtkSetClampMacro(Method, int, LINEAR_BLEND, CENTERS_OF_ROTATION);
   vtkGetMacro(Method, int);
@@ -73,16 +75,16 @@ public:
 
   ///@{
   /**
-   * Which pseudo-edges turn points: none, those of the handles (default), or automatic ones: the
-   * minimum spanning tree of the point handles by distances along the mesh's edges, so that they
-   * follow the shape and no gap is crossed. A pose parameter.
+   * Pseudo-edges that rotate points: none, those of the handle dataset (default), or automatic
+   * ones. The automatic ones are the minimum spanning tree of the point handles by distances along
+   * the mesh's edges. They follow the shape and cross no gap. A pose parameter.
    */
   vtkSetClampMacro(PseudoEdges, int, NO_PSEUDO_EDGES, AUTOMATIC_PSEUDO_EDGES);
   vtkGetMacro(PseudoEdges, int);
   ///@}
 
   ///@{
-  /// Whether points are scaled by the mean ratio of their pseudo-edges' lengths. Default off.
+  /// Scale points by the mean length ratio of their pseudo-edges. Default off.
   vtkSetMacro(PseudoEdgeStretch, bool);
   vtkGetMacro(PseudoEdgeStretch, bool);
   vtkBooleanMacro(PseudoEdgeStretch, bool);
@@ -90,8 +92,8 @@ public:
 
   ///@{
   /**
-   * Weights and transforms as floats: half the memory, about twice as fast, right to a millionth of
-   * the mesh's diagonal. Default off. A bind parameter.
+   * Store weights and transforms as floats: half the memory, about twice as fast, accurate to a
+   * millionth of the mesh's diagonal. Default off. A bind parameter.
    */
   void SetSinglePrecision(bool single);
   vtkGetMacro(SinglePrecision, bool);
@@ -100,10 +102,10 @@ public:
 
   ///@{
   /**
-   * Weights of at most this size count as zero, 0 (default: none) to 1; and how many weights of a
-   * point are kept at most, the largest, 0 (default) for all. What is dropped is shared out among
-   * those that are left and reported: counts.dropped_weights, dropped_share (the largest of a
-   * point). Bind parameters.
+   * Weights up to SmallestWeight count as zero, 0 (default: none) to 1. MaximumInfluences is the
+   * maximum number of weights per point, the largest; 0 (default) keeps all. Dropped weight is
+   * distributed over the remaining weights of the point. The report contains counts.dropped_weights
+   * and dropped_share (the largest dropped fraction of a point). Bind parameters.
    */
   void SetSmallestWeight(double smallest);
   vtkGetMacro(SmallestWeight, double);
@@ -113,8 +115,8 @@ public:
 
   ///@{
   /**
-   * Name of the mesh's point array of endpoint weights, a component a handle, 0 to 1 or NaN.
-   * Default EndpointWeights; an empty name: not looked for. A bind parameter.
+   * Name of the mesh's point array of endpoint weights, one component per handle, 0 to 1 or NaN.
+   * Default EndpointWeights; an empty name disables the array. A bind parameter.
    */
   void SetEndpointArrayName(const std::string& name);
   std::string GetEndpointArrayName() { return this->EndpointArrayName; }

@@ -1,4 +1,5 @@
-// Glue around inside/surface_repair.h, which finds, and inside/surface_defects.h, which lists.
+// Connects surface/surface_repair.h, which finds the defects, and surface/surface_defects.h, which
+// lists them, to VTK.
 #include "vtkSurfaceDefects.h"
 
 #include "base/execution.h"

@@ -1,28 +1,28 @@
 /**
  * @class   vtkSurfaceDefects
- * @brief   shows where a surface is unclean
+ * @brief   locates the defects of a surface
  *
  * **Input**: a vtkPointSet with 2D cells (polygons and strips are split into triangles; other cells
- * are ignored and counted). Nothing is too unclean but ids out of range and coordinates that are
- * not finite.
- * **Output**: a vtkPolyData with one cell for each place: vertices, then edges, then triangles.
- * Cell array `Defect` (int), in this order, and `DefectName` (string):
+ * are ignored and counted). All surfaces are accepted, except those with ids out of range or
+ * coordinates that are not finite.
+ * **Output**: a vtkPolyData with one cell per defect: vertices, then edges, then triangles.
+ * Cell arrays `Defect` (int), in this order, and `DefectName` (string):
  *
  * | 0 | duplicate vertex | equal to a point of lower id |
- * | 1 | unreferenced vertex | of no triangle |
- * | 2 | boundary edge | of one triangle |
- * | 3 | non-manifold edge | of three triangles or more |
- * | 4 | misoriented edge | of two triangles that run the same way |
- * | 5 | degenerate triangle | without area |
- * | 6 | duplicate triangle | the corners of a triangle of lower id, in any order |
- * | 7 | crossing triangle | meets another triangle beyond what they share |
- * | 8 | inward component | of a closed component that is inside out |
+ * | 1 | unreferenced vertex | used by no triangle |
+ * | 2 | boundary edge | used by one triangle |
+ * | 3 | non-manifold edge | used by three triangles or more |
+ * | 4 | misoriented edge | two triangles use it in the same direction |
+ * | 5 | degenerate triangle | has no area |
+ * | 6 | duplicate triangle | has the corners of a triangle of lower id, in any order |
+ * | 7 | crossing triangle | intersects another triangle beyond shared vertices and edges |
+ * | 8 | inward component | belongs to a closed component that is inside out |
  *
- * `OriginalCellIds` and `CrossedCellIds` (the input's cell, and the lowest one that it crosses; -1:
- * none), `Component` (number of the connected component, -1: of none), `InwardComponent` (number of
- * the component that is inside out, -1: none); point array `OriginalPointIds`. Edges, components
- * and crossings are those of the surface with equal points welded, so that files that repeat the
- * corners of every triangle are not all boundary.
+ * Further cell arrays are `OriginalCellIds` (the input's cell; -1: none), `CrossedCellIds` (the
+ * lowest cell that it crosses; -1: none), `Component` (index of the connected component; -1: none)
+ * and `InwardComponent` (index of the component that is inside out; -1: none). Point array:
+ * `OriginalPointIds`. Edges, components and crossings are those of the surface with equal points
+ * merged, so that files that repeat the corners of every triangle do not consist of boundary edges.
  *
  * Report: counts.{vertices, triangles, duplicate_vertices, unreferenced_vertices,
  * degenerate_triangles, duplicate_triangles, boundary_edges, nonmanifold_edges, misoriented_edges,
@@ -30,8 +30,9 @@
  * triangulated_cells, ignored_cells}, closed
  * ("yes" when every edge's directions cancel), seconds.*.
  *
- * INVALID_INPUT for a dataset without 2D cells, ids out of range, coordinates that are not finite.
- * Cost: 0.5 s for 100k triangles, most of it the search for crossings.
+ * The status is INVALID_INPUT for a dataset without 2D cells, ids out of range, or coordinates that
+ * are not finite.
+ * Cost: 0.5 s for 100k triangles, mostly for the search for crossings.
  *
  * @sa vtkTetrahedralizeSurface vtkWindingNumberField vtkFeatureEdges
  */

@@ -1,4 +1,4 @@
-// Glue around the kernel bindpose::tetrahedralize: see inside/tetrahedralize.h.
+// Connects the kernel bindpose::tetrahedralize to VTK: see inside/tetrahedralize.h.
 #include "vtkTetrahedralizeSurface.h"
 
 #include "conversion.h"
@@ -48,7 +48,7 @@ int vtkTetrahedralizeSurface::FillOutputPortInformation(int port, vtkInformation
 
 namespace
 {
-/// The surface with the tet and the coordinates in it of every point.
+/// Return the surface with the tet of every point and its barycentric coordinates.
 vtkSmartPointer<vtkPolyData> to_bound_surface(
   const bindpose::SurfaceInput& surface, const bindpose::PointBinding& binding)
 {

@@ -1,77 +1,83 @@
 /**
  * @class   vtkTetrahedralizeSurface
- * @brief   tets of what a surface encloses, whatever the surface
+ * @brief   computes tets of the inside of a surface, for any surface
  *
  * The surface may be open, cross itself, be doubled, non-manifold, made of loose triangles or
- * partly inside out: its generalized winding number decides what is inside. Orientation is repaired
- * first; what was turned is a warning.
+ * partly inside out. Its generalized winding number determines the inside. The orientation is
+ * repaired first; a warning reports triangles that were turned.
  *
  * **Input 0**: a vtkPointSet with 2D cells (polygons and strips are split into triangles; other
  * cells are ignored and counted).
- * **Input 1** (optional): handles (see vtkHandleFileReader) that CDT and WRAP make part of the mesh
- * where they are inside: points, ends of bones and cage vertices become points of it, bones and
- * cages get points along them at the local edge length. The weights filters split the cells of
- * other methods where handles need it.
+ * **Input 1** (optional): handles (see vtkHandleFileReader). CDT and WRAP make the handles inside
+ * of the surface part of the mesh: points, ends of bones and cage vertices become points of the
+ * mesh, and points are added along bones and cages at the local edge length. The weights filters
+ * split the cells of other methods where handles need it.
  * **Output**: a vtkUnstructuredGrid of tets (VTK_TETRA, all of positive volume) with the point
- * array `OriginalPointIds` (id of the input point, ascending, then -1 for new points) and the cell
- * arrays `WindingNumber` (double, at the tets' centres), `Label` (int: 1 inside, 2 inside though
- * the winding number is below the threshold, 0 outside, -1 outside though it is not below; outside
- * ones are there with KeepOutside and EMBED only) and `MinDihedralAngle` (double, the tet's
- * smallest, degrees), and the field data array `Method` (as in the report).
- * **Output 1**: a vtkPolyData that shows where the surface is unclean, as vtkSurfaceDefects does
- * (which also works where there are no tets to be had).
- * **Output 2**: of EMBED, else empty: the surface's points and triangles as a vtkPolyData with the
- * point arrays `TetIds` (the cell of output 0 that holds the point; -1 for a point of no triangle
- * that none holds) and `BarycentricCoordinates` (4 components, in the order of the cell's points).
- * Output 0 then has the cell array `InsideFraction` (share of the tet that is inside).
+ * array `OriginalPointIds` (id of the input point, ascending, then -1 for new points) and three
+ * cell arrays. `WindingNumber` (double) is evaluated at the tets' centers. `Label` (int) is 1
+ * inside, 2 inside although the winding number is below the threshold, 0 outside, -1 outside
+ * although it is not below; tets outside occur only with KeepOutside and EMBED. `MinDihedralAngle`
+ * (double) is the tet's smallest dihedral angle in degrees. The field data array `Method` contains
+ * the method (as in the report).
+ * **Output 1**: a vtkPolyData with the defects of the surface, as from vtkSurfaceDefects (which
+ * also works if the tetrahedralization fails).
+ * **Output 2**: the surface's points and triangles as a vtkPolyData for EMBED, otherwise empty. Its
+ * point arrays are `TetIds` (the cell of output 0 that contains the point; -1 for a point that
+ * belongs to no triangle and is in no cell) and `BarycentricCoordinates` (4 components, in the
+ * order of the cell's points). Output 0 then has the cell array `InsideFraction` (fraction of the
+ * tet that is inside).
  *
  * Methods:
  * - CDT keeps the input's points and triangles, cut where triangles cross, and adds points inside.
- *   Clean surfaces go to TetGen as they are; others are refined exactly, their hull is filled and
- *   tets are kept where the winding number says inside (see Segmentation). A helper process does
- * the work (bindpose-mesher, built with the packages libcgal-dev and libtet1.5-dev).
- * - REMESH makes well-shaped tets of where the winding number reaches the threshold, graded by the
- *   surface's edges, by Delaunay refinement in the helper process; keeps points that are not too
- *   near to each other, not the triangles. Without the helper, or where that fails, it cuts a
- *   body-centred cubic lattice: no point is kept, dihedral angles are above 10 degrees, and parts
- *   thinner than a lattice cube are lost.
- * - EMBED is a body-centred cubic lattice wherever it touches the surface or its inside: every
- *   point of the surface lies in a tet; dihedral angles are 60 and 90 degrees. Parts that are near
- *   but not connected inside share no point, even in one lattice cube.
- * - WRAP fills, as CDT does, a closed surface around the surface: CGAL's alpha wrap, by the helper
- *   process. Winding numbers have no say, so it is for surfaces whose orientation is hopeless; flat
- *   ones and loose triangles have a wrap, too. What is closed up to gaps of two WrapAlpha becomes
- *   solid, and what is open becomes a **thin shell**: a warning names its volume and the winding
- *   number's. The whole surface is in it or on its boundary; no point is kept.
- * - FTETWILD runs the program fTetWild (https://github.com/wildmeshing/fTetWild), where its
- *   executable FloatTetwild_bin or ftetwild is on PATH or named by the environment variable
+ *   Clean surfaces are passed to TetGen unchanged. Other surfaces are refined exactly, their hull
+ *   is filled, and tets are kept that the segmentation by winding numbers classifies as inside
+ *   (see Segmentation). A helper process does the work (bindpose-mesher, built with the packages
+ *   libcgal-dev and libtet1.5-dev).
+ * - REMESH makes well-shaped tets of the region where the winding number reaches the threshold,
+ *   graded by the surface's edges, by Delaunay refinement in the helper process. It keeps points
+ *   that are not too close to each other, but not the triangles. If there is no helper or the
+ *   refinement fails, it cuts a body-centered cubic lattice: no point is kept, dihedral angles are
+ *   above 10 degrees, and parts thinner than a lattice cube are lost.
+ * - EMBED is a body-centered cubic lattice that covers the surface and its inside. Every point of
+ *   the surface is in a tet; dihedral angles are 60 and 90 degrees. Parts that are close to each
+ *   other but not connected inside share no point, even within one lattice cube.
+ * - WRAP fills, as CDT does, a closed surface around the surface: CGAL's alpha wrap, computed by
+ *   the helper process. It does not use winding numbers, so it suits surfaces whose orientation
+ *   cannot be repaired. Flat surfaces and loose triangles have a wrap, too. A surface that is
+ *   closed up to gaps of two WrapAlpha becomes solid. An open surface becomes a **thin shell**; a
+ *   warning states its volume and the volume of the winding number. The whole surface is in the
+ *   wrap or on its boundary; no point is kept.
+ * - FTETWILD runs the program fTetWild (https://github.com/wildmeshing/fTetWild). Its executable
+ *   FloatTetwild_bin or ftetwild must be on PATH or be named by the environment variable
  *   BINDPOSE_FTETWILD. Its tets are well shaped and within FtetwildEpsilon of the surface; no point
- *   is kept; WindingThreshold must be 0.5. Files go through a temporary folder, which is always
- *   removed. Minutes are normal.
- * - AUTO (default) tries CDT, then REMESH, and nothing else.
+ *   is kept; WindingThreshold must be 0.5. Files are exchanged in a temporary folder, which is
+ *   always removed. A run usually takes minutes.
+ * - AUTO (default) tries CDT, then REMESH, and no other method.
  *
- * Report: method, rungs[].{name, seconds, outcome} (all that was tried and why it was left),
- * counts.{vertices, triangles, duplicate_vertices, unreferenced_vertices, degenerate_triangles,
- * duplicate_triangles, boundary_edges, nonmanifold_edges, misoriented_edges, components,
- * inward_components, self_intersections, turned_triangles, turned_components, triangulated_cells,
- * ignored_cells} of the input, counts.{tets, tet_vertices, kept_vertices, tets_below_5_degrees},
- * volume, winding_volume (exact for clean surfaces, sampled otherwise), min_dihedral_angle
- * (degrees), resolution (of the lattice), distance_max, distance_mean (REMESH by refinement,
- * WRAP, FTETWILD: of the tets' boundary and the surface where that bounds the inside, % of its
- * diagonal), counts.wrap_triangles (WRAP), spacing, counts.{lattice_tets,
+ * Report: method, rungs[].{name, seconds, outcome} (all methods that were tried and why they were
+ * rejected), counts.{vertices, triangles, duplicate_vertices, unreferenced_vertices,
+ * degenerate_triangles, duplicate_triangles, boundary_edges, nonmanifold_edges, misoriented_edges,
+ * components, inward_components, self_intersections, turned_triangles, turned_components,
+ * triangulated_cells, ignored_cells} of the input, counts.{tets, tet_vertices, kept_vertices,
+ * tets_below_5_degrees}, volume, winding_volume (exact for clean surfaces, sampled otherwise),
+ * min_dihedral_angle (degrees), resolution (of the lattice), distance_max, distance_mean (REMESH by
+ * refinement, WRAP, FTETWILD: between the tets' boundary and the surface where that bounds the
+ * inside, in % of its diagonal), counts.wrap_triangles (WRAP), spacing, counts.{lattice_tets,
  * duplicated_nodes, branching_facets, tet_components} (EMBED), segmentation, energy,
  * threshold_energy, counts.changed_by_cut (of the graph cut), counts.tets_inside (KeepOutside),
- * quality[].{dihedral_angle, tets} (how many tets have their smallest dihedral angle from this many
- * degrees to the next), winding_volume_error (standard error of sampling, relative),
- * counts.{handle_points, handle_vertices} and handles[].{name, vertex} (CDT, WRAP with handles: the
- * point's id, of a bone the head's, -1 where it is no point of the mesh), seconds.*.
+ * quality[].{dihedral_angle, tets} (histogram of the tets' smallest dihedral angles: lower end of
+ * the bin in degrees, number of tets), winding_volume_error (relative standard error of the
+ * sampling), counts.{handle_points, handle_vertices} and handles[].{name, vertex} (CDT, WRAP with
+ * handles: the id of the handle's point, for a bone of its head; -1 if it is not a point of the
+ * mesh), seconds.*.
  *
- * Errors: invalid_input for a surface without 2D cells, with ids out of range or coordinates that
- * are not finite, for a flat one and one that encloses nothing (but of EMBED and WRAP), and for one
- * that neither CDT nor REMESH can fill (the text names EMBED, which takes any); unavailable for CDT
- * and WRAP without the helper, for FTETWILD without fTetWild, and for REMESH where all that is
- * enclosed is too thin for its tets; internal_error when the method asked for gave no valid mesh.
- * Cost: 5k triangles 0.3 s, 90k triangles 4 s when clean.
+ * Errors: invalid_input for a surface without 2D cells, with ids out of range or with coordinates
+ * that are not finite; for a flat surface and one that encloses nothing (except with EMBED and
+ * WRAP); and for a surface that neither CDT nor REMESH can fill (the message recommends EMBED,
+ * which accepts any surface). The status is unavailable for CDT and WRAP without the helper, for
+ * FTETWILD without fTetWild, and for REMESH if the whole inside is too thin for its tets. It is
+ * internal_error if the requested method gave no valid mesh.
+ * Cost: 0.3 s for 5k triangles, 4 s for 90k clean triangles.
  *
  * @par Thanks:
  * Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding
@@ -97,7 +103,7 @@ public:
   vtkTypeMacro(vtkTetrahedralizeSurface, vtkBindposeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The handles, by a connection; null for none.
+  /// Set the connection of the handles; null for no handles.
   void SetHandlesConnection(vtkAlgorithmOutput* handles) { this->SetInputConnection(1, handles); }
 
   enum MethodType
@@ -124,8 +130,8 @@ public:
 
   ///@{
   /**
-   * Inside is where the winding number is at least this, above 0; default 0.5. Larger values pull
-   * the lid of an opening inwards; 1.5 keeps only what is enclosed twice.
+   * Winding number at or above which a point is inside, above 0; default 0.5. Larger values move
+   * the lid of an opening inwards; 1.5 keeps only regions that are enclosed twice.
    */
   vtkSetMacro(WindingThreshold, double);
   vtkGetMacro(WindingThreshold, double);
@@ -139,10 +145,11 @@ public:
 
   ///@{
   /**
-   * How CDT tells the tets of an open surface apart: GRAPH_CUT (default) decides for all of them
-   * together, so that the boundary follows the surface and is small and even across openings;
-   * THRESHOLD looks at each tet's winding number alone, and is taken too when the graph cut's
-   * volume is more than 5 % off. Closed surfaces leave nothing to decide.
+   * Segmentation of the tets of an open surface by CDT. GRAPH_CUT (default) labels all tets
+   * together, so that the boundary follows the surface and is small and smooth across openings.
+   * THRESHOLD uses each tet's winding number alone. It is also used if the volume of the graph cut
+   * differs from that of the winding number by more than 5 %. For closed surfaces both give the
+   * same result.
    */
   vtkSetClampMacro(Segmentation, int, GRAPH_CUT, THRESHOLD);
   vtkGetMacro(Segmentation, int);
@@ -151,15 +158,16 @@ public:
   ///@}
 
   ///@{
-  /// Weight of a small boundary against the winding numbers in GRAPH_CUT, 0 or more; default 1.
+  /// Weight of a small boundary relative to the winding numbers in GRAPH_CUT, >= 0; default 1.
   vtkSetMacro(CutSmoothness, double);
   vtkGetMacro(CutSmoothness, double);
   ///@}
 
   ///@{
   /**
-   * Difference of winding numbers between neighbouring tets that GRAPH_CUT takes for the surface,
-   * above 0; default 0.1. Larger values also let it cut where the number hardly changes.
+   * Difference of winding numbers between neighboring tets that GRAPH_CUT attributes to the
+   * surface, above 0; default 0.1. Larger values also allow cuts where the winding number hardly
+   * changes.
    */
   vtkSetMacro(CutSigma, double);
   vtkGetMacro(CutSigma, double);
@@ -167,32 +175,34 @@ public:
 
   ///@{
   /**
-   * Lattice cubes along the longest side of the surface's box, 4 to 1000 (REMESH, EMBED); edges of
-   * REMESH are 0.2 to 1.4 cubes long. The number of tets grows with its cube: a solid block has 12
-   * tets a cube. 0 (default): 40 for REMESH, as many as give about 30,000 tets for EMBED.
+   * Number of lattice cubes along the longest side of the surface's box, 4 to 1000 (REMESH, EMBED).
+   * Edges of REMESH are 0.2 to 1.4 cubes long. The number of tets grows with the cube of the
+   * resolution: a solid block has 12 tets per lattice cube. 0 (default): 40 for REMESH, and the
+   * resolution with about 30,000 tets for EMBED.
    */
   vtkSetClampMacro(Resolution, int, 0, 1000);
   vtkGetMacro(Resolution, int);
   ///@}
 
   ///@{
-  /// Seconds that the helper process, or fTetWild, may take in all. 0 (default): 120, or 120 per
-  /// million triangles if that is more.
+  /// Total time limit of the helper process, or of fTetWild, in seconds. 0 (default): 120, or 120
+  /// per million triangles if that is more.
   vtkSetMacro(TimeLimit, double);
   vtkGetMacro(TimeLimit, double);
   ///@}
 
   ///@{
-  /// MiB of address space that the helper process, or fTetWild, may take; 0 (default): no limit.
+  /// Limit of the address space of the helper process, or of fTetWild, in MiB; 0 (default): no
+  /// limit.
   vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(MemoryLimit, int);
   ///@}
 
   ///@{
   /**
-   * Smallest dihedral angle that every tet must have, degrees, 0 (default) to 20. AUTO leaves the
-   * surface's triangles for it where they do not allow it; REMESH reaches 10.7 on any surface. A
-   * result that misses it is NOT_CONVERGED. 0: as large as the surface's triangles allow.
+   * Smallest allowed dihedral angle of a tet in degrees, 0 (default) to 20. If the surface's
+   * triangles do not allow it, AUTO gives up the triangles. REMESH reaches 10.7 on any surface. A
+   * result below this angle is NOT_CONVERGED. 0: as large as the surface's triangles allow.
    */
   vtkSetMacro(Quality, double);
   vtkGetMacro(Quality, double);
@@ -200,8 +210,8 @@ public:
 
   ///@{
   /**
-   * CDT and WRAP only: no points are added inside and flat tets stay as they are; InteriorEdge and
-   * Quality must be 0. Default off.
+   * CDT and WRAP only: add no points inside and keep flat tets; InteriorEdge and Quality must be 0.
+   * Default off.
    */
   vtkSetMacro(Bare, bool);
   vtkGetMacro(Bare, bool);
@@ -210,10 +220,11 @@ public:
 
   ///@{
   /**
-   * Longest edges that CDT and WRAP leave inside, as a fraction of the surface's diagonal, 0 or
-   * more. Default 0: automatic, as long as the surface's own edges nearby and longer with the
-   * distance to it, about 4.5 tets per triangle. Smooth weights need points inside, not only on the
-   * surface. FTETWILD aims at this length everywhere; 0: at its own 0.05.
+   * Longest interior edge of CDT and WRAP, as a fraction of the surface's diagonal, >= 0. Default
+   * 0: automatic, as long as the surface's own edges nearby and longer with increasing distance
+   * from it, about 4.5 tets per triangle. Smooth weights need points inside, in addition to those
+   * on the surface. For FTETWILD it is the target length everywhere; 0 means fTetWild's default
+   * 0.05.
    */
   vtkSetMacro(InteriorEdge, double);
   vtkGetMacro(InteriorEdge, double);
@@ -222,8 +233,8 @@ public:
   ///@{
   /**
    * CDT only (INVALID_INPUT otherwise): keep all tets of the surface's convex hull, or of a box
-   * around it where that was needed, for inspection: those with `Label` above 0 are inside.
-   * `WindingNumber` is then what the segmentation decided on, and no points are added for
+   * around it if that was needed, for inspection. Tets with `Label` above 0 are inside.
+   * `WindingNumber` is then the number that the segmentation used, and no points are added for
    * InteriorEdge. Default off.
    */
   vtkSetMacro(KeepOutside, bool);
@@ -235,7 +246,7 @@ public:
   /**
    * Radius of the ball that carves the wrap of WRAP from outside, as a fraction of the surface's
    * diagonal, 0.0001 to 1; default 0.02. Gaps narrower than twice this are closed; edges are up to
-   * about twice as long; triangles and seconds grow with 1 over its square.
+   * about twice as long; the number of triangles and the time grow with 1 over its square.
    */
   vtkSetMacro(WrapAlpha, double);
   vtkGetMacro(WrapAlpha, double);
@@ -243,8 +254,8 @@ public:
 
   ///@{
   /**
-   * How far outside of the surface the wrap's points lie, as a fraction of the diagonal, 0.000001
-   * to 1; default 0.001. Half of the thickness of what a sheet becomes.
+   * Distance of the wrap's points outside of the surface, as a fraction of the diagonal, 0.000001
+   * to 1; default 0.001. It is half of the thickness of the shell around a sheet.
    */
   vtkSetMacro(WrapOffset, double);
   vtkGetMacro(WrapOffset, double);
@@ -252,8 +263,8 @@ public:
 
   ///@{
   /**
-   * How far the boundary of FTETWILD may be from the surface, as a fraction of its diagonal,
-   * 0.00001 to 0.1; default 0.001. Smaller ones take longer.
+   * Largest distance of the boundary of FTETWILD from the surface, as a fraction of its diagonal,
+   * 0.00001 to 0.1; default 0.001. Smaller values take longer.
    */
   vtkSetMacro(FtetwildEpsilon, double);
   vtkGetMacro(FtetwildEpsilon, double);

@@ -1,5 +1,6 @@
-// Glue around the kernel bindpose::transfer(), with a cache as the weights filters have one: a pose
-// edit upstream must not make a new array, or the poses downstream would bind again.
+// Connects the kernel bindpose::transfer() to VTK, with a cache like that of the weights filters.
+// An upstream edit of the pose must not create a new array, or the downstream filters would bind
+// again.
 #include "vtkTransferWeights.h"
 
 #include "base/execution.h"
@@ -107,8 +108,9 @@ Status vtkTransferWeights::Execute(
     {
       return status;
     }
-    // A mesh that is cut open has several vertices at one place: the one of the point's own number
-    // is meant, for the weights filters keep the numbers of the vertices that they are given.
+    // A mesh that is cut open has several vertices at the same position. The vertex with the
+    // point's own id is the right one, because the weights filters keep the ids of the input
+    // vertices.
     const SharedMatrix<Points> points = to_points(target);
     const SharedMatrix<Weights> rows = to_matrix(weights);
     for (Index v = 0; v < std::min<Index>(values.rows(), domain.points.rows()); ++v)

@@ -1,20 +1,20 @@
 /**
  * @class   vtkTransferWeights
- * @brief   carries weights from one mesh to points in or near it
+ * @brief   transfers weights from one mesh to points in or near it
  *
- * Puts the weights of a tet mesh or surface onto any vtkPointSet: the surface that the tets were
- * made from, another one, a finer or FE mesh, a point cloud. A point that lies on a vertex (within
- * 1e-9 of the mesh's diagonal) takes that vertex's row as it is (of several the one of its own
- * number, as on a mesh that is cut open); a point in a tet (or on a
- * triangle) takes the barycentric mean of the corners; a point outside takes the weights of the
- * nearest place. Rows that sum to one still do.
+ * The filter transfers the weights of a tet mesh or surface to any vtkPointSet: the surface of the
+ * tets, another surface, a finer or FE mesh, a point cloud. A point at a vertex (within 1e-9 of the
+ * mesh's diagonal) gets that vertex's row unchanged. If several vertices are at the point, as on a
+ * mesh that is cut open, the vertex with the point's own id is used. A point in a tet (or on a
+ * triangle) gets the barycentric mean of the corners. A point outside gets the weights at the
+ * nearest position of the mesh. Rows that sum to one still do.
  *
  * **Input 0**: the target, any vtkPointSet. **Input 1**: the mesh with the point array `Weights`
  * (see vtkWeightsAlgorithm). **Output**: input 0 with a double point array of the same name and
- * component names, and the certificates that travel with it.
+ * component names, and the certificates of the weights.
  *
- * The result is kept while points, cells and weights of the mesh and the points of the target stay:
- * an unchanged transfer hands on the same array. GetNumberOfBinds() counts.
+ * The result is cached until points, cells or weights of the mesh or the points of the target
+ * change. An unchanged transfer returns the same array. GetNumberOfBinds() counts the transfers.
  *
  * Report: transfer (exact, barycentric or mixed), counts.{transferred_exact,
  * transferred_barycentric, transferred_nearest, transfer_misses} (a miss is farther from the mesh
@@ -44,10 +44,10 @@ public:
   std::string GetArrayName() { return this->ArrayName; }
   ///@}
 
-  /// How often weights were transferred.
+  /// Number of times that weights were transferred.
   vtkGetMacro(NumberOfBinds, int);
 
-  /// The mesh with weights: SetInputData(1, mesh).
+  /// Set the mesh with weights, like SetInputData(1, mesh).
   void SetMeshData(vtkDataObject* mesh) { this->SetInputData(1, mesh); }
   void SetMeshConnection(vtkAlgorithmOutput* mesh) { this->SetInputConnection(1, mesh); }
 

@@ -1,4 +1,4 @@
-// Glue around the kernels bindpose::unconstrained_weights() and bindpose::baseline_weights().
+// Connects the kernels bindpose::unconstrained_weights() and bindpose::baseline_weights() to VTK.
 #include "vtkUnconstrainedWeights.h"
 
 #include "weights/baseline_weights.h"

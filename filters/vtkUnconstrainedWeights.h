@@ -1,28 +1,30 @@
 /**
  * @class   vtkUnconstrainedWeights
- * @brief   weights without bounds, and other fast ones to compare with
+ * @brief   weights without bounds, and other fast weights for comparison
  *
- * One factorisation and one solve a handle, or a closed form. Rows sum to one.
+ * Each method costs one factorization and one solve per handle, or has a closed form. Rows sum to
+ * one.
  *
- * | Method | what | shape | smooth | in [0, 1] |
+ * | Method | definition | shape-aware | smooth | in [0, 1] |
  * |---|---|---|---|---|
- * | HARMONIC | least gradient | knows it | peaks at points | where cotangents are positive |
- * | BIHARMONIC | least Laplacian, the same on any mesh | knows it | yes | no |
- * | TRIHARMONIC | least gradient of the Laplacian | knows it | yes | no |
- * | GRAPH_BIHARMONIC | least Laplacian without masses | knows it | where the mesh is even | no |
- * | LINEAR_SUBSPACE | as BIHARMONIC; points carry affine maps exactly | knows it | yes | no |
- * | INVERSE_DISTANCE | 1 / distance^Power | does not | peaks | yes |
- * | SMOOTHED_HARMONIC | HARMONIC, smoothed over the length Smoothing | knows it | yes | nearly |
- * | BONE_HEAT | nearest handle in sight, Heat / distance^2 | partly | creases | as HARMONIC |
+ * | HARMONIC | least gradient | yes | peaks at points | where cotangents are positive |
+ * | BIHARMONIC | least Laplacian, independent of the mesh | yes | yes | no |
+ * | TRIHARMONIC | least gradient of the Laplacian | yes | yes | no |
+ * | GRAPH_BIHARMONIC | least Laplacian without masses | yes | where the mesh is uniform | no |
+ * | LINEAR_SUBSPACE | as BIHARMONIC; points reproduce affine maps exactly | yes | yes | no |
+ * | INVERSE_DISTANCE | 1 / distance^Power | no | peaks | yes |
+ * | SMOOTHED_HARMONIC | HARMONIC, smoothed over the length Smoothing | yes | yes | nearly |
+ * | BONE_HEAT | nearest visible handle, Heat / distance^2 | partly | creases | as HARMONIC |
  *
- * LINEAR_SUBSPACE is made for points: beyond bones, which are constant along themselves, it
- * overshoots far (-40 on an elephant's ear).
+ * LINEAR_SUBSPACE is designed for points. Its weights are constant along bones, and beyond the
+ * bones it overshoots far (-40 on an elephant's ear).
  *
- * WeightsMinimum, WeightsMaximum and WeightsInteriorExtrema tell what the bounds and monotonicity
- * of the other filters are for. The first five minimise an energy, which the certificate is about;
- * for the others the gap is 0 and the residual that of a linear system.
+ * WeightsMinimum, WeightsMaximum and WeightsInteriorExtrema show how far the weights are from the
+ * bounds of bounded weights and from the monotonicity of monotone weights. The first five methods
+ * minimize an energy, to which the certificate applies. For the others the gap is 0, and the
+ * residual is that of a linear system.
  *
- * Ports, arrays, certificate, bind cache, report and errors: vtkWeightsAlgorithm.
+ * Ports, arrays, certificate, bind cache, report and errors: see vtkWeightsAlgorithm.
  *
  * @par Thanks:
  * Botsch, Kobbelt, "An intuitive framework for real-time freeform modeling", ACM Transactions on
@@ -60,7 +62,7 @@ public:
   };
 
   ///@{
-  /// Which weights, see above; default BIHARMONIC. All parameters here belong to the bind.
+  /// Method, see above; default BIHARMONIC. All parameters of this class are bind parameters.
   void SetMethod(int method);
   vtkGetMacro(Method, int);
   void SetMethodToHarmonic() { this->SetMethod(HARMONIC); }
@@ -74,19 +76,20 @@ public:
   ///@}
 
   ///@{
-  /// Of INVERSE_DISTANCE: the exponent, above 0. Default 2.
+  /// INVERSE_DISTANCE: the exponent, above 0. Default 2.
   void SetPower(double power);
   vtkGetMacro(Power, double);
   ///@}
 
   ///@{
-  /// Of SMOOTHED_HARMONIC: a length, fraction of the diagonal, 0 or more. Default 0.05.
+  /// SMOOTHED_HARMONIC: the smoothing length, as a fraction of the diagonal, >= 0. Default 0.05.
   void SetSmoothing(double smoothing);
   vtkGetMacro(Smoothing, double);
   ///@}
 
   ///@{
-  /// Of BONE_HEAT: above 0; more makes weights switch faster between handles. Default 1.
+  /// BONE_HEAT: heat factor, above 0; a larger factor makes weights change faster between handles.
+  /// Default 1.
   void SetHeat(double heat);
   vtkGetMacro(Heat, double);
   ///@}

@@ -1,4 +1,5 @@
-// The kernel writes; here the image becomes a grid of samples and the array floats or doubles.
+// The kernel writes the file. This filter converts the image to a grid of samples and the array to
+// floats or doubles.
 #include "vtkVDBWriter.h"
 
 #include "base/execution.h"
@@ -23,7 +24,7 @@ namespace
 {
 using bindpose::Status;
 
-/// The array to write; null with the reason in the status.
+/// Return the array to write; null, with the reason in the status, if there is none.
 vtkDataArray* find_array(vtkImageData* image, const char* name, Status& status)
 {
   vtkPointData* arrays = image->GetPointData();
@@ -53,7 +54,7 @@ std::string name_of_grid(const char* wanted, vtkDataArray* array)
     return wanted;
   }
   const std::string name = array->GetName() ? array->GetName() : "";
-  // OpenVDB's names are written like "density" and "winding_number".
+  // OpenVDB grid names are in lower case: "density", "winding_number".
   return name.empty() || name == "WindingNumber" ? bindpose::VdbOptions().grid_name : name;
 }
 
@@ -88,7 +89,8 @@ int vtkVDBWriter::Write()
 
 int vtkVDBWriter::FillInputPortInformation(int, vtkInformation* info)
 {
-  // Anything, so that what is no image is told by the status and not by the executive.
+  // Accept any dataset, so that the status rather than the executive reports an input that is not
+  // an image.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
   return 1;
 }

@@ -2,23 +2,23 @@
  * @class   vtkVDBWriter
  * @brief   writes a point array of a volume as an OpenVDB grid of floats (.vdb)
  *
- * For Houdini, Blender and other programs that read OpenVDB: the winding number of a surface as a
- * fog volume, 0 outside and 1 inside. Voxel centres are the image's points, in the same world
- * coordinates, whatever origin, spacing, direction and extent the vtkImageData has.
+ * The file is for Houdini, Blender and other programs that read OpenVDB: the winding number of a
+ * surface as a fog volume, 0 outside and 1 inside. Voxel centers are the image's points, in the
+ * same world coordinates, for any origin, spacing, direction and extent of the vtkImageData.
  *
- * Band FULL keeps every value that differs from the background; NARROW only the voxels near the
- * surface (where the values cross Threshold), the rest becoming two constants, inactive: a file of
- * a few per cent of the size with the same isosurface. bindpose::write_vdb says which voxels are
- * active and what the grid's class is.
+ * Band FULL keeps every value that differs from the background. NARROW keeps only the voxels near
+ * the surface (where the values cross Threshold) and replaces the others by two inactive constants.
+ * The file then has a few per cent of the size and the same isosurface. See bindpose::write_vdb for
+ * the active voxels and the grid class.
  *
- * The file is written beside its target and renamed at the end; a failure, a cancel or an exception
- * leaves nothing behind. The same values give the same bytes. An existing file is an error unless
- * Overwrite is on.
+ * The file is written under a temporary name next to its target and renamed at the end; a failure,
+ * a cancel or an exception leaves no file. The same values give the same bytes. An existing file is
+ * an error unless Overwrite is on.
  *
- * Errors: UNAVAILABLE in a build without OpenVDB (package libopenvdb-dev); INVALID_INPUT with one
- * sentence for anything but a vtkImageData, an array that is missing, has several components or a
- * value that is no finite float, spacing that is not positive, a Background equal to Threshold, an
- * unwritable place.
+ * Errors: UNAVAILABLE in a build without OpenVDB (package libopenvdb-dev). INVALID_INPUT, with one
+ * sentence: the input is not a vtkImageData, the array is missing, has several components or has a
+ * value that is not a finite float, the spacing is not positive, Background equals Threshold, or
+ * the output path cannot be written.
  *
  * Call Write(). The filter has no output; its report has counts.samples, counts.active_voxels,
  * counts.leaf_nodes, file_bytes.
@@ -45,27 +45,27 @@ public:
   };
 
   ///@{
-  /// Path of the file, with the ending .vdb. Default: none.
+  /// Path of the file, with the extension .vdb. Default: none.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
 
   ///@{
-  /// Replace an existing file? Default: off.
+  /// Replace an existing file. Default: off.
   vtkSetMacro(Overwrite, bool);
   vtkGetMacro(Overwrite, bool);
   vtkBooleanMacro(Overwrite, bool);
   ///@}
 
   ///@{
-  /// Point array to write, of one component. Default: none, the active scalars.
+  /// Point array to write, with one component. Default: none, which means the active scalars.
   vtkSetStringMacro(ArrayName);
   vtkGetStringMacro(ArrayName);
   ///@}
 
   ///@{
-  /// Name of the grid in the file. Default: none, which is "winding_number" for the array
-  /// WindingNumber, and the array's own name otherwise.
+  /// Name of the grid in the file. Default: none, which means "winding_number" for the array
+  /// WindingNumber and the array's own name otherwise.
   vtkSetStringMacro(GridName);
   vtkGetStringMacro(GridName);
   ///@}
@@ -83,23 +83,23 @@ public:
   ///@}
 
   ///@{
-  /// NARROW: how far the band reaches from the surface, in voxels along each axis, 1 … 2^30.
-  /// Default: 3.
+  /// NARROW: half width of the band on each side of the surface, in voxels along each axis, 1 …
+  /// 2^30. Default: 3.
   vtkSetClampMacro(BandWidth, int, 1, 1 << 30);
   vtkGetMacro(BandWidth, int);
   ///@}
 
   ///@{
-  /// NARROW: the level of the surface. Default: 0.5.
+  /// NARROW: isovalue of the surface. Default: 0.5.
   vtkSetMacro(Threshold, double);
   vtkGetMacro(Threshold, double);
   ///@}
 
-  /// Executes the pipeline and writes, again even if nothing changed. Returns 1 when the file is
-  /// there; otherwise 0, and GetStatusMessage() says why.
+  /// Execute the pipeline and write the file, even if nothing has changed. Return 1 if the file was
+  /// written; otherwise return 0, and GetStatusMessage() returns the reason.
   int Write();
 
-  /// The endings that can be written, lower case, without dots, parted by blanks.
+  /// File name extensions that can be written, in lower case, without dots, separated by blanks.
   static const char* GetFileExtensions() { return "vdb"; }
 
 protected:

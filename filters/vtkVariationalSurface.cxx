@@ -1,4 +1,4 @@
-// Glue around the kernel bindpose::VariationalSurface: arrays of the mesh become its options.
+// Connects the kernel bindpose::VariationalSurface to VTK: arrays of the mesh become its options.
 #include "vtkVariationalSurface.h"
 
 #include "pose/variational_surface.h"
@@ -24,8 +24,8 @@ struct vtkVariationalSurface::Internals
 
 namespace
 {
-/// Rows of a point array with so many components, filled up with zeros to three. Without an array
-/// of that name none.
+/// Return the rows of a point array with at least `fewest` components, padded with zeros to three.
+/// Return no rows if there is no array of that name.
 Status to_rows(vtkPointSet* mesh, const std::string& name, int fewest, Points& rows)
 {
   vtkAbstractArray* found = mesh->GetPointData()->GetAbstractArray(name.c_str());

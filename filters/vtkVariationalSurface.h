@@ -1,48 +1,48 @@
 /**
  * @class   vtkVariationalSurface
- * @brief   smooth surfaces between what is fixed: membranes, thin plates and smoother ones
+ * @brief   smooth surfaces between fixed points: membranes, thin plates and smoother surfaces
  *
  * Each coordinate of the free points solves Laplace's equation of order 1, 2 or 3 by mixed finite
  * elements (Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite elements for variational surface
- * modeling): to move a patch smoothly with its handles, or (Fair) to make it anew from what is
- * around it, for holes and blends.
+ * modeling). The filter moves a patch smoothly with its handles. With Fair it computes the patch
+ * only from its surroundings, for holes and blends.
  *
- * **Ports**: those of vtkPoseAlgorithm; the mesh is a surface of triangles without weights, and the
- * handles may be left out. **Fixed** are the points that handles in mode `full` hold (a point or
- * cage vertex the point at its place, a bone those along it, a region those of its label in
- * RegionArrayName), and those where the point array FixedArrayName is not 0, which stay. Handles in
- * mode `position` hold the place of their pivot, and may lie inside of triangles. All other points
- * are free.
+ * **Ports**: those of vtkPoseAlgorithm. The mesh is a surface of triangles without weights, and the
+ * handles are optional. **Fixed points** are constrained by handles in mode `full` (a point or cage
+ * vertex constrains the point at its position, a bone the points along it, a region the points with
+ * its label in RegionArrayName), or have a nonzero value in the point array FixedArrayName and do
+ * not move. A handle in mode `position` constrains the position of its pivot, which may be inside
+ * of a triangle. All other points are free.
  *
  * **Boundary.** REGION: the fixed points are a band of `Order` layers of triangles around the
- * patch, which continues it: with its place for order 1, tangent planes for 2, curvatures for 3.
- * Single points, curves and narrower bands work as well; the surface is then as smooth across them
- * as the energy makes it. Where the mesh ends, slopes across its border are zero. CURVE: the places
- * on the patch's edge alone count, its bending there is zero (simply supported). Without a Load
- * that is the surface of order 1, whatever the order. TANGENT: the places on the edge and the
- * derivatives across it, from TangentSource. Order 3 has more to fix than that; its third condition
- * is then its energy's own, with a warning.
+ * patch. The patch continues the band with its positions for order 1, its tangent planes for 2, its
+ * curvatures for 3. Single points, curves and narrower bands work as well; the surface is then as
+ * smooth across them as the energy makes it. Where the mesh ends, slopes across its border are
+ * zero. CURVE: only the positions on the patch's edge are fixed, and its bending there is zero
+ * (simply supported). Without a Load this gives the surface of order 1 for any order. TANGENT: the
+ * positions on the edge and the derivatives across it (from TangentSource) are fixed. Order 3 needs
+ * one more condition, which is then the natural condition of its energy, with a warning.
  *
- * **Parameter domain.** The operator is frozen: cotangents and areas are those of the mesh at rest,
- * or of the point array ParameterArrayName (2 or 3 components: texture coordinates of a flat patch,
- * the places on a tube). What the result looks like depends on it: a patch that is to be round
- * needs a domain of about its lengths.
+ * **Parameter domain.** The operator does not change with the pose: its cotangents and areas are
+ * those of the mesh at rest, or of the point array ParameterArrayName (2 or 3 components: texture
+ * coordinates of a flat patch, positions on a tube). The shape of the result depends on the domain:
+ * a round patch needs a domain with about the same lengths.
  *
- * A factorisation for each choice of modes is kept between poses; moving a handle only solves with
- * it. The condensed matrix is factored (Cholesky), refined by residuals of the mixed equations: the
- * accuracy of the larger indefinite system at a fraction of its cost.
+ * One factorization per choice of modes is cached between poses; moving a handle only solves with
+ * it. The filter factors the condensed matrix (Cholesky) and refines with residuals of the mixed
+ * equations. This has the accuracy of the larger indefinite system at a fraction of its cost.
  *
  * Report: method, order, boundary, counts (vertices, triangles, handles, free, constrained),
- * condition (of the matrix that was factored, with ones on its diagonal, estimated from below; up
- * to about 1e14 the refinement makes up for it), refinement (the last correction, as a share of the
- * largest coordinate), constraint_residual (in diagonals), seconds.bind, seconds.factor. Warnings:
- * few digits, conditions that are less than they seem, handles beside the mesh, redundant or
- * contradicting.
+ * condition (of the factored matrix with ones on its diagonal, estimated from below; up to about
+ * 1e14 the refinement compensates for it), refinement (the last correction, as a fraction of the
+ * largest coordinate), constraint_residual (in bounding-box diagonals), seconds.bind,
+ * seconds.factor. Warnings: few accurate digits, boundary conditions that fix less than they
+ * should, handles that are off the mesh, redundant or contradictory.
  *
- * Errors: besides vtkPoseAlgorithm's: cells that are no triangles, arrays of the wrong size or with
- * numbers that are not finite, a triangle of the patch without area, an edge of it with three
- * triangles, Fair with a part in which nothing is fixed. Status UNAVAILABLE when the system is too
- * ill-conditioned for double precision (order 3 from about a thousand points across).
+ * Errors: those of vtkPoseAlgorithm; cells that are not triangles; arrays of the wrong size or with
+ * numbers that are not finite; a triangle of the patch without area; an edge of the patch with
+ * three triangles; Fair with a component without fixed points. The status is UNAVAILABLE if the
+ * system is too ill-conditioned for double precision (order 3 from about a thousand points across).
  *
  * @sa vtkFullARAP
  */
@@ -61,8 +61,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// 1: Laplacian = 0 (membrane), 2: its square (thin plate), 3: its cube. Default 2. A bind
-  /// parameter.
+  /// Order: 1 sets the Laplacian to 0 (membrane), 2 its square (thin plate), 3 its cube. Default 2.
+  /// A bind parameter.
   void SetOrder(int order);
   vtkGetMacro(Order, int);
   ///@}
@@ -75,7 +75,7 @@ public:
   };
 
   ///@{
-  /// What holds at the edge of the patch. Default REGION. A bind parameter.
+  /// Boundary condition at the edge of the patch. Default REGION. A bind parameter.
   void SetBoundary(int boundary);
   vtkGetMacro(Boundary, int);
   ///@}
@@ -89,18 +89,18 @@ public:
 
   ///@{
   /**
-   * For TANGENT: derivatives across the edge of the triangles beyond it, where there are some
-   * (default); of the point array TangentArrayName (3 components: derivative of the place outwards,
-   * per unit of the parameter domain); or none (of displacements: tangents stay as they are at
-   * rest). A bind parameter.
+   * Source of the derivatives across the edge for TANGENT. SURROUNDINGS (default): the triangles
+   * beyond the edge, where there are some. GIVEN: the point array TangentArrayName (3 components:
+   * derivative of the position outwards, per unit of the parameter domain). CLAMPED: zero; for
+   * displacements this keeps the tangents at rest. A bind parameter.
    */
   void SetTangentSource(int source);
   vtkGetMacro(TangentSource, int);
   ///@}
 
   ///@{
-  /// Solve for places instead of displacements: what the patch was is forgotten. Default off. A
-  /// bind parameter.
+  /// Solve for positions instead of displacements: the rest shape of the patch has no effect.
+  /// Default off. A bind parameter.
   void SetFair(bool fair);
   vtkGetMacro(Fair, bool);
   vtkBooleanMacro(Fair, bool);
@@ -114,15 +114,15 @@ public:
   ///@}
 
   ///@{
-  /// Name of the mesh's point array that is not 0 at points that stay. Default "Fixed"; need not be
-  /// there. A bind parameter.
+  /// Name of the mesh's point array that is nonzero at fixed points. Default "Fixed"; the array is
+  /// optional. A bind parameter.
   void SetFixedArrayName(const std::string& name);
   std::string GetFixedArrayName() { return this->FixedArrayName; }
   ///@}
 
   ///@{
-  /// Name of the mesh's point array of places in the parameter domain. Default "Parameterization";
-  /// need not be there. A bind parameter.
+  /// Name of the mesh's point array of positions in the parameter domain. Default
+  /// "Parameterization"; the array is optional. A bind parameter.
   void SetParameterArrayName(const std::string& name);
   std::string GetParameterArrayName() { return this->ParameterArrayName; }
   ///@}
@@ -134,8 +134,8 @@ public:
   ///@}
 
   ///@{
-  /// Name of the mesh's point array (3 components) of what (-Laplacian)^Order is to be there
-  /// instead of zero: it blows the patch up. Default "Load"; need not be there. A bind parameter.
+  /// Name of the mesh's point array (3 components) of the right side of (-Laplacian)^Order, which
+  /// inflates the patch; zero if absent. Default "Load"; the array is optional. A bind parameter.
   void SetLoadArrayName(const std::string& name);
   std::string GetLoadArrayName() { return this->LoadArrayName; }
   ///@}

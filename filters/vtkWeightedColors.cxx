@@ -1,4 +1,4 @@
-// Glue around the kernel bindpose::weighted_colors().
+// Connects the kernel bindpose::weighted_colors() to VTK.
 #include "vtkWeightedColors.h"
 
 #include "base/execution.h"
@@ -23,8 +23,8 @@ vtkStandardNewMacro(vtkWeightedColors);
 
 namespace
 {
-/// The cells' colours, one row a handle; unsigned chars count 255 as 1. Where a cell has none
-/// (three NaN) the row stays.
+/// Return the cells' colors, one row per handle; 255 of unsigned chars becomes 1. The row of a cell
+/// without a color (three NaN) is not changed.
 Status to_colors(vtkDataArray* array, const WeightsInput& input, Colors& colors)
 {
   const std::string name = std::string("the handles' array '") + array->GetName() + "'";

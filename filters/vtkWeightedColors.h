@@ -1,25 +1,26 @@
 /**
  * @class   vtkWeightedColors
- * @brief   spreads a colour of each handle over a mesh by its weights
+ * @brief   blends the colors of the handles over a mesh by its weights
  *
- * The colour of a point is c = sum_j w_j c_j. With weights between 0 and 1 that sum to one
- * (vtkBoundedBiharmonicWeights, vtkMonotoneWeights) every colour lies between those of the handles;
- * unconstrained weights leave the gamut and bring hues that no handle has. The report counts both.
+ * The color of a point is c = sum_j w_j c_j. With weights between 0 and 1 that sum to one
+ * (vtkBoundedBiharmonicWeights, vtkMonotoneWeights) every color is between those of the handles.
+ * Unconstrained weights leave the gamut and produce hues that no handle has. The report counts both
+ * cases.
  *
  * **Input 0**: a mesh with weights (any vtkPointSet; see vtkWeightsAlgorithm), posed or not.
  * **Input 1**: the handles, with a cell array `Color` of 3 components: numbers from 0 to 1, or
- * unsigned chars. Without it, or with three NaN, a handle gets a colour that is easily told from
- * the others.
+ * unsigned chars. If the array is missing or contains three NaN, the handle gets a color that
+ * differs clearly from those of the other handles.
  * **Output**: input 0 with the point arrays
- * - `Color`: 3 unsigned chars, the active scalars: what a renderer shows as it is;
- * - `ColorValues`: 3 doubles, the same before rounding, not clamped when Clamp is off;
- * - `OutOfGamut`: 1 where the blend left 0 to 1, before clamping.
+ * - `Color`: 3 unsigned chars, the active scalars, for direct display by a renderer;
+ * - `ColorValues`: 3 doubles, the same before rounding; not clamped if Clamp is off;
+ * - `OutOfGamut`: 1 where the blend is outside 0 to 1 before clamping.
  *
  * Report: counts.{vertices, handles, out_of_gamut, beyond_handles}, largest_gamut_violation,
  * largest_overshoot (see bindpose::weighted_colors()), row_sum_error, colors ("Color" or
  * "categorical"), seconds.blend. Errors: no weights of that name, weights of other handles or with
- * a number that is not finite, a `Color` with other than 3 components or with values outside 0 to
- * 1.
+ * a number that is not finite, a `Color` whose number of components is not 3 or with values outside
+ * 0 to 1.
  *
  * @sa vtkDepthOrder vtkCutAlongBones
  */
@@ -38,27 +39,27 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Name of the point array of weights; "RawWeights" is one, too. Default "Weights".
+  /// Name of the point array of weights, for example "RawWeights". Default "Weights".
   void SetArrayName(const std::string& name);
   std::string GetArrayName() { return this->ArrayName; }
   ///@}
 
   ///@{
-  /// Name of the handles' cell array of colours. Default "Color".
+  /// Name of the handles' cell array of colors. Default "Color".
   void SetColorArrayName(const std::string& name);
   std::string GetColorArrayName() { return this->ColorArrayName; }
   ///@}
 
   ///@{
-  /// Blend amounts of light instead of sRGB numbers: strong colours do not darken where they meet.
-  /// Default on.
+  /// Blend linear light intensities instead of sRGB values, so that saturated colors do not darken
+  /// where they meet. Default on.
   vtkSetMacro(LinearLight, bool);
   vtkGetMacro(LinearLight, bool);
   vtkBooleanMacro(LinearLight, bool);
   ///@}
 
   ///@{
-  /// Cut ColorValues to 0 to 1. Default on. (The unsigned chars of Color always are.)
+  /// Clamp ColorValues to 0 to 1. Default on. (The unsigned chars of Color are always clamped.)
   vtkSetMacro(Clamp, bool);
   vtkGetMacro(Clamp, bool);
   vtkBooleanMacro(Clamp, bool);

@@ -1,9 +1,9 @@
-// The kernels insert the handles and solve; here their result becomes arrays, and the arrays of the
-// input are carried on to a mesh that has more points than it came with.
+// The kernels insert the handles and solve. This filter converts their result to arrays, and
+// transfers the arrays of the input to the mesh with inserted points.
 //
-// What the bind made is kept as VTK objects (weights, certificates, points and cells when handles
-// were inserted), so that an unchanged bind hands on the same objects and what follows sees that
-// nothing changed.
+// The result of the bind is stored as VTK objects (weights, certificates, and points and cells if
+// handles were inserted). An unchanged bind passes on the same objects, so that downstream filters
+// see no change.
 #include "vtkWeightsAlgorithm.h"
 
 #include "base/execution.h"
@@ -49,7 +49,7 @@ bool is_integral(vtkDataArray* array)
   return array && array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
 }
 
-/// Values of an array at inserted points.
+/// Return an array with its values at inserted points.
 vtkSmartPointer<vtkAbstractArray> extended(
   vtkAbstractArray* array, vtkIdType count, const std::vector<InsertedVertex>& inserted)
 {
@@ -94,17 +94,17 @@ vtkSmartPointer<vtkAbstractArray> extended(
   return result;
 }
 
-/// Weights on a mesh, which may have got points for handles.
+/// Weights on a mesh, which may have additional points for handles.
 struct SolvedMesh
 {
   vtkSmartPointer<vtkDoubleArray> weights;
-  vtkSmartPointer<vtkDoubleArray> raw; // null: not asked for
+  vtkSmartPointer<vtkDoubleArray> raw; // null: not requested
   vtkSmartPointer<vtkUnsignedCharArray> mask; // null: all vertices have weights
   std::vector<vtkSmartPointer<vtkDoubleArray>> certificates;
   // Null unless handles were inserted:
   vtkSmartPointer<vtkPoints> points;
   vtkSmartPointer<vtkCellArray> cells;
-  vtkSmartPointer<vtkUnsignedCharArray> types; // of the cells of a grid
+  vtkSmartPointer<vtkUnsignedCharArray> types; // cell types of a grid
   std::vector<InsertedVertex> inserted;
   std::vector<Index> parent_cell;
 
@@ -162,7 +162,7 @@ void SolvedMesh::take_mesh(const WeightsProblem& problem, const std::vector<Inde
   }
 }
 
-/// The mesh with weights and, where there are some, inserted points.
+/// Write the mesh with weights and inserted points, if any.
 void SolvedMesh::write(vtkPointSet* mesh, vtkPointSet* output) const
 {
   if (this->points)
@@ -190,7 +190,7 @@ void SolvedMesh::write(vtkPointSet* mesh, vtkPointSet* output) const
   }
 }
 
-/// The mesh with inserted points, its arrays carried on.
+/// Write the mesh with inserted points and its arrays.
 void SolvedMesh::refine(vtkPointSet* mesh, vtkPointSet* output) const
 {
   output->Initialize();
@@ -463,7 +463,8 @@ Status vtkWeightsAlgorithm::Bind(
   };
   const auto tell_preview = [&](const Weights& weights)
   { this->InvokeEvent(PreviewEvent, to_weights_array(array_name, weights, handles)); };
-  // A set that joins parts without handles to others is what makes the energy of those definite.
+  // Rigid sets that join components without handles to others make their energy definite; the
+  // preview ignores these sets.
   const bool wants_preview =
     this->Stage == CERTIFIED && this->HasObserver(PreviewEvent) && options.terms.rigid_sets.empty();
   if (domain.is_volume() || this->Domain == SURFACE)
@@ -577,7 +578,7 @@ Status vtkWeightsAlgorithm::Execute(
       return status;
     }
     made.status = status;
-    // The report of a bind stays whole while the bind holds.
+    // The report of a bind stays complete while the bind is valid.
     made.status.report.merge(context.seconds());
     made.key = key;
     made.valid = true;
@@ -597,7 +598,7 @@ Status vtkWeightsAlgorithm::Execute(
   status.report.set("binds", this->NumberOfBinds);
   if (!bind && !status.warnings.empty())
   {
-    // A bind's warnings are said once, when it is made; the report keeps them.
+    // Warnings are issued only when the bind is computed; the report keeps them.
     status.report.set("warnings[]", status.warnings);
     status.warnings.clear();
   }

@@ -1,86 +1,90 @@
 /**
  * @class   vtkWeightsAlgorithm
- * @brief   what the filters that compute weights share: ports, arrays, bind cache
+ * @brief   base class of the filters that compute weights: ports, arrays and bind cache
  *
- * Weights tell how much each handle moves each vertex. A subclass says which: bounded biharmonic,
- * monotone, or without bounds.
+ * A weight states how much a handle moves a vertex. The subclasses compute bounded biharmonic,
+ * monotone and unconstrained weights.
  *
  * **Input 0**: the mesh, a vtkUnstructuredGrid of tets (of positive volume) or a triangle surface
  * (vtkPolyData or grid with 2D cells; polygons are split for the computation).
- * **Input 1**: the handles, a vtkPolyData (see filters/README.md): points, bones and regions. They
- * may lie anywhere. Regions need an integer point array of labels on the mesh (RegionArrayName).
- * **Output**: input 0 with the double point array `Weights`, a component a handle, named after it;
- * rows sum to one. Handles that are no vertices become some: the cells around them are split, new
- * points are added behind the mesh's own (point arrays are interpolated; labels are kept where all
- * around agree, else 0; OriginalPointIds is -1), and the output then has nothing but tets or
- * triangles. KeepMesh leaves the mesh as it is and takes the corners of the cell that holds a
- * handle instead.
+ * **Input 1**: the handles, a vtkPolyData (see filters/README.md): points, bones and regions, at
+ * any position. Regions need an integer point array of labels on the mesh (RegionArrayName).
+ * **Output**: input 0 with the double point array `Weights`, with one component per handle, named
+ * after the handle. Rows sum to one. Handles that are not at vertices become vertices: the cells
+ * around them are split and new points are added after the mesh's own points. Point arrays are
+ * interpolated. A label is kept if all surrounding points agree and is 0 otherwise;
+ * OriginalPointIds is -1. The output then contains only tets or triangles. With KeepMesh the mesh
+ * does not change, and the corners of the cell that contains the handle represent it.
  *
- * **Output 1**: local extrema of the columns as solved for, away from handles, with a persistence
- * above 1e-3 (vtkPolyData, a vertex each): point arrays `Kind` (1 maximum, -1 minimum), `Handle`
- * (column), `Value`, `Persistence` (share of the column's range).
- * **Output 2**: the tets that a surface's weights were solved on, with `Weights` and what
- * vtkTetrahedralizeSurface says of them; empty when the mesh itself was solved on (Domain).
+ * **Output 1**: the local extrema of the solved columns that are away from handles and have a
+ * persistence above 1e-3: a vtkPolyData with one vertex per extremum and the point arrays `Kind` (1
+ * maximum, -1 minimum), `Handle` (column), `Value` and `Persistence` (fraction of the column's
+ * range).
+ * **Output 2**: the tets on which a surface's weights were solved, with `Weights` and the arrays of
+ * vtkTetrahedralizeSurface. It is empty if the weights were solved on the mesh itself (see Domain).
  *
- * KeepRaw adds the point array `RawWeights`: the columns as they were solved for, which the
- * certificate is about; their rows need not sum to one.
+ * KeepRaw adds the point array `RawWeights`: the columns as they were solved, to which the
+ * certificate applies. Its rows need not sum to one.
  *
- * **Terms** of bounded and monotone weights (vtkUnconstrainedWeights takes none), by point arrays
- * of the mesh where it has them, under the names below (an empty name: not looked for):
- * - `Rigidity`, >= 0: weights are nearly constant where it is large. 1 stiffens everything longer
- *   than a hundredth of the mesh's diagonal, whatever its unit or resolution; gradients fall with 1
- *   / rigidity. Adds 1/2 int rho |grad w|^2 to the energy, rho = 1e4 / diagonal^2 times the array.
- * - `RigidSet`, whole numbers: every weight is constant, exactly, on the points of one label > 0. A
- *   set with a point of a handle has that point's weights.
- * - `WeightsLower`, `WeightsUpper`, a component a handle: least and largest weight at each point;
- *   NaN: that of the handle, which is the cell array `WeightBounds` of the handles (two
- * components), or without one (or NaN) that of SetBounds(). All of them hold for RawWeights;
- * dividing rows by their sums can leave them (report: normalised_bounds_violation),
- * PartitionOfUnity COUPLED does not.
- * - `PinnedWeights`, a component a handle: weights that are given; NaN: free. They stay when rows
- *   are divided by their sums: the row's others make up what is left.
- * - `SymmetricPoint`, the id of each point's mirror point or -1: handles that are each other's
- *   mirror image get mirrored weights w_a(v) = w_b(mirror of v), exactly, of least energy together;
- *   or SetMirrorNormal(). Points without a mirror, and handles whose mirror image is no handle, are
- *   left alone.
+ * **Terms** of bounded and monotone weights are point arrays of the mesh with the names below. All
+ * are optional; an empty name disables the array. vtkUnconstrainedWeights has no terms.
+ * - `Rigidity`, >= 0: weights are nearly constant where it is large. The value 1 stiffens all
+ *   features longer than a hundredth of the mesh's diagonal, for any unit and resolution; gradients
+ *   decrease with 1 / rigidity. It adds 1/2 int rho |grad w|^2 to the energy, rho = 1e4 /
+ *   diagonal^2 times the array.
+ * - `RigidSet`, integers: every weight is exactly constant on the points of one label > 0. A set
+ *   that contains a point of a handle has that point's weights.
+ * - `WeightsLower`, `WeightsUpper`, one component per handle: smallest and largest weight at each
+ *   point. NaN means the bounds of the handle, in the handles' cell array `WeightBounds` (two
+ *   components). If that array is missing or NaN, SetBounds() applies. All bounds hold for
+ *   RawWeights. Dividing rows by their sums can violate them (report: normalised_bounds_violation);
+ *   PartitionOfUnity COUPLED does not violate them.
+ * - `PinnedWeights`, one component per handle: prescribed weights; NaN: free. They do not change
+ *   when rows are divided by their sums: the other weights of the row are scaled to the remainder.
+ * - `SymmetricPoint`, the id of each point's mirror point, or -1: handles that are mirror images of
+ *   each other get weights w_a(v) = w_b(mirror of v). The symmetry is exact, and the energy is
+ *   minimized under it. SetMirrorNormal() is an alternative to this array. Points without a mirror
+ *   point, and handles whose mirror image is not a handle, are not affected.
  *
- * Where a surface's weights are solved in tets of its inside, rigidity is that of the nearest place
- * of the surface, all else is asked of its own points alone; a lattice (EMBEDDING) has none of
- * them, and AUTO takes the volume then. Previews take no terms.
+ * If the weights of a surface are solved in tets of its inside, each tet has the rigidity of the
+ * nearest position of the surface. All other terms apply to the surface's own points only. A
+ * lattice (EMBEDDING) supports no terms; AUTO uses the volume if there are terms. Previews ignore
+ * terms.
  *
- * **Certificate**, in field data, a value a column, of the columns as solved for (before rows are
- * divided by their sums): `WeightsRelativeGap` (how far the energy is above its minimum at most, as
- * a share), `WeightsKKTResidual`, `WeightsMinimum`, `WeightsMaximum`, `WeightsInteriorExtrema`
- * (local extrema away from handles with a persistence above 1e-3), and `WeightsRowSumError`.
+ * **Certificate**, in field data, one value per column. It applies to the solved columns, before
+ * rows are divided by their sums: `WeightsRelativeGap` (upper bound of the relative distance of the
+ * energy from its minimum), `WeightsKKTResidual`, `WeightsMinimum`, `WeightsMaximum`,
+ * `WeightsInteriorExtrema` (local extrema away from handles with a persistence above 1e-3), and
+ * `WeightsRowSumError`.
  *
- * Vertices in no cell get rows of zeros, and the unsigned char point array `WeightsMask` is 0 there
- * (it is present only then). A connected part without a handle follows the nearest one, with a
- * warning; on a lattice it is held by the parts that it touches, or by the nearest one, and has the
- * weights that come from there. Handles outside are moved to the nearest place of the mesh, with a
- * warning.
+ * Vertices that belong to no cell get rows of zeros. In this case, and only then, the output has
+ * the unsigned char point array `WeightsMask`, which is 0 at these vertices. A connected component
+ * without a handle gets the weights of the nearest handle, with a warning. On a lattice it is
+ * linked to the components that it touches, or to the nearest one, and gets their weights. Handles
+ * outside of the mesh are moved to its nearest point, with a warning.
  *
- * **Bind cache.** The weights are kept while the mesh's points and cells, its labels, the handles'
- * rest (points, cells, names, kinds) and this filter's parameters stay: editing Transform, Mode,
- * Stretch or Twist of the handles never solves again and hands on the same array objects.
- * GetNumberOfBinds() counts.
+ * **Bind cache.** The weights are cached. They are solved again only after a change of the mesh's
+ * points, cells or labels, of the handles' rest data (points, cells, names, kinds) or of this
+ * filter's parameters. Editing Transform, Mode, Stretch or Twist of the handles does not solve
+ * again; the output then has the same array objects. GetNumberOfBinds() counts the solves.
  *
  * Report: method, binds, stage (of previews), counts.{vertices, tets | triangles, handles,
  * components, inserted_vertices}, handles[].{name, kind, constrained_vertices, distance_outside,
  * relative_gap, kkt_residual, energy, iterations, factorisations, interior_extrema}, relative_gap
- * and kkt_residual (the worst column's), bounds_violation, normalised_bounds_violation (with
+ * and kkt_residual (of the worst column), bounds_violation, normalised_bounds_violation (with
  * bounds), counts.capped_vertices and influences.{largest_difference, rms_difference} (from the
  * weights without MaximumInfluences), partition.{of_unity, energy, largest_difference,
- * rms_difference} (COUPLED, from weights that were divided by their sums), counts.{linked_parts,
- * links} (parts without a handle on a lattice, and what holds them), handles[].mirror (with
- * mirrors), row_sum_error, largest_snap (in edge
- * lengths), iterations, memory_estimate_bytes (what the process would hold at most, by an estimate
- * made before the factorisations; of bounded and monotone weights), seconds.{insert, analyse,
- * weights} and, summed over handles, which are solved at the same time, seconds.{factor, solve}.
+ * rms_difference} (COUPLED; from weights that are divided by their row sums), counts.{linked_parts,
+ * links} (components without a handle on a lattice, and their links), handles[].mirror (with
+ * mirrors), row_sum_error, largest_snap (in edge lengths), iterations, memory_estimate_bytes
+ * (estimated peak memory of the process, computed before the factorizations; for bounded and
+ * monotone weights), seconds.{insert, analyse, weights}, and seconds.{factor, solve}, which are
+ * sums over handles that are solved in parallel.
  *
- * Status not_converged (with the result) when a column misses Tolerance within MaximumIterations.
- * Errors: empty or invalid mesh, tets without volume, no handles, two at the same place, a region
- * whose label no vertex has, not enough memory, terms that contradict a handle or each other
- * (handle and point are named).
+ * The status is not_converged (with the result) if a column does not reach Tolerance within
+ * MaximumIterations. Errors: an empty or invalid mesh, tets without volume, no handles, two handles
+ * at the same position, a region whose label no vertex has, not enough memory, terms that
+ * contradict a handle or each other (the message names handle and point).
  */
 
 #ifndef vtkWeightsAlgorithm_h
@@ -108,23 +112,25 @@ public:
   ///@{
   /**
    * Largest relative gap and residual of a column, in (0, 1). Default 1e-6; 1e-9 is tight. All
-   * parameters here are bind parameters.
+   * parameters of this class are bind parameters.
    */
   void SetTolerance(double tolerance);
   vtkGetMacro(Tolerance, double);
   ///@}
 
   ///@{
-  /// Iterations a column, each a factorisation, at least 1. Default 100; 1 to 20 are usual.
+  /// Maximum number of iterations per column, at least 1; each needs one factorization. Default
+  /// 100; 1 to 20 are usual.
   void SetMaximumIterations(int iterations);
   vtkGetMacro(MaximumIterations, int);
   ///@}
 
   ///@{
   /**
-   * MiB that the whole process may hold; 0 (default): as much as the machine has available. What
-   * would take more is refused, with both numbers, before it is factored; where memory will not do
-   * for a factor a thread, fewer threads are taken. Weights that are there stay.
+   * Memory limit of the whole process in MiB; 0 (default): the available memory of the machine. A
+   * computation that needs more is refused before the factorization, and the message states both
+   * numbers. If the memory is too small for one factor per thread, fewer threads are used. Changing
+   * the limit keeps cached weights.
    */
   vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(MemoryLimit, int);
@@ -147,14 +153,15 @@ public:
 
   ///@{
   /**
-   * Where to solve for a surface: on its triangles (SURFACE, the default), in conforming tets of
-   * its inside (VOLUME), in a lattice that holds it, in seconds whatever its size (EMBEDDING), in
-   * the closed cage that the handles have around it (CAGE), or AUTO: a flat shape on itself, a
-   * closed, clean surface in its volume where that is predicted to be well conditioned and cheap,
-   * all others in the embedding. With AUTO the embedding also takes over where the first choice
-   * fails, with a warning: AUTO ends in certified weights for every surface that a lattice can
-   * hold. The output then is the surface as it came, with Weights at its own points, and output 2
-   * is the mesh that was solved on. Meshes of tets are solved on directly. Out of range: clamped.
+   * Domain on which the weights of a surface are solved: its triangles (SURFACE, the default),
+   * conforming tets of its inside (VOLUME), a lattice that contains it (EMBEDDING; takes seconds
+   * for any size), the closed cage that the handles form around it (CAGE), or AUTO. AUTO solves a
+   * flat shape on itself, a closed, clean surface in its volume if that is predicted to be well
+   * conditioned and cheap, and all others in the embedding. With AUTO the embedding also takes over
+   * if the first choice fails, with a warning. AUTO therefore returns certified weights for every
+   * surface that a lattice can represent. Output 0 is the input surface with Weights at its own
+   * points, and output 2 is the mesh on which the weights were solved. Meshes of tets are solved on
+   * directly. Values out of range are clamped.
    */
   void SetDomain(int domain);
   vtkGetMacro(Domain, int);
@@ -173,9 +180,9 @@ public:
 
   ///@{
   /**
-   * PREVIEW: weights within the time of a factorisation or less, to begin with: biharmonic ones,
-   * clamped, whatever the method; the certificate says how far they are from bounded biharmonic
-   * ones. CERTIFIED (the default): the method's own. Out of range: clamped.
+   * PREVIEW: clamped biharmonic weights for any method, computed in the time of one factorization
+   * or less. The certificate measures their distance from bounded biharmonic weights. CERTIFIED
+   * (the default): the weights of the method. Values out of range are clamped.
    */
   void SetStage(int stage);
   vtkGetMacro(Stage, int);
@@ -183,30 +190,31 @@ public:
   void SetStageToPreview() { this->SetStage(PREVIEW); }
   ///@}
 
-  /// Invoked once while CERTIFIED weights are made, if anybody observes it, on the thread that
-  /// updates: the call data is a vtkDoubleArray of the preview's weights at the input's points.
+  /// Invoked once while CERTIFIED weights are computed, on the thread that updates the filter, if
+  /// there is an observer. The call data is a vtkDoubleArray of the preview's weights at the
+  /// input's points.
   enum
   {
     PreviewEvent = vtkCommand::UserEvent + 4201
   };
 
   ///@{
-  /// Of EMBEDDING and AUTO: lattice cubes along the longest side, 6 to 1000. Default 0: lattices
-  /// of growing resolution are solved until two agree.
+  /// EMBEDDING and AUTO: number of lattice cubes along the longest side, 6 to 1000. Default 0:
+  /// lattices of increasing resolution are solved until two agree.
   void SetEmbeddingResolution(vtkIdType resolution);
   vtkGetMacro(EmbeddingResolution, vtkIdType);
   ///@}
 
   ///@{
-  /// Whether the mesh stays as it is. Default off: handles become vertices.
+  /// Keep the points and cells of the mesh. Default off: handles become vertices.
   void SetKeepMesh(bool keep);
   vtkGetMacro(KeepMesh, bool);
   vtkBooleanMacro(KeepMesh, bool);
   ///@}
 
   ///@{
-  /// Whether the point array RawWeights is added: the columns before rows are divided by their
-  /// sums. Default off.
+  /// Add the point array RawWeights: the columns before rows are divided by their sums. Default
+  /// off.
   void SetKeepRaw(bool keep);
   vtkGetMacro(KeepRaw, bool);
   vtkBooleanMacro(KeepRaw, bool);
@@ -233,8 +241,8 @@ public:
 
   ///@{
   /**
-   * Least and largest weight of every handle where no array says otherwise. Default 0, 1. Handles
-   * themselves have weights 0 and 1: only a wider range can be kept.
+   * Smallest and largest weight of every handle for which no array states other bounds; default
+   * 0 and 1. Handles themselves have weights 0 and 1, so only a wider range can be satisfied.
    */
   void SetBounds(double least, double largest);
   vtkGetVector2Macro(Bounds, double);
@@ -242,8 +250,8 @@ public:
 
   ///@{
   /**
-   * Normal of a mirror plane through MirrorOrigin, which stands for the array SymmetricPoint.
-   * Default 0 0 0: none.
+   * Normal of a mirror plane through MirrorOrigin, an alternative to the array SymmetricPoint.
+   * Default 0 0 0: no mirror.
    */
   void SetMirrorNormal(double x, double y, double z);
   vtkGetVector3Macro(MirrorNormal, double);
@@ -253,8 +261,8 @@ public:
 
   ///@{
   /**
-   * Handles with a weight at a point, at most. The largest weights are kept and all weights solved
-   * for again within what is left. Default 0: any number.
+   * Maximum number of handles with a nonzero weight at a point. The largest weights are kept, and
+   * all weights are solved again under this restriction. Default 0: no limit.
    */
   void SetMaximumInfluences(int influences);
   vtkGetMacro(MaximumInfluences, int);
@@ -268,33 +276,34 @@ public:
 
   ///@{
   /**
-   * How rows come to sum to one. NORMALIZE (default): every column is solved for alone, rows are
-   * divided by their sums. COUPLED (bounded weights alone): all columns are solved for together
-   * with the sums as constraints: the original definition, several times as slow and many times the
-   * memory.
+   * How rows are made to sum to one. NORMALIZE (default): every column is solved separately, then
+   * rows are divided by their sums. COUPLED (bounded weights only): all columns are solved together
+   * with the row sums as constraints, as in the original definition. This takes several times as
+   * long and many times the memory.
    */
   void SetPartitionOfUnity(int mode);
   vtkGetMacro(PartitionOfUnity, int);
   ///@}
 
-  /// How often weights were solved for.
+  /// Number of times that the weights were solved.
   vtkGetMacro(NumberOfBinds, int);
 
 protected:
   vtkWeightsAlgorithm();
   ~vtkWeightsAlgorithm() override;
 
-  /// Computes the weights of a mesh whose handles are vertices.
+  /// Compute the weights of a mesh whose handles are vertices.
   virtual bindpose::Status Solve(const bindpose::WeightsProblem& problem,
     const bindpose::WeightsOptions& options, bindpose::ExecutionContext& context,
     bindpose::WeightsResult& result) = 0;
 
-  /// Whether the weights can have terms.
+  /// Report whether the method supports terms.
   virtual bool TakesTerms() const { return false; }
 
-  /// Setters call this: all parameters of these filters belong to the bind.
+  /// Mark a parameter as modified; called by setters. All parameters of these filters are bind
+  /// parameters.
   void BindModified();
-  /// What most setters are.
+  /// Set a bind parameter; the implementation of most setters.
   template <typename Value>
   void SetBindParameter(Value& parameter, const Value& value)
   {

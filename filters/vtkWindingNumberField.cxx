@@ -1,10 +1,10 @@
-// The kernel does the numbers. What is left here is where and in which form: the grid follows from
-// the surface's bounds, which the pipeline must know before it asks for data; so RequestInformation
-// updates the surface. Execute() computes the grid again from the surface it gets and falls back to
-// all of it when that is not the grid that was announced.
+// The kernel computes the numbers. This filter determines the samples and the form of the output.
+// The grid follows from the surface's bounds, which the pipeline must know before it requests data,
+// so RequestInformation updates the surface. Execute() computes the grid again from the surface it
+// gets. If this is not the grid that was announced, Execute() computes the whole grid.
 //
-// Samples are evaluated straight into arrays of doubles, or, for floats, block after block through
-// a buffer; the values do not depend on the blocks.
+// Doubles are evaluated directly into the output arrays, floats block by block through a buffer.
+// The values do not depend on the blocks.
 #include "vtkWindingNumberField.h"
 
 #include "base/execution.h"
@@ -51,9 +51,9 @@ vtkStandardNewMacro(vtkWindingNumberField);
 
 namespace
 {
-/// The last grid's arrays, for as long as somebody has them. With several processes ParaView asks
-/// for the field and then, with ghost levels that only unstructured outputs can have, for the
-/// boundary: to the executive that is another request, and the field would be computed twice.
+/// The arrays of the last grid, as long as they are in use. With several processes ParaView
+/// requests the field and then the boundary with ghost levels, which only unstructured outputs can
+/// have. For the executive this is another request, and the field would be computed twice.
 struct LastGrid
 {
   vtkMTimeType parameters = 0;
@@ -87,7 +87,7 @@ using bindpose::Vec3;
 using bindpose::WindingField;
 using SDDP = vtkStreamingDemandDrivenPipeline;
 
-/// Samples of a block on the way to floats: 32 MiB of values.
+/// Number of samples per block for floats: 32 MiB of values.
 constexpr Index block_samples = Index(1) << 22;
 
 bindpose::BindKey key_of(vtkPointSet* surface, const std::string& area_array)
@@ -108,7 +108,8 @@ bindpose::BindKey key_of(vtkPointSet* surface, const std::string& area_array)
 
 using Arrays = std::vector<vtkSmartPointer<vtkDataArray>>;
 
-/// Room for the values of all samples. A cancel gives it back at once, so it lies in large pages.
+/// Create an array for the values of all samples in large pages, which a cancel can release
+/// quickly.
 template <typename Array>
 vtkSmartPointer<Array> make_array(const char* name, int components, Index count)
 {
@@ -124,13 +125,13 @@ vtkSmartPointer<Array> make_array(const char* name, int components, Index count)
   return array;
 }
 
-/// The arrays that a user wants, filled block by block.
+/// The requested arrays, filled block by block.
 struct Outputs
 {
   vtkSmartPointer<vtkDataArray> values;
-  vtkSmartPointer<vtkDataArray> gradient; ///< null: not wanted
+  vtkSmartPointer<vtkDataArray> gradient; ///< null: not requested
   vtkSmartPointer<vtkUnsignedCharArray> on_surface;
-  vtkSmartPointer<vtkUnsignedCharArray> inside; ///< null: not wanted
+  vtkSmartPointer<vtkUnsignedCharArray> inside; ///< null: not requested
   double threshold = 0.5;
 
   Outputs(Index count, bool single, bool with_gradient, bool with_inside)
@@ -160,7 +161,7 @@ struct Outputs
     }
   }
 
-  /// Those that are wanted, the values first.
+  /// Return the requested arrays, the values first.
   Arrays arrays() const
   {
     Arrays wanted{ this->values, this->on_surface };
@@ -182,11 +183,11 @@ void attach(const Arrays& arrays, vtkDataSetAttributes* attributes)
   {
     attributes->AddArray(array);
   }
-  // Not SetScalars(), which takes away the scalars that the points had.
+  // SetScalars() would remove the scalars of the input points.
   attributes->SetActiveScalars(arrays.front()->GetName());
 }
 
-/// The arrays of the last grid if it was this one and they are still there; else none.
+/// Return the arrays of the last grid if it was the same and they still exist; otherwise none.
 Arrays again(const LastGrid& last, vtkMTimeType parameters, const SampleGrid& grid)
 {
   const bool same = last.parameters == parameters && last.extent == grid.extent;
@@ -202,7 +203,8 @@ Arrays again(const LastGrid& last, vtkMTimeType parameters, const SampleGrid& gr
   return arrays;
 }
 
-/// Where numbers are computed: in the array itself when it holds doubles, else in a buffer.
+/// Return the memory for computed values: the array itself if it stores doubles, otherwise a
+/// buffer.
 double* place_for(vtkDataArray* array, Index first, Index count, std::vector<double>& buffer)
 {
   if (auto* doubles = vtkDoubleArray::SafeDownCast(array))
@@ -222,8 +224,8 @@ void put(const double* from, vtkDataArray* array, Index first, Index count)
   }
 }
 
-/// Evaluates all samples into the outputs. What the blocks report is added up; `sum` is that of all
-/// values.
+/// Evaluate all samples into the outputs. The reports of the blocks are added up; `sum` is the sum
+/// of all values.
 Status evaluate(const WindingField& winding, const Samples& samples, ExecutionContext& context,
   Outputs& outputs, double& sum)
 {
@@ -237,7 +239,7 @@ Status evaluate(const WindingField& winding, const Samples& samples, ExecutionCo
   std::map<std::string, std::int64_t> counts;
   Status total;
   sum = 0.0;
-  // Once without samples, too: the kernel's report says so.
+  // Run once even without samples, because the kernel's report is needed.
   for (Index begin = 0; begin < layers || begin == 0; begin += step)
   {
     const Index end = std::min(begin + step, layers);
@@ -306,14 +308,14 @@ Status evaluate(const WindingField& winding, const Samples& samples, ExecutionCo
   return total;
 }
 
-/// Whether a grid is one sample thin, so that its samples span no volume.
+/// Report whether a grid is one sample thin, so that its samples have no volume.
 bool is_flat(const SampleGrid& grid)
 {
   return grid.size(0) < 2 || grid.size(1) < 2 || grid.size(2) < 2;
 }
 
-/// invalid_input when the arrays would be larger than the machine's memory: a sentence is better
-/// than being killed.
+/// Return invalid_input if the arrays would be larger than the machine's memory, before the system
+/// kills the process.
 Status check_memory(Index samples, std::size_t bytes_a_sample)
 {
   const double needed = static_cast<double>(samples) * static_cast<double>(bytes_a_sample);
@@ -380,7 +382,7 @@ int vtkWindingNumberField::RequestInformation(
   vtkInformation* info = output->GetInformationObject(0);
   if (vtkInformation* points = input[1]->GetInformationObject(0))
   {
-    // The output is as the points are; what the executive copied was input 0's.
+    // The output has the structure of the points, but the executive copied that of input 0.
     for (vtkInformationKey* key : std::initializer_list<vtkInformationKey*>{ SDDP::WHOLE_EXTENT(),
            vtkDataObject::ORIGIN(), vtkDataObject::SPACING(), vtkDataObject::DIRECTION(),
            CAN_PRODUCE_SUB_EXTENT(), CAN_HANDLE_PIECE_REQUEST() })
@@ -394,8 +396,8 @@ int vtkWindingNumberField::RequestInformation(
   vtkDataObject* data = vtkDataObject::GetData(surface_info);
   if (vtkCompositeDataSet::SafeDownCast(data))
   {
-    // This pass is for the whole; another follows for each block, with the block in place of the
-    // producer's output, which must not be updated then.
+    // This pass is for the whole composite. One pass per block follows, in which the block replaces
+    // the producer's output, which must not be updated then.
     this->CompositeTime.Modified();
     return 1;
   }
@@ -404,14 +406,14 @@ int vtkWindingNumberField::RequestInformation(
   vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(surface_info);
   if (producer && !is_block)
   {
-    AskForAll(surface_info); // another consumer may have asked for a piece
+    AskForAll(surface_info); // another consumer may have requested a piece
     producer->Update(vtkExecutive::PRODUCER()->GetPort(surface_info));
     data = vtkDataObject::GetData(surface_info);
   }
 
   int whole[6] = { 0, 0, 0, 0, 0, 0 };
   SampleGrid grid;
-  if (this->Grid(vtkPointSet::SafeDownCast(data), grid).ok()) // else Execute() tells
+  if (this->Grid(vtkPointSet::SafeDownCast(data), grid).ok()) // else Execute() reports the error
   {
     std::copy(grid.extent.begin(), grid.extent.end(), whole);
   }
@@ -461,8 +463,8 @@ bindpose::Status vtkWindingNumberField::Grid(vtkPointSet* input, bindpose::Sampl
 
 namespace
 {
-/// The power of 4 next to a number of points. What is built depends on it alone, so that values do
-/// not depend on what was evaluated before.
+/// Return the power of 4 that is nearest to a number of points. The build depends only on it, so
+/// that values do not depend on earlier evaluations.
 bindpose::Index size_class(bindpose::Index points)
 {
   return bindpose::Index(1) << 2 *
@@ -480,14 +482,14 @@ bindpose::Status vtkWindingNumberField::Build(
   options.area_array = this->AreaArrayName;
   // A gradient takes several times as long as a value.
   options.expected_queries = size_class(queries * (this->ComputeGradient ? 9 : 1));
-  // Exact methods prepare more when they need it.
+  // Exact methods extend their structure when necessary.
   const bool fits = this->Built->valid &&
     (this->Built->options.expected_queries == options.expected_queries ||
       !this->Built->field.depends_on_expected_queries());
   if (input && fits && this->Built->options == options &&
     this->Built->key == key_of(input, this->AreaArrayName))
   {
-    // Warnings are given once, when there is news.
+    // Warnings are issued only when they are new.
     Status again = this->Built->status;
     if (!again.warnings.empty())
     {
@@ -522,7 +524,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   SampleGrid whole;
   if (!points)
   {
-    // Before the build, which may take long.
+    // Check the grid before the build, which may take long.
     const Status status = this->Grid(surface, whole);
     if (!status.ok())
     {
@@ -542,7 +544,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   {
     return status;
   }
-  // Of several pieces the first has the boundary.
+  // The first of several pieces contains the boundary.
   vtkPolyData* boundary = vtkPolyData::GetData(output, 1);
   boundary->Initialize();
   if (GetPiece(output->GetInformationObject(1)) == 0)
@@ -580,7 +582,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   Arrays arrays = points ? Arrays() : again(last, parameters, grid);
   Status evaluated = last.status;
   double sum = last.sum;
-  result->Initialize(); // who streams has room for one block, not for the last one, too
+  result->Initialize(); // frees the last block before the next one is allocated, when streaming
   if (arrays.empty())
   {
     Outputs outputs(samples.count(), single, this->ComputeGradient, this->ComputeInside);
@@ -594,7 +596,7 @@ bindpose::Status vtkWindingNumberField::Execute(
     if (!points)
     {
       last = { parameters, grid.extent, { arrays.begin(), arrays.end() }, sum, evaluated };
-      last.status.warnings.clear(); // given once
+      last.status.warnings.clear(); // issued only once
     }
   }
   if (points)

@@ -2,66 +2,68 @@
  * @class   vtkWindingNumberField
  * @brief   generalized winding number of a surface on a grid or at given points
  *
- * The winding number tells how many times a surface wraps around a point: 1 inside and 0 outside a
- * closed surface whose triangles turn counter-clockwise seen from outside, 2 where two such
- * surfaces overlap, and a smooth number in between near the holes of an open one. It is defined for
- * any triangles: open, crossing, doubled, non-manifold, a soup. Only their orientation counts.
+ * The winding number is how many times a surface wraps around a point: 1 inside and 0 outside a
+ * closed surface whose triangles are counter-clockwise seen from outside, 2 where two such surfaces
+ * overlap, and a smooth number in between near the holes of an open surface. It is defined for any
+ * triangles: open, crossing, doubled, non-manifold, or a soup. Only their orientation matters.
  *
  * **Input 0**: the surface, a vtkPointSet with 2D cells (polygons and strips are split into
- * triangles; other cells are ignored and counted). Without 2D cells its lines are a curve in a
- * plane across x, y or z, counter-clockwise around its inside; the field is that of the plane, and
- * the grid one sample thick. Without lines its points are samples of a surface, with point normals
- * that face outwards and areas (AreaArrayName): a field that means something from about a sample's
- * spacing on (`Report.spacing`).
- * **Input 1** (optional): any vtkDataSet, at whose points, or cell centers with SampleCellCenters,
- * the field is evaluated.
- * **Output 0**: a vtkImageData, or a copy of input 1, with point arrays (cell arrays)
- * - `WindingNumber`, the active scalars, double or float (OutputPrecision). On the surface the
- *   principal value: 1/2 on a smooth face. NaN, and a warning, where coordinates are not finite.
+ * triangles; other cells are ignored and counted). If it has no 2D cells, its lines are a curve in
+ * a plane across x, y or z, counter-clockwise around its inside. The field is then that of the
+ * plane, and the grid is one sample thick. If it has no lines either, its points are samples of a
+ * surface, with point normals that face outwards and areas (AreaArrayName). Their field is
+ * meaningful at distances above about the spacing of the samples (`Report.spacing`).
+ * **Input 1** (optional): any vtkDataSet. The field is evaluated at its points, or at its cell
+ * centers with SampleCellCenters.
+ * **Output 0**: a vtkImageData, or a copy of input 1, with point arrays (or cell arrays)
+ * - `WindingNumber`, the active scalars, double or float (OutputPrecision). On the surface it is
+ *   the principal value: 1/2 on a smooth face. It is NaN, with a warning, where coordinates are not
+ *   finite.
  * - `OnSurface`, unsigned char: 1 where a triangle touches the point, else 0.
  * - `Inside` with ComputeInside, unsigned char: 1 where the winding number is at least WindingThreshold.
- * - `WindingNumberGradient` with ComputeGradient, three components: that of the smooth part, the
- *   jump across the surface left out; 0 everywhere for a closed surface. That of oriented points
- *   has no jump: it is large where they are near.
+ * - `WindingNumberGradient` with ComputeGradient, three components: the gradient of the smooth
+ *   part, without the jump across the surface; 0 everywhere for a closed surface. The gradient of
+ *   oriented points has no jump: it is large near the points.
  *
- * **Output 1**: where the surface is open, a vtkPolyData with one line for every edge whose
- * triangles' directions do not cancel, along that direction; cell arrays `Multiplicity` (by how
- * many triangles they are more than those the other way) and `Component`, point array
- * `OriginalPointIds`. Its field data has a tuple for each connected component of the surface:
- * `ComponentTriangles`, `ComponentOpenEdges` (by multiplicity, 0: closed) and `ComponentVolume`
- * (holes filled by caps; below 0: inside out). Empty for curves and points. Winding numbers depend
- * on this boundary alone, but for whole numbers.
+ * **Output 1**: the open boundary of the surface, a vtkPolyData with one line for every edge whose
+ * triangles' directions do not cancel, along that direction. Its cell arrays are `Multiplicity`
+ * (the excess of triangles in this direction over those in the other direction) and `Component`,
+ * its point array is `OriginalPointIds`. Its field data has a tuple per connected component of the
+ * surface: `ComponentTriangles`, `ComponentOpenEdges` (with multiplicity, 0: closed) and
+ * `ComponentVolume` (holes filled by caps; below 0: inside out). It is empty for curves and points.
+ * Up to integers, winding numbers depend only on this boundary.
  *
- * The grid covers the surface's bounds (of the points that its 2D cells use), padded by Padding
- * times their diagonal, or Bounds. How fine it is: Dimensions, else Spacing, else
- * TargetNumberOfSamples, else Resolution. Voxels are cubes unless Spacing, or both
- * Bounds and Dimensions, say otherwise. Its place depends on the surface, so asking for information
- * updates the input. Sub-extents are honoured, with the same bits as in the whole, so that a grid
- * of any size can be had in parts (vtkImageDataStreamer, pieces).
+ * The grid covers either Bounds or the bounds of the points used by the surface's 2D cells, padded
+ * by Padding times their diagonal. The first of Dimensions, Spacing, TargetNumberOfSamples and
+ * Resolution that is given determines the resolution. Voxels are cubes unless Spacing
+ * is given, or both Bounds and Dimensions. The position of the grid depends on the surface, so a
+ * request for information updates the input. Sub-extents are supported and have the same bits as in
+ * the whole grid, so that a grid of any size can be computed in parts (vtkImageDataStreamer,
+ * pieces).
  *
- * **Methods.** EXACT is exact to round-off (1e-12). FAST keeps within Tolerance, says so in
- * `Report.error_bound`, and what it measured against exact values in `Report.measured_error`. AUTO
- * is exact for closed surfaces and for those with few open edges, else FAST; `Report.method` and
- * `Report.method_reason` tell what was taken and why. Measured on one core, 90k triangles: a
- * closed surface costs 4 ns a voxel and 40 ns a scattered point; an open one, FAST at 1e-3, 0.03 to
- * 0.1 us a voxel and 0.1 to 0.2 us a point; EXACT 15 ns more a point for every open edge, 20 to
- * 100 us when those are many.
+ * **Methods.** EXACT is exact to round-off (1e-12). FAST keeps the error within Tolerance. Its
+ * error bound is in `Report.error_bound`, and its measured error in `Report.measured_error`. AUTO
+ * is EXACT for closed surfaces and for those with few open edges, otherwise FAST; `Report.method`
+ * and `Report.method_reason` state the choice and its reason. Measured on one core with 90k
+ * triangles: a closed surface costs 4 ns per voxel and 40 ns per scattered point. An open surface
+ * costs 0.03 to 0.1 us per voxel and 0.1 to 0.2 us per point with FAST at a tolerance of 1e-3. With
+ * EXACT it costs 15 ns more per point for every open edge: 20 to 100 us if there are many.
  *
- * The filter builds a structure for the surface and keeps it until the surface or one of Method,
- * Tolerance and OrientPatches changes; another grid or other points are only evaluated. FAST also
- * builds again for a number of samples of another size class (a power of 4), because the structure
- * that takes the least time in total depends on it. GetNumberOfBuilds() counts.
+ * The filter builds an acceleration structure for the surface and caches it until the surface,
+ * Method, Tolerance or OrientPatches changes. Another grid or other points only need an evaluation.
+ * FAST also builds again if the number of samples is in another size class (a power of 4), because
+ * the structure with the lowest total time depends on it. GetNumberOfBuilds() counts the builds.
  *
  * Report: method, method_reason, error_bound and measured_error (FAST), builds, counts.{vertices,
  * triangles, boundary_edges, nonmanifold_edges, open_edges, components, merged_vertices,
  * degenerate_triangles, duplicate_triangles, triangulated_cells, ignored_cells, turned_triangles,
  * turned_components, queries, on_surface, not_finite}, volume (by the divergence theorem, holes
- * filled by caps), winding_volume (sum of the samples times a voxel's volume, when the whole grid
- * was asked for), seconds.{build, evaluate}.
+ * filled by caps), winding_volume (sum of the samples times a voxel's volume, if the whole grid was
+ * requested), seconds.{build, evaluate}.
  *
  * Errors: invalid_input for a surface without 2D cells, with ids out of range or coordinates that
- * are not finite, for grids that make no sense or do not fit into memory; the message names what is
- * wrong.
+ * are not finite, and for grids that are invalid or do not fit into memory. The message names the
+ * cause.
  *
  * @par Thanks:
  * Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding
@@ -93,7 +95,7 @@ public:
   vtkTypeMacro(vtkWindingNumberField, vtkBindposeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Ways to compute; see above.
+  /// Methods of computation; see above.
   enum MethodType
   {
     AUTO = 0,
@@ -118,9 +120,10 @@ public:
 
   ///@{
   /**
-   * Turn triangles so that neighbours agree (the smaller part of a patch gives way) and closed
-   * components that are inside out, before anything else; default off. The input stays as it is;
-   * counts.turned_triangles and counts.turned_components tell what was done.
+   * Turn triangles so that neighbors are consistent (the smaller part of a patch is turned) and
+   * turn closed components that are inside out, before all other steps; default off. The input does
+   * not change; counts.turned_triangles and counts.turned_components are the numbers of turned
+   * triangles and components.
    */
   vtkSetMacro(OrientPatches, bool);
   vtkGetMacro(OrientPatches, bool);
@@ -128,8 +131,8 @@ public:
   ///@}
 
   ///@{
-  /// Point array with the areas of oriented points; default "Area". Areas are estimated when there
-  /// is none.
+  /// Name of the point array with the areas of oriented points; default "Area". If it is missing,
+  /// the areas are estimated.
   void SetAreaArrayName(const std::string& name)
   {
     if (this->AreaArrayName != name)
@@ -148,20 +151,20 @@ public:
   ///@}
 
   ///@{
-  /// Distance of samples along x, y, z, in world units, above 0; 0, 0, 0 (default): not given.
+  /// Distance between samples along x, y, z, in world units, above 0; 0, 0, 0 (default): not given.
   vtkSetVector3Macro(Spacing, double);
   vtkGetVector3Macro(Spacing, double);
   ///@}
 
   ///@{
-  /// The finest grid of cubic voxels with at most this many samples, 8 or more; 0 (default): not
-  /// given.
+  /// Maximum number of samples, at least 8: the grid is the finest one of cubic voxels within this
+  /// limit. 0 (default): not given.
   vtkSetClampMacro(TargetNumberOfSamples, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(TargetNumberOfSamples, vtkIdType);
   ///@}
 
   ///@{
-  /// Samples along the grid's longest side, at least 2; default 64.
+  /// Number of samples along the grid's longest side, at least 2; default 64.
   vtkSetClampMacro(Resolution, int, 2, VTK_INT_MAX);
   vtkGetMacro(Resolution, int);
   ///@}
@@ -169,27 +172,27 @@ public:
   ///@{
   /**
    * Box that the grid covers: xmin, xmax, ymin, ymax, zmin, zmax, in world units. Empty (a lower
-   * end above its upper end, the default): the surface's bounds, padded.
+   * end above its upper end, the default): the padded bounds of the surface.
    */
   vtkSetVector6Macro(Bounds, double);
   vtkGetVector6Macro(Bounds, double);
   ///@}
 
   ///@{
-  /// What is added on each side of the surface's bounds, as a fraction of their diagonal; 0 or
-  /// more, default 0.1. Not used with Bounds.
+  /// Padding on each side of the surface's bounds, as a fraction of their diagonal, >= 0; default
+  /// 0.1. Not used with Bounds.
   vtkSetClampMacro(Padding, double, 0.0, 1000.0);
   vtkGetMacro(Padding, double);
   ///@}
 
   ///@{
-  /// Where to evaluate instead of on a grid (input 1).
+  /// Points at which to evaluate, instead of a grid (input 1).
   void SetPointsConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetPointsData(vtkDataSet* data);
   ///@}
 
   ///@{
-  /// Evaluate at the centers of input 1's cells, not at its points; default off.
+  /// Evaluate at the centers of input 1's cells instead of at its points; default off.
   vtkSetMacro(SampleCellCenters, bool);
   vtkGetMacro(SampleCellCenters, bool);
   vtkBooleanMacro(SampleCellCenters, bool);
@@ -210,22 +213,22 @@ public:
   ///@}
 
   ///@{
-  /// Inside is where the winding number is at least this; default 0.5.
+  /// Winding number at or above which `Inside` is 1; default 0.5.
   vtkSetMacro(WindingThreshold, double);
   vtkGetMacro(WindingThreshold, double);
   ///@}
 
   ///@{
   /// Type of the values: vtkAlgorithm::DOUBLE_PRECISION (default; DEFAULT_PRECISION means the same)
-  /// or SINGLE_PRECISION. They are computed in double in any case.
+  /// or SINGLE_PRECISION. They are always computed in double precision.
   vtkSetClampMacro(OutputPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
   vtkGetMacro(OutputPrecision, int);
   ///@}
 
-  /// Where the surface is open: output 1.
+  /// Return the open boundary of the surface: output 1.
   vtkPolyData* GetBoundaryOutput();
 
-  /// How often a surface was built; evaluating it elsewhere does not count.
+  /// Number of times that a structure was built; evaluations at other points do not count.
   vtkGetMacro(NumberOfBuilds, int);
 
 protected:
@@ -248,9 +251,9 @@ private:
   vtkWindingNumberField(const vtkWindingNumberField&) = delete;
   void operator=(const vtkWindingNumberField&) = delete;
 
-  /// The whole grid that options and input ask for.
+  /// Compute the whole grid from the options and the input.
   bindpose::Status Grid(vtkPointSet* input, bindpose::SampleGrid& grid);
-  /// Makes what is in Built unless that still holds.
+  /// Compute the contents of Built unless they are still valid.
   bindpose::Status Build(
     vtkPointSet* input, long long queries, bindpose::ExecutionContext& context);
 
@@ -270,7 +273,7 @@ private:
   double WindingThreshold = 0.5;
   int OutputPrecision = DOUBLE_PRECISION;
   int NumberOfBuilds = 0;
-  vtkTimeStamp CompositeTime; // when a composite input was last seen
+  vtkTimeStamp CompositeTime; // time at which a composite input was last checked
   struct Cache;
   std::unique_ptr<Cache> Built;
 };

@@ -18,21 +18,21 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// The array of weights: a component a handle, named after it.
+/// Return the array of weights: one component per handle, named after the handle.
 BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkDoubleArray> to_weights_array(
   const std::string& name, const Weights& weights, const Handles& handles);
 
-/// The certificates of a weights array as arrays of a value a column: NAME followed by RelativeGap,
-/// KKTResidual, Minimum, Maximum, InteriorExtrema, Zeros, Ones, Iterations, and RowSumError (one
-/// value).
+/// Return the certificates of a weights array as arrays with one value per column: NAME followed by
+/// RelativeGap, KKTResidual, Minimum, Maximum, InteriorExtrema, Zeros, Ones, Iterations, and
+/// RowSumError (one value).
 BINDPOSEFILTERS_EXPORT std::vector<vtkSmartPointer<vtkDoubleArray>> to_certificate_arrays(
   const std::string& name, const WeightsResult& result);
 
-/// The extrema of all columns: see output 1 of vtkWeightsAlgorithm.
+/// Return the extrema of all columns: see output 1 of vtkWeightsAlgorithm.
 vtkSmartPointer<vtkPolyData> to_extrema(const WeightsProblem& problem, const WeightsResult& result);
 
-/// Hands the certificates of a weights array on from one dataset's field data to another's; what
-/// the other had of that name goes.
+/// Pass the certificates of a weights array from one dataset's field data to another's, and remove
+/// the previous certificates of that name.
 void pass_certificates(vtkFieldData* from, vtkFieldData* to, const std::string& name);
 
 } // namespace bindpose

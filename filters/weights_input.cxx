@@ -1,4 +1,4 @@
-// What every filter that uses weights asks of them before it does.
+// Checks of the weights, for all filters that use weights.
 #include "weights_input.h"
 
 #include "vtkDataArray.h"

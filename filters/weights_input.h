@@ -14,30 +14,30 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Weights that were made for this mesh and these handles: as many rows and columns, and columns
-/// that have a name have the handle's.
+/// Check that weights were computed for a mesh and handles: their numbers of rows and columns
+/// match, and named columns have the names of the handles.
 BINDPOSEFILTERS_EXPORT Status check_weights(
   vtkDataArray* weights, vtkIdType points, const Handles& handles);
 
-/// A mesh's weights and the handles that they belong to.
+/// Weights of a mesh, and their handles.
 struct WeightsInput
 {
   SharedMatrix<Weights> weights; ///< #V x #handles
   Handles handles;
-  std::vector<Index> cells; ///< of the handle dataset, one a handle
+  std::vector<Index> cells; ///< cells of the handle dataset, one per handle
 };
 
-/// invalid_input for: no mesh, no array of that name (with those that there are), no handles,
-/// weights of others.
+/// Convert weights and handles. Return invalid_input if there is no mesh, no array of that name
+/// (the message lists the existing arrays) or no handle, or if the weights belong to other handles.
 Status to_weights_input(
   vtkPointSet* mesh, const std::string& array_name, vtkPolyData* handles, WeightsInput& input);
 
-/// The labels of regions, a number a point; empty when the mesh has no such array. invalid_input
-/// for numbers that are not whole.
+/// Return the labels of regions, one per point; empty if the mesh has no such array. Return
+/// invalid_input for numbers that are not integers.
 BINDPOSEFILTERS_EXPORT Status to_region_ids(
   vtkPointSet* mesh, const std::string& name, std::vector<Index>& region_ids);
 
-/// "the mesh has no point array 'W' with weights (its point arrays: A, B)".
+/// Return the error "the mesh has no point array 'W' with weights (its point arrays: A, B)".
 Status no_weights(vtkPointSet* mesh, const std::string& array_name);
 
 } // namespace bindpose

@@ -1,5 +1,5 @@
-// One kernel a kind of input, behind the same three calls. A curve lives in a plane: points are
-// projected onto it, along the axis across it.
+// There is one kernel per type of input, with the same three functions. A curve is in a plane, and
+// points are projected onto it along the axis across it.
 #include "winding_field.h"
 
 #include "base/execution.h"
@@ -91,7 +91,7 @@ Samples Samples::layers(Index begin, Index end) const
   return part;
 }
 
-// ---- Kinds of input ----------------------------------------------------------------------------
+// ---- Types of input ----------------------------------------------------------------------------
 
 namespace
 {
@@ -132,7 +132,8 @@ enum class Kind
   cloud
 };
 
-/// What is neither a curve nor oriented points is treated, and refused, as a surface.
+/// Return the type of an input. Inputs that are neither curves nor oriented points are treated, and
+/// rejected, as surfaces.
 Kind kind_of(vtkPointSet* input)
 {
   if (!input || has_cells_of_dimension(input, 2))
@@ -196,7 +197,7 @@ Status to_curve(vtkPointSet* input, CurveInput& curve)
   return {};
 }
 
-/// Coordinates in the plane across an axis, counter-clockwise seen from the axis' tip.
+/// Return coordinates in the plane across an axis, counter-clockwise seen from the axis' tip.
 PlanePoints in_plane(PointsView points, int across)
 {
   PlanePoints flat(points.rows(), 2);
@@ -205,7 +206,7 @@ PlanePoints in_plane(PointsView points, int across)
   return flat;
 }
 
-/// A part of the samples as points.
+/// Return a part of the samples as points.
 Points points_of(const Samples& samples)
 {
   const SampleGrid* grid = samples.grid();
@@ -228,8 +229,8 @@ WindingMethod method_of(int method)
   return methods[method];
 }
 
-/// The boundary's lines, and the table of components as field data. `original` maps ids to the
-/// input's, unless it is empty.
+/// Convert the boundary to lines, and the table of components to field data. `original` maps ids to
+/// the input's ids, unless it is empty.
 void to_polydata(const SurfaceBoundary& boundary, PointsView points,
   const std::vector<Index>& original, vtkPolyData* polydata)
 {

@@ -21,21 +21,21 @@ class ExecutionContext;
 /// clean figures and on soups of leaves.
 double winding_build_fraction(Index triangles, Index queries);
 
-/// Where to evaluate: a grid, or points. Both can be had in parts of whole layers (a z of the grid,
-/// a point).
+/// The points of an evaluation: a grid or a list of points. Both can be split into parts of whole
+/// layers (one z of the grid, one point).
 class Samples
 {
 public:
   explicit Samples(const SampleGrid& grid) : grid_(grid) {}
-  /// The points of a dataset, or the centers of its cells. An image's are a grid unless it is
-  /// turned.
+  /// Use the points of a dataset, or the centers of its cells. The points of an image are a grid
+  /// unless its direction is rotated.
   Samples(vtkDataSet* data, bool cell_centers);
 
-  /// The grid, or null.
+  /// Return the grid, or null.
   const SampleGrid* grid() const { return this->grid_ ? &*this->grid_ : nullptr; }
   PointsView points() const { return this->points_.view(); }
   Index count() const;
-  /// Samples of a layer.
+  /// Return the number of samples of a layer.
   Index layer() const;
   Samples layers(Index begin, Index end) const;
 
@@ -46,8 +46,8 @@ private:
   SharedMatrix<Points> points_;
 };
 
-/// What a dataset winds around points: its 2D cells as a surface; without them its lines as a curve
-/// in a plane across x, y or z; without those its points with normals.
+/// Evaluates the winding number of a dataset: of its 2D cells as a surface; without 2D cells, of
+/// its lines as a curve in a plane across x, y or z; without lines, of its points with normals.
 class WindingField
 {
 public:
@@ -56,11 +56,12 @@ public:
     int method = 0; ///< vtkWindingNumberField::MethodType
     double tolerance = 1e-3;
     bool orient = false; ///< surfaces only
-    std::string area_array = "Area"; ///< of points; estimated when there is none
-    /// Points to evaluate in total, gradients counted several times; 0: very many. Surfaces only.
+    std::string area_array = "Area"; ///< point array of areas; estimated if it is missing
+    /// Total number of points to evaluate, gradients counted several times; 0: very many. Surfaces
+    /// only.
     Index expected_queries = 0;
 
-    /// All but expected_queries, which decides how fast an evaluation is.
+    /// Compare all options except expected_queries, which only affects the speed of an evaluation.
     bool operator==(const Options& other) const
     {
       return this->method == other.method && this->tolerance == other.tolerance &&
@@ -73,22 +74,22 @@ public:
   WindingField(WindingField&&) noexcept;
   WindingField& operator=(WindingField&&) noexcept;
 
-  /// The box of what winds, without building anything; `flat` is the axis across a curve's plane,
-  /// else -1. invalid_input as build() would say.
+  /// Compute the bounding box of the input without building anything. `flat` is the axis across a
+  /// curve's plane, otherwise -1. Return invalid_input in the same cases as build().
   static Status extent(vtkPointSet* input, Box& box, int& flat);
 
   Status build(vtkPointSet* input, const Options& options, ExecutionContext& context);
 
-  /// samples.count() winding numbers, and flags of those on the surface.
+  /// Compute samples.count() winding numbers, and flags for samples on the surface.
   Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
     unsigned char* on_surface) const;
-  /// 3 x samples.count() derivatives.
+  /// Compute 3 x samples.count() derivatives.
   Status evaluate_gradient(const Samples& samples, ExecutionContext& context, double* out) const;
 
-  /// Whether values depend, within the tolerance, on Options::expected_queries.
+  /// Report whether values depend, within the tolerance, on Options::expected_queries.
   bool depends_on_expected_queries() const;
 
-  /// Where a surface is open; empty for the others.
+  /// Return the open boundary of a surface; empty for curves and points.
   vtkPolyData* boundary() const { return this->boundary_; }
 
 private:

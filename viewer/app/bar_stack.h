@@ -5,16 +5,16 @@
 
 class QVBoxLayout;
 
-/// Bars one below the other, over the upper edge of a picture. The picture keeps its place and
-/// size when a bar appears or leaves, so that nothing moves under the mouse.
+/// A stack of bars over the upper edge of a picture. The picture keeps its position and size when a
+/// bar appears or disappears, so that nothing moves under the mouse.
 class BarStack : public QWidget
 {
 public:
   explicit BarStack(QWidget* picture);
 
-  /// Below those that were added before; seen as long as it is not hidden.
+  /// Add a bar below the existing ones. A hidden bar takes no space.
   void add(QWidget* bar);
-  /// Bars begin below this child of the picture while it is seen.
+  /// Begin the stack below this child of the picture while the child is visible.
   void begin_below(QWidget* widget);
 
 protected:

@@ -1,4 +1,4 @@
-// The kernels, on copies, with one execution context.
+// Runs the kernels on copies, with one execution context.
 #include "bind_job.h"
 
 #include "base/execution.h"

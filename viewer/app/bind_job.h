@@ -10,8 +10,8 @@
 
 #include <QObject>
 
-/// The methods, bounded and monotone weights first, those to compare with after them. Others are
-/// numbered as UnconstrainedMethod and BaselineMethod are.
+/// The weight methods: bounded and monotone weights, then the methods to compare with. The latter
+/// have the numbers of UnconstrainedMethod and BaselineMethod.
 enum class BindMethod
 {
   bounded = -1,
@@ -26,31 +26,33 @@ enum class BindMethod
   bone_heat = 8
 };
 
-/// What a bind needs: copies, so that nothing is shared with the window while it runs.
+/// Input of a bind. It consists of copies, so that the bind shares nothing with the window.
 struct BindInput
 {
   bindpose::TriangleMesh surface;
   bindpose::Handles handles;
-  bindpose::HandlePlaces handle_places; ///< of these: what becomes part of the tets
+  /// The geometry of the handles that becomes part of the tets.
+  bindpose::HandlePlaces handle_places;
   std::vector<bindpose::Index> region_of_vertex; ///< #V labels, empty without regions
   BindMethod method = BindMethod::bounded;
   bindpose::WeightsDomain domain = bindpose::WeightsDomain::automatic;
-  bool preview = true; ///< weights to pose with meanwhile are wanted
+  bool preview = true; ///< whether to compute preliminary weights to pose with
 };
 
-/// What comes of it: weights at the surface's own vertices, and at those of what was solved on.
+/// Result of a bind: weights at the surface's own vertices and at the vertices of the solved
+/// domain.
 struct BindResult
 {
   bindpose::Status status;
   bindpose::Weights weights; ///< #V x #handles
-  bindpose::Weights raw; ///< the same before rows are divided by their sums
+  bindpose::Weights raw; ///< the weights before rows are divided by their sums
   bindpose::WeightsDomain domain = bindpose::WeightsDomain::surface;
-  bindpose::Domain mesh; ///< with tets, unless it is the surface itself
-  bindpose::WeightsResult solved; ///< at the mesh's vertices, with a certificate a column
+  bindpose::Domain mesh; ///< the solved domain; it has tets unless it is the surface itself
+  bindpose::WeightsResult solved; ///< at the vertices of `mesh`, with one certificate per column
 };
 
-/// Surface to weights, by the kernels, on a thread of its own (surface_weights). One at a time;
-/// destroying the job cancels it and waits.
+/// Computes weights for a surface with the kernels on a separate thread (surface_weights). One job
+/// runs at a time. Destroying the object cancels the job and waits for its end.
 class BindJob : public QObject
 {
   Q_OBJECT
@@ -59,16 +61,18 @@ public:
   explicit BindJob(QObject* parent = nullptr);
 
   void start(BindInput input);
-  /// Ends the job soon; finished() still comes, with the status cancelled.
+  /// Request the end of the job. finished() is still emitted, with the status cancelled.
   void cancel() { this->job_.cancel(); }
   bool is_running() const { return this->job_.is_running(); }
-  /// The last result; to be read after finished().
+  /// Return the last result; valid after finished().
   const BindResult& result() const { return this->result_; }
 
 Q_SIGNALS:
-  /// Fraction of the whole in [0, 1] and the name of the phase. On the thread of this object.
+  /// Fraction of the whole in [0, 1], and the name of the phase. Emitted on the thread of this
+  /// object.
   void progress(double fraction, const QString& phase);
-  /// Weights to pose with until the certified ones are there; not where the bind was cancelled.
+  /// Preliminary weights to pose with until the certified ones are computed. Not emitted after a
+  /// cancel.
   void preview(const bindpose::Weights& weights);
   void finished();
 

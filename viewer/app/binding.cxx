@@ -1,5 +1,5 @@
-// The job works on copies. What it gives counts only for the surface and handles that it was begun
-// with: both may have been exchanged meanwhile.
+// The job works on copies. Its result belongs to the surface and the handles of its start. Both may
+// have been replaced when it ends.
 #include "binding.h"
 
 #include "document/document.h"
@@ -72,7 +72,7 @@ bool Binding::make_input(BindInput& input)
   return true;
 }
 
-/// What is bound stays usable meanwhile (BoundColumns).
+/// The existing weights remain usable until the next bind (BoundColumns).
 void Binding::offer_again()
 {
   const QString reason = this->is_running() ? QString() : this->document_->rebind_reason();
@@ -87,7 +87,7 @@ void Binding::offer_again()
   }
 }
 
-/// The surface that is being bound, with the weights; null when they are not its own.
+/// Return the surface that is being bound with the weights; null if the weights do not fit it.
 vtkSmartPointer<vtkPolyData> Binding::with_weights(const BindResult& result) const
 {
   vtkPolyData* surface = this->document_->work().surface;
@@ -95,11 +95,11 @@ vtkSmartPointer<vtkPolyData> Binding::with_weights(const BindResult& result) con
   if (!surface || result.weights.rows() != surface->GetNumberOfPoints() ||
     result.weights.cols() != static_cast<Index>(handles.size()))
   {
-    return nullptr; // another mesh was opened while this one was being bound
+    return nullptr; // another mesh was opened during the bind
   }
   auto bound = vtkSmartPointer<vtkPolyData>::New();
   bound->ShallowCopy(surface);
-  vtkNew<vtkFieldData> own; // the copy shares what it was made from
+  vtkNew<vtkFieldData> own; // the shallow copy shares the original's field data
   own->ShallowCopy(surface->GetFieldData());
   bound->SetFieldData(own);
   add_weights(result, handles, bound);

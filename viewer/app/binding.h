@@ -12,33 +12,36 @@ class Document;
 class NoticeBar;
 class SidePanel;
 
-/// From the document's surface and handles to weights on it, beside the window: a preview to pose
-/// with, then certified ones as a step of the document. To bind again is offered, never forced.
+/// Binds the document's surface to its handles in the background: first a preview to pose with,
+/// then certified weights as a step of the document. Another bind is offered to the user, never
+/// forced.
 class Binding : public QObject
 {
   Q_OBJECT
 
 public:
-  /// The panel says how far it is and what came of it; the bar offers to bind again.
+  /// The panel shows the progress and the result; the bar offers another bind.
   Binding(Document* document, SidePanel* panel, NoticeBar* bar, QObject* parent);
 
-  /// By the panel's method, in its domain. Nothing without a surface and handles, or while it runs.
+  /// Start a bind with the panel's method and domain. Does nothing without a surface and handles,
+  /// or while a bind runs.
   void start();
   void cancel() { this->job_->cancel(); }
   bool is_running() const { return this->job_->is_running(); }
 
-  /// What the kernels need of surface and handles; false, after failed(), when they cannot be used.
+  /// Fill in the kernels' input from surface and handles. If these are invalid, emit failed() and
+  /// return false.
   bool make_input(BindInput& input);
-  /// The handles may be others than were bound: says so, once for each reason.
+  /// Offer another bind if the handles have changed since the last one, once for each reason.
   void offer_again();
 
 Q_SIGNALS:
-  /// It began or ended; before what came of it is shown.
+  /// A bind has begun or ended. Emitted before its result is shown.
   void changed();
   /// The document has new weights.
   void bound();
   void failed(const QString& sentence);
-  /// It is bound, and this is to be known about it.
+  /// A bind has ended with a remark for the user.
   void noticed(const QString& sentence);
 
 private:
@@ -50,8 +53,8 @@ private:
   SidePanel* panel_;
   NoticeBar* bar_;
   BindJob* job_;
-  vtkSmartPointer<vtkPolyData> preview_; ///< of the job that runs
-  QString reason_; ///< that was offered
+  vtkSmartPointer<vtkPolyData> preview_; ///< preview of the running job
+  QString reason_; ///< the reason that was offered last
 };
 
 #endif

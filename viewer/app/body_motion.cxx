@@ -1,5 +1,5 @@
-// Real time in fixed steps. What could not be caught up is left out: the body is then slower than
-// the clock, never coarser.
+// The body moves in real time with fixed steps. Steps that cannot be made in time are skipped: the
+// body is then slower than the clock, but its steps are not longer.
 #include "body_motion.h"
 
 #include "pose_panel.h"
@@ -12,9 +12,9 @@ using namespace bindpose;
 namespace
 {
 constexpr int display_interval = 16; // milliseconds
-/// Steps that one picture may catch up; time that takes longer is left out.
+/// Maximum number of steps per picture. Time beyond them is skipped.
 constexpr int most_steps = 4;
-/// Vertices times columns up to which a body is bound at once.
+/// A body is bound immediately if vertices times columns are below this number.
 constexpr Index bound_at_once = 20000;
 } // namespace
 
@@ -51,7 +51,7 @@ void BodyMotion::begin()
   this->points_.resize(0, 3);
   if (!this->source_ || this->job_.is_running())
   {
-    return; // bound() comes back
+    return; // bound() calls begin() again if necessary
   }
   const PoseOptions options = this->panel_->options();
   this->body_ = std::make_shared<Body>(this->source_);
@@ -92,7 +92,7 @@ void BodyMotion::bound()
     !this->body_ || (status.usable() && !this->body_->is_bound(this->panel_->options()));
   if (other && this->panel_->moves())
   {
-    this->begin(); // another source or something else was chosen meanwhile
+    this->begin(); // the source or the options have changed during the bind
   }
   else if (status.usable())
   {
@@ -136,7 +136,7 @@ void BodyMotion::play(bool play)
   }
   else
   {
-    this->playing_.stop(); // no timer, no work
+    this->playing_.stop(); // an idle window has no running timer
   }
   this->panel_->set_playing(this->is_playing());
 }

@@ -14,46 +14,46 @@
 
 class PosePanel;
 
-/// The motion of the shape by itself, as the panel wants it: a body that is bound, beside the
-/// window where that takes long, and steps in real time.
+/// Motion of the shape as a body with mass, as set in the panel. The body is bound in the
+/// background if that takes long, and steps in real time.
 class BodyMotion : public QObject
 {
   Q_OBJECT
 
 public:
-  /// @param pose  what handles are in; for_step: as a body is to be held, the handle in the hand
-  ///   along
+  /// @param pose  returns the pose of the handles. With for_step it returns the pose that
+  /// constrains the body, in which a free handle is constrained only while it is dragged.
   BodyMotion(
     PosePanel* panel, std::function<bindpose::Pose(bool for_step)> pose, QObject* parent = nullptr);
 
-  /// Whose motion it is; null: nobody's. There is no body before begin().
+  /// Set the source to move; null: none. There is no body before begin().
   void set_source(std::shared_ptr<const bindpose::PoseSource> source);
-  /// With a new body, bound by the panel's options; at rest in the handles' pose.
+  /// Make a new body with the panel's options, at rest in the pose of the handles.
   void begin();
   void end();
-  /// The panel's options are others: begins anew where they need another bind.
+  /// Apply changed options of the panel. Begin again if they need another bind.
   void options_changed();
   void cancel_bind() { this->job_.cancel(); }
 
   void play(bool play);
   bool is_playing() const { return this->playing_.isActive(); }
   void step(int steps);
-  /// To time zero.
+  /// Go back to time zero.
   void restart();
 
-  /// Null before it is begun; not to be asked while it is bound.
+  /// Return the body; null before begin(). It must not be used while it is being bound.
   bindpose::Body* body() const { return this->body_.get(); }
   bool has_started() const
   {
     return this->body_ && !this->job_.is_running() && this->body_->has_started();
   }
-  /// Of the surface, where the body has taken them; none before it has started.
+  /// Return the surface's points after the last step; empty before the body has started.
   const bindpose::Points& points() const { return this->points_; }
-  /// Of the last step.
+  /// Return the status of the last step.
   const bindpose::Status& status() const { return this->status_; }
 
 Q_SIGNALS:
-  /// The shape is another one.
+  /// The shape has moved.
   void moved();
   void played();
   void failed(const QString& sentence);
@@ -72,8 +72,8 @@ private:
   bindpose::Status status_;
   QTimer playing_;
   QElapsedTimer clock_;
-  double due_ = 0.0; ///< seconds of the clock that have been stepped
-  KernelJob job_; // last: it ends before what it works on
+  double due_ = 0.0; ///< time of clock_ in seconds up to which steps were made
+  KernelJob job_; // last member, so that it ends before the data it works on is destroyed
 };
 
 #endif

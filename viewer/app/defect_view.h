@@ -9,13 +9,13 @@
 class Viewport;
 class vtkActor;
 
-/// Defects of a surface in the picture, with a legend of their kinds and counts.
+/// Defects of a surface in the picture, with a legend of their types and counts.
 class DefectView
 {
 public:
   explicit DefectView(Viewport* viewport);
 
-  /// As vtkSurfaceDefects gives them; null: none.
+  /// Set the defects, as vtkSurfaceDefects outputs them; null: none.
   void set_defects(vtkPolyData* defects);
   vtkPolyData* defects() const { return this->defects_; }
   void show(bool shown);

@@ -1,5 +1,5 @@
-// All state is the window's thread's; a job gets a poser for itself and points of its own, and
-// nobody touches that poser until the job's end is told.
+// All state belongs to the window's thread. A job has its own points and the exclusive use of one
+// poser. No other code uses that poser until the end of the job is reported.
 #include "deformation.h"
 
 #include <algorithm>
@@ -9,13 +9,14 @@ using namespace bindpose;
 
 namespace
 {
-/// Iterations of the first slice for a pose, of the longest, and of all for one pose: as many as
-/// vtkFullARAP makes.
+/// Iterations of the first slice for a pose, of the longest slice, and of all slices for one pose.
+/// The last number is the maximum of vtkFullARAP.
 constexpr Index first_slice = 2;
 constexpr Index longest_slice = 64;
 constexpr Index most_iterations = 500;
 
-/// Binds of so little work (vertices and columns) take no longer than a blink.
+/// Report whether a bind is so small (vertices times columns) that the user does not notice its
+/// time.
 bool binds_at_once(const PoseSource& source, const PoseOptions& options)
 {
   const auto columns = static_cast<Index>(source.handles.size()) + options.extra_weights;
@@ -120,7 +121,7 @@ void Deformation::bind()
   this->advance();
 }
 
-/// The poser at work has solved this pose, and does nothing beside the window.
+/// Report whether the current poser has solved this pose and is not in use in the background.
 bool Deformation::is_found() const
 {
   return this->can_pose() && this->settled_ && this->error_.isEmpty() &&
@@ -163,7 +164,7 @@ std::shared_ptr<Poser> Deformation::poser()
   return this->posers_[this->options_.method] = make_poser(this->options_.method, this->source_);
 }
 
-/// Does the next thing that is to be done, if it can be done now.
+/// Do the next task, if there is one and it is possible now.
 void Deformation::advance()
 {
   if (!this->can_pose() || this->pose_.empty() || this->cancelled_ || this->settled_)
@@ -173,7 +174,7 @@ void Deformation::advance()
   const std::shared_ptr<Poser> poser = this->poser();
   if (this->task_.poser == poser)
   {
-    return; // job_finished() comes back
+    return; // job_finished() calls advance() again
   }
   if (!poser->is_bound(this->options_))
   {
@@ -205,7 +206,7 @@ void Deformation::bind_beside(const std::shared_ptr<Poser>& poser)
 {
   if (this->job_.is_running())
   {
-    return; // with something else, which is being cancelled
+    return; // another task is being canceled
   }
   this->task_ = { poser, true, false, 0, 0, nullptr, nullptr };
   this->job_.start([poser, options = this->options_](ExecutionContext& context)
@@ -233,7 +234,7 @@ void Deformation::solve_beside(const std::shared_ptr<Poser>& poser)
     [poser, points, rotations, pose = this->pose_, options = this->options_,
       slice = this->task_.slice](ExecutionContext& context)
     {
-      // One core is left to the window.
+      // Leave one core to the window.
       context.set_threads(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1));
       Status status = poser->solve(context, pose, options, slice, *points);
       const PoseRotations* found = status.usable() ? poser->rotations() : nullptr;

@@ -9,11 +9,13 @@
 #include <map>
 #include <memory>
 
-/// One method at work in the window, whatever it takes. Binds that are long run beside it. Skinning
-/// and reduced as-rigid-as-possible then pose at once; the slow methods do so in slices beside the
-/// window: a short one for every new pose, which drags do not interrupt, so that the shape follows
-/// the mouse; while the mouse rests longer and longer ones, until it has converged. A handle that
-/// moves on cancels these, and the solve goes on from where it was with the new pose.
+/// Poses the surface of the window with one method, fast or slow, without blocking the window.
+/// - Long binds run in the background.
+/// - Skinning and reduced as-rigid-as-possible then pose immediately.
+/// - The slow methods solve in slices in the background. Every new pose begins with a short slice,
+///   which a drag does not interrupt, so that the shape follows the mouse. While the mouse rests,
+///   slices become longer until the solve has converged. When the handle moves again, a long slice
+///   is canceled, and the solve continues from its current state with the new pose.
 class Deformation : public QObject
 {
   Q_OBJECT
@@ -22,47 +24,49 @@ public:
   explicit Deformation(QObject* parent = nullptr);
   ~Deformation() override;
 
-  /// What is bent; null: nothing. What was bound for another source is forgotten.
+  /// Set the source to pose; null: none. Binds of another source are discarded.
   void set_source(std::shared_ptr<const bindpose::PoseSource> source);
   const bindpose::PoseSource* source() const { return this->source_.get(); }
   void set_options(const bindpose::PoseOptions& options);
   const bindpose::PoseOptions& options() const { return this->options_; }
-  /// There is a source, and weights if the method needs them.
+  /// Report whether there is a source, and weights if the method needs them.
   bool can_pose() const;
 
-  /// The surface shall be in this pose: at once, if the method is bound and fast.
+  /// Request the surface in this pose. It is computed immediately if the method is bound and fast.
   void set_pose(const bindpose::Pose& pose);
-  /// Stops a bind that is under way; the next change of source, options or bind() begins it again.
+  /// Cancel a running bind. The next change of source or options, or bind(), begins it again.
   void cancel();
   bool is_cancelled() const { return this->cancelled_; }
-  /// Goes on after a cancel.
+  /// Continue after cancel().
   void bind();
 
-  /// The newest points, of the last pose that was reached; of the source at rest before any.
+  /// Return the newest points: those of the last computed pose, or the source at rest before any
+  /// pose.
   const bindpose::Points& points() const { return this->points_; }
-  /// Of these points: the outcome, with the kernel's report.
+  /// Return the status of points(), with the kernel's report.
   const bindpose::Status& status() const { return this->status_; }
-  /// The transforms that a fast method found for these points; null where it finds none.
+  /// Return the transforms that a fast method computed for points(); null if it computes none.
   const std::vector<bindpose::Affine>* found();
-  /// And what it turned them by.
+  /// Return the rotations that the method fitted for points().
   const bindpose::PoseRotations* rotations();
   bool is_binding() const { return this->binding_; }
-  /// The points are those of the pose, and nothing will better them.
+  /// Report whether points() are final for the pose.
   bool is_settled() const { return this->settled_; }
-  /// Why there are no points of this pose: one sentence, or empty.
+  /// Return the reason why this pose has no points: one sentence, or empty.
   const QString& error() const { return this->error_; }
-  /// How often something was bound for the source.
+  /// Return the number of binds for the source.
   bindpose::Index binds() const;
-  /// How often a solve under way was cancelled because the handle had moved on.
+  /// Return how often a running solve was canceled because the handle had moved on.
   int restarts() const { return this->restarts_; }
 
 Q_SIGNALS:
-  /// New points from beside the window. Not for those that set_pose() made at once.
+  /// New points were computed in the background. Not emitted for points that set_pose() computed
+  /// immediately.
   void arrived();
   void bind_progress(double fraction, const QString& phase);
-  /// Binding began or ended.
+  /// A bind has begun or ended.
   void binding_changed();
-  /// With error().
+  /// Posing has failed; error() has the reason.
   void failed();
 
 private:
@@ -83,30 +87,32 @@ private:
   int pose_number_ = 0;
   std::map<bindpose::PoseMethod, std::shared_ptr<bindpose::Poser>> posers_;
   bindpose::Points points_;
-  bindpose::PoseRotations rotations_; ///< of points_, where these are found beside the window
+  /// Rotations of points_, if they were computed in the background.
+  bindpose::PoseRotations rotations_;
   bindpose::Status status_;
   QString error_;
   bool binding_ = false;
   bool settled_ = false;
   bool cancelled_ = false;
-  bool asked_at_once_ = false; ///< set_pose() is on the stack: its caller looks by itself
+  /// True while set_pose() runs, because its caller reads the points itself.
+  bool asked_at_once_ = false;
   int restarts_ = 0;
 
-  /// What the job is doing.
+  /// The task of the job.
   struct Task
   {
-    std::shared_ptr<bindpose::Poser> poser; ///< null: nothing
+    std::shared_ptr<bindpose::Poser> poser; ///< null: no task
     bool bind = false;
-    bool stale = false; ///< its result is not wanted any more
+    bool stale = false; ///< its result must be discarded
     bindpose::Index slice = 0;
     int pose_number = 0;
     std::shared_ptr<bindpose::Points> points;
     std::shared_ptr<bindpose::PoseRotations> rotations;
   };
   Task task_;
-  bindpose::Index slice_ = 0; ///< iterations of the next
-  bindpose::Index spent_ = 0; ///< iterations on this pose
-  KernelJob job_; // last: it ends before what it works on
+  bindpose::Index slice_ = 0; ///< iterations of the next slice
+  bindpose::Index spent_ = 0; ///< iterations for the current pose so far
+  KernelJob job_; // last member, so that it ends before the data it works on is destroyed
 };
 
 #endif

@@ -1,5 +1,5 @@
-// Distances are written anew for every pose, one norm per point, into the array that is drawn
-// already.
+// The distances of a pose are written into the array that is already drawn, with one norm per
+// point.
 #include "distance_view.h"
 
 #include "posing.h"

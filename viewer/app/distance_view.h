@@ -7,28 +7,29 @@
 class Posing;
 class Viewport;
 
-/// How far the shape of the compared method is from the shape in the picture, in colors on the
-/// latter, with a scale in percent of the bounding-box diagonal of the shape at rest.
+/// Distance of the compared method's shape from the shape in the picture. It is shown as colors on
+/// the latter, with a scale in percent of the bounding-box diagonal of the shape at rest.
 class DistanceView
 {
 public:
   DistanceView(Viewport* viewport, Posing* posing);
 
-  /// Whether the panel is there; else others say what the surface is colored by.
+  /// Set whether the panel is shown. Otherwise other views determine the colors of the surface.
   void set_active(bool active);
-  /// The pose, a method, the surface or what is asked for is another one.
+  /// Update the colors after a change of the pose, a method, the surface or the panel's choice.
   void update();
 
 private:
   Viewport* viewport_;
   Posing* posing_;
   bool active_ = true;
-  vtkSmartPointer<vtkDoubleArray> values_; ///< shown, in percent; null: nothing
-  double scale_ = 0.0; ///< where the colors end, in percent
+  vtkSmartPointer<vtkDoubleArray> values_; ///< the shown distances in percent; null: none
+  double scale_ = 0.0; ///< end of the color scale, in percent
 };
 
-/// The end of a scale that holds this value: 1, 2 or 5 times a power of ten, at least 0.01, so that
-/// it stays while a shape is bent and shapes that coincide are all one color.
+/// Return the end of a color scale that contains this value: 1, 2 or 5 times a power of ten, at
+/// least 0.01. The scale therefore changes rarely while a shape is bent, and coincident shapes have
+/// a single color.
 double distance_scale(double largest);
 
 #endif

@@ -18,10 +18,10 @@
 namespace
 {
 constexpr int margin = 5;
-constexpr int gap = 6; // between groups
-constexpr int between = 2; // buttons
+constexpr int gap = 6; // pixels between groups
+constexpr int between = 2; // pixels between buttons
 
-/// The slider is logarithmic: from a five hundredth of the shape's diagonal to half of it.
+/// The slider is logarithmic: from 0.002 to 0.5 of the shape's diagonal.
 constexpr double least_radius = 0.002;
 constexpr double most_radius = 0.5;
 constexpr int radius_steps = 200;
@@ -84,7 +84,7 @@ int EditTools::width_with_words(int groups) const
   {
     for (const QToolButton* button : this->buttons_[group])
     {
-      // Padding of the style sheet and the icon; the text, and what is between.
+      // Spacing, padding of the style sheet, icon, and text with its gap.
       const int text = button->fontMetrics().horizontalAdvance(button->text()) + 8;
       width += between + 20 + 14 + 4 + (group < groups ? text : 0);
     }
@@ -125,7 +125,7 @@ bool EditTools::event(QEvent* event)
   return result;
 }
 
-// ---- What a mode has ---------------------------------------------------------------------------
+// ---- The bar of a mode -------------------------------------------------------------------------
 
 ModeBar::ModeBar(QAction* inside, QWidget* parent) : QFrame(parent)
 {

@@ -11,8 +11,8 @@ class QPushButton;
 class QSlider;
 class QToolButton;
 
-/// The row of tools above the picture: groups of buttons, each an action's. Where there is room
-/// they have words, else the first group, else icons alone.
+/// The row of tools above the picture: groups of buttons, one per action. All buttons have text if
+/// there is room, otherwise only those of the first group, otherwise none.
 class EditTools : public QFrame
 {
   Q_OBJECT
@@ -34,7 +34,7 @@ private:
   QList<QList<QToolButton*>> buttons_;
 };
 
-/// What an edit mode has to choose from, over the picture's upper left corner, as long as it is on.
+/// The choices of the current edit mode, shown over the upper left corner of the picture.
 class ModeBar : public QFrame
 {
   Q_OBJECT
@@ -42,16 +42,16 @@ class ModeBar : public QFrame
 public:
   explicit ModeBar(QAction* inside, QWidget* parent);
 
-  /// What of it is shown.
+  /// Which choices are shown.
   struct State
   {
     QString title;
-    bool places = false; ///< points or bones: inside or on the surface
+    bool places = false; ///< points or bones: whether inside or on the surface
     bool cage = false;
     bool making_cage = false;
     bool paints = false;
-    bool has_region = false; ///< the strokes go on with one
-    double radius = 0.0; ///< of the brush, over the shape's diagonal
+    bool has_region = false; ///< the next stroke continues a region
+    double radius = 0.0; ///< of the brush, as a fraction of the shape's diagonal
   };
   void show_state(const State& state);
 

@@ -3,7 +3,8 @@
 
 #include <QLabel>
 
-/// One line that never widens its window: what has no room ends in "…", and the tooltip says all.
+/// A line of text that never widens its window. Text that does not fit ends in "…", and the tooltip
+/// shows all of it.
 class ElidedLabel : public QLabel
 {
   Q_OBJECT
@@ -11,7 +12,7 @@ class ElidedLabel : public QLabel
 public:
   using QLabel::QLabel;
 
-  /// What is seen of the text.
+  /// Return the visible text.
   QString shown() const;
   QSize minimumSizeHint() const override;
 

@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-/// In the middle of the picture as long as nothing is open: what to do first.
+/// Instructions for the first step, in the middle of the picture while nothing is open.
 class EmptyState : public QWidget
 {
   Q_OBJECT
@@ -12,7 +12,7 @@ public:
   explicit EmptyState(QWidget* parent);
 
 Q_SIGNALS:
-  /// A mesh is to be chosen, opened and rigged.
+  /// The user wants to choose a mesh, open it and rig it.
   void open_and_rig_wanted();
 };
 

@@ -5,7 +5,7 @@
 
 class QLabel;
 
-/// What was tried when something went wrong.
+/// The operation that failed.
 enum class ErrorKind
 {
   other,
@@ -18,18 +18,18 @@ enum class ErrorKind
   export_file
 };
 
-/// A sentence over the picture about what went wrong, until it is closed or no longer true.
+/// An error as one sentence over the picture. It is hidden when it is closed or out of date.
 class ErrorBar : public QFrame
 {
 public:
   explicit ErrorBar(QWidget* parent);
 
-  /// Replaces the sentence that is there.
+  /// Replace the current sentence.
   void show_sentence(const QString& sentence, ErrorKind kind = ErrorKind::other,
     const QString& tool_tip = QString());
-  /// Something of this kind has succeeded: an error of the same kind is out of date, and is hidden.
+  /// Hide an error of this kind, because an operation of the same kind has succeeded.
   void succeeded(ErrorKind kind);
-  /// Empty when the bar is hidden.
+  /// Return the sentence; empty if the bar is hidden.
   QString sentence() const;
 
 private:

@@ -32,7 +32,7 @@ using namespace bindpose;
 
 namespace
 {
-/// A path for one line of a bar.
+/// Return a path that is short enough for one line of a bar.
 QString short_path(const QString& path)
 {
   constexpr int longest = 70;
@@ -42,7 +42,7 @@ QString short_path(const QString& path)
 Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path)
 {
   vtkNew<vtkGLTFSkinWriter> writer;
-  vtkNew<vtkCallbackCommand> nothing; // it speaks through its status
+  vtkNew<vtkCallbackCommand> nothing; // the writer reports by its status
   nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, nothing);
   writer->AddObserver(vtkCommand::WarningEvent, nothing);
@@ -62,9 +62,9 @@ Exports::Exports(MainWindow* window, NoticeBar* bar) : QObject(window), window_(
   QObject::connect(bar, &NoticeBar::closed, film, &SequenceExport::cancel);
 }
 
-// ---- Asking ------------------------------------------------------------------------------------
+// ---- Ask for a path ----------------------------------------------------------------------------
 
-/// Empty: not now.
+/// Return a path; empty if the user cancels.
 QString Exports::ask(const QString& title, const QString& kinds, const QString& ending)
 {
   QFileDialog dialog(this->window_, title, this->folder_, kinds);
@@ -135,7 +135,7 @@ void Exports::ask_for_film()
   }
 }
 
-// ---- Writing -----------------------------------------------------------------------------------
+// ---- Write -------------------------------------------------------------------------------------
 
 bool Exports::save_shape(const QString& path)
 {
@@ -145,7 +145,7 @@ bool Exports::save_shape(const QString& path)
 bool Exports::save_rig(const QString& path)
 {
   const Document* document = this->window_->document();
-  QApplication::setOverrideCursor(Qt::WaitCursor); // of a large mesh it takes seconds
+  QApplication::setOverrideCursor(Qt::WaitCursor); // a large mesh takes seconds
   const Status status = write_rig(document->surface(), document->handle_data(), path);
   QApplication::restoreOverrideCursor();
   const auto method = static_cast<PoseMethod>(document->number("pose.method"));
@@ -165,7 +165,7 @@ bool Exports::save_pose(const QString& path)
 
 bool Exports::save_picture(const QString& path, int scale, bool transparent)
 {
-  QApplication::setOverrideCursor(Qt::WaitCursor); // a large one takes seconds
+  QApplication::setOverrideCursor(Qt::WaitCursor); // a large picture takes seconds
   vtkSmartPointer<vtkImageData> picture;
   Status status = this->window_->viewport()->take_picture(scale, transparent, picture);
   if (status.ok())
@@ -198,13 +198,13 @@ void Exports::film_finished()
   {
     this->window_->show_error(tr("Cannot export: %1.").arg(film->error()), ErrorKind::export_file);
   }
-  else if (!film->said().isEmpty()) // else it was stopped
+  else if (!film->said().isEmpty()) // empty after a cancel
   {
     this->tell(film->path(), capital(film->said()) + '.');
   }
 }
 
-// ---- What came of it ---------------------------------------------------------------------------
+// ---- Results -----------------------------------------------------------------------------------
 
 bool Exports::finish(const QString& path, const Status& status, const QString& remark)
 {
@@ -214,7 +214,7 @@ bool Exports::finish(const QString& path, const Status& status, const QString& r
       tr("Cannot export: %1.").arg(QString::fromStdString(status.message)), ErrorKind::export_file);
     return false;
   }
-  // What such a file cannot hold.
+  // The warnings name data that the file cannot represent.
   this->tell(path,
     status.warnings.empty() ? remark
                             : capital(QString::fromStdString(status.warnings.front())) + '.');

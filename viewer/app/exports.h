@@ -9,9 +9,9 @@ class MainWindow;
 class NoticeBar;
 class QFileDialog;
 
-/// What the menu File writes besides sessions: the shape as it is seen, the rig, the pose, the
-/// picture, and key frames as a film or another animation. The bar says what was written and
-/// where, and opens that folder.
+/// The exports of the menu File other than sessions: the visible shape, the rig, the pose, the
+/// picture, and key frames as a film or another animation. The bar shows what was written and
+/// where, and can open the folder.
 class Exports : public QObject
 {
   Q_OBJECT
@@ -19,21 +19,21 @@ class Exports : public QObject
 public:
   Exports(MainWindow* window, NoticeBar* bar);
 
-  // ---- Ask where to, and write ----
+  // ---- Ask for a path and write ----
   void ask_for_shape();
   void ask_for_rig();
   void ask_for_pose();
   void ask_for_picture();
-  /// Says that there are no key frames, if so.
+  /// Show a hint instead if there are no key frames.
   void ask_for_film();
 
-  // ---- Write, in place of a file that is there ----
-  // False, with a sentence in the error bar: nothing was written.
+  // ---- Write, and replace an existing file ----
+  // Return false, and show a sentence in the error bar, if nothing was written.
   bool save_shape(const QString& path);
-  /// The mesh at rest with its skin; the joints stand as the handles do.
+  /// Write the mesh at rest with its skin. The joints have the pose of the handles.
   bool save_rig(const QString& path);
   bool save_pose(const QString& path);
-  /// As Viewport::take_picture() has it (.png).
+  /// Write the picture of Viewport::take_picture() (.png).
   bool save_picture(const QString& path, int scale, bool transparent);
 
 private:
@@ -46,7 +46,7 @@ private:
 
   MainWindow* window_;
   NoticeBar* bar_;
-  QString folder_; // of the last export
+  QString folder_; // folder of the last export
   bool tells_progress_ = false;
 };
 

@@ -8,10 +8,10 @@
 class QAbstractSpinBox;
 class QWidget;
 
-/// Keeps fields from taking what is meant for the window.
+/// Prevents fields from handling events that are meant for the window.
 /// - Number fields, combo boxes and sliders ignore the mouse wheel unless they have the keyboard
 ///   focus, and the wheel does not give them the focus. The wheel then scrolls the enclosing area.
-/// - Undo and redo in a number field are those of the field only while a number is being typed.
+/// - Undo and redo act on a number field only while a number is being typed in it.
 /// - Enter in a number field ends the typing, so that the keys of the picture work again.
 class FieldGuard : public QObject
 {

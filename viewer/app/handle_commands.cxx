@@ -28,13 +28,13 @@ namespace
 constexpr HandleMode all_modes[] = { HandleMode::automatic, HandleMode::full, HandleMode::position,
   HandleMode::free, HandleMode::tail, HandleMode::ends };
 
-/// Of the action that lets handles fix that.
+/// Return the name of the action that sets this mode.
 std::string name_of(HandleMode mode)
 {
   return std::string("fixes.") + to_string(mode);
 }
 
-/// Numbers of handles as the kernels take them.
+/// Convert indices of handles to the kernels' type.
 std::vector<Index> to_list(const std::vector<int>& handles)
 {
   return { handles.begin(), handles.end() };
@@ -178,7 +178,7 @@ void HandleCommands::fill_parents()
     {
       continue;
     }
-    // In a menu's text & would underline a letter.
+    // An ampersand in a menu's text would underline a letter.
     const QString name =
       parent < 0 ? tr("None") : QString::fromStdString(handles[parent].name).replace('&', "&&");
     QAction* action =
@@ -188,7 +188,7 @@ void HandleCommands::fill_parents()
   }
 }
 
-// ---- What they do ------------------------------------------------------------------------------
+// ---- Commands ----------------------------------------------------------------------------------
 
 void HandleCommands::ask_for_name()
 {
@@ -238,7 +238,7 @@ void HandleCommands::set_colour(const std::optional<QColor>& colour)
   this->editing_->stop();
   if (!rgb && !this->document_->editable_handles()->GetCellData()->GetArray("Color"))
   {
-    return; // none has a colour of its own
+    return; // no handle has a color of its own
   }
   for (const int handle : selected)
   {
@@ -273,7 +273,7 @@ void HandleCommands::set_locked(bool locked)
   }
 }
 
-/// Of a region the labels go, too.
+/// Remove the selected handles. For regions, remove their labels, too.
 void HandleCommands::remove()
 {
   const std::vector<int> selected = this->editing_->selected();
@@ -365,7 +365,7 @@ void HandleCommands::set_parent(int parent)
       Handles list = before;
       for (const int handle : selected)
       {
-        // One by one: none of them moves a number.
+        // One handle after the other, because these edits do not change indices.
         status = bindpose::set_parent(list, handle, parent, after);
         if (!status.ok())
         {
@@ -401,7 +401,7 @@ void HandleCommands::fix(HandleMode mode)
   {
     this->document_->set_pose(pose, this->editing_->named(tr("mode of"), selected));
   }
-  this->update(); // a checked entry stays checked
+  this->update(); // a click must not uncheck a checked entry
 }
 
 void HandleCommands::reset()

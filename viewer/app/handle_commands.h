@@ -19,8 +19,8 @@ class QMenu;
 class QString;
 class QWidget;
 
-/// What can be done with the selected handles besides dragging them, by menus, keys and functions:
-/// each is one step of the document, or nothing and one sentence (HandleEditing::refused()).
+/// Commands for the selected handles other than dragging: as menu entries, keys and functions. Each
+/// command makes one step of the document, or no step and one sentence (HandleEditing::refused()).
 class HandleCommands : public QObject
 {
   Q_OBJECT
@@ -30,25 +30,25 @@ public:
   HandleCommands(HandleEditing* editing, Document* document, QWidget* picture, QWidget* list);
   ~HandleCommands() override;
 
-  /// The menu of a handle.
+  /// Return the context menu of handles.
   QMenu* menu() const { return this->menu_; }
   void fill(QMenu* menu);
-  /// By its name in window_keys.h, or "fixes.tail", "fixes.ends", "mirror.y", "mirror.z",
-  /// "no_colour"; null for none.
+  /// Return an action by its name in window_keys.h, or "fixes.tail", "fixes.ends", "mirror.y",
+  /// "mirror.z", "no_colour"; null if there is none.
   QAction* action(const std::string& name) const;
-  /// What can be done depends on what is selected.
+  /// Enable the actions that apply to the selection.
   void update();
 
   bool rename(int handle, const QString& name);
-  /// Null: the colour of its mode.
+  /// Set the color of the handles; null: the color of their mode.
   void set_colour(const std::optional<QColor>& colour);
   void set_locked(bool locked);
   void remove();
-  /// To the other side of the plane across an axis through the middle of the shape (of 0, where
-  /// that is near it).
+  /// Mirror the handles at the plane across an axis, through the middle of the shape. A middle that
+  /// is near 0 counts as 0.
   void mirror(int axis);
   void snap();
-  /// -1: none.
+  /// Set the parent of the handles; -1: none.
   void set_parent(int parent);
   void toggle_cage_edge();
   void fix(bindpose::HandleMode mode);

@@ -1,6 +1,6 @@
-// The widget edits the document's handles in place and tells by events what it does; every end of a
-// drag and every handle placed is committed under its name. Handles are numbered anew by edits, so
-// between them the selection is a list of names.
+// The widget edits the document's handles in place and reports its actions by events. The end of
+// every drag and every placed handle are committed under the action's name. Edits change the
+// indices of handles, so between edits the selection is a list of names.
 #include "handle_editing.h"
 
 #include "document/document.h"
@@ -93,8 +93,8 @@ HandleEditing::HandleEditing(
         this->commands_->menu()->popup(list->viewport()->mapToGlobal(at));
       }
     });
-  // Poses that are typed or played are looked at. A drag without a button may go on: its Esc would
-  // bring the pose before back.
+  // Poses that are typed or played must be visible. A drag that needs no pressed button may be in
+  // progress. It is stopped, because its Esc would restore the pose before it.
   QObject::connect(posing, &Posing::pose_changed, this,
     [this]
     {
@@ -126,7 +126,7 @@ QAction* HandleEditing::add_action(
   action->setObjectName(name);
   action->setCheckable(true);
   action->setData(value);
-  if (keys != "Esc") // goes back step by step
+  if (keys != "Esc") // Esc belongs to step_back()
   {
     action->setShortcut(QKeySequence(keys));
   }
@@ -222,7 +222,7 @@ void HandleEditing::set_mode(int mode)
   this->warning_.clear();
   this->mode_ = mode;
   Q_EMIT this->mode_changed(mode);
-  // Regions are painted over handles at rest.
+  // Regions are painted while the handles are at rest.
   this->posing_->edit_at_rest(mode != pose);
   this->widget()->SetEditMode(mode == paint_regions ? move_rest : mode);
   this->widget()->SetProcessEvents(mode != paint_regions);
@@ -274,7 +274,7 @@ void HandleEditing::stop()
   this->painting_->cancel();
 }
 
-/// What can be done now, and what is chosen.
+/// Update which actions are enabled and which are checked.
 void HandleEditing::show_state()
 {
   const bool surface = this->document_->surface();
@@ -349,7 +349,7 @@ void HandleEditing::drag_went_on()
   Q_EMIT this->sentence_changed();
 }
 
-/// Something was added or taken away, and is done.
+/// The widget has added or removed a handle.
 void HandleEditing::placed()
 {
   const QString what = QString::fromStdString(this->widget()->GetInteractionName());
@@ -412,8 +412,8 @@ void HandleEditing::select(const std::vector<int>& handles)
   this->show_selection();
 }
 
-/// In the picture, by the names. Those that are not there now may come back, by a redo: their names
-/// are kept until something else is selected.
+/// Select the handles by name in the picture. A redo may restore handles that do not exist now, so
+/// their names are kept until the next selection.
 void HandleEditing::show_selection()
 {
   const Handles& handles = this->document_->handles();
@@ -442,7 +442,7 @@ void HandleEditing::remember_selection()
   }
 }
 
-/// In the picture; the list follows.
+/// The selection in the picture has changed: update the list.
 void HandleEditing::selection_changed()
 {
   this->remember_selection();
@@ -495,7 +495,7 @@ bool HandleEditing::show_menu(const QPoint& at)
 bool HandleEditing::edit(const QString& step, const HandleListEdit& edit, vtkDataArray* labels)
 {
   this->stop();
-  this->drawn()->FinishCage(); // its vertices may be others now
+  this->drawn()->FinishCage(); // the edit may change its vertices
   std::vector<Index> cell_of;
   std::vector<Index> added;
   const Status status = edit_handles(this->document_->editable_handles(), edit, &cell_of, &added);
@@ -550,7 +550,7 @@ bool HandleEditing::rename(int handle, const QString& name)
   this->is_committing_ = false;
   if (status.ok() && this->drawn()->IsSelected(this->document_->handle_cells()[handle]))
   {
-    this->names_.push_back(before); // when it is undone
+    this->names_.push_back(before); // keeps the handle selected after an undo
   }
   if (!status.ok())
   {
@@ -582,7 +582,7 @@ void HandleEditing::document_changed(int parts)
   {
     if (this->is_committing_)
     {
-      this->selection_changed(); // the picture has it already
+      this->selection_changed(); // the picture already has the new selection
     }
     else
     {
@@ -596,7 +596,7 @@ void HandleEditing::document_changed(int parts)
   this->show_state();
 }
 
-// ---- What is said ------------------------------------------------------------------------------
+// ---- The status line ---------------------------------------------------------------------------
 
 QString HandleEditing::sentence() const
 {
@@ -626,7 +626,7 @@ QString HandleEditing::drag_sentence() const
   return QString("%1 %2   ·   %3").arg(what, much, keys);
 }
 
-/// Why the handle under the mouse cannot be dragged.
+/// Return the reason why the handle under the mouse cannot be dragged.
 QString HandleEditing::refusal() const
 {
   const vtkIdType cell = this->drawn()->GetHoveredHandle();
@@ -680,7 +680,8 @@ QString HandleEditing::mode_sentence() const
 
 // ---- Keys and the right button -----------------------------------------------------------------
 
-/// Whether a key in the picture is for what goes on there, and no shortcut of the window.
+/// Report whether a key in the picture belongs to the current interaction, and not to a shortcut of
+/// the window.
 bool HandleEditing::takes_key(const QKeyEvent* event) const
 {
   if (event->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier))
@@ -704,7 +705,7 @@ bool HandleEditing::eventFilter(QObject* watched, QEvent* event)
 {
   switch (event->type())
   {
-    case QEvent::PaletteChange: // light or dark
+    case QEvent::PaletteChange: // a change between light and dark
       for (const QToolButton* button : this->tools_->findChildren<QToolButton*>())
       {
         QAction* action = button->defaultAction();
@@ -749,7 +750,7 @@ bool HandleEditing::eventFilter(QObject* watched, QEvent* event)
         this->commands_->menu()->popup(
           this->viewport_->mapToGlobal(this->viewport_->rect().center()));
       }
-      return true; // of the mouse: the press has shown it
+      return true; // a press of the mouse has already shown the menu
     }
     default:
       break;

@@ -29,17 +29,17 @@ class vtkHandleSetRepresentation;
 class vtkHandleSetWidget;
 class vtkObject;
 
-/// Handles by hand: the tools and edit modes of the handle widget and the brush, what they say, and
-/// a step of the document for all that they do. Handles are selected here, in the picture or in the
-/// list, and stay selected by their names whatever an edit does to their numbers.
+/// Interactive editing of handles: the tools and edit modes of the handle widget and the brush,
+/// their messages, and one step of the document for each edit. Handles are selected in the picture
+/// or in the list. They stay selected by name if an edit changes their numbers.
 ///
-/// While rest places are edited or regions painted the shape is shown at rest.
+/// While rest positions are edited or regions are painted, the shape is shown at rest.
 class HandleEditing : public QObject
 {
   Q_OBJECT
 
 public:
-  /// All but the last are the edit modes of vtkHandleSetRepresentation.
+  /// The edit modes of vtkHandleSetRepresentation, and paint_regions.
   enum Mode
   {
     pose = 0,
@@ -53,57 +53,60 @@ public:
   HandleEditing(
     Document* document, Viewport* viewport, Posing* posing, SidePanel* panel, QAction* auto_rig);
 
-  /// The row of tools, for above the picture.
+  /// Return the row of tools, to be placed above the picture.
   EditTools* tools() const { return this->tools_; }
-  /// What a mode has, in the upper left corner of the picture.
+  /// Return the choices of a mode, to be placed in the upper left corner of the picture.
   ModeBar* mode_bar() const { return this->bar_; }
   HandleCommands* commands() const { return this->commands_; }
   void fill_menu(QMenu* menu);
-  /// By its name in window_keys.h; null for none of the tools.
+  /// Return the action of a tool by its name in window_keys.h; null if there is none.
   QAction* action(const QString& name) const;
 
   int mode() const { return this->mode_; }
   void set_mode(int mode);
-  /// In the mode pose: handles are drawn at rest, where they can be selected but not dragged.
+  /// Draw handles at rest in the mode pose. They can then be selected but not dragged.
   void show_rest(bool shown);
-  /// Back by one: a drag or stroke, a cage's last vertex, the mode.
+  /// Cancel a drag or stroke, otherwise remove a cage's last vertex, otherwise leave the mode.
   void step_back();
 
-  /// Numbers of the selected handles, the last one selected at the end.
+  /// Return the indices of the selected handles, in the order of their selection.
   std::vector<int> selected() const;
-  /// Them alone.
+  /// Select only these handles.
   void select(const std::vector<int>& handles);
-  /// What can be done with the handle under a place of the viewport, as a menu; false without one.
+  /// Show the context menu of the handle at this position of the viewport. Return false if there is
+  /// none.
   bool show_menu(const QPoint& at);
 
-  /// Edits the handles as one step; false, with refused(), when that cannot be done. What is new is
-  /// selected. With `labels` the surface's regions change along.
+  /// Edit the handles in one step and select the new ones. Return false, and emit refused(), if
+  /// that is impossible. With `labels` the regions of the surface change in the same step.
   bool edit(
     const QString& step, const bindpose::HandleListEdit& edit, vtkDataArray* labels = nullptr);
-  /// What was changed in the document's handles already, cell by cell.
+  /// Make one step of changes that the cells of the document's handles already contain.
   bool commit(const QString& step, vtkDataArray* labels = nullptr);
-  /// False, with refused(), for a name that is empty or another handle's.
+  /// Rename a handle. Return false, and emit refused(), if the name is empty or belongs to another
+  /// handle.
   bool rename(int handle, const QString& name);
-  /// One step for a name: that of the one handle, or how many there are.
+  /// Return the name of a step with the name of the only handle, or with the number of handles.
   QString named(const QString& step, const std::vector<int>& handles) const;
 
-  /// The document has others.
+  /// Update after changes of the document.
   void document_changed(int parts);
-  /// Ends what the mouse or a key has begun, as if it had not been.
+  /// Cancel the interaction that the mouse or a key has begun.
   void stop();
-  /// What to tell in the status line; empty: nothing. Warnings are about what was just refused.
+  /// Return the sentence for the status line, or an empty one. Warnings are about the last refused
+  /// action.
   QString sentence() const;
   bool is_warning() const { return !this->warning_.isEmpty(); }
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 Q_SIGNALS:
-  /// Before anything of the mode is shown.
+  /// The mode has changed. Emitted before anything of the new mode is shown.
   void mode_changed(int mode);
   void sentence_changed();
-  /// Poses or rest places have changed under the mouse.
+  /// Poses or rest positions have changed during a drag.
   void moved();
-  /// The last one selected; -1: none.
+  /// The handle that was selected last; -1: none.
   void handle_selected(int handle);
   void refused(const QString& sentence);
 
@@ -143,12 +146,12 @@ private:
   QAction* inside_ = nullptr;
   EditTools* tools_ = nullptr;
   ModeBar* bar_ = nullptr;
-  QWidget* nothing_ = nullptr; ///< over the picture as long as a mesh has no handles
+  QWidget* nothing_ = nullptr; ///< shown over the picture while a mesh has no handles
   int mode_ = pose;
   std::vector<std::string> names_; ///< of the selected handles
   bool is_committing_ = false;
-  bool follows_ = false; ///< the list does what the picture did
-  bool right_button_ = false; ///< went down on a handle
+  bool follows_ = false; ///< the list is being set to the picture's selection
+  bool right_button_ = false; ///< the right button was pressed on a handle
   QString warning_;
 };
 

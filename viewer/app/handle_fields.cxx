@@ -22,7 +22,7 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
     box->setSingleStep(step);
     box->setDecimals(digits);
     box->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    box->setKeyboardTracking(false); // a number counts when it is whole
+    box->setKeyboardTracking(false); // only complete numbers are reported
     box->setAlignment(Qt::AlignRight);
     box->setMinimumWidth(box->fontMetrics().horizontalAdvance("-00.000") + 14);
     return box;
@@ -101,7 +101,7 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
   this->more_->setObjectName("note");
   this->more_->setToolTip(tr("Typing a number takes it away"));
   rows->addWidget(this->more_);
-  // Names for who does not see the grid.
+  // Names for users who cannot see the grid.
   const char* const names[] = { QT_TR_NOOP("Move along x"), QT_TR_NOOP("Move along y"),
     QT_TR_NOOP("Move along z"), QT_TR_NOOP("Turn about x, degrees"),
     QT_TR_NOOP("Turn about y, degrees"), QT_TR_NOOP("Turn about z, degrees"), QT_TR_NOOP("Scale"),

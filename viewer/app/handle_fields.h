@@ -12,7 +12,7 @@
 class QDoubleSpinBox;
 class QLabel;
 
-/// Typed values of the selected handle: where it goes, how it turns, its size, and of a bone its
+/// Number fields of the selected handle: translation, rotation and scale, and for a bone its
 /// stretch and twist.
 class HandleFields : public QWidget
 {
@@ -21,16 +21,19 @@ class HandleFields : public QWidget
 public:
   explicit HandleFields(QWidget* parent = nullptr);
 
-  /// Without values_chosen(). A field that is being typed in is left alone.
+  /// Show values, without emitting values_chosen(). A field in which the user is typing is
+  /// unchanged.
   /// @param handle  null: none is selected
-  /// @param free  its place is for the solver to find
+  /// @param free  the solver computes the handle's position
   void show_values(const bindpose::Handle* handle, const bindpose::HandleValues& values, bool free);
-  /// Of a shape in a plane; nothing: it is in none, or no handle is selected.
+  /// Show the layer of a handle in a planar shape. Empty: the shape is not planar, or no handle is
+  /// selected.
   void show_layer(const std::optional<double>& layer);
-  /// Whose values these are, where several handles are selected.
+  /// Show the handle to which the values belong, if several handles are selected.
   void show_count(const QString& name, int count);
   bindpose::HandleValues values() const;
-  /// translate x y z, rotate x y z, scale, stretch, twist at head and tail.
+  /// Return a field by its index: translate x y z, rotate x y z, scale, stretch, twist at head and
+  /// tail.
   QDoubleSpinBox* field(int which) const { return this->fields_[static_cast<std::size_t>(which)]; }
   QDoubleSpinBox* layer() const { return this->layer_; }
 
@@ -48,7 +51,7 @@ private:
   QWidget* layer_row_;
   QDoubleSpinBox* layer_;
   QLabel* more_;
-  std::vector<QLabel*> names_; ///< of fields that are always there
+  std::vector<QLabel*> names_; ///< labels of the fields that are always visible
 };
 
 #endif

@@ -26,7 +26,8 @@ namespace
 constexpr int handle_role = Qt::UserRole;
 constexpr int indentation = 14; // pixels
 constexpr int icon_size = 14;
-constexpr int name_width = 150; // of the deepest row; then the tree is scrolled sideways
+// Minimum for the deepest row; beyond it the tree scrolls horizontally.
+constexpr int name_width = 150;
 
 /// Return an icon for a kind of handle, in the color of notes.
 QIcon kind_icon(HandleKind kind)
@@ -63,12 +64,13 @@ QIcon kind_icon(HandleKind kind)
     painter.end();
     pixmap.setDevicePixelRatio(scale);
     icon.addPixmap(pixmap);
-    icon.addPixmap(pixmap, QIcon::Selected); // else a style tints it
+    icon.addPixmap(pixmap, QIcon::Selected); // otherwise the style tints the icon
   }
   return icon;
 }
 
-/// Parents may be anything in a dataset: a row whose parents lead back to it has none.
+/// Return the parents without cycles. Datasets may contain any parents; a row whose parents lead
+/// back to it gets none.
 std::vector<int> checked_parents(const std::vector<HandleTree::Row>& rows)
 {
   const int count = static_cast<int>(rows.size());
@@ -143,7 +145,7 @@ HandleTree::HandleTree(QWidget* parent)
       if (item && this->tree_->selectedItems().isEmpty() &&
         QApplication::mouseButtons() == Qt::NoButton)
       {
-        item->setSelected(true); // the keyboard's first step does not
+        item->setSelected(true); // the first step with the keyboard selects no row
       }
     });
   QObject::connect(this->search_, &QLineEdit::textChanged, this, &HandleTree::show_matches);
@@ -223,7 +225,7 @@ void HandleTree::show_icons()
   }
 }
 
-/// As wide as the tree, but names keep some room in deep ones.
+/// Make the column as wide as the tree, with a minimum width for names in deep trees.
 void HandleTree::fit_column()
 {
   this->tree_->header()->resizeSection(
@@ -248,7 +250,7 @@ void HandleTree::select(const std::vector<int>& handles)
   {
     const QSignalBlocker quiet(this->tree_);
     this->selected_ = handles;
-    this->show_matches(); // what is selected is seen
+    this->show_matches(); // selected rows are always visible
     QTreeWidgetItem* last = handles.empty() ? nullptr : this->item(handles.back());
     this->tree_->setCurrentItem(last, 0, QItemSelectionModel::NoUpdate);
     this->tree_->clearSelection();
@@ -258,14 +260,14 @@ void HandleTree::select(const std::vector<int>& handles)
     }
     if (last)
     {
-      this->tree_->scrollToItem(last); // and unfolds what is above it
+      this->tree_->scrollToItem(last); // this also unfolds its parents
     }
   }
   this->tree_->viewport()->update();
   Q_EMIT this->chosen();
 }
 
-/// The tree reports which items are selected, but not in which order they were.
+/// Update selected_. The tree reports the selected items, but not the order of their selection.
 void HandleTree::take_selection()
 {
   const auto is_gone = [this](int k) { return !this->item(k)->isSelected(); };
@@ -290,7 +292,7 @@ bool HandleTree::matches(const QString& name) const
   return name.contains(this->search_->text().trimmed(), Qt::CaseInsensitive);
 }
 
-/// Hides all others but those above, and what is selected.
+/// Hide all rows except matches, their parents, and selected rows.
 void HandleTree::show_matches()
 {
   const bool all = this->search_->text().trimmed().isEmpty();
@@ -370,7 +372,7 @@ bool HandleTree::eventFilter(QObject* watched, QEvent* event)
 void HandleTree::changeEvent(QEvent* event)
 {
   QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) // light or dark
+  if (event->type() == QEvent::PaletteChange) // a change between light and dark
   {
     this->show_icons();
     this->show_matches();

@@ -13,8 +13,8 @@ class QLineEdit;
 class QTreeWidget;
 class QTreeWidgetItem;
 
-/// The handles as a tree, children below their parents, with a field that searches their names. It
-/// shows what it is told, and tells what a person selects.
+/// The handles as a tree, with children below their parents, and a search field for names. The
+/// window sets the contents; the tree reports the user's selection.
 class HandleTree : public QWidget
 {
   Q_OBJECT
@@ -26,26 +26,26 @@ public:
   {
     QString name;
     bindpose::HandleKind kind = bindpose::HandleKind::point;
-    int parent = -1; ///< number of a row; -1: none
+    int parent = -1; ///< index of a row; -1: none
     int mode = static_cast<int>(bindpose::HandleMode::automatic);
   };
-  /// Other handles; none is selected then. What was folded stays so, by its name.
+  /// Set the handles and clear the selection. Folded handles stay folded, by name.
   void set_rows(const std::vector<Row>& rows);
   const std::vector<Row>& rows() const { return this->rows_; }
   void set_mode(int handle, int mode);
-  /// Those alone, with chosen() if others were selected before.
+  /// Select only these handles, and emit chosen() if the selection changes.
   void select(const std::vector<int>& handles);
-  /// The last one selected at the end.
+  /// Return the selected handles in the order of their selection.
   const std::vector<int>& selected() const { return this->selected_; }
 
   QTreeWidget* tree() const { return this->tree_; }
   QTreeWidgetItem* item(int handle) const { return this->items_[static_cast<std::size_t>(handle)]; }
-  /// Number of an item's handle.
+  /// Return the handle of an item.
   static int handle_of(const QTreeWidgetItem* item);
   QLineEdit* search() const { return this->search_; }
 
 Q_SIGNALS:
-  /// Others are selected.
+  /// The selection has changed.
   void chosen();
 
 protected:
@@ -64,7 +64,7 @@ private:
   QLineEdit* search_;
   QTreeWidget* tree_;
   std::vector<Row> rows_;
-  std::vector<QTreeWidgetItem*> items_; // by the handle
+  std::vector<QTreeWidgetItem*> items_; // by handle
   std::vector<int> selected_;
   int deepest_ = 0;
 };

@@ -3,7 +3,7 @@
 
 class QWidget;
 
-// What the menu Help shows.
+// The dialogs of the menu Help.
 
 void show_about(QWidget* window);
 

@@ -31,7 +31,7 @@ TetrahedralizeOptions options_of(int method)
   return options;
 }
 
-/// A copy that a thread can have for itself.
+/// Return a copy that a thread can own.
 TriangleMesh copy_of(const SurfaceInput& surface)
 {
   TriangleMesh mesh;
@@ -54,7 +54,7 @@ Status find_defects(
   return status;
 }
 
-/// The sum of what the legend counts.
+/// Return the sum of the counts in the legend.
 qlonglong count_all(vtkPolyData* defects)
 {
   std::vector<Category> categories = defect_categories();
@@ -67,7 +67,7 @@ qlonglong count_all(vtkPolyData* defects)
   return sum;
 }
 
-/// "boundary 12, fold 3"; empty without any.
+/// Return a text like "boundary 12, fold 3"; empty without defects.
 QString counts_of(vtkPolyData* defects)
 {
   std::vector<Category> categories = defect_categories();
@@ -261,7 +261,7 @@ void Inspection::choose_colours(int colours)
 
 // ---- Defects -----------------------------------------------------------------------------------
 
-/// Finds them when they are wanted for the first time.
+/// Show or hide the defects. The first request starts the search for them.
 void Inspection::update_defects()
 {
   const bool wanted = this->active_ && this->panel_->wants_defects() && this->surface_;
@@ -280,7 +280,7 @@ void Inspection::update_defects()
 void Inspection::look_for_defects()
 {
   this->looking_ = this->surface_ != nullptr;
-  // The picture comes first: it needs all cores where nothing but them draws.
+  // The picture comes first. With software rendering it needs all cores.
   this->waiting_ = this->looking_ && this->viewport_->isVisible();
   if (!this->waiting_)
   {
@@ -302,7 +302,7 @@ void Inspection::show_defects()
   this->panel_->show_defects(true);
 }
 
-/// Once for a surface, be it to show the defects or to tell that there are some.
+/// Search once per surface, either to show the defects or to report that there are some.
 void Inspection::start_looking()
 {
   SurfaceInput surface;
@@ -321,7 +321,7 @@ void Inspection::defects_finished()
   const Status& status = this->defect_job_.status();
   if (status.code == StatusCode::cancelled)
   {
-    this->update_defects(); // of the surface that has come meanwhile
+    this->update_defects(); // for a surface that was opened meanwhile
     if (this->looking_)
     {
       this->start_looking();
@@ -333,7 +333,7 @@ void Inspection::defects_finished()
     this->looking_ = false;
     if (!this->panel_->wants_defects())
     {
-      return; // nobody has asked
+      return; // the user has not requested defects
     }
     this->panel_->show_defects(false);
     Q_EMIT this->failed(

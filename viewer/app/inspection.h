@@ -12,8 +12,8 @@
 class TetPanel;
 class Viewport;
 
-/// A surface's tets and defects: makes them beside the window, and shows what the panel asks for as
-/// long as the panel is there.
+/// Inspection of a surface's tets and defects. They are computed in the background, and shown as
+/// the panel requests while the panel is visible.
 class Inspection : public QObject
 {
   Q_OBJECT
@@ -21,20 +21,22 @@ class Inspection : public QObject
 public:
   Inspection(Viewport* viewport, TetPanel* panel);
 
-  /// Another surface, at rest, and the tets that it is the skin of (null: none yet).
+  /// Set the surface at rest, and the tets of which it is the boundary (null: none yet).
   void set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets);
-  /// Whether the panel is there; else the surface is shown as ever.
+  /// Set whether the panel is shown. Otherwise the surface has its normal look.
   void set_active(bool active);
-  void make_tets(int method); ///< of TetPanel
+  void make_tets(int method); ///< a TetPanel::Method
   void cancel();
-  /// Beside the window, once the surface has been drawn; defects_found() tells when there are some.
+  /// Look for defects in the background after the surface was drawn, and emit defects_found() if
+  /// there are any.
   void look_for_defects();
   void show_defects();
   bool is_busy() const
   {
     return this->tet_job_.is_running() || this->defect_job_.is_running() || this->waiting_;
   }
-  /// How the surface is to be drawn (of Viewport): tets take its place, defects shine through it.
+  /// Return how the surface is drawn (Viewport::SurfaceLook): hidden by tets, see-through with
+  /// defects, otherwise solid.
   int surface_look() const;
 
   TetView* tet_view() const { return this->tets_; }
@@ -42,15 +44,15 @@ public:
 
 Q_SIGNALS:
   void surface_look_changed();
-  /// The first tets of the surface are there, before they are shown.
+  /// The first tets of the surface were made. Emitted before they are shown.
   void tets_made();
-  /// How many of which kind, for a sentence.
+  /// Counts per type of defect, for a sentence.
   void defects_found(const QString& counts);
-  /// One sentence; what was shown stays.
+  /// One sentence. The picture is unchanged.
   void failed(const QString& sentence);
-  /// Tets are made, or shown as was asked for.
+  /// Tets were made, or are shown as requested.
   void succeeded();
-  /// Tets are made, and this is to be known about them.
+  /// Tets were made, with a remark for the user.
   void noticed(const QString& sentence);
 
 private:
@@ -69,9 +71,9 @@ private:
   DefectView defects_;
   vtkSmartPointer<vtkPolyData> surface_;
   bool active_ = false;
-  bool looking_ = false; // for defects, to tell about them
-  bool waiting_ = false; // with that, for the first picture of the surface
-  int colours_ = 0; // of TetPanel, those that are shown
+  bool looking_ = false; // defects_found() must be emitted if the search finds any
+  bool waiting_ = false; // the search waits for the first picture of the surface
+  int colours_ = 0; // the shown TetPanel::Colours
   std::shared_ptr<vtkSmartPointer<vtkUnstructuredGrid>> made_tets_;
   std::shared_ptr<vtkSmartPointer<vtkPolyData>> made_defects_;
   KernelJob tet_job_;

@@ -1,5 +1,5 @@
-// One execution context a job: its progress goes to the window's thread as queued signals, its
-// cancel is an atomic flag.
+// Each job has one execution context. Progress is sent to the window's thread by queued signals.
+// The cancel is an atomic flag.
 #include "kernel_job.h"
 
 #include <QString>
@@ -57,7 +57,7 @@ void KernelJob::start(Work work)
         [this, status]
         {
           this->status_ = status;
-          if (this->cancel_) // after its end, but before anybody has seen it
+          if (this->cancel_) // canceled after its end, but before finished()
           {
             this->status_ = Status::failure(StatusCode::cancelled, "cancelled");
           }

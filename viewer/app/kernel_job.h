@@ -10,29 +10,31 @@
 #include <functional>
 #include <thread>
 
-/// Work by the kernels on a thread of its own. One at a time; destroying the job cancels it and
-/// waits.
+/// Runs kernels on a separate thread. One job runs at a time. Destroying the object cancels the job
+/// and waits for its end.
 class KernelJob : public QObject
 {
   Q_OBJECT
 
 public:
-  /// Runs on the thread: on copies, which it holds itself, as it holds what it makes.
+  /// The function that runs on the thread. It owns copies of its input, and shares the ownership of
+  /// its output.
   using Work = std::function<bindpose::Status(bindpose::ExecutionContext&)>;
 
   explicit KernelJob(QObject* parent = nullptr);
   ~KernelJob() override;
 
-  /// Nothing happens while a job is running.
+  /// Start a job. Does nothing while a job is running.
   void start(Work work);
-  /// Ends the job soon; finished() still comes, with the status cancelled.
+  /// Request the end of the job. finished() is still emitted, with the status cancelled.
   void cancel();
   bool is_running() const { return this->running_; }
-  /// How the last one went, with seconds.* in its report; to be read after finished().
+  /// Return the status of the last job, with seconds.* in its report; valid after finished().
   const bindpose::Status& status() const { return this->status_; }
 
 Q_SIGNALS:
-  /// Fraction of the whole in [0, 1] and the name of the phase. On the thread of this object.
+  /// Fraction of the whole in [0, 1], and the name of the phase. Emitted on the thread of this
+  /// object.
   void progress(double fraction, const QString& phase);
   void finished();
 

@@ -10,8 +10,8 @@ class QLabel;
 class QPushButton;
 class KeyTrack;
 
-/// Key frames below the picture: a track with a mark a key, which the mouse scrubs and moves keys
-/// on, and what plays and sets them. It shows what it is told.
+/// Key frames below the picture: a track with one mark per key, and buttons that play and set keys.
+/// On the track the mouse scrubs through time and moves keys. The window sets the contents.
 class KeyStrip : public QFrame
 {
   Q_OBJECT
@@ -54,7 +54,7 @@ private:
   bool playing_ = false;
 };
 
-/// The track itself: seconds from left to right.
+/// The track: seconds increase from left to right.
 class KeyTrack : public QWidget
 {
   Q_OBJECT
@@ -64,7 +64,7 @@ public:
 
   void set_keys(const bindpose::KeyFrames& keys);
   void set_time(double seconds);
-  /// Where a time is, in pixels from the left.
+  /// Return the position of a time in pixels from the left.
   int pixel(double seconds) const;
   QSize sizeHint() const override;
 
@@ -87,7 +87,7 @@ private:
 
   bindpose::KeyFrames keys_;
   double time_ = 0.0;
-  int dragged_ = -1; ///< key
+  int dragged_ = -1; ///< index of the dragged key; -1: none
   double dragged_to_ = 0.0;
   bool moved_ = false;
   bool scrubbing_ = false;

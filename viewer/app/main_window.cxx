@@ -68,7 +68,8 @@ using namespace bindpose;
 
 namespace
 {
-/// A file's name for a title or a sentence: exporters write names that no line holds.
+/// Return a file's name for a title or a sentence. Long names, which some exporters write, are
+/// shortened.
 QString short_name(const QString& path)
 {
   constexpr int longest = 60;
@@ -81,8 +82,9 @@ QString method_words(BindMethod method)
     [method](const ComparedMethod& each) { return each.method == method; });
   return QCoreApplication::translate("WeightPanel", found->name).toLower();
 }
-/// Which weights are bound and how exact they are, where that is known; the panel of weights says
-/// it column by column. `chosen`: the method of the next bind, which the certificate is not about.
+/// Return a sentence with the method and, if known, the accuracy of the bound weights. The panel of
+/// weights shows the accuracy per column.
+/// @param chosen  the method of the next bind; the certificate is about the bound method
 QString certificate_note(vtkPolyData* surface, BindMethod chosen)
 {
   vtkDataArray* gaps = surface->GetFieldData()->GetArray("WeightsRelativeGap");
@@ -106,7 +108,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
 {
   this->setAcceptDrops(true);
   new FieldGuard(this, [this] { this->viewport_->setFocus(Qt::OtherFocusReason); });
-  // The whole window is on a small screen, with the title that the desktop gives it.
+  // Fit the whole window on a small screen, including the title bar of the desktop.
   constexpr int title = 40; // pixels
   const QSize room = QGuiApplication::primaryScreen()->availableGeometry().size();
   this->resize(QSize(1280, 800).boundedTo(room - QSize(0, title)));
@@ -130,7 +132,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
   QObject::connect(
     this->document_, &Document::about_to_change, this->editing_, &HandleEditing::stop);
   QObject::connect(this->document_, &Document::changed, this, &MainWindow::document_changed);
-  // Whether all is saved is known after a step, not while it is made.
+  // The history reports only after a step whether all is saved.
   QObject::connect(this->history(), &QUndoStack::indexChanged, this, &MainWindow::update_title);
   QObject::connect(this->document_, &Document::option_changed, this, &MainWindow::option_changed);
   this->update_title();
@@ -140,7 +142,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
 
 MainWindow::~MainWindow()
 {
-  // Both end after the views, and tell what they do until then.
+  // The document and its history are destroyed after the views, and emit signals until then.
   this->document_->disconnect(this);
   this->history()->disconnect(this);
 }
@@ -195,7 +197,7 @@ void MainWindow::make_layout()
   this->binding_ = new Binding(this->document_, this->panel_, this->rebind_bar_, this);
   QObject::connect(
     this->shape_handles_, &ShapeHandles::rigged, this, [this] { this->binding_->start(); });
-  // Before another panel shows its own colours.
+  // This connection comes first: painting must end before another panel shows its own colors.
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this,
     [this](int panel)
     {
@@ -222,7 +224,7 @@ void MainWindow::make_inspections()
     [this]
     {
       this->update_surface_look();
-      this->draw_pose(); // tets and defects lie in the shape at rest
+      this->draw_pose(); // tets and defects belong to the shape at rest
     });
   QObject::connect(this->inspection_, &Inspection::tets_made, this, &MainWindow::face_planes);
   QObject::connect(this->inspection_, &Inspection::noticed, this, &MainWindow::show_notice);
@@ -233,7 +235,7 @@ void MainWindow::make_inspections()
     [this]
     {
       this->update_surface_look();
-      this->update_pose(); // a slice lies in the shape at rest
+      this->update_pose(); // a slice belongs to the shape at rest
     });
   this->rotations_ =
     std::make_unique<RotationView>(this->viewport_, this->panels_->side()->pose(), this->posing_);
@@ -245,7 +247,7 @@ void MainWindow::make_inspections()
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this->inspection_,
     [this](int panel)
     {
-      // Who leaves takes its colours along, then who comes shows its own.
+      // The old panel removes its coloring before the new panel applies its own.
       const bool poses = panel == PanelColumn::bind_and_pose;
       if (!poses)
       {
@@ -289,7 +291,7 @@ void MainWindow::connect_panel()
     {
       if (this->binding_->is_running())
       {
-        this->error_bar_->hide(); // it is about what was before
+        this->error_bar_->hide(); // it is about the state before the bind
       }
       this->update_panel();
       this->update_pose();
@@ -338,7 +340,7 @@ void MainWindow::connect_volume()
     [this]
     {
       this->update_surface_look();
-      this->draw_pose(); // winding numbers are those of the shape at rest
+      this->draw_pose(); // winding numbers belong to the shape at rest
     });
 }
 
@@ -347,7 +349,7 @@ void MainWindow::connect_handles()
   QObject::connect(this->editing_, &HandleEditing::moved, this, &MainWindow::update_pose);
   QObject::connect(
     this->editing_, &HandleEditing::sentence_changed, this, &MainWindow::update_hint);
-  // Regions have the colours of the surface to themselves.
+  // While regions are painted, only they color the surface.
   QObject::connect(this->editing_, &HandleEditing::mode_changed, this,
     [this](int mode)
     {
@@ -364,7 +366,7 @@ void MainWindow::connect_handles()
     });
 }
 
-/// The panel of weights shows those of the handle that was selected last.
+/// Show the weights of the last selected handle in the panel of weights.
 void MainWindow::show_selected_column()
 {
   const std::vector<int> selected = this->editing_->selected();
@@ -374,7 +376,7 @@ void MainWindow::show_selected_column()
   }
 }
 
-/// An error leaves when something of its kind succeeds.
+/// Connect the error bar: an error is hidden when an operation of its kind succeeds.
 void MainWindow::connect_errors()
 {
   const auto fails = [this](auto* part, auto signal, ErrorKind kind)
@@ -397,7 +399,7 @@ void MainWindow::connect_errors()
   succeeds(this->winding_volume_, &WindingVolume::succeeded, ErrorKind::volume);
 }
 
-// ---- What the document has become --------------------------------------------------------------
+// ---- Changes of the document -------------------------------------------------------------------
 
 void MainWindow::document_changed(int parts)
 {
@@ -419,7 +421,7 @@ void MainWindow::document_changed(int parts)
   }
   else if (parts & handle_looks_part)
   {
-    this->posing_->layers_changed(); // nothing is bound anew
+    this->posing_->layers_changed(); // no new bind is needed
   }
   if (parts & pose_part)
   {
@@ -431,7 +433,7 @@ void MainWindow::document_changed(int parts)
   }
   if (parts & (mesh_part | handles_part))
   {
-    // Without handles the first ones can be added.
+    // Without handles the user can add the first ones.
     this->viewport_->set_handles(this->document_->editable_handles(),
       this->document_->surface() || this->document_->handle_data());
   }
@@ -455,7 +457,7 @@ void MainWindow::document_changed(int parts)
   }
 }
 
-/// The first key brings the timeline; it leaves when a person says so.
+/// Show the timeline with the first key. After that only the user hides it.
 void MainWindow::keys_changed()
 {
   const bool has_keys = !this->posing_->shelf().keys.keys().empty();
@@ -485,7 +487,7 @@ void MainWindow::option_changed(const QString& key, const QVariant& value)
 
 void MainWindow::show_mesh()
 {
-  this->note_bar_->hide(); // it is about the last one
+  this->note_bar_->hide(); // it is about the previous mesh
   const Work& work = this->document_->work();
   this->binding_->cancel();
   this->drawn_ = work.surface;
@@ -500,7 +502,7 @@ void MainWindow::show_mesh()
   this->posing_->set_plane(this->plane_);
   if (work.surface && !planar)
   {
-    this->inspection_->look_for_defects(); // of what lies in a plane the border is none
+    this->inspection_->look_for_defects(); // not if planar: its border is no defect
   }
   if (!work.curves)
   {
@@ -510,7 +512,7 @@ void MainWindow::show_mesh()
   this->viewport_->reset_view();
 }
 
-/// What surrounds a volume is no picture.
+/// Switch the viewport's 2D mode. It is off while a volume is open.
 void MainWindow::update_plane()
 {
   const bool flat = this->flat_wanted_ && !this->document_->work().volume;
@@ -572,7 +574,7 @@ void MainWindow::show_volume()
   }
 }
 
-/// Weights that are those of the handles pose the surface.
+/// Pose the surface with its weights, if they belong to the handles.
 void MainWindow::connect_weights()
 {
   vtkPolyData* surface = this->document_->surface();
@@ -633,7 +635,7 @@ bool MainWindow::say(const QString& name, const Status& status)
 
 bool MainWindow::open(const QString& path, const OpenedFile* read)
 {
-  // To look at a file is no change that could be lost.
+  // Opening a file alone is not a change that could be lost.
   const bool unchanged = !this->document_->is_changed(true) && this->sessions_->path().isEmpty();
   const bool done = this->open_file(path, read);
   if (done)
@@ -660,7 +662,7 @@ bool MainWindow::open_file(const QString& path, const OpenedFile* read)
   const Status status = read ? Status() : read_file(path.toStdString(), here);
   if (!status.ok())
   {
-    // The readers name the whole path; here the name says enough.
+    // The readers report the whole path, but here the name is enough.
     this->error_bar_->show_sentence(
       QString::fromStdString(status.message).replace(path, name), ErrorKind::other, path);
     return false;
@@ -703,7 +705,7 @@ bool MainWindow::show_file(const OpenedFile& file, const QString& path)
   }
 }
 
-/// Cut out by its alpha, or the whole rectangle.
+/// Open a picture as a shape: cut out by its alpha, or the whole rectangle.
 bool MainWindow::open_picture(
   vtkImageData* picture, const QString& name, const Source& source, bool whole)
 {
@@ -820,7 +822,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
 void MainWindow::set_method(int method)
 {
   this->document_->set_option("pose.method", method);
-  this->update_pose(); // also when it is the same: who chooses wants to see what there is
+  this->update_pose(); // also for the current method, because the user expects to see the pose
 }
 
 void MainWindow::set_mode(int handle, int mode)
@@ -890,7 +892,7 @@ void MainWindow::draw_pose()
   {
     reading = this->posing_->reading();
   }
-  if (rest && this->posing_->surface() == this->drawn_) // else another mesh is being opened
+  if (rest && this->posing_->surface() == this->drawn_) // otherwise another mesh is being opened
   {
     this->posing_->draw();
     this->weights_->move_surface(this->posing_->seen());
@@ -903,8 +905,9 @@ void MainWindow::draw_pose()
   this->viewport_->refresh();
 }
 
-/// One picture has one state: what belongs to the shape at rest (tets, defects, slices, winding
-/// numbers) is shown with surface and handles at rest, and a label says so.
+/// All parts of the picture have the same state. Data that belongs to the shape at rest (tets,
+/// defects, slices, winding numbers) is shown with surface and handles at rest, and a label says
+/// so.
 void MainWindow::show_state()
 {
   const QString inspected = this->inspection_->tet_view()->is_shown() ? tr("the tets belong to it")
@@ -924,8 +927,8 @@ void MainWindow::show_state()
     this->document_->handle_data() && !why.isEmpty() ? tr("Rest shape: %1").arg(why) : QString());
 }
 
-/// Planes across the axis that the view looks along most, so that a cut shows the inside: as long
-/// as nobody has chosen another orientation.
+/// Orient the planes across the axis that is nearest to the line of sight, so that a cut shows the
+/// inside. An orientation that the user has chosen is kept.
 void MainWindow::face_planes()
 {
   const Vec3 sight(this->viewport_->renderer()->GetActiveCamera()->GetDirectionOfProjection());
@@ -947,7 +950,7 @@ void MainWindow::face_planes()
   }
 }
 
-/// What the hand does comes before what the pose took.
+/// The text about the current interaction has priority over that about the last pose.
 void MainWindow::update_hint()
 {
   const QString said = this->editing_->sentence();
@@ -991,12 +994,13 @@ QString MainWindow::bound_note() const
 void MainWindow::show_outlines(bool shown)
 {
   this->viewport_->show_outlines(shown);
-  this->draw_pose(); // beside it, too
+  this->draw_pose(); // also in the second half
   this->menus_->update();
   this->links_->chosen("show.outlines");
 }
 
-/// Tets take the surface's place, and defects shine through it; else a volume decides.
+/// Tets hide the surface, and defects make it see-through. Otherwise a slice of the weights
+/// determines its look, and then the volume.
 void MainWindow::update_surface_look()
 {
   int look = this->inspection_->surface_look();

@@ -42,11 +42,12 @@ class WindingVolume;
 class vtkDataSet;
 class vtkImageData;
 
-/// The window of `bindpose view`: open a surface and handles, bind, drag; or open a volume of
-/// winding numbers, alone or along with a surface and its boundary curves, and inspect it. Of a
-/// surface the weights, tets and defects can be looked at, of tets the inside.
+/// The window of `bindpose view`. It binds a surface to handles and poses it. It inspects volumes
+/// of winding numbers, alone or together with a surface and its boundary curves. It also shows
+/// weights, tets and defects of a surface, and the inside of tets.
 ///
-/// What is kept is in its Document; the window lays views and panels out, and wires them to it.
+/// The Document contains the state that is saved. The window arranges views and panels and connects
+/// them to the document.
 class MainWindow : public QMainWindow
 {
   Q_OBJECT
@@ -61,26 +62,26 @@ public:
   WindowSessions* sessions() const { return this->sessions_; }
   Exports* exports() const { return this->exports_; }
 
-  /// Opens a mesh, handles, weights, a picture, a volume, curves or a session, whichever it is.
-  /// False, with a sentence in the error bar, when it cannot be used; what was open stays.
-  /// `read`: what the file holds, if it is already read.
+  /// Open a mesh, handles, weights, a picture, a volume, curves or a session. If the file cannot be
+  /// used, show a sentence in the error bar, keep what is open, and return false.
+  /// @param read  the contents of the file, if it was already read
   bool open(const QString& path, const OpenedFile* read = nullptr);
   bool set_mesh(vtkDataSet* mesh, const QString& name, const Source& source = {});
   bool set_handles(vtkPolyData* handles, const QString& name, const Source& source = {});
   bool set_volume(vtkImageData* volume, const QString& name, const Source& source = {});
   bool set_curves(vtkPolyData* curves, const Source& source = {});
   void close_volume();
-  /// Asks for files to open.
+  /// Ask for files and open them.
   void choose_and_open();
 
   bool is_bound() const;
   void set_method(int method);
   void set_mode(int handle, int mode);
   void back_to_rest();
-  /// Nothing is open.
+  /// Report whether nothing is open.
   bool is_empty() const;
 
-  /// What is drawn: the posed surface, or the rest one before a bind.
+  /// Return the drawn surface: posed, or at rest before a bind.
   vtkPolyData* shown() const;
   Viewport* viewport() const { return this->viewport_; }
   SidePanel* panel() const { return this->panel_; }
@@ -89,12 +90,12 @@ public:
   VolumeView* volume_view() const { return this->volume_view_; }
   Inspection* inspection() const { return this->inspection_; }
   Probe* probe() const { return this->probe_; }
-  /// The shape lies in a plane, so that it can be looked at in 2D.
+  /// Report whether the shape is planar, so that it can be shown in 2D.
   bool is_planar() const { return this->plane_.has_value(); }
-  /// The 2D mode, which every planar shape begins in; or views that can be turned. The camera
-  /// stays.
+  /// Switch the 2D mode on or off. Without it the view can be rotated. Planar shapes are first
+  /// shown in 2D. The camera is unchanged.
   void set_flat_view(bool flat);
-  /// A step of the history.
+  /// Show or hide outlines in a step of the history.
   void show_outlines(bool shown);
   WeightInspection* weights() const { return this->weights_; }
   Posing* posing() const { return this->posing_; }
@@ -103,14 +104,15 @@ public:
   ShapeHandles* shape_handles() const { return this->shape_handles_; }
   KeyStrip* strip() const { return this->strip_; }
   WindingVolume* winding_volume() const { return this->winding_volume_; }
-  /// The key frames below the picture: seen from the first one on, or on demand.
+  /// Report whether the key frames are shown below the picture: from the first key frame on, or on
+  /// request.
   bool shows_timeline() const { return this->timeline_; }
   void show_timeline(bool shown);
-  /// The line at the bottom, which says what the hand does or what the last pose took.
+  /// Return the status line. It describes the current interaction, or the last pose.
   const ElidedLabel* hint() const { return this->hint_; }
-  /// What is under the mouse, as the label in the picture says it, in one line.
+  /// Return the label in the picture about the point under the mouse, in one line.
   QString reading() const;
-  /// The sentence in the error bar; empty when it is hidden.
+  /// Return the sentence in the error bar; empty if the bar is hidden.
   QString error() const;
   void show_error(const QString& sentence, ErrorKind kind = ErrorKind::other);
   ErrorBar* error_bar() const { return this->error_bar_; }
@@ -118,9 +120,10 @@ public:
   void update_title();
   NoticeBar* rebind_bar() const { return this->rebind_bar_; }
   NoticeBar* recovery_bar() const { return this->recovery_bar_; }
-  /// What is missing of a session, how a picture was cut out, where a surface is unclean.
+  /// Return the bar for notes: missing files of a session, how a picture was cut out, defects of a
+  /// surface.
   NoticeBar* note_bar() const { return this->note_bar_; }
-  /// What was exported, and where to.
+  /// Return the bar that says what was exported and where.
   NoticeBar* export_bar() const { return this->export_bar_; }
 
 protected:
@@ -166,9 +169,10 @@ private:
   Inspection* inspection_ = nullptr;
   WeightInspection* weights_ = nullptr;
   Probe* probe_ = nullptr;
-  std::optional<bindpose::Vec3> plane_; // its normal, of the shape at rest
+  std::optional<bindpose::Vec3> plane_; // normal of a planar shape at rest
   bool flat_wanted_ = true;
-  /// Of each plane, by its options' name, the orientation that the program itself has chosen last.
+  /// The last orientation that the program itself has chosen for each plane, by the name of its
+  /// options.
   std::map<QString, int> faced_;
   Posing* posing_ = nullptr;
   HandleEditing* editing_ = nullptr;
@@ -178,25 +182,25 @@ private:
   PanelColumn* panels_ = nullptr;
   std::unique_ptr<RotationView> rotations_;
   std::unique_ptr<DistanceView> distances_;
-  SidePanel* panel_ = nullptr; // one of them
+  SidePanel* panel_ = nullptr; // one of panels_
   OptionLinks* links_ = nullptr;
   WindowMenus* menus_ = nullptr;
   WindowSessions* sessions_ = nullptr;
   Exports* exports_ = nullptr;
   WindingVolume* winding_volume_ = nullptr;
-  BarStack* bars_ = nullptr; // over the picture:
+  BarStack* bars_ = nullptr; // over the picture, contains the bars below
   ErrorBar* error_bar_ = nullptr;
   NoticeBar* recovery_bar_ = nullptr;
   NoticeBar* note_bar_ = nullptr;
   NoticeBar* rebind_bar_ = nullptr;
   NoticeBar* export_bar_ = nullptr;
   ElidedLabel* hint_ = nullptr;
-  EmptyState* empty_ = nullptr; // in the middle of the picture as long as nothing is open
-  vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport has
+  EmptyState* empty_ = nullptr; // in the middle of the picture while nothing is open
+  vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport shows
   bool timeline_ = false;
   bool has_keys_ = false;
-  QString read_notice_; // what the opened file lost
-  QString hint_text_; // in the status line, unless the hand does something
+  QString read_notice_; // warnings about data that the opened file lost
+  QString hint_text_; // shown in the status line when there is no interaction
 };
 
 #endif

@@ -31,7 +31,7 @@ void NoticeBar::offer(const QString& sentence, const QList<Choice>& choices, con
   for (QPushButton* button : this->buttons_)
   {
     button->hide();
-    button->deleteLater(); // it may be the one that was pressed
+    button->deleteLater(); // it may be the button that was pressed
   }
   this->buttons_.clear();
   this->set_sentence(sentence);

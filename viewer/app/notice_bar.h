@@ -10,8 +10,8 @@ class QHBoxLayout;
 class QLabel;
 class QPushButton;
 
-/// A sentence over the picture with something to do about it, until that is done or it is closed.
-/// It never stops the work.
+/// A sentence over the picture with buttons for actions. It is shown until an action is chosen or
+/// the bar is closed. It never blocks the window.
 class NoticeBar : public QFrame
 {
   Q_OBJECT
@@ -20,16 +20,17 @@ public:
   struct Choice
   {
     QString text;
-    std::function<void()> action; ///< the bar is hidden before
+    std::function<void()> action; ///< the bar is hidden before the call
   };
 
   explicit NoticeBar(QWidget* parent);
 
-  /// Replaces what is there. `close` names the button that only hides the bar; empty: none.
+  /// Replace the current offer. `close` is the text of the button that only hides the bar; empty:
+  /// none.
   void offer(const QString& sentence, const QList<Choice>& choices, const QString& close);
-  /// Another sentence for the same offer.
+  /// Set another sentence for the same offer.
   void set_sentence(const QString& sentence, const QString& tool_tip = QString());
-  /// Empty when the bar is hidden.
+  /// Return the sentence; empty if the bar is hidden.
   QString sentence() const;
 
 Q_SIGNALS:

@@ -1,5 +1,5 @@
-// Only signals of a person's choice make steps: clicked, activated, value_chosen; and not those
-// that widgets give while they are set to what the document has.
+// Only signals of the user's choices make steps: clicked, activated, value_chosen. Signals that
+// widgets emit while they are set from the document make none.
 #include "option_links.h"
 
 #include "document/document.h"

@@ -50,7 +50,8 @@ PanelColumn::PanelColumn(QWidget* parent)
     segment->setCheckable(true);
     segment->setToolTip(tr(tips[k]));
     this->buttons_->addButton(segment, k);
-    row->addWidget(segment, segment->sizeHint().width()); // four words leave no room to share
+    // Stretched by text width, because four words fill the row.
+    row->addWidget(segment, segment->sizeHint().width());
   }
   column->addWidget(this->choice_);
   this->splitter_->setChildrenCollapsible(false);
@@ -59,7 +60,7 @@ PanelColumn::PanelColumn(QWidget* parent)
   auto* below = new QVBoxLayout(panels);
   below->setContentsMargins(0, 0, 0, 0);
   below->setSpacing(0);
-  // Equally wide, so that the picture does not jump.
+  // All panels have the same width, so that the picture keeps its size.
   const int width = this->side_->sizeHint().width();
   this->panels_ = { this->side_, this->scrolled(this->weight_, width),
     this->scrolled(this->tet_, width), this->scrolled(this->volume_, width) };
@@ -77,7 +78,7 @@ PanelColumn::PanelColumn(QWidget* parent)
   this->set_open(false, false, false);
 }
 
-/// A small window has no room for all of a panel.
+/// Return a scroll area with the panel, because a small window cannot show all of it.
 QWidget* PanelColumn::scrolled(QFrame* panel, int width)
 {
   auto* scroll = new QScrollArea(this);
@@ -91,7 +92,7 @@ QWidget* PanelColumn::scrolled(QFrame* panel, int width)
   return scroll;
 }
 
-/// The list has what the panel leaves, until a person says otherwise.
+/// Give the list the height that the panel does not need, until the user drags the border.
 void PanelColumn::share_height()
 {
   constexpr int panel_height = 540;
@@ -127,7 +128,8 @@ void PanelColumn::set_open(bool volume, bool shape, bool surface)
   }
   for (int k = 0; k < row.size(); ++k)
   {
-    // One line between two: only the last but one has a right one, next to the last's none.
+    // One line separates two buttons. The last button has no left border, so only its neighbor has
+    // a right border.
     row[k]->setProperty("place",
       k == 0                  ? "first"
         : k + 1 == row.size() ? "last"
@@ -136,7 +138,7 @@ void PanelColumn::set_open(bool volume, bool shape, bool surface)
   }
   for (QAbstractButton* each : buttons)
   {
-    each->style()->unpolish(each); // the style looks at the place again
+    each->style()->unpolish(each); // the style reads the property again
     each->style()->polish(each);
   }
   const int shown = this->buttons_->checkedId();
@@ -170,12 +172,13 @@ void PanelColumn::show_panel(int panel)
 {
   if (!this->buttons_->button(panel) || this->buttons_->button(panel)->isHidden())
   {
-    panel = bind_and_pose; // of a session that had something else open
+    panel = bind_and_pose; // a session may contain a panel that is not available
   }
   this->buttons_->button(panel)->setChecked(true);
   for (QWidget* each : this->panels_)
   {
-    each->setVisible(false); // first: the window grows where two must fit for a moment
+    // Hide all panels first, because the window grows while two are visible.
+    each->setVisible(false);
   }
   this->panels_[panel]->setVisible(true);
   this->show_handles();

@@ -13,9 +13,10 @@ class TetPanel;
 class VolumePanel;
 class WeightPanel;
 
-/// The column right of the picture: the panel to bind and pose with, and those to inspect weights,
-/// tets and defects, and volumes with; buttons on top choose when there is work for several. Above
-/// the panels that are about handles is the list of handles; what is between both can be dragged.
+/// The column to the right of the picture, with panels to bind and pose, and to inspect weights,
+/// tets and defects, and volumes. Buttons at the top choose one if several apply. The list of
+/// handles is above the panels that are about handles; the mouse can drag the border between list
+/// and panel.
 class PanelColumn : public QWidget
 {
   Q_OBJECT
@@ -36,7 +37,7 @@ public:
   TetPanel* tet() const { return this->tet_; }
   VolumePanel* volume() const { return this->volume_; }
   HandleTree* handles() const { return this->handles_; }
-  /// What is open decides what can be chosen.
+  /// Set what is open. It determines which panels can be chosen.
   void set_open(bool volume, bool shape, bool surface);
   void show_panel(int panel);
   int shown_panel() const;
@@ -56,7 +57,7 @@ private:
   QSplitter* splitter_;
   HandleTree* handles_;
   QButtonGroup* buttons_;
-  QList<QWidget*> panels_; // by their numbers; what scrolls them
+  QList<QWidget*> panels_; // by Panel; a panel or its scroll area
   SidePanel* side_;
   WeightPanel* weight_;
   TetPanel* tet_;

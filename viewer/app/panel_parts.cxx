@@ -56,7 +56,7 @@ QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent)
       translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the y axis")),
       translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the z axis")),
       translated(QT_TRANSLATE_NOOP("Panel", "Turned by its arrow")) });
-  group->button(1)->setProperty("place", "second"); // of four
+  group->button(1)->setProperty("place", "second"); // its place in a row of four
   group->button(2)->setChecked(true);
   return group;
 }

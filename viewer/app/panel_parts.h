@@ -11,25 +11,25 @@ class QLabel;
 class QPushButton;
 class QWidget;
 
-// What the panels right of the picture are made of.
+// Building blocks of the panels to the right of the picture.
 
 QLabel* heading(const QString& text, QWidget* parent);
-/// A button that the mouse presses without taking the keyboard to it.
+/// Return a button that does not take the keyboard focus when it is clicked.
 QPushButton* button(const QString& text, QWidget* parent);
-/// A row of buttons of which one is pressed, the first to begin with; ids count from 0.
+/// Add a row of buttons of which exactly one is pressed, at first the first one. Ids count from 0.
 QButtonGroup* add_segments(
   QBoxLayout* column, QWidget* parent, const QStringList& names, const QStringList& tips);
-/// A row of buttons X, Y, Z and Free, whose ids are PlaneHandle's orientations; Z is pressed.
+/// Add a row of buttons X, Y, Z and Free, with PlaneHandle::Orientation as ids. Z is pressed.
 QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent);
-/// Disable one item of a list (-1: none), enable all others, and say why at the disabled one.
+/// Disable one item of a list (-1: none), and show the reason as its tooltip. Enable all others.
 void enable_all_but(QComboBox* list, int item, const QString& reason);
-/// With a capital letter, as a sentence or a heading begins.
+/// Return the text with a capital first letter.
 QString capital(const QString& text);
-/// Return a text for one line: a longer one without its middle.
+/// Return the text for one line: the middle of a longer text is left out.
 QString shortened(const QString& text, int longest);
 /// Return a line about a running job: its phase in words, and percent.
 QString progress_note(double fraction, const QString& phase);
-/// What a phase of the kernels does, in words.
+/// Return a description of a kernel phase in words.
 QString sentence_of(const QString& phase);
 
 #endif

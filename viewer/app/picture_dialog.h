@@ -9,8 +9,9 @@ class QLabel;
 class QPushButton;
 class Viewport;
 
-/// Asks how the picture is to be saved: so many times as large as it is seen, with a transparent
-/// background or not; tells its size in pixels. What was chosen is there again the next time.
+/// A dialog that asks for the size of a picture, as a multiple of its size on the screen, and for a
+/// transparent background. It shows the size in pixels. The next dialog begins with the same
+/// choices.
 class PictureDialog : public QDialog
 {
   Q_OBJECT
@@ -20,7 +21,8 @@ public:
 
   int scale() const;
   bool is_transparent() const;
-  /// What is said about the size: pixels, or why there can be no picture of it.
+  /// Return the text about the size: pixels, or the reason why a picture of this size is
+  /// impossible.
   QString size_note() const;
   void accept() override;
 

@@ -1,5 +1,5 @@
-// VTK's plane widget moves and turns the plane. Its own picture of the plane is all but invisible:
-// it is there to be caught by the mouse.
+// VTK's plane widget moves and rotates the plane. Its own picture of the plane is nearly
+// transparent; it exists only so that the mouse can catch it.
 #include "plane_handle.h"
 
 #include "viewport.h"
@@ -42,15 +42,15 @@ PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent),
     bindpose::palette::line[0], bindpose::palette::line[1], bindpose::palette::line[2]);
   colour(this->plane_->GetOutlineProperty(), bindpose::palette::edges, 1.0);
   colour(this->plane_->GetSelectedOutlineProperty(), bindpose::palette::edges, 1.0);
-  // Not quite clear: what is clear cannot be caught.
+  // Not fully transparent, because the mouse cannot catch a transparent plane.
   colour(this->plane_->GetPlaneProperty(), bindpose::palette::white, 0.005);
   colour(this->plane_->GetSelectedPlaneProperty(), bindpose::palette::white, 0.005);
   this->widget_->SetInteractor(viewport->interactor());
   this->widget_->SetRepresentation(this->plane_);
   this->widget_->SetCurrentRenderer(renderer);
   this->widget_->SetDefaultRenderer(renderer);
-  this->widget_->SetPriority(0.4F); // handles lie before it
-  // The other buttons move and zoom the view, here as everywhere.
+  this->widget_->SetPriority(0.4F); // handles have a higher priority
+  // The other mouse buttons move and zoom the view, as everywhere in the picture.
   for (const unsigned long event :
     { vtkCommand::MiddleButtonPressEvent, vtkCommand::MiddleButtonReleaseEvent,
       vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent })
@@ -134,7 +134,7 @@ void PlaneHandle::set_place(double place)
 void PlaneHandle::set_position(double position)
 {
   this->cancel();
-  // Who only gives back where it is does not change the share by round-off.
+  // Setting the current position again must not change the relative position by round-off.
   constexpr double round_off = 1e-12;
   const double place = this->place_of(position);
   if (std::abs(place - this->state_.place) > round_off)
@@ -159,7 +159,8 @@ double PlaneHandle::place_of(double position) const
                       : this->state_.place;
 }
 
-/// Its arrow stands where the middle of the box is nearest.
+/// Move the plane to its relative position. Its arrow is at the point nearest to the middle of the
+/// box.
 void PlaneHandle::go_to_place()
 {
   const auto [first, last] = this->positions();
@@ -188,7 +189,7 @@ std::pair<double, double> PlaneHandle::positions() const
   return range;
 }
 
-/// The widget stands where the plane is, and can be turned only when that is wanted.
+/// Put the widget where the plane is. Only a free plane can be rotated.
 void PlaneHandle::place_widget()
 {
   const int orientation = this->state_.orientation;
@@ -198,7 +199,7 @@ void PlaneHandle::place_widget()
   this->plane_->SetNormalToZAxis(orientation == z_axis);
   this->plane_->SetNormal(this->normal().data());
   this->plane_->SetOrigin(this->state_.origin.data());
-  const bindpose::Rgb arrow{ 0.17, 0.42, 0.66 }; // the window's accent
+  const bindpose::Rgb arrow{ 0.17, 0.42, 0.66 }; // the accent color of the window
   colour(this->plane_->GetNormalProperty(), arrow, turns ? 1.0 : 0.0);
   colour(this->plane_->GetSelectedNormalProperty(), bindpose::palette::line, turns ? 1.0 : 0.0);
   this->widget_->SetEnabled(this->shown_ && !this->box_.empty());
@@ -227,9 +228,9 @@ void PlaneHandle::widget_caught()
     : this->state_.origin;
 }
 
-/// The widget pushes its plane by the mouse's way along the normal as the picture shows it, which
-/// is little when one looks along the normal. Here the place that the mouse has caught follows it:
-/// to the point of its line along the normal that is nearest to the mouse's ray.
+/// The widget moves its plane by the mouse's motion along the projected normal, which is short if
+/// the view is nearly along the normal. Instead, the point that the mouse has caught follows it. It
+/// moves along its normal to the point that is nearest to the mouse's ray.
 void PlaneHandle::widget_moved()
 {
   const bool pushed =
@@ -250,7 +251,8 @@ void PlaneHandle::widget_moved()
     this->mouse_ray(from, along);
     const double slope = along.dot(normal);
     const double steep = 1.0 - slope * slope;
-    if (steep > 0.01) // else the normal is seen as a point: the widget's way is as good as any
+    // If the view is along the normal, keep the widget's motion.
+    if (steep > 0.01)
     {
       const Vec3 gap = from - this->grip_;
       position = this->grip_.dot(normal) + (gap.dot(normal) - gap.dot(along) * slope) / steep;
@@ -267,7 +269,7 @@ void PlaneHandle::widget_let_go()
 {
   if (!this->dragged_)
   {
-    return; // it was taken back
+    return; // the drag was canceled
   }
   this->dragged_ = false;
   const bool turned = this->state_.free_normal != this->before_.free_normal;
@@ -283,7 +285,8 @@ void PlaneHandle::cancel()
   {
     this->dragged_ = false;
     this->state_ = this->before_;
-    this->viewport_->interactor()->LeftButtonReleaseEvent(); // the widget is not told otherwise
+    // The widget has no other way to end a drag.
+    this->viewport_->interactor()->LeftButtonReleaseEvent();
     this->place_widget();
     Q_EMIT this->moved();
   }
@@ -298,7 +301,7 @@ bool PlaneHandle::eventFilter(QObject* watched, QEvent* event)
     {
       this->cancel();
     }
-    event->accept(); // as a shortcut it would leave an edit mode
+    event->accept(); // as a shortcut, Esc would leave an edit mode
     return true;
   }
   return QObject::eventFilter(watched, event);

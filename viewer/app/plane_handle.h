@@ -13,17 +13,17 @@ class Viewport;
 class vtkImplicitPlaneRepresentation;
 class vtkImplicitPlaneWidget2;
 
-/// A plane in the picture that the mouse pushes along its normal and, when it is free, turns. What
-/// the plane cuts is drawn by others; of itself it shows an outline only.
+/// A plane in the picture that the mouse moves along its normal and, if the plane is free, rotates.
+/// The plane itself is drawn as an outline only; its owner draws the cut.
 ///
-/// Where it is follows from three things that fit any box: what it is perpendicular to, the normal
-/// that it has when it is free, and its place as a share of the way through the box.
+/// Three values that suit any box determine the plane: its orientation, its normal when it is free,
+/// and its relative position in the box, a fraction from 0 to 1.
 class PlaneHandle : public QObject
 {
   Q_OBJECT
 
 public:
-  /// What the plane is perpendicular to: an axis, or whatever the user turns it to.
+  /// The axis that the plane is perpendicular to, or free for a normal that the user chooses.
   enum Orientation
   {
     x_axis = 0,
@@ -35,42 +35,45 @@ public:
   PlaneHandle(Viewport* viewport, QObject* parent);
   ~PlaneHandle() override;
 
-  /// What it cuts, without moved(); the plane keeps its share of the way.
+  /// Set the box that the plane cuts, without emitting moved(). The plane keeps its relative
+  /// position.
   void set_box(const bindpose::Box& box);
-  /// Whether the box is drawn around the plane (default).
+  /// Set whether the box is drawn around the plane (default: true).
   void draw_box(bool drawn);
-  /// To be seen and caught.
+  /// Show or hide the plane. The mouse can drag a visible plane.
   void show(bool shown);
 
-  /// The place stays; a free plane begins where the last axis was.
+  /// Set the orientation and keep the relative position. A free plane begins with the normal of the
+  /// last axis.
   void set_orientation(int orientation);
   int orientation() const { return this->state_.orientation; }
-  /// Of length one: that of the plane whenever it is free.
+  /// Set the unit normal that the plane has when it is free.
   void set_free_normal(const bindpose::Vec3& normal);
-  /// From 0 to 1, as far as from one of positions() to the other.
+  /// Set the relative position: 0 and 1 are the two positions().
   void set_place(double place);
-  /// Moves the plane along its normal to this place: its coordinate for an axis.
+  /// Move the plane along its normal to this position, which is the coordinate if the normal is an
+  /// axis.
   void set_position(double position);
 
   double position() const { return this->state_.origin.dot(this->normal()); }
-  /// Smallest and largest position at which the plane meets the box.
+  /// Return the smallest and the largest position at which the plane meets the box.
   std::pair<double, double> positions() const;
   bindpose::Vec3 origin() const { return this->state_.origin; }
   bindpose::Vec3 normal() const;
-  /// As they are, or while the mouse drags the plane as they were before.
+  /// Return the current values, or during a drag the values before it.
   bindpose::Vec3 kept_free_normal() const { return this->kept().free_normal; }
   double kept_place() const { return this->kept().place; }
 
-  /// Takes back what the mouse has begun, as Esc does.
+  /// Cancel a drag by the mouse, as Esc does.
   void cancel();
   bool is_dragged() const { return this->dragged_; }
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 Q_SIGNALS:
-  /// It is elsewhere, whoever has moved it.
+  /// The plane has moved, for any reason.
   void moved();
-  /// The mouse has let go of it elsewhere, or with another normal.
+  /// A drag has ended with another position or another normal.
   void dragged(bool turned);
 
 private:
@@ -79,13 +82,13 @@ private:
     int orientation = z_axis;
     bindpose::Vec3 free_normal = bindpose::Vec3::UnitZ();
     double place = 0.5;
-    bindpose::Vec3 origin = bindpose::Vec3::Zero(); ///< of the plane, where its arrow stands
+    bindpose::Vec3 origin = bindpose::Vec3::Zero(); ///< point of the plane where its arrow is drawn
   };
   const State& kept() const { return this->dragged_ ? this->before_ : this->state_; }
   double place_of(double position) const;
   void go_to_place();
   void place_widget();
-  /// The line of sight through the mouse.
+  /// Return the line of sight through the mouse.
   void mouse_ray(bindpose::Vec3& from, bindpose::Vec3& along) const;
   void widget_caught();
   void widget_moved();
@@ -95,9 +98,9 @@ private:
   bindpose::Box box_;
   bool shown_ = false;
   State state_;
-  State before_; ///< the drag
+  State before_; ///< before the drag
   bool dragged_ = false;
-  bindpose::Vec3 grip_ = bindpose::Vec3::Zero(); // of the plane, where the mouse has caught it
+  bindpose::Vec3 grip_ = bindpose::Vec3::Zero(); // point of the plane that the mouse has caught
   vtkNew<vtkImplicitPlaneWidget2> widget_;
   vtkNew<vtkImplicitPlaneRepresentation> plane_;
 };

@@ -7,8 +7,8 @@ class Document;
 class OptionLinks;
 class PlaneHandle;
 
-/// Ties a plane to the options NAME.orientation, NAME.place and NAME.normal: a drag of it is one
-/// step, and undo during the drag takes it back.
+/// Connect a plane with the options NAME.orientation, NAME.place and NAME.normal. A drag is one
+/// step; undo during the drag cancels it.
 void tie_plane(OptionLinks* links, Document* document, const QString& name, PlaneHandle* plane);
 
 #endif

@@ -1,4 +1,4 @@
-// Both halves have one camera: whoever turns one turns the other.
+// Both halves share one camera, so that rotating one half rotates the other.
 #include "pose_ghost.h"
 
 #include "viewport.h"
@@ -23,7 +23,7 @@ namespace
 {
 constexpr bindpose::Rgb ghost_color{ 0.20, 0.50, 0.76 };
 constexpr double ghost_opacity = 0.38;
-/// From this distance on, in bounding-box diagonals, the ghost has its whole opacity.
+/// At this distance, in bounding-box diagonals, the ghost reaches its full opacity.
 constexpr double whole_from = 0.02;
 constexpr const char* distance_name = "bindpose.Distance";
 } // namespace
@@ -46,7 +46,7 @@ PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
       k, ghost_color[0], ghost_color[1], ghost_color[2], k / (steps - 1.0));
   }
   this->mapper_->SetLookupTable(this->fading_);
-  // Points may slide along a surface that stays where it is: there the first shape is in front.
+  // Points may slide along a surface that stays in place. There the first shape is drawn in front.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->distances_->SetName(distance_name);
@@ -82,7 +82,7 @@ void PoseGhost::set_surface(vtkPolyData* surface)
   this->update();
 }
 
-/// Only what is seen costs time.
+/// Make the shape only when it is visible, to save time.
 void PoseGhost::make_shape()
 {
   if (this->surface_ && !this->shaded_ && this->is_drawn())
@@ -117,8 +117,8 @@ void PoseGhost::move(bindpose::PointsView points, bindpose::PointsView first)
   }
 }
 
-/// Where two surfaces coincide, which of them is drawn depends on round-off, pixel by pixel: there
-/// the ghost is clear.
+/// Make the ghost transparent where both surfaces coincide. Otherwise round-off would decide for
+/// each pixel which surface is drawn.
 void PoseGhost::fade(bindpose::PointsView points, bindpose::PointsView first)
 {
   if (points.rows() != first.rows())
@@ -137,7 +137,8 @@ void PoseGhost::fade(bindpose::PointsView points, bindpose::PointsView first)
   this->shaded_->polydata()->GetPointData()->AddArray(this->distances_);
 }
 
-/// Beside the shape it looks like that: with its outlines, or its picture if it has one.
+/// In the second half, give the ghost the look of the shape: with its outlines, or with its picture
+/// if it has one.
 void PoseGhost::look_as_beside()
 {
   vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();
@@ -192,7 +193,7 @@ void PoseGhost::update()
   this->viewport_->set_ghosted(place == over);
 }
 
-/// One half has clipped what it shows; the other may show more.
+/// One half has set its clipping range. Include the other half, which may show more.
 void PoseGhost::clipped()
 {
   if (this->place_ != beside || this->clips_)

@@ -21,8 +21,8 @@ class Viewport;
 class vtkActor;
 class vtkRenderer;
 
-/// Another shape of the viewport's surface: see-through over it, as far as it is elsewhere, or
-/// beside it in a half of its own that is seen from the same place.
+/// A second shape of the viewport's surface. It is drawn semitransparent over the first shape where
+/// they differ, or next to it in another half of the picture with the same camera.
 class PoseGhost
 {
 public:
@@ -37,14 +37,15 @@ public:
   explicit PoseGhost(Viewport* viewport);
   ~PoseGhost();
 
-  /// The surface that has another shape; null: none.
+  /// Set the surface of which the ghost is another shape; null: none.
   void set_surface(vtkPolyData* surface);
-  /// With the shape that is to be seen there, and the one in the viewport; no points: the last one.
+  /// Set the place, the points of the ghost, and those of the viewport's shape. Without points the
+  /// ghost keeps its shape.
   void set_place(Place place, bindpose::PointsView points, bindpose::PointsView first);
   Place place() const { return this->place_; }
   void move(bindpose::PointsView points, bindpose::PointsView first);
   vtkRenderer* renderer() const { return this->renderer_; }
-  /// As drawn; null before it was seen.
+  /// Return the ghost as drawn; null before it was first shown.
   const bindpose::ShadedSurface* shaded() const { return this->shaded_.get(); }
 
 private:
@@ -59,14 +60,14 @@ private:
   Place place_ = hidden;
   vtkNew<bindpose::MovedSurfaceMapper> mapper_;
   vtkNew<vtkActor> actor_;
-  vtkNew<vtkLookupTable> fading_; // over the surface: clear where both shapes coincide
-  vtkNew<vtkDoubleArray> distances_; // of each drawn point, in diagonals
-  vtkNew<vtkRenderer> renderer_; // of the half beside
+  vtkNew<vtkLookupTable> fading_; // over the surface: transparent where both shapes coincide
+  vtkNew<vtkDoubleArray> distances_; // per drawn point, in bounding-box diagonals
+  vtkNew<vtkRenderer> renderer_; // of the second half
   vtkSmartPointer<vtkPolyData> surface_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
-  std::unique_ptr<bindpose::Outline> outline_; ///< beside
+  std::unique_ptr<bindpose::Outline> outline_; ///< in the second half
   bool in_window_ = false;
-  bool clips_ = false; // for both halves
+  bool clips_ = false; // clipped() is setting the range of both halves
 };
 
 #endif

@@ -31,7 +31,7 @@ void PoseKeeper::set_handles(const std::shared_ptr<const Handles>& handles)
   this->strip_->set_ready(handles != nullptr);
 }
 
-// ---- Poses that are kept -----------------------------------------------------------------------
+// ---- Stored poses ------------------------------------------------------------------------------
 
 void PoseKeeper::connect_list()
 {

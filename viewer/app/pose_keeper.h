@@ -13,27 +13,28 @@
 class KeyStrip;
 class PoseList;
 
-/// The poses that are kept: by name in a list, at times as key frames that play. What list and
-/// strip ask for is done to the shelf; poses that handles shall be in are only asked for.
+/// The stored poses: named poses in a list, and key frames that play. Requests of list and strip
+/// change the shelf. A new pose of the handles is only requested by signals.
 class PoseKeeper : public QObject
 {
   Q_OBJECT
 
 public:
-  /// @param pose  what handles are in
+  /// @param pose  returns the pose of the handles
   PoseKeeper(PoseList* list, KeyStrip* strip, std::function<bindpose::Pose()> pose,
     QObject* parent = nullptr);
 
-  /// Whose poses these are; null: nobody's.
+  /// Set the handles of the poses; null: none.
   void set_handles(const std::shared_ptr<const bindpose::Handles>& handles);
   const bindpose::PoseShelf& shelf() const { return this->shelf_; }
-  /// Another session's, or undo: shelf_changed() is not emitted.
+  /// Set the shelf of another session or of undo, without emitting shelf_changed().
   void set_shelf(const bindpose::PoseShelf& shelf);
   bool is_playing() const { return this->playing_.isActive(); }
   void play(bool play);
 
 Q_SIGNALS:
-  /// With the name of the step, or none as long as it goes on; then pose_done() ends it.
+  /// The handles must take this pose. `step` is empty while an interaction continues; pose_done()
+  /// then ends it.
   void pose_wanted(const bindpose::Pose& pose, const QString& step);
   void pose_done(const QString& step);
   void shelf_changed(const QString& step);

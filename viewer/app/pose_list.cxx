@@ -55,7 +55,7 @@ PoseList::PoseList(QWidget* parent) : QWidget(parent)
     [this]
     {
       const QSignalBlocker quiet(this->slider_);
-      this->slider_->setValue(0); // what is now is the next blend's start
+      this->slider_->setValue(0); // the next blend starts at the current pose
       Q_EMIT this->blend_ended();
     });
   this->enable();

@@ -8,7 +8,7 @@ class QListWidget;
 class QPushButton;
 class QSlider;
 
-/// The poses that are kept: store, name (a double click), apply, blend, delete.
+/// The list of stored poses: store, rename (by a double click), apply, blend, delete.
 class PoseList : public QWidget
 {
   Q_OBJECT
@@ -26,7 +26,7 @@ Q_SIGNALS:
   void apply_wanted(int entry);
   void remove_wanted(int entry);
   void renamed(int entry, const QString& name);
-  /// While the slider moves from the pose as it is (0) to the chosen one (1), and at its end.
+  /// The slider was moved between the current pose (0) and the chosen one (1), or was released.
   void blended(int entry, double share);
   void blend_ended();
 

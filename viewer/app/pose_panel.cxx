@@ -60,7 +60,7 @@ const struct
       "PosePanel", "The smoothest surface through what handles hold. Needs no weights.") },
 };
 
-/// Methods that fit rotations, whatever they move.
+/// The methods that fit rotations.
 const std::vector<PoseMethod> rigid = { PoseMethod::reduced_arap, PoseMethod::full_arap };
 
 QString translated(const char* text)
@@ -176,7 +176,7 @@ void PosePanel::add_methods(QVBoxLayout* column)
   QObject::connect(this->cancel_, &QPushButton::clicked, this, &PosePanel::cancel_wanted);
 }
 
-/// A line with a name and a widget that chooses; shown for these methods only.
+/// Add a line with a name and a widget for an option. It is shown for these methods only.
 QWidget* PosePanel::option(QVBoxLayout* column, const QString& name, QWidget* widget,
   const QString& tip, std::vector<PoseMethod> of)
 {
@@ -230,7 +230,7 @@ void PosePanel::add_options(QVBoxLayout* column)
     row->setObjectName(key);
     row->set_range(lowest, highest);
     row->set_value(at);
-    row->slider()->setMinimumWidth(50); // beside its name
+    row->slider()->setMinimumWidth(50); // next to its name
     return row;
   };
   const auto check = [this](const char* key, const QString& text)
@@ -332,7 +332,7 @@ void PosePanel::add_comparison(QVBoxLayout* column)
         tr("In a half of its own, seen from the same place"),
         tr("The shape in the colors of its distance from the other one,\n"
            "in percent of the bounding-box diagonal of the shape at rest") });
-  this->place_->button(2)->setChecked(true); // says how much
+  this->place_->button(2)->setChecked(true); // shows the size of the distance
   this->place_->setObjectName("pose.ghost");
   this->difference_ = new QLabel(this->place_row_);
   this->difference_->setObjectName("note");

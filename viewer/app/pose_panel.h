@@ -19,9 +19,9 @@ class QVBoxLayout;
 class Section;
 class ValueRow;
 
-/// How the shape follows its handles: the method, with the options of that method only; a second
-/// one to compare with; and the body that moves by itself. Widgets that choose options have their
-/// keys as object names. The panel holds what is chosen; what is done with it others do.
+/// The panel for posing: the method with its options, a second method to compare with, and the body
+/// that moves by itself. Widgets that choose options have the options' keys as object names. The
+/// panel only stores the choices; other classes act on them.
 class PosePanel : public QWidget
 {
   Q_OBJECT
@@ -29,18 +29,18 @@ class PosePanel : public QWidget
 public:
   explicit PosePanel(QWidget* parent = nullptr);
 
-  /// Something of its own between the method's options and what is seldom needed.
+  /// Insert a widget between the method's options and the rarely used ones.
   void insert(QWidget* widget);
-  /// What is chosen.
+  /// Return the chosen options.
   bindpose::PoseOptions options() const;
   void set_method(int method);
-  /// The method to compare with; -1: none.
+  /// Return the method to compare with; -1: none.
   int compared_method() const;
-  /// That is the method at work: there is nothing to compare.
+  /// Report whether the compared method is the current one, so that there is nothing to compare.
   bool compares_itself() const;
   PoseGhost::Place ghost_place() const;
   bool moves() const;
-  /// What is seen of the method's rotations, in colours.
+  /// How the method's rotations are shown in colors.
   enum Rotations
   {
     no_rotations,
@@ -52,14 +52,14 @@ public:
 
   struct State
   {
-    bool ready = false; ///< a surface and handles
-    bool bound = false; ///< weights
-    bool tets = false; ///< what weights were solved in
+    bool ready = false; ///< there are a surface and handles
+    bool bound = false; ///< there are weights
+    bool tets = false; ///< the weights were solved on tets
     bool bones = false;
-    bool endpoints = false; ///< the array EndpointWeights
+    bool endpoints = false; ///< there is the array EndpointWeights
   };
   void set_state(const State& state);
-  /// A bind of the method itself, which has a bar of its own.
+  /// Show or hide the progress bar for binds of the method itself.
   void set_binding(bool binding);
   void set_progress(double fraction, const QString& phase);
   void set_difference(const QString& text);
@@ -131,7 +131,7 @@ private:
 
 /// The methods in the order of buttons, menu entries, keys (1 to 7) and `bindpose deform --method`.
 std::vector<bindpose::PoseMethod> method_order();
-/// The name of a method in menus and lists, and in a sentence what it is for.
+/// Return the name of a method for menus and lists, and one sentence about its purpose.
 QString method_name(bindpose::PoseMethod method);
 QString method_purpose(bindpose::PoseMethod method);
 

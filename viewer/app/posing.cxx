@@ -92,7 +92,7 @@ Posing::Posing(Viewport* viewport, const Panels& panels)
 
 Posing::~Posing() = default;
 
-// ---- What there is -----------------------------------------------------------------------------
+// ---- Data --------------------------------------------------------------------------------------
 
 void Posing::set_data(
   vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights)
@@ -209,7 +209,7 @@ void Posing::connect_keeper()
 void Posing::options_changed()
 {
   this->main_->set_options(this->panels_.pose->options());
-  this->main_->bind(); // after a cancel
+  this->main_->bind(); // continues after a cancel
   this->show_comparison();
   this->motion_->options_changed();
   this->show_what_is_held();
@@ -217,14 +217,14 @@ void Posing::options_changed()
   Q_EMIT this->moved();
 }
 
-/// Handles are drawn as the method takes their modes.
+/// Draw the modes of the handles with the meaning that they have for the method.
 void Posing::show_what_is_held()
 {
   const bool finds = finds_rotations(this->panels_.pose->options().method);
   this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetFindsRotations(finds);
 }
 
-/// The second method has the first one's options.
+/// Return the options of the second method, which are those of the first one.
 PoseOptions Posing::compared_options() const
 {
   PoseOptions options = this->panels_.pose->options();
@@ -244,7 +244,7 @@ void Posing::comparison_changed()
   Q_EMIT this->moved();
 }
 
-/// The other method's shape where the panel wants it, as soon as there can be one.
+/// Show the other method's shape as the panel requests, as soon as it can be computed.
 void Posing::show_comparison()
 {
   const PoseGhost::Place wanted = this->panels_.pose->ghost_place();
@@ -287,7 +287,7 @@ void Posing::handles_moved()
   }
   if (this->panels_.pose->ghost_place() != this->chosen_)
   {
-    this->show_comparison(); // the method is another one
+    this->show_comparison(); // the method has changed
   }
   else if (this->ghost_->place() != PoseGhost::hidden)
   {
@@ -322,7 +322,7 @@ void Posing::show_difference()
   const double diagonal = bounding_box(this->source_->points).diagonal();
   const double largest = std::sqrt(squares.maxCoeff());
   const double mean = std::sqrt(squares.mean());
-  constexpr double round_off = 1e-10; // in diagonals
+  constexpr double round_off = 1e-10; // in bounding-box diagonals
   if (largest <= round_off * diagonal)
   {
     this->panels_.pose->set_difference(tr("Both methods give the same shape."));
@@ -336,7 +336,7 @@ void Posing::show_difference()
                                                                       : tr("; still converging")));
 }
 
-/// Handles that are free stand where they were found, so that they can be seen and taken hold of.
+/// Put free handles where the method has found them, so that the user can see and drag them.
 void Posing::follow_free_handles()
 {
   const std::vector<Affine>* found = this->panels_.pose->moves()
@@ -375,7 +375,7 @@ const PoseRotations* Posing::rotations()
                                       : nullptr;
 }
 
-// ---- What is seen ------------------------------------------------------------------------------
+// ---- The visible shape -------------------------------------------------------------------------
 
 vtkPolyData* Posing::shape()
 {
@@ -394,7 +394,7 @@ vtkPolyData* Posing::shape()
   {
     this->shape_ = vtkSmartPointer<vtkPolyData>::New();
     this->shape_->ShallowCopy(this->surface_);
-    this->shape_->GetPointData()->SetNormals(nullptr); // those of rest
+    this->shape_->GetPointData()->SetNormals(nullptr); // remove those of the rest shape
     this->shape_->SetPoints(to_vtk_points(points));
     return this->shape_;
   }
@@ -485,7 +485,7 @@ QString Posing::reading() const
   const Report& report = status.report;
   QStringList parts;
   parts << (moves ? tr("Motion") : method_name(this->main_->options().method));
-  if (!status.warnings.empty()) // before the numbers: a narrow window cuts the end off
+  if (!status.warnings.empty()) // first, because a narrow window cuts off the end
   {
     parts << QString::fromStdString(status.warnings.front());
   }
@@ -602,7 +602,7 @@ void Posing::order_layers()
     }
     if (status.usable())
     {
-      // Away from the eye: what is drawn on the shape stays in front of it.
+      // The offsets point away from the eye, so that lines on the shape stay in front of it.
       const double layer = 1e-3 * bounding_box(this->source_->points).diagonal();
       depths = layer * (order.front.array() - order.front.maxCoeff()).matrix();
     }
@@ -632,7 +632,7 @@ void Posing::drag_began()
 
 // ---- The body ----------------------------------------------------------------------------------
 
-/// What holds the body: the pose, but a free handle only while it is in the hand.
+/// Return the pose that constrains the body. A free handle is constrained only while it is dragged.
 Pose Posing::holding_pose() const
 {
   Pose pose = this->pose();
@@ -648,7 +648,7 @@ Pose Posing::holding_pose() const
       }
       else
       {
-        pose[k].transform = identity_affine(); // what was found says nothing
+        pose[k].transform = identity_affine(); // the computed transform is no constraint
       }
     }
   }

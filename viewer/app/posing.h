@@ -22,11 +22,11 @@ class PosePanel;
 class SequenceExport;
 class Viewport;
 
-/// All posing of the window: the method at work and the one to compare with, the body that moves by
-/// itself, key frames that play, the poses that are kept, and what the panels say about it.
+/// Posing in the window: the current method and the one to compare with, the body that moves by
+/// itself, playback of key frames, the stored poses, and the texts of the panels about them.
 ///
-/// It reads the pose from the handle dataset, which the widget edits in place, and changes it only
-/// through pose_changed() and pose_done(), so that whoever keeps the history sees every change.
+/// It reads the pose from the handle dataset, which the widget edits in place. It changes the pose
+/// only by pose_changed() and pose_done(), so that the owner of the history receives every change.
 class Posing : public QObject
 {
   Q_OBJECT
@@ -42,84 +42,86 @@ public:
   Posing(Viewport* viewport, const Panels& panels);
   ~Posing() override;
 
-  /// What there is to bend; null: nothing. Weights of the surface count when they are wanted.
+  /// Set the data to pose; null: none. The surface's weights are used only if `use_weights` is
+  /// true.
   void set_data(
     vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights);
   bool has_weights() const;
-  /// The surface lies in a plane across this, which points to the eye: where a pose makes it
-  /// overlap itself, its handles' layers say what is in front. To be told before set_data().
-  /// Nothing: it lies in none.
+  /// Set the normal, toward the eye, of a planar surface; empty: the surface is not planar. Where
+  /// a pose makes a planar surface overlap itself, the layers of its handles determine the order.
+  /// Must be called before set_data().
   void set_plane(const std::optional<bindpose::Vec3>& normal) { this->plane_ = normal; }
-  /// The method has what it needs.
+  /// Report whether the method has all data that it needs.
   bool can_pose() const { return this->main_->can_pose(); }
 
-  /// The handles' pose arrays are others now.
+  /// The handles' pose arrays have changed.
   void handles_moved();
-  /// The handles have other layers now.
+  /// The handles' layers have changed.
   void layers_changed();
-  /// Others are selected; the values of the first can be seen and typed.
+  /// Set the selected handles. The values of the first one are shown and can be typed.
   void select_handles(const std::vector<int>& handles);
-  /// A drag begins; what plays stops.
+  /// A drag begins: stop playback.
   void drag_began();
 
-  /// The surface at rest, of set_data().
+  /// Return the surface at rest, from set_data().
   vtkPolyData* surface() const { return this->surface_; }
-  /// As it is seen: posed, or at rest. The same object as long as the surface is.
+  /// Return the visible shape: posed, or at rest. The object is the same as long as the surface is.
   vtkPolyData* shape();
-  /// What draw() draws: the shape, or the one at rest while something of that is inspected.
+  /// Return the shape that draw() draws: shape(), or the surface at rest while data at rest is
+  /// inspected.
   vtkPolyData* seen() { return this->inspected_ ? this->surface_.Get() : this->shape(); }
-  /// Bring the viewport's surface and its ghost to what is seen.
+  /// Update the viewport's surface and its ghost to seen().
   void draw();
-  /// Something that belongs to the shape at rest (tets, slices) is shown in the picture: draw()
-  /// draws the shape at rest, without a comparison. The pose goes on.
+  /// Set whether the picture shows data that belongs to the shape at rest (tets, slices). draw()
+  /// then draws the shape at rest, without a comparison. Posing continues.
   void inspect_at_rest(bool inspects);
-  /// Whether the picture shows the shape at rest, whatever the pose.
+  /// Report whether the picture shows the shape at rest, regardless of the pose.
   bool shows_rest() const { return this->inspected_ || this->at_rest_ || this->edits_at_rest_; }
-  /// The pose moves some handle, or a body moves.
+  /// Report whether the pose moves a handle, or a body moves.
   bool is_posed() const;
-  /// The shape at rest, whatever the pose, until the next drag.
+  /// Show the shape at rest, regardless of the pose, until the next drag.
   void look_at_rest(bool rest);
   bool looks_at_rest() const { return this->at_rest_; }
   bool edits_at_rest() const { return this->edits_at_rest_; }
-  /// The same while rest handles are edited: they can be taken hold of.
+  /// Show the shape at rest while handles are edited at rest, so that the mouse can drag them.
   void edit_at_rest(bool edits);
-  /// What the last pose took and came to, in a line.
+  /// Return a line about the last pose: its time and its result.
   QString reading() const;
 
   Deformation* deformation() const { return this->main_; }
   Deformation* compared() const { return this->compared_; }
-  /// Of the shape that the method at work gives, whether or not it is what is looked at.
+  /// Return the points of the current method's shape, even if another shape is shown.
   const bindpose::Points& points() const;
-  /// What that shape is turned by; null where the method fits no rotations.
+  /// Return the rotations of that shape; null if the method fits none.
   const bindpose::PoseRotations* rotations();
-  /// Of the box around the shape at rest.
+  /// Return the diagonal of the box around the shape at rest.
   double rest_diagonal() const { return this->surface_ ? this->surface_->GetLength() : 0.0; }
   PoseGhost* ghost() const { return this->ghost_.get(); }
   BodyMotion* motion() const { return this->motion_; }
   PoseKeeper* keeper() const { return this->keeper_; }
   SequenceExport* sequence_export() const { return this->export_; }
-  /// There are key frames, or a motion.
+  /// Report whether there are key frames or a motion.
   bool has_animation() const;
-  /// Write the key frames, or the motion, if there are some; sequence_export() reports progress and
+  /// Write the motion or the key frames, if there are any. sequence_export() reports progress and
   /// result.
   void export_to(const QString& path);
 
   const bindpose::PoseShelf& shelf() const { return this->keeper_->shelf(); }
 
 Q_SIGNALS:
-  /// The handles shall be in this pose; it is not done yet.
+  /// The handles must take this pose.
   void pose_changed(const bindpose::Pose& pose);
-  /// Since the first pose_changed() this has happened: a step of the history.
-  /// Successive steps with the same merge text are one step of the history, until edit_ended().
+  /// The changes since the first pose_changed() are a step of the history with this name.
+  /// Consecutive steps with the same merge text are one step, until edit_ended().
   void pose_done(const QString& step, const QString& merge = {});
   void edit_ended();
   void shelf_changed(const QString& step);
-  /// The handles have other cell arrays now: a step of the history.
+  /// The handles' cell arrays have changed: a step of the history.
   void handles_changed(const QString& step);
-  /// The shape is another one, or what is said of it: draw().
+  /// The shape or the text about it has changed: the owner must call draw().
   void moved();
   void failed(const QString& sentence);
-  /// A pose was applied, and nothing is wrong with it.
+  /// A pose was applied without errors.
   void succeeded();
 
 private:
@@ -154,14 +156,14 @@ private:
   std::shared_ptr<const bindpose::PoseSource> source_;
   vtkSmartPointer<vtkPolyData> surface_, handles_, shape_;
   std::vector<bindpose::Index> cells_;
-  int selected_ = -1; ///< the first of
+  int selected_ = -1; ///< the first selected handle; -1: none
   int selected_count_ = 0;
   std::optional<bindpose::Vec3> plane_;
   bool at_rest_ = false;
   bool edits_at_rest_ = false;
-  bool inspected_ = false; ///< at rest
-  PoseGhost::Place chosen_ = PoseGhost::hidden; ///< of the panel, when it was looked at last
-  double drawing_microseconds_ = 0.0; ///< of draw(): points and normals
+  bool inspected_ = false; ///< data at rest is inspected
+  PoseGhost::Place chosen_ = PoseGhost::hidden; ///< the panel's choice at the last update
+  double drawing_microseconds_ = 0.0; ///< time of draw() for points and normals
 };
 
 #endif

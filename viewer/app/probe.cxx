@@ -1,5 +1,5 @@
-// Each kind of thing is asked where the ray of the mouse's pixel meets it first; the nearest
-// speaks. Nothing is kept between moves but the text.
+// The ray through the mouse's pixel is intersected with each type of object. The nearest hit
+// provides the text. Nothing but the text is kept between moves.
 #include "probe.h"
 
 #include "defect_view.h"
@@ -56,7 +56,7 @@ QString place_words(const Vec3& place)
     .arg(number(place.x()), number(place.y()), number(place.z()));
 }
 
-/// Of a class its name, of anything else the number.
+/// Return the name of a category; for other values the number.
 QString value_words(const Colouring& colouring, double value)
 {
   const std::vector<double> shown = category_values(colouring.categories);
@@ -73,11 +73,11 @@ QString value_words(const Colouring& colouring, double value)
 QString named_value(const Colouring& colouring, double value)
 {
   const QString name = QString::fromStdString(colouring.legend_name());
-  return name == "Min. angle (°)" ? QString() // said of every tet
+  return name == "Min. angle (°)" ? QString() // the text of every tet contains it
                                   : Probe::tr("%1: %2").arg(name, value_words(colouring, value));
 }
 
-/// The array that is shown in colours, linear in a triangle's corners or one for all of it.
+/// Return the value that is shown in colors: linear in a triangle's corners, or one per cell.
 std::optional<double> shown_value(vtkPolyData* data, const Index* corners, const SightHit& hit)
 {
   if (vtkDataArray* array = data->GetPointData()->GetArray(colour_array_name))
@@ -95,7 +95,7 @@ std::optional<double> shown_value(vtkPolyData* data, const Index* corners, const
     : std::nullopt;
 }
 
-/// Where along the ray it is within a box.
+/// Compute the part of the ray that is inside a box. Return false if there is none.
 bool stretch_in(const SightRay& ray, const double* bounds, double& from, double& to)
 {
   from = 0.0;
@@ -106,7 +106,7 @@ bool stretch_in(const SightRay& ray, const double* bounds, double& from, double&
     double b = (bounds[2 * axis + 1] - ray.origin[axis]) / ray.direction[axis];
     if (std::isnan(a) || std::isnan(b))
     {
-      continue; // along a side
+      continue; // along a side of the box
     }
     from = std::max(from, std::min(a, b));
     to = std::min(to, std::max(a, b));
@@ -119,8 +119,8 @@ Vec3 at(const SightRay& ray, double distance)
   return ray.origin + distance * ray.direction;
 }
 
-/// Calls what(distance, value) along a ray through a volume, twice for each of its samples, until
-/// that is false.
+/// Call what(distance, value) along a ray through a volume, twice per sample, until it returns
+/// false.
 template <typename What>
 void walk(const SightRay& ray, vtkImageData* image, const What& what)
 {
@@ -150,7 +150,7 @@ Probe::Probe(const Views& views)
   this->label_->setObjectName("reading");
   this->label_->setAttribute(Qt::WA_TransparentForMouseEvents);
   this->label_->hide();
-  // As Qt tells it: a widget of VTK that is being dragged keeps its events to itself.
+  // Use Qt's events, because a VTK widget that is being dragged does not pass on VTK's.
   views.viewport->installEventFilter(this);
 }
 
@@ -210,8 +210,8 @@ void Probe::say(const QStringList& lines)
   this->label_->setVisible(!lines.isEmpty());
 }
 
-/// The label is in the upper right corner, or in the lower one when the mouse or something else is
-/// there.
+/// Put the label into the upper right corner, or into the lower one if the mouse or another widget
+/// is there.
 void Probe::make_way(const QPoint& mouse)
 {
   const Viewport* viewport = this->views_.viewport;
@@ -235,13 +235,13 @@ void Probe::make_way(const QPoint& mouse)
   this->label_->move(place.topLeft());
 }
 
-// ---- What is there -----------------------------------------------------------------------------
+// ---- Text about the hit ------------------------------------------------------------------------
 
 QStringList Probe::read_at(int x, int y)
 {
   Viewport* viewport = this->views_.viewport;
   const int width = viewport->picture_size(1).width();
-  // Beside each other both halves have one camera.
+  // If the picture is split, both halves have the same camera.
   const bool other = viewport->is_split() && 2 * x >= width;
   SightRay ray;
   viewport->ray_at(other ? x - width / 2 : x, y, ray.origin, ray.direction);
@@ -286,7 +286,8 @@ Probe::Maybe Probe::surface(const SightRay& ray, bool other) const
   }
   Found found;
   found.distance = hit.distance;
-  // In the surface's own points, as the layers of a picture do not move them.
+  // The coordinates are those of the surface's own points, which the layers of a picture do not
+  // move.
   const Vec3 seen = at(ray, hit.distance);
   Vec3 place = Vec3::Zero();
   Index nearest = -1;
@@ -311,7 +312,7 @@ Probe::Maybe Probe::surface(const SightRay& ray, bool other) const
   return found;
 }
 
-/// The number that is shown in colours, and the handle that is the strongest.
+/// Return the number that is shown in colors, and the handle with the largest weight.
 QStringList Probe::weights(vtkPolyData* shape, const SightHit& hit) const
 {
   const ShadedSurface* shaded = this->views_.viewport->shaded();
@@ -363,7 +364,7 @@ QStringList Probe::weights(vtkPolyData* shape, const SightHit& hit) const
   return lines << tr("Strongest handle: %1, %2").arg(name(largest)).arg(weight(largest), 0, 'f', 3);
 }
 
-/// Between the shape and that of the method it is compared with.
+/// Return the distance from the shape to that of the compared method.
 QString Probe::difference(const SightHit& hit) const
 {
   const Posing* posing = this->views_.posing;
@@ -442,7 +443,7 @@ Probe::Maybe Probe::winding_slice(const SightRay& ray) const
   const double slope = ray.direction.dot(view->slice_normal());
   if (!view->volume() || !view->is_slice_shown() || std::abs(slope) < 1e-9)
   {
-    return {}; // or seen edge-on
+    return {}; // not shown, or seen edge-on
   }
   Found found;
   found.distance = (view->position() - ray.origin.dot(view->slice_normal())) / slope;
@@ -456,7 +457,7 @@ Probe::Maybe Probe::winding_slice(const SightRay& ray) const
   return found;
 }
 
-/// By the field, whose first crossing of the level along the ray is what is drawn.
+/// Use the field: its first crossing of the level along the ray is the point that is drawn.
 Probe::Maybe Probe::isosurface(const SightRay& ray) const
 {
   const VolumeView* view = this->views_.volume;
@@ -512,7 +513,8 @@ Probe::Maybe Probe::cloud(const SightRay& ray) const
   return found;
 }
 
-/// A dot or edge a few pixels away, else a face under the mouse; what is nearer first.
+/// Return the dot or edge within a few pixels, otherwise the face under the mouse. Among several,
+/// the nearest one counts.
 QString Probe::defect(const SightRay& ray) const
 {
   vtkPolyData* defects = this->views_.defects->defects();
@@ -532,7 +534,7 @@ QString Probe::defect(const SightRay& ray) const
   const Points seen = seen_along(ray, to_points(defects).view());
   const auto reach = [&](double depth) { return parallel ? slope : slope * (eye + depth); };
   Index best = -1;
-  int best_kind = 4; // corners
+  int best_kind = 4; // number of corners
   double best_depth = 1e300;
   Index cell = 0;
   vtkNew<vtkIdList> ids;

@@ -20,12 +20,13 @@ class VolumeView;
 class WeightView;
 class vtkPolyData;
 
-/// What lies under the mouse, with names and numbers, on a small label in a corner of the picture:
-/// of the surface its triangle, vertex and coordinates, the weight that is shown, the handle that
-/// is the strongest there, a defect, and how far another method's shape is; of tets, slices,
-/// isosurface and cloud what they show. What is seen in front is read; what is see-through counts
-/// only where nothing solid is. Computed for moves of the mouse only, and not while a button is
-/// held.
+/// Shows names and numbers of the object under the mouse, on a small label in a corner of the
+/// picture.
+/// - For the surface: its triangle, vertex and coordinates, the shown weight, the handle with the
+///   largest weight, a defect, and the distance of another method's shape.
+/// - For tets, slices, isosurface and cloud: the shown values.
+/// The nearest solid object counts. Translucent objects count only where there is no solid object.
+/// Values are computed only when the mouse moves, and not while a button is pressed.
 class Probe : public QObject
 {
   Q_OBJECT
@@ -40,25 +41,25 @@ public:
     const DefectView* defects;
     Posing* posing;
     const RotationView* rotations;
-    /// The surface as it is shown, posed or at rest; null without one.
+    /// Returns the surface as shown, posed or at rest; null without one.
     std::function<vtkPolyData*()> surface;
   };
   explicit Probe(const Views& views);
 
-  /// At a pixel of VTK's (from the lower left); empty where nothing is.
+  /// Return the lines about a pixel of VTK (from the lower left); empty if nothing is there.
   QStringList read_at(int x, int y);
-  /// What the label says, in one line.
+  /// Return the text of the label in one line.
   QString reading() const;
   QLabel* label() const { return this->label_; }
-  /// Something else is seen now: nothing is said until the mouse moves.
+  /// Clear the label until the mouse moves, because the picture has changed.
   void clear();
-  /// What the last move took.
+  /// Return the milliseconds that the last mouse move took.
   double milliseconds() const { return this->milliseconds_; }
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-  /// A thing that the ray meets, and what there is to say about it.
+  /// An object that the ray hits, and the text about it.
   struct Found
   {
     double distance = 0.0;

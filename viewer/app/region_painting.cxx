@@ -1,5 +1,5 @@
-// The brush paints a surface of its own, which shares points and triangles with the document's:
-// what the document holds is never written into. When a stroke ends its labels become a step.
+// The brush paints a separate surface, which shares points and triangles with the document's. The
+// document's data is never modified. When a stroke ends, its labels become a step.
 #include "region_painting.h"
 
 #include "document/document.h"
@@ -48,7 +48,7 @@ std::set<int> labels_in(vtkDataArray* labels)
   return found;
 }
 
-/// The middle of a region's vertices; `nearest` the vertex that is nearest to it.
+/// Return the middle of a region's vertices, and in `nearest` the vertex that is nearest to it.
 Vec3 middle_of(vtkPolyData* surface, vtkDataArray* labels, int label, Vec3& nearest)
 {
   Vec3 sum = Vec3::Zero();
@@ -144,7 +144,7 @@ void RegionPainting::document_changed()
     this->painted_ = vtkSmartPointer<vtkPolyData>::New();
     this->painted_->ShallowCopy(surface);
   }
-  // Labels of its own, whatever they are in the file.
+  // Make separate labels, whatever their type in the file.
   vtkDataArray* labels = surface->GetPointData()->GetArray("RegionId");
   vtkNew<vtkIntArray> own;
   own->SetName("RegionId");
@@ -189,8 +189,8 @@ void RegionPainting::radius_changed()
 
 // ---- Strokes -----------------------------------------------------------------------------------
 
-/// The label that is painted: that of the region, or the first that nobody has. The widget has
-/// asked for none yet, so it can still be set.
+/// Set the label to paint: that of the region, or the first unused one. The widget reads it after
+/// this event, so it can still be set.
 void RegionPainting::stroke_began()
 {
   const std::set<int> used = labels_in(this->labels());
@@ -232,8 +232,8 @@ void RegionPainting::stroke_ended()
   Q_EMIT this->changed();
 }
 
-/// Handles follow the labels: one that is painted first gets a handle, those of which nothing is
-/// left lose theirs. The next stroke goes on with the region.
+/// Make handles follow labels: a new label gets a handle, and a handle whose label has disappeared
+/// is removed. The next stroke continues the region.
 bool RegionPainting::keep_stroke(std::string& region)
 {
   QString step = QString::fromStdString(this->viewport_->brush_widget()->GetInteractionName());
@@ -285,7 +285,7 @@ bool RegionPainting::keep_stroke(std::string& region)
       {
         break;
       }
-      handle.head = nearest; // another handle is in the middle
+      handle.head = nearest; // another handle is in the middle already
     }
   }
   const bool paints = now.count(label) > 0 && !this->brush()->GetErase();
@@ -304,15 +304,15 @@ bool RegionPainting::keep_stroke(std::string& region)
   }
   if (!status.ok())
   {
-    this->document_changed(); // the labels as they were
+    this->document_changed(); // restore the labels
     Q_EMIT this->refused(QString::fromStdString(status.message));
   }
   return status.ok();
 }
 
-// ---- Colours -----------------------------------------------------------------------------------
+// ---- Colors ------------------------------------------------------------------------------------
 
-/// A triangle has the colour of the label that most of its corners have.
+/// Give each triangle the color of the label that most of its corners have.
 void RegionPainting::show_labels()
 {
   vtkPolyData* drawn = this->viewport_->drawn();
@@ -379,7 +379,7 @@ void RegionPainting::show_labels()
   map.table->SetNanColor(plain[0], plain[1], plain[2], 1.0);
   const bool any = std::any_of(categories.begin(), categories.end(),
     [](const Category& category) { return category.count > 0; });
-  // Without one a legend would be a title with nothing below it.
+  // Without regions the legend would only be a title.
   this->viewport_->show_values(
     any ? values.Get() : nullptr, false, any ? tr("Regions") : QString(), map);
   this->viewport_->refresh();

@@ -13,9 +13,10 @@ class Viewport;
 class vtkDataArray;
 class vtkRegionBrushRepresentation;
 
-/// Regions painted on the surface: the brush of the viewport, the colours of the regions, and a
-/// step of the document for every stroke. The first stroke of a region makes its handle, with its
-/// pivot in the middle of what was painted; erasing the last of it takes the handle away.
+/// Painting of regions on the surface: the brush of the viewport, the colors of the regions, and a
+/// step of the document for every stroke. The first stroke of a region makes its handle, with the
+/// pivot in the middle of the painted vertices. Erasing the last vertex of a region removes its
+/// handle.
 class RegionPainting : public QObject
 {
   Q_OBJECT
@@ -25,22 +26,23 @@ public:
 
   void set_active(bool active);
   bool is_painting() const;
-  /// Takes the stroke that is going on back.
+  /// Cancel the current stroke.
   void cancel();
-  /// The document has others: surface, handles or labels.
+  /// Update after a change of the document's surface, handles or labels.
   void document_changed();
-  /// Strokes go on with this region; any other handle, or -1: they begin a new one.
+  /// Let the next stroke continue the region of this handle. If the handle is no region, or is -1,
+  /// the stroke begins a new one.
   void choose(int handle);
   bool has_region() const { return !this->region_.empty(); }
   QString region() const { return QString::fromStdString(this->region_); }
-  /// Of the brush, over the surface's diagonal.
+  /// Return the radius of the brush as a fraction of the surface's diagonal.
   double radius() const;
   void set_radius(double part);
 
 Q_SIGNALS:
-  /// The brush or the region is another, or a stroke begins or ends.
+  /// The brush or the region has changed, or a stroke has begun or ended.
   void changed();
-  /// A stroke was kept; it is of this region, or of none.
+  /// A stroke was stored. `region` is its region, or empty.
   void painted(const QString& region);
   void refused(const QString& sentence);
 
@@ -57,7 +59,7 @@ private:
   Document* document_;
   Viewport* viewport_;
   bool active_ = false;
-  vtkSmartPointer<vtkPolyData> painted_; ///< the document's surface, with labels of its own
+  vtkSmartPointer<vtkPolyData> painted_; ///< the document's surface, with separate labels
   std::string region_; ///< name of the region's handle
 };
 

@@ -1,5 +1,5 @@
-// Colours of clusters stay as long as the bind does; angles are written anew for every pose, one
-// look-up a point, into the array that is drawn already.
+// Colors of clusters are valid as long as the bind. Angles are written for every pose into the
+// array that is already drawn, with one look-up per point.
 #include "rotation_view.h"
 
 #include "pose_panel.h"
@@ -31,7 +31,7 @@ void RotationView::set_active(bool active)
 
 void RotationView::update()
 {
-  // Distances from another method's shape come first (DistanceView).
+  // Distances from another method's shape have priority (DistanceView).
   const bool free = this->active_ && this->posing_->ghost()->place() != PoseGhost::in_colors;
   const PosePanel::Rotations wanted =
     free ? this->panel_->shown_rotations() : PosePanel::no_rotations;
@@ -54,7 +54,7 @@ void RotationView::update()
   }
   if (!this->viewport_->shows(this->values_) || this->of_point_ != found->of_point)
   {
-    this->values_ = nullptr; // another surface, or others have shown theirs meanwhile
+    this->values_ = nullptr; // another surface, or other values were shown meanwhile
     this->of_point_ = found->of_point;
   }
   if (wanted == PosePanel::clusters)

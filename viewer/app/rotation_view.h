@@ -18,18 +18,18 @@ class PosePanel;
 class Posing;
 class Viewport;
 
-/// What as-rigid-as-possible turns the shape by, in colours on it: the clusters of places that
-/// share a rotation, or how far each is turned, as the panel asks for.
+/// The rotations of as-rigid-as-possible methods as colors on the shape: the clusters that share a
+/// rotation, or the angle of each rotation, as chosen in the panel.
 class RotationView
 {
 public:
   RotationView(Viewport* viewport, const PosePanel* panel, Posing* posing);
 
-  /// Whether the panel is there; else others say what the surface is coloured by.
+  /// Set whether the panel is shown. Otherwise other views determine the colors of the surface.
   void set_active(bool active);
-  /// The pose, the method, the surface or what is asked for is another one.
+  /// Update the colors after a change of the pose, the method, the surface or the panel's choice.
   void update();
-  /// At a point of the surface; empty when nothing is shown.
+  /// Return a line about a point of the surface; empty if nothing is shown.
   QString reading(bindpose::Index point) const;
 
 private:
@@ -40,10 +40,11 @@ private:
   const PosePanel* panel_;
   Posing* posing_;
   bool active_ = true;
-  vtkSmartPointer<vtkDoubleArray> values_; ///< shown; null: nothing
-  std::shared_ptr<const std::vector<bindpose::Index>> of_point_; ///< that they are of
-  double scale_ = 0.0; ///< of angles, degrees; 0: clusters are shown
-  std::vector<bindpose::Vec3> turns_; ///< of each rotation, axis times degrees
+  vtkSmartPointer<vtkDoubleArray> values_; ///< the shown values; null: none
+  /// The PoseRotations::of_point for values_.
+  std::shared_ptr<const std::vector<bindpose::Index>> of_point_;
+  double scale_ = 0.0; ///< end of the angle scale, degrees; 0: clusters are shown
+  std::vector<bindpose::Vec3> turns_; ///< per rotation, axis times degrees
 };
 
 #endif

@@ -6,7 +6,7 @@
 class QPushButton;
 class QVBoxLayout;
 
-/// A heading that opens and closes what belongs to it.
+/// A heading that opens and closes its contents.
 class Section : public QWidget
 {
   Q_OBJECT
@@ -14,7 +14,7 @@ class Section : public QWidget
 public:
   Section(const QString& title, const QString& tip, bool open, QWidget* parent = nullptr);
 
-  /// What belongs to it goes in here.
+  /// Return the layout of the contents.
   QVBoxLayout* column() const { return this->column_; }
   QWidget* body() const { return this->body_; }
   void set_open(bool open);

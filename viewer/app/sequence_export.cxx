@@ -87,7 +87,7 @@ void SequenceExport::start(const Input& input, const QString& path)
     std::string("json png ") + mesh_endings + " " + rig_endings + " " + video_extensions);
   if (known.ok() && is_listed(ending, video_extensions))
   {
-    known = check_ffmpeg(); // now, not after the work
+    known = check_ffmpeg(); // before the frames are computed
   }
   if (known.ok() && ending == "json" && input.run.start)
   {
@@ -165,7 +165,7 @@ vtkSmartPointer<vtkPolyData> SequenceExport::posed(std::size_t frame) const
   own->ShallowCopy(this->input_.surface->GetFieldData());
   result->SetFieldData(own);
   result->SetPoints(to_vtk_points(this->frames_->points[frame]));
-  result->GetPointData()->SetNormals(nullptr); // those of rest
+  result->GetPointData()->SetNormals(nullptr); // remove those of the rest shape
   if (frame < this->frames_->transforms.size())
   {
     vtkNew<vtkDoubleArray> transforms;
@@ -199,7 +199,7 @@ Status SequenceExport::write_datasets(const std::string& path)
     }
     Q_EMIT this->progress(0.7 + 0.3 * static_cast<double>(k) / static_cast<double>(count));
   }
-  // There whole or not at all, and what it replaces stays until then.
+  // All files are complete before the first one replaces an existing file.
   for (AtomicFile& file : files)
   {
     const Status status = file.commit();
@@ -215,7 +215,7 @@ Status SequenceExport::write_datasets(const std::string& path)
 Status SequenceExport::write_rig(const std::string& path)
 {
   vtkNew<vtkGLTFSkinWriter> writer;
-  vtkNew<vtkCallbackCommand> nothing; // it speaks through its status
+  vtkNew<vtkCallbackCommand> nothing; // the writer reports by its status
   nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, nothing);
   writer->AddObserver(vtkCommand::WarningEvent, nothing);
@@ -243,12 +243,12 @@ QImage SequenceExport::picture(std::size_t frame)
   return this->viewport_->grabFramebuffer();
 }
 
-/// Tiles side by side, as square as can be, with at most a dozen frames, evenly taken.
+/// Write at most a dozen evenly chosen frames as tiles, in rows of at most four.
 Status SequenceExport::write_strip(const std::string& path)
 {
   vtkHandleSetWidget* handles = this->viewport_->handle_widget();
   const bool shown = handles->GetEnabled();
-  handles->SetEnabled(false); // they stand where they are now
+  handles->SetEnabled(false); // they have the current pose, not that of a frame
   QImage strip;
   const std::vector<std::size_t> taken = evenly(this->frames_->points.size(), most_tiles);
   const int columns = static_cast<int>(std::min<std::size_t>(taken.size(), 4));

@@ -12,11 +12,11 @@
 class QImage;
 class Viewport;
 
-/// Writes an animation by the ending of its name: .json is a pose file, mesh endings numbered
-/// datasets with a .pvd, .glb and .gltf an animated file, .png a strip of pictures, .gif, .webm,
-/// .mp4 and .apng a moving one (by ffmpeg). Frames are posed and films encoded beside the window;
-/// pictures are taken of the viewport. Files appear whole or not at all, and replace those that are
-/// there: the dialog has asked.
+/// Writes an animation in the format of the file name's extension. .json is a pose file; mesh
+/// extensions are numbered datasets with a .pvd; .glb and .gltf are an animated file; .png is a
+/// strip of pictures; .gif, .webm, .mp4 and .apng are films (by ffmpeg). Frames are posed and films
+/// are encoded in the background. Pictures are taken of the viewport. Files are written completely
+/// or not at all. They replace existing files, because the dialog has already asked.
 class SequenceExport : public QObject
 {
   Q_OBJECT
@@ -31,25 +31,25 @@ public:
     vtkSmartPointer<vtkPolyData> surface; ///< at rest
     vtkSmartPointer<vtkPolyData> handles; ///< at rest
     bindpose::PoseOptions options;
-    std::vector<bindpose::Pose> poses; ///< a frame each, or
-    bindpose::BodyRun run; ///< what a body did
+    std::vector<bindpose::Pose> poses; ///< one per frame; not used if `run` has a start
+    bindpose::BodyRun run; ///< the motion of a body
     double frames_per_second = 24.0;
   };
-  /// Endings, for the dialog: "*.json *.vtp …".
+  /// Return the file name patterns for the dialog: "*.json *.vtp …".
   static QString patterns();
   void start(const Input& input, const QString& path);
   void cancel();
   bool is_running() const { return this->job_.is_running() || this->encoder_.is_running(); }
-  /// One sentence, or empty.
+  /// Return the error: one sentence, or empty.
   const QString& error() const { return this->error_; }
-  /// What was written, "24 frames"; empty when it was cancelled.
+  /// Return a description of the written data, "24 frames"; empty after a cancel.
   const QString& said() const { return this->said_; }
-  /// The file that is written, or was last.
+  /// Return the file that is being written, or was written last.
   const QString& path() const { return this->path_; }
 
 Q_SIGNALS:
   void progress(double fraction);
-  /// The viewport is free again: the window's own shape has to be drawn.
+  /// The viewport is free again, and the window must draw its own shape.
   void pictures_taken();
   void finished();
 
@@ -59,7 +59,7 @@ private:
   bindpose::Status write_datasets(const std::string& path);
   bindpose::Status write_rig(const std::string& path);
   bindpose::Status write_strip(const std::string& path);
-  /// Begins to encode, or says why not.
+  /// Begin to encode, or return the reason why that is impossible.
   bindpose::Status write_moving(const std::string& path);
   void end(const bindpose::Status& status);
   vtkSmartPointer<vtkPolyData> posed(std::size_t frame) const;
@@ -72,7 +72,7 @@ private:
   QString error_;
   QString said_;
   KernelJob encoder_;
-  KernelJob job_; // last: it ends before what it works on
+  KernelJob job_; // last member, so that it ends before the data it works on is destroyed
 };
 
 #endif

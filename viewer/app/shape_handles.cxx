@@ -18,8 +18,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Triangles that auto_rig() contracts to the skeleton: half of the time of the default, and
-/// fingers may be missed.
+/// Number of triangles that auto_rig() contracts to the skeleton. It takes half the time of the
+/// default number, but may miss fingers.
 constexpr Index quick_triangles = 5000;
 } // namespace
 
@@ -134,7 +134,7 @@ void ShapeHandles::finish()
   this->update();
   if (status.code == StatusCode::cancelled || this->surface_ != this->document_->surface())
   {
-    return; // another shape has come meanwhile
+    return; // canceled, or another shape was opened meanwhile
   }
   const bool points = this->method_ == AutomaticMethod::points;
   const bool has_bones = std::any_of(this->made_->begin(), this->made_->end(),

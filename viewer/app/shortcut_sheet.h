@@ -6,8 +6,8 @@
 class QLineEdit;
 class QTableWidget;
 
-/// All keys and buttons of the window, by when they apply (window_keys.h), with a field to look for
-/// words in.
+/// All keys and mouse buttons of the window, grouped by when they apply (window_keys.h), with a
+/// search field.
 class ShortcutSheet : public QDialog
 {
   Q_OBJECT
@@ -16,7 +16,7 @@ public:
   explicit ShortcutSheet(QWidget* parent);
 
   QTableWidget* table() const { return this->table_; }
-  /// Only rows with all these words are shown, and the headings above them.
+  /// Show only the rows that contain all these words, and their headings.
   void look_for(const QString& words);
 
 private:

@@ -36,7 +36,7 @@ constexpr DomainChoice domain_choices[] = {
   { bindpose::WeightsDomain::surface, QT_TRANSLATE_NOOP("SidePanel", "Surface") },
 };
 
-/// A combo box that does not grow with its items: they may be handles of any name.
+/// Return a combo box that does not grow with its items, because names of handles may be long.
 QComboBox* combo(QWidget* parent)
 {
   auto* box = new QComboBox(parent);
@@ -60,7 +60,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   this->kind_->setObjectName("bind.method");
   this->kind_->addItem(tr("Bounded biharmonic weights"));
   this->kind_->addItem(tr("Monotone weights"));
-  // The panel is as wide as this line, in any font.
+  // This line determines the width of the panel, in any font.
   this->kind_->setMinimumContentsLength(0);
   this->kind_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   this->kind_->setToolTip(tr("Bounded: smooth functions between 0 and 1.\n"
@@ -103,7 +103,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   this->note_->setObjectName("note");
   this->note_->setWordWrap(true);
   this->note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  // What comes and goes keeps its place, so that nothing below it jumps.
+  // Hidden widgets keep their space, so that nothing below them jumps.
   this->note_->setFixedHeight(2 * this->note_->fontMetrics().lineSpacing() + 2);
   QSizePolicy keeps_place = this->bar_->sizePolicy();
   keeps_place.setRetainSizeWhenHidden(true);
@@ -119,7 +119,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   shown_row->addWidget(this->shown_, 1);
   column->addLayout(shown_row);
 
-  // What poses has more to choose from than a small window has room for.
+  // The widgets for posing need more room than a small window has, so they scroll.
   column->addSpacing(6);
   auto* scroll = new QScrollArea(this);
   scroll->setObjectName("scroll");
@@ -173,7 +173,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   parts->addWidget(poses);
   parts->addStretch(1);
   scroll->setWidget(content);
-  // As wide as it must be, not as wide as its sentences would like to be.
+  // Use the minimum width, not the width that the sentences prefer.
   scroll->setMinimumWidth(
     std::max(content->minimumSizeHint().width(), 36 * this->fontMetrics().horizontalAdvance('0')));
   scroll->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
@@ -232,7 +232,7 @@ void SidePanel::set_handles(const std::vector<HandleTree::Row>& handles)
   this->show_mode();
 }
 
-/// Pixels that a handle's name may take in the combo box, after the words before it.
+/// Return the pixels that a handle's name may take in the combo box, after the words before it.
 int SidePanel::room_for_names() const
 {
   const int field = this->kind_->sizeHint().width() - this->shown_label_->sizeHint().width() -
@@ -240,7 +240,8 @@ int SidePanel::room_for_names() const
   return field - this->fontMetrics().horizontalAdvance(tr("Weights of %1").arg(QString()));
 }
 
-/// Of the first one selected; what can be chosen is what all of them can fix.
+/// Show the mode of the first selected handle. A mode can be chosen if all selected handles support
+/// it.
 void SidePanel::show_mode()
 {
   const QSignalBlocker quiet(this->mode_);
@@ -285,8 +286,9 @@ void SidePanel::select_handles(const std::vector<int>& handles)
 void SidePanel::set_state(bool ready, bool binding, bool bound)
 {
   this->stopping_ = false;
-  // Who presses Bind by key finds Cancel there, and then Bind again. Whatever else is disabled
-  // gives the keyboard up first: it would go on to the list and choose a handle there.
+  // A user who presses Bind with the keyboard continues with Cancel, and then with Bind again.
+  // Other widgets lose the keyboard focus before they are disabled. Otherwise the focus would move
+  // to the list and select a handle.
   const bool keyboard = this->bind_->hasFocus() || this->cancel_->hasFocus();
   const auto enable = [](QWidget* widget, bool on)
   {

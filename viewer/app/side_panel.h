@@ -17,35 +17,35 @@ class HandleFields;
 class PoseList;
 class PosePanel;
 
-/// The panel right of the picture: bind, show, pose. It holds no state of the work; it tells what
-/// the user wants by signals and shows what the window tells it.
+/// The panel to the right of the picture: bind, show, pose. It contains no state of the work. It
+/// emits signals for requests of the user, and the window sets what it shows.
 class SidePanel : public QFrame
 {
   Q_OBJECT
 
 public:
-  /// @param handles  the list that handles are selected in; it is elsewhere
+  /// @param handles  the list in which handles are selected; it is outside this panel
   explicit SidePanel(HandleTree* handles, QWidget* parent = nullptr);
 
-  /// Other handles; the column that is shown is kept by its name.
+  /// Set the handles. The shown column is kept by name.
   void set_handles(const std::vector<HandleTree::Row>& handles);
   void set_mode(int handle, int mode);
-  /// It alone; -1: none.
+  /// Select only this handle; -1: none.
   void select_handle(int handle);
   void select_handles(const std::vector<int>& handles);
-  /// Those that are selected in the list, the last one selected at the end.
+  /// Return the handles that are selected in the list, in the order of their selection.
   const std::vector<int>& selected_handles() const { return this->handles_->selected(); }
-  /// The first of them, of which the values are shown; -1: none.
+  /// Return the first selected handle, whose values are shown; -1: none.
   int selected_handle() const
   {
     return this->selected_handles().empty() ? -1 : this->selected_handles().front();
   }
   HandleTree* handle_list() const { return this->handles_; }
 
-  /// Ready: a surface and handles are there. Bound: weights are there.
+  /// Set the state. `ready`: there are a surface and handles. `bound`: there are weights.
   void set_state(bool ready, bool binding, bool bound);
   void set_progress(double fraction, const QString& phase);
-  /// One or two lines under the bind button: certificate, or what to do next.
+  /// Set the one or two lines under the bind button: certificate, or the next thing to do.
   void set_note(const QString& text);
   void set_method(int method);
 
@@ -53,24 +53,24 @@ public:
   HandleFields* fields() const { return this->fields_; }
   PoseList* poses() const { return this->poses_; }
 
-  /// True when monotone weights are wanted.
+  /// Report whether monotone weights are chosen.
   bool monotone() const;
-  /// Where they are solved.
+  /// Return the domain on which weights are solved.
   bindpose::WeightsDomain domain() const;
-  /// Column of the weights that is shown, -1: shaded.
+  /// Return the column of the weights that is shown; -1: plain shading.
   int shown_column() const;
   void show_column(int column);
 
 Q_SIGNALS:
-  /// The method of the next bind is another one.
+  /// The method of the next bind has changed.
   void bind_method_changed();
   void bind_wanted();
   void cancel_wanted();
   void column_chosen(int column);
   void method_chosen(int method);
-  /// Others are selected.
+  /// The selection has changed.
   void handles_chosen();
-  /// For all that are selected.
+  /// A mode for all selected handles.
   void mode_chosen(int mode);
   void rest_wanted();
 

@@ -5,8 +5,8 @@
 
 class QAction;
 
-/// Over the picture as long as a mesh has no handles: a button for the action that makes them, and
-/// the keys by which they are made by hand.
+/// A card over the picture while a mesh has no handles: a button for the action that makes them,
+/// and the keys to make them manually.
 class StartCard : public QFrame
 {
   Q_OBJECT

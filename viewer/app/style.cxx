@@ -1,4 +1,5 @@
-// The sheet names its colours by what they are for (@panel, @ink); shades[] has each of them twice.
+// The style sheet names its colors by their purpose (@panel, @ink). shades[] has a light and a dark
+// value for each.
 #include "style.h"
 
 #include "document/user_settings.h"
@@ -186,7 +187,7 @@ const char* const appearance_key = "appearance";
 const char* const appearance_words[] = { "system", "light", "dark" };
 bool dark_now = false;
 
-/// What the desktop had set before this program set its own.
+/// Report whether the desktop is dark, as it was before this program set its own palette.
 bool system_is_dark(const QApplication& application)
 {
   static const bool dark = application.palette().color(QPalette::Window).lightness() < 128;
@@ -224,7 +225,7 @@ void choose_appearance(QApplication& application, Appearance appearance)
 
 void apply_style(QApplication& application)
 {
-  Q_INIT_RESOURCE(app); // of a static library: else the linker leaves it out
+  Q_INIT_RESOURCE(app); // needed, because the linker omits resources of a static library
   const bool system_dark = system_is_dark(application);
   const Appearance chosen = chosen_appearance();
   dark_now = chosen == Appearance::dark || (chosen == Appearance::system && system_dark);
@@ -252,7 +253,7 @@ void apply_style(QApplication& application)
   font.setPointSizeF(10.0);
   application.setFont(font);
   QString text = sheet;
-  // The longest names first: one may begin with another.
+  // The longest names come first, because one name may be the beginning of another.
   std::vector<Shade> by_length(std::begin(shades), std::end(shades));
   std::sort(by_length.begin(), by_length.end(),
     [](const Shade& a, const Shade& b)

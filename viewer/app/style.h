@@ -5,15 +5,15 @@
 
 class QApplication;
 
-/// The look of the window: a restrained palette with one accent, light or dark, and the sheet that
-/// goes with it. Everything that has a colour in the shell has it from here.
+/// Apply the look of the window: a light or dark palette with one accent color, and the matching
+/// style sheet. All colors of the window, apart from the picture, are defined here.
 void apply_style(QApplication& application);
 
-/// A colour by what it is for ("ink", "panel", "accent", ...), as the window has it now.
+/// Return the current color for a purpose ("ink", "panel", "accent", ...).
 QColor shade(const char* name);
 bool is_dark();
 
-/// Light, dark, or as the desktop is; kept over the program's runs.
+/// Light, dark, or like the desktop. Kept between runs of the program.
 enum class Appearance
 {
   system,

@@ -21,7 +21,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   column->setSpacing(7);
   const auto keep_place = [](QWidget* widget)
   {
-    // What comes and goes keeps its place, so that nothing below it jumps.
+    // Hidden widgets keep their space, so that nothing below them jumps.
     QSizePolicy policy = widget->sizePolicy();
     policy.setRetainSizeWhenHidden(true);
     widget->setSizePolicy(policy);
@@ -177,7 +177,7 @@ void TetPanel::set_state(bool has_surface, bool making, bool has_tets)
   this->enable();
 }
 
-/// What can be chosen follows from what is there and shown.
+/// Enable the widgets that apply to what is available and shown.
 void TetPanel::enable()
 {
   const bool shown = this->has_tets_ && this->tets_->isChecked();

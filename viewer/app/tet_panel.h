@@ -11,14 +11,14 @@ class QProgressBar;
 class QPushButton;
 class ValueRow;
 
-/// The panel right of the picture for a surface's tets and defects: make them, cut them open, look.
-/// Like SidePanel it only tells what the user wants.
+/// The panel to the right of the picture for tets and defects of a surface: make tets, cut them
+/// open, inspect them. Like SidePanel it only emits signals for requests of the user.
 class TetPanel : public QFrame
 {
   Q_OBJECT
 
 public:
-  /// The ways to make tets, in the order of their list.
+  /// The methods to make tets, in the order of their list.
   enum Method
   {
     automatic,
@@ -29,7 +29,7 @@ public:
     ftetwild,
     whole_hull
   };
-  /// What colours them, in the order of its list.
+  /// The values that color the tets, in the order of their list.
   enum Colours
   {
     plain,
@@ -43,10 +43,10 @@ public:
 
   void set_state(bool has_surface, bool making, bool has_tets);
   void set_progress(double fraction, const QString& phase);
-  /// One or two lines under the make button.
+  /// Set the one or two lines under the make button.
   void set_note(const QString& text);
   void set_position(double position, double lowest, double highest);
-  /// One line under the cut.
+  /// Set the line under the cut.
   void set_count(qlonglong shown, qlonglong all);
   void set_defects_note(const QString& text);
 
@@ -62,7 +62,7 @@ Q_SIGNALS:
   void tets_wanted(bool shown);
   void cut_wanted(bool cut);
   void other_side_wanted(bool other);
-  void orientation_chosen(int orientation); ///< of PlaneHandle
+  void orientation_chosen(int orientation); ///< a PlaneHandle::Orientation
   void position_chosen(double position);
   void shrink_chosen(double factor);
   void colours_chosen(int colours);

@@ -1,5 +1,5 @@
-// Sides of tets are drawn flat, as they are, so that a new plane needs no normals: TetCut says
-// which are seen, and these become the triangles of two actors on the tets' own points.
+// Sides of tets are drawn with flat shading, so that a new plane needs no normals. TetCut computes
+// which sides are visible. They become the triangles of two actors on the tets' own points.
 #include "tet_view.h"
 
 #include "viewport.h"
@@ -46,7 +46,7 @@ TetView::TetView(Viewport* viewport)
     actor->PickableOff();
     viewport->renderer()->AddActor(actor);
   }
-  this->plane_->draw_box(false); // the tets say how far it goes
+  this->plane_->draw_box(false); // the tets show its extent
   this->settle_.setSingleShot(true);
   this->settle_.setInterval(250);
   QObject::connect(&this->settle_, &QTimer::timeout, this, &TetView::update);
@@ -80,7 +80,7 @@ Status TetView::set_tets(vtkUnstructuredGrid* tets)
   Status status = tets && coloured ? this->set_colours(by) : this->set_colours(std::nullopt);
   if (!status.ok())
   {
-    this->set_colours(std::nullopt); // what the last ones had, these have not
+    this->set_colours(std::nullopt); // these tets lack the values that colored the last ones
   }
   return {};
 }
@@ -164,8 +164,8 @@ void TetView::draw(
     static_cast<float>(this->viewport_->devicePixelRatioF()));
 }
 
-/// All of them, which is much to draw; as long as something is being dragged only those with a side
-/// that would be seen if they were not shrunk.
+/// Draw all shrunk tets, which are many. During a drag, draw only those with a side that would be
+/// visible without shrinking.
 void TetView::draw_shrunk()
 {
   const bool dragging = QApplication::mouseButtons() != Qt::NoButton;
@@ -214,7 +214,7 @@ void TetView::update()
   {
     this->cut_.keep_all();
   }
-  // Of a tet that stands apart the far sides are never seen.
+  // The far sides of a separate tet are never visible.
   this->actors_[1]->GetProperty()->SetBackfaceCulling(this->shrink_ < 1.0);
   if (this->shrink_ < 1.0)
   {

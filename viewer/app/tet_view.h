@@ -22,8 +22,8 @@
 
 class Viewport;
 
-/// Tets in the picture: cut open by a plane that the mouse drags, shrunk, coloured. Whole tets are
-/// taken away; those whose centre is behind the plane stay.
+/// Tets in the picture: cut open by a plane that the mouse drags, shrunk, colored. The cut removes
+/// whole tets. Tets whose center is behind the plane remain.
 class TetView : public QObject
 {
   Q_OBJECT
@@ -31,36 +31,36 @@ class TetView : public QObject
 public:
   explicit TetView(Viewport* viewport);
 
-  /// Tets as bindpose::to_tets() accepts them; null: none. The plane keeps its share of
-  /// the way through them.
+  /// Set tets that bindpose::to_tets() accepts; null: none. The plane keeps its relative position.
   bindpose::Status set_tets(vtkUnstructuredGrid* tets);
   vtkUnstructuredGrid* tets() const { return this->grid_; }
 
   void show(bool shown);
   bool is_shown() const { return this->shown_ && this->grid_; }
   void set_cut(bool cut);
-  /// The other half stays.
+  /// Keep the half on the other side of the plane.
   void set_other_side(bool other);
   PlaneHandle* plane() const { return this->plane_; }
-  /// Size of each tet, of its own, in (0, 1].
+  /// Set the drawn size of each tet relative to its own size, in (0, 1].
   void set_shrink(double factor);
-  /// Nothing: plain. Fails, and leaves the colours as they are, when the tets have no such thing.
+  /// Set the values that color the tets; empty: plain. Return an error, and keep the colors, if
+  /// the tets have no such values.
   bindpose::Status set_colours(std::optional<bindpose::ColourBy> by);
 
-  /// What is drawn, and how: of the tets those that the cut leaves.
+  /// Return the drawn data: the tets, which of them the cut keeps, and their size.
   const bindpose::TetInput& input() const { return this->input_; }
   const std::vector<char>& kept() const { return this->cut_.kept(); }
   double shrink() const { return this->shrink_; }
-  /// A number a tet, null when they are plain.
+  /// Return one number per tet; null if the tets are plain.
   vtkDoubleArray* values() const { return this->values_; }
   const bindpose::Colouring& colouring() const { return this->colouring_; }
 
   bindpose::Index shown_count() const { return this->is_shown() ? this->cut_.kept_count() : 0; }
-  /// What the last change of plane or size took, without the drawing.
+  /// Return the milliseconds that the last change of plane or size took, without drawing.
   double milliseconds() const { return this->milliseconds_; }
 
 Q_SIGNALS:
-  /// The plane is elsewhere, whoever has moved it.
+  /// The plane has moved, for any reason.
   void plane_moved();
   void count_changed(qlonglong shown, qlonglong all);
 
@@ -82,8 +82,8 @@ private:
   bool other_side_ = false;
   double shrink_ = 1.0;
   double milliseconds_ = 0.0;
-  QTimer settle_; // after a drag
-  // The boundary, and what the cut lays open or shrunk tets.
+  QTimer settle_; // single shot after a drag
+  // 0: the boundary. 1: the sides that the cut lays open, or shrunk tets.
   std::array<vtkNew<vtkPolyDataMapper>, 2> mappers_;
   std::array<vtkNew<vtkActor>, 2> actors_;
 };

@@ -1,4 +1,4 @@
-// Every icon is strokes in a square of 20 by 20.
+// Every icon consists of strokes in a square of 20 by 20.
 #include "tool_icons.h"
 
 #include "style.h"
@@ -16,7 +16,7 @@ namespace
 {
 constexpr double side = 20.0;
 
-/// A line with a head at its end.
+/// Draw a line with an arrowhead at its end.
 void arrow(QPainter& painter, const QPointF& from, const QPointF& to)
 {
   painter.drawLine(from, to);
@@ -156,7 +156,7 @@ void draw_pose(QPainter& painter)
   painter.drawPolyline(QPolygonF({ { 5.5, 18 }, { 10, 12.5 }, { 15, 17.5 } }));
 }
 
-/// A figure of bones, and a spark.
+/// Draw a figure of bones and a spark.
 void draw_auto_rig(QPainter& painter)
 {
   dot(painter, { 8, 4.5 }, 1.9);

@@ -3,8 +3,8 @@
 
 #include <QIcon>
 
-/// The icon of a tool or edit mode, by its action's name in window_keys.h: drawn, so that it is
-/// sharp on every screen, in the colours of the buttons it stands on.
+/// Return the icon of a tool or edit mode, by its action's name in window_keys.h. It is drawn in
+/// the colors of its button, and is sharp on every screen.
 QIcon tool_icon(const char* action);
 
 #endif

@@ -1,6 +1,6 @@
-// A step is an object with one verb, whose value is what it is about, and fields that the verb
-// allows. A table says which; whatever is not in it is refused, so that no misspelt word is passed
-// over in silence.
+// A step is an object with one verb and further fields that the verb allows. The verb's value is
+// its argument. A table lists verbs and fields; everything else is refused, so that no misspelled
+// word is ignored.
 #include "tour.h"
 
 #include "posing/json_fields.h"
@@ -23,7 +23,7 @@ constexpr std::size_t most_bytes = 16 << 20;
 constexpr double any = std::numeric_limits<double>::max();
 const char* const buttons[] = { "left", "middle", "right" };
 
-/// What the verb's own value must be.
+/// The type of the verb's own value.
 enum class About
 {
   text,
@@ -38,7 +38,7 @@ struct VerbInfo
   TourVerb verb;
   const char* word;
   About about;
-  const char* fields; ///< that it allows, besides "say"
+  const char* fields; ///< allowed fields, in addition to "say"
 };
 const VerbInfo verb_table[] = {
   { TourVerb::open, "open", About::text, "" },
@@ -90,7 +90,7 @@ bool finite_number(const Json& json)
   return json.is_number() && std::isfinite(json.get<double>());
 }
 
-/// Two numbers; false when they are none.
+/// Read two numbers. Return false if the value is anything else.
 bool read_pair(const Json& json, std::array<double, 2>& pair)
 {
   if (!json.is_array() || json.size() != 2 || !finite_number(json[0]) || !finite_number(json[1]))
@@ -146,7 +146,8 @@ Status read_place(const Json& json, const std::string& who, TourPlace& place)
     : Status();
 }
 
-/// What an option becomes, or what a check wants: a number, numbers, a word, or true or false.
+/// Read the new value of an option, or the expected value of a check: a number, numbers, a word, or
+/// true or false.
 Status read_wanted(const Json& json, const std::string& who, TourStep& step)
 {
   if (json.is_string())
@@ -252,7 +253,7 @@ Status read_about(const Json& value, About about, const std::string& who, TourSt
 
 constexpr const char* plain_names = " is up to 60 letters, digits, '_', '-' and '.'";
 
-/// Names of files that are written.
+/// Report whether a name is allowed for a written file.
 bool is_plain_name(const std::string& name)
 {
   return name.size() <= 60 && name.find_first_not_of('.') == 0 &&
@@ -362,7 +363,7 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   }
 }
 
-/// Screenshots have names of their own, and as_at names an earlier one.
+/// Check that screenshots have unique names, and that as_at names an earlier one.
 Status check_names(const Tour& tour)
 {
   std::vector<std::string> names;

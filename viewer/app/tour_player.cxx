@@ -31,8 +31,8 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-constexpr double film_rate = 20.0; // frames a second of what moves by itself
-constexpr int drawn_level = 12; // of 255: more than the background differs along a row
+constexpr double film_rate = 20.0; // frames per second of motion without user input
+constexpr int drawn_level = 12; // of 255; the background differs by less along a row
 
 Qt::MouseButton button_of(const TourStep& step)
 {
@@ -50,7 +50,7 @@ Qt::KeyboardModifiers held_in(const TourStep& step)
   return held;
 }
 
-/// With alpha, if it has any.
+/// Return an image, with alpha if the picture has it.
 QImage to_image(vtkImageData* picture)
 {
   const int* size = picture->GetDimensions();
@@ -60,7 +60,7 @@ QImage to_image(vtkImageData* picture)
     .mirrored();
 }
 
-/// Made smaller where it is wider; 0: as it is.
+/// Return the picture scaled down to this width, if it is wider; 0: unchanged.
 QImage at_most(const QImage& picture, int width)
 {
   return width > 0 && width < picture.width()
@@ -68,7 +68,7 @@ QImage at_most(const QImage& picture, int width)
     : picture;
 }
 
-/// How much of the picture is not its background, which is of one colour along each row.
+/// Return the fraction of pixels that differ from the background, which has one color per row.
 double drawn_share(const QImage& picture)
 {
   long long drawn = 0;
@@ -91,7 +91,7 @@ QString text(const Json& value)
   return QString::fromStdString(value.dump());
 }
 
-/// Keeps out what comes from the display: its mouse may happen to be over the window.
+/// Filters the display's own events, because its mouse may be over the window.
 class HandsOff : public QObject
 {
 public:
@@ -117,7 +117,7 @@ public:
 
 void wait_seconds(double seconds)
 {
-  QEventLoop loop; // sleeps in between
+  QEventLoop loop; // sleeps between events
   QTimer::singleShot(static_cast<int>(1e3 * seconds), Qt::PreciseTimer, &loop, &QEventLoop::quit);
   loop.exec();
 }
@@ -155,7 +155,7 @@ Status TourPlayer::play(const TourRequest& request)
     }
     for (const TourStep& step : this->tour_.steps)
     {
-      AtomicFile file; // asked before the work, not after
+      AtomicFile file; // check before the tour that it can be written
       const std::string name = step.verb == TourVerb::screenshot ? step.text + ".png"
         : step.answer.empty()                                    ? "tour.json"
                                                                  : step.answer;
@@ -208,7 +208,7 @@ Status TourPlayer::play(const TourRequest& request)
   if (this->first_picture_ >= 0.0)
   {
     this->record_["first_picture_seconds"] = this->first_picture_;
-    // Of the window's thread: what it would take if nobody else used the machine.
+    // CPU time of the window's thread: the time on a machine without other load.
     this->record_["first_picture_cpu_seconds"] = this->first_picture_cpu_;
   }
   const Status written = this->write_record(request);
@@ -221,7 +221,7 @@ Status TourPlayer::write_record(const TourRequest& request) const
   {
     return {};
   }
-  // Names may hold bytes that are no text.
+  // Names may contain bytes that are not valid UTF-8.
   return write_whole_file(request.folder + "/tour.json",
     this->record_.dump(2, ' ', false, Json::error_handler_t::replace) + '\n', request.overwrite);
 }
@@ -236,10 +236,11 @@ QString TourPlayer::out_of_time() const
   return QString("the tour has taken more than %1 s").arg(this->seconds_);
 }
 
-/// What has been asked for is drawn, and nothing more is waited for.
+/// Let the window draw pending requests, without waiting for anything else.
 void TourPlayer::let_draw()
 {
-  for (int round = 0; round < 3; ++round) // a change, the picture that it asks for, its swap
+  // One round each for a change, the picture that it requests, and the buffer swap.
+  for (int round = 0; round < 3; ++round)
   {
     QApplication::processEvents();
   }
@@ -268,9 +269,10 @@ QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const s
       {
         if (auto* files = qobject_cast<QFileDialog*>(form))
         {
-          files->setOption(QFileDialog::DontConfirmOverwrite); // play() has looked for the file
+          // play() has already checked the file.
+          files->setOption(QFileDialog::DontConfirmOverwrite);
           auto* name = files->findChild<QLineEdit*>();
-          name->setText(file); // selectFile() leaves a field with the keyboard as it is
+          name->setText(file); // selectFile() does not change a field that has the keyboard focus
           answered = true;
         }
         accepted = form;
@@ -342,7 +344,7 @@ QString TourPlayer::perform(const TourStep& step)
   }
 }
 
-// ---- What a person does ------------------------------------------------------------------------
+// ---- User actions ------------------------------------------------------------------------------
 
 QString TourPlayer::open(const std::string& file)
 {
@@ -402,7 +404,7 @@ QString TourPlayer::use_mouse(const TourStep& step)
   switch (step.verb)
   {
     case TourVerb::press:
-      this->hand_.move(at, held); // the mouse comes from somewhere
+      this->hand_.move(at, held); // a press follows a move of the mouse
       this->hand_.press(at, button, held);
       return {};
     case TourVerb::move:
@@ -450,7 +452,8 @@ QString TourPlayer::wait(const TourStep& step)
       ? QString()
       : QString("the window was busy until the tour's time was over");
   }
-  // Said here for a wait that is cut short: timers may end a millisecond early, before the limit.
+  // A wait that is cut short reports it here, because timers may end a millisecond before the
+  // limit.
   const double left = std::max(0.0, this->left());
   const double seconds = std::min(step.seconds, left);
   const QString sentence = step.seconds > left ? this->out_of_time() : QString();
@@ -474,7 +477,7 @@ QString TourPlayer::wait(const TourStep& step)
   return sentence;
 }
 
-// ---- What is seen ------------------------------------------------------------------------------
+// ---- Values and pictures -----------------------------------------------------------------------
 
 Json TourPlayer::values() const
 {
@@ -567,7 +570,8 @@ QString TourPlayer::write(const QImage& picture, const std::string& name)
   return QString::fromStdString(status.message);
 }
 
-/// What stands around the picture is as large as the fonts make it, and comes and goes.
+/// Resize the window until the picture has the tour's size. The sizes of the widgets around it
+/// depend on the fonts, and some widgets appear and disappear.
 QString TourPlayer::fit_view()
 {
   const QSize wanted(this->tour_.view[0], this->tour_.view[1]);

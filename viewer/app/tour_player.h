@@ -16,31 +16,31 @@
 
 class MainWindow;
 
-/// What `bindpose view --play` is asked for.
+/// The arguments of `bindpose view --play`.
 struct TourRequest
 {
-  std::string path; ///< of the tour
-  std::string folder; ///< for pictures and tour.json; empty: only checks are made
-  double seconds = 0.0; ///< at most; 0: what the tour says
+  std::string path; ///< path of the tour
+  std::string folder; ///< for pictures and tour.json; empty: only run the checks
+  double seconds = 0.0; ///< maximum duration; 0: that of the tour
   bool overwrite = false;
 };
 
-/// Plays a tour in a window, as a person would, and says where it goes wrong: a step that cannot be
-/// done, a picture with nothing in it, a check that misses, a dialog that nobody answers, too long
-/// a time. Everything runs in the window's own event loop.
-/// What the display's mouse and keyboard do meanwhile does not count; the window can be closed.
+/// Plays a tour in a window, as a user would, and reports the first failure: a step that is
+/// impossible, an empty picture, a check that fails, a dialog without an answer, or a timeout.
+/// Everything runs in the window's own event loop. The mouse and the keyboard of the display are
+/// ignored, but the window can be closed.
 class TourPlayer
 {
 public:
-  /// @param folder  of the tour: files to open are looked for there first, then where the program
-  ///                was started
+  /// @param folder  of the tour. Files to open are searched there first, then in the working
+  /// directory.
   TourPlayer(MainWindow* window, const bindpose::Tour& tour, const std::string& folder);
 
-  /// invalid_input, one sentence that names the step, when something goes wrong; what was written
-  /// before stays, tour.json included.
+  /// Play the tour. Return invalid_input, with one sentence that names the step, on the first
+  /// failure. Files that were already written are kept, and so is tour.json.
   bindpose::Status play(const TourRequest& request);
 
-  /// Of tour.json.
+  /// Return the contents of tour.json.
   const nlohmann::ordered_json& record() const { return this->record_; }
 
 private:
@@ -73,11 +73,11 @@ private:
   double seconds_ = 0.0;
   double last_seconds_ = 0.0, last_cpu_seconds_ = 0.0; ///< of the last step
   double first_picture_ = -1.0, first_picture_cpu_ = 0.0;
-  bindpose::TourStep film_; ///< its text is empty when there is none
+  bindpose::TourStep film_; ///< its text is empty if no film is being recorded
   int frames_ = 0;
   nlohmann::ordered_json record_;
-  QObject context_; ///< of connections
-  std::unique_ptr<QObject> hands_off_; ///< of the display's own mouse and keyboard
+  QObject context_; ///< context of connections
+  std::unique_ptr<QObject> hands_off_; ///< filters events of the display's own mouse and keyboard
 };
 
 #endif

@@ -54,7 +54,7 @@ Json to_json(const Vec3& place)
   return { place.x(), place.y(), place.z() };
 }
 
-/// Of two shapes with the same points.
+/// Add the distances between two shapes with the same points.
 void add_distance(Json& values, const std::string& name, PointsView a, PointsView b)
 {
   if (a.rows() == b.rows() && a.rows() > 0)
@@ -186,7 +186,7 @@ void add_weights(Json& values, MainWindow* window)
   {
     values["weights.minimum"] = matrix.view().minCoeff();
     values["weights.maximum"] = matrix.view().maxCoeff();
-    // How far rows are from one.
+    // Largest deviation of a row's sum from one.
     values["weights.row_sum_error"] =
       (matrix.view().rowwise().sum().array() - 1.0).abs().maxCoeff();
   }
@@ -293,19 +293,19 @@ double distance(const Json& a, const Json& b)
   return a == b ? 0.0 : infinite;
 }
 
-/// Linux tells when, in ticks since it was booted itself.
+/// Linux reports the start of a process in clock ticks since the system was booted.
 double seconds_since_start()
 {
   std::ifstream file("/proc/self/stat");
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  const std::size_t name_end = text.rfind(')'); // the name may hold anything
+  const std::size_t name_end = text.rfind(')'); // the name may contain any characters
   timespec now{};
   if (name_end == std::string::npos || clock_gettime(CLOCK_BOOTTIME, &now) != 0)
   {
     return -1.0;
   }
   std::istringstream fields(text.substr(name_end + 1));
-  constexpr int before = 19; // from the state, the third field, to the 22nd
+  constexpr int before = 19; // number of fields from the third (state) to the 22nd (start time)
   std::string skipped;
   for (int k = 0; k < before; ++k)
   {

@@ -8,18 +8,18 @@ class MainWindow;
 namespace bindpose
 {
 
-/// What the window shows, in numbers and words by name: what a tour checks and writes beside its
-/// pictures. Names and meanings are told in viewer/sessions_and_tours.md; what does not apply is
-/// absent.
+/// Return the state that the window shows, as numbers and words by name. A tour checks these values
+/// and writes them together with its pictures. viewer/sessions_and_tours.md documents the names.
+/// Values that do not apply are absent.
 nlohmann::ordered_json tour_values(MainWindow* window);
 
-/// The distance between two values: the largest of any component; of words 0 or infinite; infinite,
-/// too, for values of different kinds.
+/// Return the distance between two values: the largest of any component. For words it is 0 or
+/// infinite; for values of different types it is infinite.
 double distance(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b);
 
-/// Seconds since this process was started; below 0 where that is not known.
+/// Return the seconds since this process was started; negative if unknown.
 double seconds_since_start();
-/// Of all threads of this process, or of the one that calls.
+/// Return the CPU seconds of all threads of this process, or of the calling thread only.
 double cpu_seconds();
 double own_cpu_seconds();
 

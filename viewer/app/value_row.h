@@ -6,7 +6,7 @@
 class QDoubleSpinBox;
 class QSlider;
 
-/// A number in a range: a slider and a field, which show the same.
+/// A number in a range, shown by a slider and a field.
 class ValueRow : public QWidget
 {
   Q_OBJECT
@@ -15,19 +15,18 @@ public:
   explicit ValueRow(QWidget* parent = nullptr);
 
   void set_range(double lowest, double highest);
-  /// Without value_chosen().
+  /// Set the value without emitting value_chosen().
   void set_value(double value);
   double value() const;
-  /// The option of its name is how far the number is through the range, from 0 to 1, and not the
-  /// number itself.
+  /// Let the row's option store the fraction of the range, from 0 to 1, instead of the number.
   void tell_shares() { this->tells_shares_ = true; }
-  /// As a person does who wants the option to be this.
+  /// Choose the value of the option as a user does.
   void choose(double option);
   QSlider* slider() const { return this->slider_; }
   QDoubleSpinBox* field() const { return this->field_; }
 
 Q_SIGNALS:
-  /// By the user.
+  /// The user has chosen a value.
   void value_chosen(double value);
 
 private:

@@ -13,19 +13,19 @@
 
 namespace
 {
-/// The application as the window wants it.
+/// The application with the settings that the window needs.
 class Application
 {
 public:
   Application()
   {
-    QApplication::setApplicationName("bindpose"); // of the folder that recovered work is in
+    QApplication::setApplicationName("bindpose"); // part of the path of recovered work
     QApplication::setApplicationDisplayName("Bindpose");
     apply_style(this->application_);
   }
 
 private:
-  /// Qt wants these before the application.
+  /// Set the attributes that Qt requires before the application is made.
   static int prepare()
   {
     QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
@@ -42,7 +42,7 @@ private:
 
 void open_first_files(MainWindow& window, const std::vector<FirstFile>& files)
 {
-  QStringList errors; // each file that opens hides the error of the one before
+  QStringList errors; // a file that opens hides the error of the one before
   for (const FirstFile& file : files)
   {
     if (!file.error.empty())

@@ -11,24 +11,24 @@
 
 class MainWindow;
 
-/// What the window begins with. A file without data and error is read by the window.
+/// A file to open at the start. If it has neither data nor an error, the window reads it.
 struct FirstFile
 {
   std::string path;
   std::optional<OpenedFile> data;
-  std::string error; ///< why it could not be read: one sentence, or empty
+  std::string error; ///< reason why it could not be read: one sentence, or empty
 };
 
-/// `bindpose view`: opens the window with these files (meshes, meshes with weights, handles).
-/// Returns the program's exit code. Needs a display.
-/// @param auto_rig  makes bones along the mesh and binds it
+/// Run `bindpose view`: open a window with these files (meshes, meshes with weights, handles), and
+/// return the program's exit code. Needs a display.
+/// @param auto_rig  make bones along the mesh and bind it
 int run_viewer(const std::vector<FirstFile>& files, bool auto_rig);
 
-/// Opens all files that can be opened; the error bar lists the errors of all others.
+/// Open all files that can be opened. The error bar lists the errors of the others.
 void open_first_files(MainWindow& window, const std::vector<FirstFile>& files);
 
-/// The same with a tour in place of a person. Recent files and recovered work of whoever runs it
-/// are neither looked at nor changed.
+/// The same with a tour instead of a user. The user's recent files and recovered work are neither
+/// read nor changed.
 bindpose::Status play_tour(
   const std::vector<FirstFile>& files, bool auto_rig, const TourRequest& request);
 

@@ -50,7 +50,7 @@
 
 namespace
 {
-constexpr int smooth_samples = 4; // a pixel
+constexpr int smooth_samples = 4; // samples per pixel
 
 bool same_place(vtkCamera* a, vtkCamera* b)
 {
@@ -61,7 +61,8 @@ bool same_place(vtkCamera* a, vtkCamera* b)
     a->GetParallelProjection() == b->GetParallelProjection();
 }
 
-/// Trackball camera without VTK's letter keys: 'e' would end the program, 'w' draw wires.
+/// Trackball camera without VTK's letter keys, because 'e' ends the program and 'w' draws
+/// wireframes.
 class CameraStyle : public vtkInteractorStyleTrackballCamera
 {
 public:
@@ -80,7 +81,7 @@ public:
     this->StartPan();
   }
 
-  bool Flat = false; ///< in front of a plane: it is moved, not turned
+  bool Flat = false; ///< in front of a plane: dragging pans the view
 };
 vtkStandardNewMacro(CameraStyle);
 } // namespace
@@ -108,7 +109,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
     mapper->ScalarVisibilityOff();
     mapper->SetScalarModeToUsePointFieldData();
     mapper->SetColorModeToMapScalars();
-    mapper->InterpolateScalarsBeforeMappingOn(); // crisp bands, whatever the triangles
+    mapper->InterpolateScalarsBeforeMappingOn(); // crisp bands, independent of the triangles
     mapper->UseLookupTableScalarRangeOn();
     mapper->SetLookupTable(map.table);
   }
@@ -116,7 +117,8 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->tint_actor_->VisibilityOff();
   this->tint_actor_->PickableOff();
   this->tint_actor_->GetProperty()->LightingOff();
-  // It lies in the picture and must win against it, as isolines must against both.
+  // The tint has the depth of the picture and must be drawn in front of it, and isolines in front
+  // of both.
   this->tint_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(-1.0, -1.0);
   this->renderer_->AddActor(this->tint_actor_);
   bindpose::use_surface_material(this->actor_);
@@ -125,17 +127,17 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->window_->SetNumberOfLayers(2);
   this->legend_->SetLayer(1);
   this->legend_->InteractiveOff();
-  this->legend_->PreserveDepthBufferOn(); // of what lies below: VolumeView reads it
+  this->legend_->PreserveDepthBufferOn(); // VolumeView reads the depth of the layer below
   this->window_->AddRenderer(this->legend_);
   this->handles_->SetInteractor(this->interactor());
   this->handles_->CreateDefaultRepresentation();
   this->use_appearance();
-  // They are in this renderer, wherever the mouse is when they are turned on.
+  // The widgets belong to this renderer, wherever the mouse is when they are enabled.
   this->handles_->SetDefaultRenderer(this->renderer_);
   this->brush_->SetDefaultRenderer(this->renderer_);
   this->brush_->SetInteractor(this->interactor());
   this->brush_->CreateDefaultRepresentation();
-  // What widgets and camera ask for during one event is one picture, after it.
+  // Requests of widgets and camera during one event make one picture after the event.
   this->interactor()->EnableRenderOff();
   this->interactor()->AddObserver(vtkCommand::RenderEvent, this, &Viewport::render_wanted);
   this->since_start_.start();
@@ -187,7 +189,7 @@ void Viewport::set_surface_look(int look)
   this->outline_->show(this->outlines_ && !this->picture_ && (look == solid || look == see_through),
     bindpose::outline_width * this->devicePixelRatioF());
   this->show_tint();
-  // The driver cannot sort see-through triangles by depth with several samples a pixel.
+  // The driver cannot sort translucent triangles by depth with several samples per pixel.
   const bool sorts = (look == see_through || this->ghosted_) && this->shaded_;
   this->renderer_->SetUseDepthPeeling(sorts);
   this->renderer_->SetMaximumNumberOfPeels(6);
@@ -215,7 +217,8 @@ void Viewport::set_picture(vtkImageData* picture)
     texture->SetColorModeToDirectScalars();
   }
   this->actor_->SetTexture(texture);
-  this->actor_->SetForceOpaque(picture != nullptr); // cut out already: nothing to sort
+  // The shape is already cut out, so there is nothing to sort.
+  this->actor_->SetForceOpaque(picture != nullptr);
   this->mapper_->ScalarVisibilityOff();
   this->tint_mapper_->ScalarVisibilityOff();
   if (!this->has_values_)
@@ -232,7 +235,7 @@ void Viewport::set_tint(double share)
   this->refresh();
 }
 
-/// Colours of numbers are the surface's own, but over a picture.
+/// Return the mapper for colors of numbers: the surface's own, or over a picture that of the tint.
 vtkPolyDataMapper* Viewport::value_mapper() const
 {
   return this->picture_ ? this->tint_mapper_.Get()
@@ -243,7 +246,7 @@ void Viewport::show_tint()
 {
   this->tint_actor_->SetVisibility(this->picture_ && this->shaded_ && this->look_ == solid &&
     this->tint_ > 0.0 && this->tint_mapper_->GetScalarVisibility());
-  // Clear of itself: what lies behind the picture's front is hidden by that, so nothing is sorted.
+  // Nothing is sorted, because the picture's front hides everything behind it.
   this->tint_actor_->GetProperty()->SetOpacity(this->tint_);
 }
 
@@ -350,7 +353,7 @@ void Viewport::set_split(vtkRenderer* beside, vtkPolyData* shape)
     this->renderer_->SetViewport(0.0, 0.0, beside ? 0.5 : 1.0, 1.0);
     this->use_appearance();
     this->draw_legend();
-    // Who has only looked at both comes back to where they were.
+    // If the user has not moved the camera, restore the camera from before the split.
     vtkCamera* camera = this->renderer_->GetActiveCamera();
     if (!beside && same_place(camera, this->split_camera_))
     {
@@ -388,7 +391,7 @@ void Viewport::name_state(const QString& state)
   }
 }
 
-/// Of the half that the surface has, or of the whole.
+/// Return the aspect ratio of the surface's half, or of the whole picture.
 double Viewport::aspect_of(const QSize& size) const
 {
   return (this->beside_ ? 0.5 : 1.0) * size.width() / std::max(size.height(), 1);
@@ -450,7 +453,7 @@ void Viewport::use_column()
     mapper->SetLookupTable(bindpose::weight_map().table);
     mapper->SelectColorArray("Weights");
     mapper->SetArrayComponent(this->column_);
-    // The mapper's component counts only when it maps through the table's component mode.
+    // The mapper uses its array component only if the lookup table is in component mode.
     mapper->GetLookupTable()->SetVectorModeToComponent();
     mapper->GetLookupTable()->SetVectorComponent(this->column_);
   }
@@ -554,7 +557,8 @@ void Viewport::draw_legend()
   bindpose::PixelBox box;
   box.x = static_cast<int>(20 * scale);
   box.y = static_cast<int>(24 * scale);
-  // A legend of words is as high as its lines; those that find no room are counted.
+  // The height of a legend of words follows from its lines. A last line counts the words that do
+  // not fit.
   constexpr double line = 1.7, around = 2.5; // of the font's size
   const double room = scale * this->height() - 2 * box.y;
   const int most = std::max(2, static_cast<int>((room / font - around) / line));
@@ -579,7 +583,7 @@ void Viewport::draw_legend()
   }
   if (this->beside_)
   {
-    // Below what they have, where they are in nobody's way.
+    // Below the shapes, where the names cover nothing.
     this->add_name(0.25, 14.0, this->left_name_);
     this->add_name(0.75, 14.0, this->right_name_);
   }
@@ -590,7 +594,8 @@ void Viewport::draw_legend()
   }
 }
 
-/// Centered at a fraction of the width, so many of Qt's pixels above the lower edge.
+/// Add a centered text at a fraction of the width, and this many of Qt's pixels above the lower
+/// edge.
 void Viewport::add_name(double middle, double above, const QString& name)
 {
   const double scale = this->pixel_scale();
@@ -607,7 +612,7 @@ void Viewport::add_name(double middle, double above, const QString& name)
 
 void Viewport::resizeEvent(QResizeEvent* event)
 {
-  // VTK would make texts larger by the dots an inch, too; here all sizes are in Qt's pixels.
+  // VTK would also scale texts by the dots per inch, but here all sizes are in Qt's pixels.
   constexpr double text_dpi = 72.0;
   this->setUnscaledDPI(static_cast<int>(std::lround(text_dpi / this->devicePixelRatioF())));
   this->resizing_ = true;
@@ -631,8 +636,8 @@ void Viewport::initializeGL()
     renderer.contains("Software") || renderer.contains("SWR");
 }
 
-/// Qt paints within every resize, and a window that is being laid out resizes its picture several
-/// times: the one that counts is painted when the window itself is.
+/// Qt paints during every resize, and the layout of a new window resizes its picture several times.
+/// Only the last size is painted, together with the window.
 void Viewport::paintGL()
 {
   if (!this->resizing_)
@@ -645,16 +650,16 @@ void Viewport::paintGL()
 
 void Viewport::render_wanted()
 {
-  if (!this->interactor()->GetEnableRender()) // else it is being painted
+  if (!this->interactor()->GetEnableRender()) // otherwise it is being painted
   {
     this->refresh();
   }
 }
 
-/// Of everything that the view is about.
+/// Return the points of everything that the view must contain.
 std::vector<bindpose::Vec3> Viewport::places_to_see() const
 {
-  // The widget's handles count when there is nothing else.
+  // The widget's handles count only if there is nothing else.
   std::vector<vtkPolyData*> shown;
   for (vtkPolyData* candidate : { this->shaded_ ? this->shaded_->polydata() : nullptr,
          this->curve_data_.Get(), this->beside_ ? this->shape_beside_.Get() : nullptr })
@@ -750,8 +755,8 @@ void Viewport::refresh()
     [this]
     {
       this->refresh_pending_ = false;
-      // A cloud is drawn coarsely as long as something is being dragged, a slider for instance,
-      // and once more when it is let go.
+      // During a drag, for example of a slider, a cloud is drawn coarsely. It is drawn again when
+      // the drag ends.
       const bool dragging = QApplication::mouseButtons() != Qt::NoButton;
       this->window_->SetDesiredUpdateRate(dragging ? this->interactor()->GetDesiredUpdateRate()
                                                    : this->interactor()->GetStillUpdateRate());
@@ -760,7 +765,7 @@ void Viewport::refresh()
         (dragging || std::exchange(this->first_picture_, false));
       this->window_->SetMultiSamples(coarse ? 0 : samples);
       this->window_->Render();
-      this->window_->SetMultiSamples(samples); // of whoever draws without asking here
+      this->window_->SetMultiSamples(samples); // for code that renders without refresh()
       if (dragging || coarse)
       {
         this->settle_.start();
@@ -776,7 +781,7 @@ QSize Viewport::picture_size(int scale) const
   return scale * QSize(size[0], size[1]);
 }
 
-/// Of what is drawn in pixels.
+/// Return the scale of sizes that are given in pixels.
 double Viewport::pixel_scale() const
 {
   return this->picture_scale_ * this->devicePixelRatioF();
@@ -797,9 +802,9 @@ bindpose::Status Viewport::take_picture(
   wanted.width = size.width();
   wanted.height = size.height();
   wanted.transparent = transparent;
-  this->window_->Render(); // what has changed since the last time
+  this->window_->Render(); // apply all changes since the last picture
   const bool smoothed = this->renderer_->GetUseFXAA();
-  this->renderer_->UseFXAAOff(); // samples are averaged
+  this->renderer_->UseFXAAOff(); // the samples are averaged instead
   this->picture_scale_ = scale * wanted.samples;
   this->set_pixel_scale();
   bindpose::Status status;

@@ -31,7 +31,7 @@ constexpr Fineness finenesses[] = {
 
 void keep_place(QWidget* widget)
 {
-  // What comes and goes keeps its place, so that nothing below it jumps.
+  // Hidden widgets keep their space, so that nothing below them jumps.
   QSizePolicy policy = widget->sizePolicy();
   policy.setRetainSizeWhenHidden(true);
   widget->setSizePolicy(policy);
@@ -157,7 +157,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   QObject::connect(this->level_, &ValueRow::value_chosen, this,
     [this](double level)
     {
-      this->isosurface_->setChecked(true); // who moves the level wants to see it
+      this->isosurface_->setChecked(true); // a user who moves the level expects to see it
       Q_EMIT this->level_chosen(level);
     });
   QObject::connect(this->cloud_, &QCheckBox::toggled, this, &VolumePanel::cloud_wanted);
@@ -187,7 +187,7 @@ void VolumePanel::set_state(bool has_surface, bool computing, bool has_volume)
   this->enable();
 }
 
-/// There is nothing to be looked at without a volume.
+/// Enable the widgets that apply. Without a volume there is nothing to show.
 void VolumePanel::enable()
 {
   for (QWidget* widget :

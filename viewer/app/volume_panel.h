@@ -11,9 +11,9 @@ class QProgressBar;
 class QPushButton;
 class ValueRow;
 
-/// The panel right of the picture for a volume of winding numbers: computes that of a surface, and
-/// shows a volume by slice, isosurface and cloud, and how the surface is seen along with them. Like
-/// SidePanel it only tells what the user wants.
+/// The panel to the right of the picture for a volume of winding numbers. It computes the volume of
+/// a surface, and shows it by slice, isosurface and cloud. It also sets the look of the surface.
+/// Like SidePanel it only emits signals for requests of the user.
 class VolumePanel : public QFrame
 {
   Q_OBJECT
@@ -21,14 +21,15 @@ class VolumePanel : public QFrame
 public:
   explicit VolumePanel(QWidget* parent = nullptr);
 
-  /// What is there decides what can be done.
+  /// Set the state that determines what can be chosen.
   void set_state(bool has_surface, bool computing, bool has_volume);
   void set_progress(double fraction, const QString& phase);
-  /// A line about what is being computed, or was.
+  /// Set a line about the current or the last computation.
   void set_note(const QString& text);
-  /// Along the longest side, of the volume that is computed next.
+  /// Return the samples along the longest side of the next volume.
   int samples() const;
-  /// Another volume: its values' range. The level becomes 0.5, or what of the range is nearest.
+  /// Set the range of a new volume's values. The level becomes 0.5, or the nearest value in the
+  /// range.
   void set_values(double lowest, double highest);
   void set_position(double position, double lowest, double highest);
   void set_area(double area);
@@ -39,12 +40,12 @@ Q_SIGNALS:
   void compute_wanted();
   void cancel_wanted();
   void slice_wanted(bool shown);
-  void orientation_chosen(int orientation); ///< of PlaneHandle
+  void orientation_chosen(int orientation); ///< a PlaneHandle::Orientation
   void position_chosen(double position);
   void isosurface_wanted(bool shown);
   void level_chosen(double level);
   void cloud_wanted(bool shown);
-  void surface_look_chosen(int look); ///< of Viewport
+  void surface_look_chosen(int look); ///< a Viewport::SurfaceLook
   void close_wanted();
 
 private:

@@ -1,4 +1,4 @@
-// The slice, its colours and its contour are drawn here; PlaneHandle moves and turns its plane.
+// This class draws the slice, its colors and its contour. PlaneHandle moves and rotates the plane.
 #include "volume_view.h"
 
 #include "viewport.h"
@@ -43,7 +43,7 @@ VolumeView::VolumeView(Viewport* viewport)
   this->slice_mapper_->InterpolateScalarsBeforeMappingOn();
   this->slice_mapper_->SetLookupTable(map.table);
   this->slice_mapper_->UseLookupTableScalarRangeOn();
-  // The contour lies in the slice and must win against it.
+  // The contour has the depth of the slice and must be drawn in front of it.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->slice_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->slice_actor_->SetMapper(this->slice_mapper_);
@@ -136,7 +136,7 @@ void VolumeView::update_slice()
   this->contour_actor_->SetVisibility(shown);
   if (shown)
   {
-    // On the volume's very border flying edges find no cell to cut.
+    // Exactly on the border of the volume, flying edges find no cell to cut.
     const auto [first, last] = this->positions();
     const double inside =
       std::clamp(this->position(), first + 1e-6 * (last - first), last - 1e-6 * (last - first));

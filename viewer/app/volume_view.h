@@ -16,8 +16,9 @@ class vtkActor;
 class vtkPolyDataMapper;
 class vtkVolume;
 
-/// A volume of winding numbers in the picture while its panel is there: a slice that the mouse
-/// drags, an isosurface, a cloud. Each can be shown or not; all in the colours of the legend.
+/// A volume of winding numbers in the picture while its panel is shown: a slice that the mouse
+/// drags, an isosurface, and a cloud. Each can be shown or hidden; all have the colors of the
+/// legend.
 class VolumeView : public QObject
 {
   Q_OBJECT
@@ -25,14 +26,14 @@ class VolumeView : public QObject
 public:
   explicit VolumeView(Viewport* viewport);
 
-  /// An image that bindpose::check_volume() accepts, with its smallest and largest value; null:
-  /// none. The slice keeps its share of the way through.
+  /// Set an image that bindpose::check_volume() accepts, with its smallest and largest value; null:
+  /// none. The slice keeps its relative position.
   void set_volume(vtkImageData* image, double lowest, double highest);
   vtkImageData* volume() const { return this->image_; }
-  /// Whether the panel is there; else nothing of the volume is drawn.
+  /// Set whether the panel is shown. Otherwise nothing of the volume is drawn.
   void set_active(bool active);
   bool is_active() const { return this->image_ && this->active_; }
-  /// Something of the volume is drawn.
+  /// Report whether any part of the volume is drawn.
   bool is_shown() const
   {
     return this->is_active() &&
@@ -43,7 +44,7 @@ public:
   PlaneHandle* plane() const { return this->plane_; }
   bool is_slice_shown() const { return this->is_active() && this->slice_shown_; }
   double position() const { return this->plane_->position(); }
-  /// Smallest and largest position at which the slice meets the volume.
+  /// Return the smallest and the largest position at which the slice meets the volume.
   std::pair<double, double> positions() const { return this->plane_->positions(); }
   bindpose::Vec3 slice_origin() const { return this->plane_->origin(); }
   bindpose::Vec3 slice_normal() const { return this->plane_->normal(); }
@@ -51,7 +52,7 @@ public:
   void show_isosurface(bool shown);
   void set_level(double level);
   double level() const { return this->level_; }
-  /// The isosurface as drawn, empty when it is not shown.
+  /// Return the isosurface as drawn; empty if it is not shown.
   vtkPolyData* isosurface() const { return this->isosurface_; }
 
   void show_cloud(bool shown);
@@ -59,11 +60,11 @@ public:
 
 Q_SIGNALS:
   void volume_changed();
-  /// The slice is elsewhere, whoever has moved it.
+  /// The slice has moved, for any reason.
   void slice_moved();
-  /// Of the isosurface that is shown; 0 when the level is not reached.
+  /// The area of the isosurface that is shown; 0 if the volume does not reach the level.
   void area_changed(double area);
-  /// Something else of the volume is drawn, or nothing.
+  /// Other parts of the volume are drawn, or none.
   void shown_changed();
 
 private:
@@ -82,7 +83,7 @@ private:
   vtkNew<vtkPolyDataMapper> slice_mapper_;
   vtkNew<vtkActor> slice_actor_;
   vtkNew<vtkPolyDataMapper> contour_mapper_;
-  vtkNew<vtkActor> contour_actor_; // where the slice is at 0.5
+  vtkNew<vtkActor> contour_actor_; // contour of the slice at 0.5
   bool slice_shown_ = true;
 
   vtkNew<vtkPolyDataMapper> isosurface_mapper_;

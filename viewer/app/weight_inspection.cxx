@@ -21,7 +21,7 @@ using namespace bindpose;
 
 namespace
 {
-/// A text that a label can show in a narrow line.
+/// Format a number for a narrow label.
 QString number(double value)
 {
   return QString::number(value, 'g', 2);
@@ -41,7 +41,7 @@ bool has_numbers(vtkDataSet* data, const char* name)
   return data && data->GetPointData()->HasArray(name) != 0;
 }
 
-/// Of a method, in the language of the window.
+/// Return the name of a method in the language of the window.
 QString name_of(const char* method)
 {
   return QCoreApplication::translate("WeightPanel", method);
@@ -158,7 +158,7 @@ void WeightInspection::update_facts()
   this->panel_->set_facts(facts);
 }
 
-/// Shows what the panel says.
+/// Show what the panel requests.
 void WeightInspection::update()
 {
   const bool shown = this->active_ && has_numbers(this->surface_, "Weights");
@@ -220,7 +220,7 @@ void WeightInspection::update()
   }
 }
 
-/// From the arrays beside the weights; of all handles the worst.
+/// Return the certificate from the field arrays; for all handles, that of the worst one.
 QString WeightInspection::certificate(int column) const
 {
   vtkFieldData* fields = this->surface_ ? this->surface_->GetFieldData() : nullptr;
@@ -270,7 +270,7 @@ void WeightInspection::compare(int method)
   this->method_ = name_of(other.brief);
   input.method = other.method;
   input.preview = false;
-  // The same mesh, as far as it is known.
+  // Use the same mesh, if it is known.
   const std::string domain = read_report(this->surface_).text("domain");
   for (const WeightsDomain its :
     { WeightsDomain::surface, WeightsDomain::volume, WeightsDomain::embedding })
@@ -311,7 +311,7 @@ void WeightInspection::comparison_finished()
   add_weights(result, handles, this->compared_);
   this->compared_method_ = this->method_;
   this->compared_seconds_ = result.status.report.number("seconds.total", 0.0);
-  // Who looked at all handles sees the one that differs most.
+  // If all handles were shown, choose the one that differs most.
   if (this->panel_->column() < 0)
   {
     const auto own = to_matrix(this->surface_->GetPointData()->GetArray("Weights"));

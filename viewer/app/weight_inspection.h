@@ -12,41 +12,41 @@
 class Viewport;
 class WeightPanel;
 
-/// A surface's weights looked at: shows what the panel asks for as long as the panel is there, and
-/// solves by another method beside the window.
+/// Inspection of a surface's weights. It shows what the panel requests while the panel is visible,
+/// and solves with another method in the background.
 class WeightInspection : public QObject
 {
   Q_OBJECT
 
 public:
-  /// Fills what another bind of the same surface needs; false when handles are missing.
+  /// Fills in the input of another bind of the same surface; returns false if handles are missing.
   using MakeInput = std::function<bool(BindInput&)>;
 
   WeightInspection(Viewport* viewport, WeightPanel* panel, MakeInput make_input);
 
-  /// Another surface or other weights: the surface at rest, with Weights or not, the tets with the
-  /// same weights (null: none), and whether the handles of the columns are there.
+  /// Set a surface or its weights: the surface at rest (the array Weights is optional), the tets
+  /// with the same weights (null: none), and whether the handles of the columns are open.
   void set_data(vtkPolyData* surface, vtkUnstructuredGrid* volume, bool has_handles);
   void move_surface(vtkPolyData* shape) { this->view_->move_surface(shape); }
   void set_active(bool active);
-  /// The handle that was chosen in the picture.
+  /// Show the column of the handle that was chosen in the picture.
   void choose_column(int column);
 
-  void compare(int method); ///< of the panel's list
+  void compare(int method); ///< an index of compared_methods()
   void cancel() { this->job_.cancel(); }
   bool is_busy() const { return this->job_.is_running(); }
 
-  /// Of Viewport: see-through around a slice.
+  /// Return how the surface is drawn (Viewport::SurfaceLook): see-through around a slice.
   int surface_look() const;
-  /// A slice lies in the shape at rest.
+  /// Report whether the shape must be at rest, because a slice belongs to it.
   bool wants_rest() const { return this->view_->is_sliced(); }
   WeightView* view() const { return this->view_; }
 
 Q_SIGNALS:
   void surface_look_changed();
-  /// One sentence; what was shown stays.
+  /// One sentence. The picture is unchanged.
   void failed(const QString& sentence);
-  /// What was asked for is shown.
+  /// The requested data is shown.
   void succeeded();
 
 private:
@@ -66,16 +66,17 @@ private:
   bool active_ = false;
   bool sliced_ = false;
   BindJob job_;
-  QString method_; // that is being compared with
+  QString method_; // the method of the running comparison
   QString compared_method_;
   vtkSmartPointer<vtkPolyData> compared_; // the surface with the other weights
   double compared_seconds_ = 0.0;
 };
 
-/// What a bind has made, as the file that `bindpose weights --raw` writes holds it: the point
-/// arrays Weights and RawWeights, the columns' certificates, and the seconds in the report.
+/// Add the result of a bind to a surface, as in a file that `bindpose weights --raw` writes: the
+/// point arrays Weights and RawWeights, the columns' certificates, and the seconds in the report.
 void add_weights(const BindResult& result, const bindpose::Handles& handles, vtkPolyData* surface);
-/// The tets that were solved on, with the same; null when it was the surface itself.
+/// Return the tets that were solved on, with the same arrays; null if the surface itself was solved
+/// on.
 vtkSmartPointer<vtkUnstructuredGrid> make_weighted_tets(
   const BindResult& result, const bindpose::Handles& handles);
 

@@ -22,7 +22,7 @@
 
 namespace
 {
-/// What a control does, or why it can do nothing now: empty reason, it can.
+/// Enable a widget if `reason` is empty. Otherwise disable it and show the reason as its tooltip.
 void enable_or_say(QWidget* widget, const QString& reason)
 {
   if (widget->property("tip").isNull())
@@ -182,7 +182,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->bar_ = new QProgressBar(this);
   this->bar_->setRange(0, 1000);
   this->bar_->setTextVisible(false);
-  // What comes and goes keeps its place, so that nothing below it jumps.
+  // Hidden widgets keep their space, so that nothing below them jumps.
   QSizePolicy keeps_place = this->bar_->sizePolicy();
   keeps_place.setRetainSizeWhenHidden(true);
   this->bar_->setSizePolicy(keeps_place);
@@ -261,7 +261,7 @@ void WeightPanel::set_columns(const QStringList& names)
 void WeightPanel::set_facts(const Facts& facts)
 {
   this->facts_ = facts;
-  // What is no more cannot be looked at.
+  // Data that no longer exists cannot be shown.
   if ((this->what() == row_sums && !facts.has_raw) ||
     (this->what() == difference && !facts.compared))
   {
@@ -276,7 +276,7 @@ void WeightPanel::set_facts(const Facts& facts)
   for (QWidget* inside : { static_cast<QWidget*>(this->inside_),
          static_cast<QWidget*>(this->slice_), static_cast<QWidget*>(this->position_) })
   {
-    inside->setVisible(!facts.has_picture); // a picture has none
+    inside->setVisible(!facts.has_picture); // a picture has no inside
   }
   for (QAbstractButton* orientation : this->orientations_->buttons())
   {
@@ -291,7 +291,7 @@ void WeightPanel::set_facts(const Facts& facts)
   this->enable();
 }
 
-/// What can be chosen follows from what is there and shown; what cannot says why.
+/// Enable the widgets that apply to what is available and shown. Disabled widgets show the reason.
 void WeightPanel::enable()
 {
   const QString none = this->facts_.has_weights

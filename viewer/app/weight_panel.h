@@ -17,27 +17,29 @@ class QPushButton;
 class ValueRow;
 class vtkDataSet;
 
-/// A method that weights can be compared with. Names are in English, of the context WeightPanel.
+/// A method that weights can be compared with. Names are in English, in the translation context
+/// WeightPanel.
 struct ComparedMethod
 {
   BindMethod method;
   const char* word; ///< in reports and on the command line
   const char* name;
-  const char* brief; ///< for a narrow line
+  const char* brief; ///< short name for a narrow line
 };
 const std::vector<ComparedMethod>& compared_methods();
-/// Index in compared_methods() of the method that solved for a surface's weights, by their report;
-/// -1: unknown.
+/// Return the index in compared_methods() of the method that solved for a surface's weights, from
+/// their report; -1: unknown.
 int method_of_weights(vtkDataSet* surface);
 
-/// The panel right of the picture to inspect weights: which, how, what another method does
-/// otherwise, and a slice through their volume. Like SidePanel it only tells what the user wants.
+/// The panel to the right of the picture to inspect weights: which weights, how they are shown, how
+/// another method differs, and a slice through their volume. Like SidePanel it only emits signals
+/// for requests of the user.
 class WeightPanel : public QFrame
 {
   Q_OBJECT
 
 public:
-  /// What is looked at, in the order of its buttons.
+  /// The shown quantity, in the order of its buttons.
   enum What
   {
     weights,
@@ -47,32 +49,33 @@ public:
 
   explicit WeightPanel(QWidget* parent = nullptr);
 
-  /// Other weights: a name a column. The column of the same name stays chosen.
+  /// Set the names of the columns. The chosen column is kept by name.
   void set_columns(const QStringList& names);
-  /// What is there decides what can be chosen.
+  /// The state that determines what can be chosen.
   struct Facts
   {
     bool has_weights = false;
     bool has_raw = false;
-    bool has_handles = false; ///< those of the columns, to solve with another method
+    /// The handles of the columns are open, so that another method can solve.
+    bool has_handles = false;
     bool has_volume = false;
-    bool has_picture = false; ///< that the colours lie over
+    bool has_picture = false; ///< the colors are drawn over a picture
     bool comparing = false;
     bool compared = false;
-    int method = -1; ///< in compared_methods(), that solved for the weights; -1: unknown
+    int method = -1; ///< the method of the weights, an index of compared_methods(); -1: unknown
   };
   void set_facts(const Facts& facts);
-  /// Three lines: the method and the column's proof.
+  /// Set the three lines about the method and the column's certificate.
   void set_certificate(const QString& text);
   void set_extrema(const QString& text);
   void set_progress(double fraction, const QString& phase);
-  /// Two lines: how far the other method is.
+  /// Set the two lines about the difference of the other method.
   void set_comparison(const QString& text);
   void set_position(double position, double lowest, double highest);
 
   int what() const;
   void show_what(int what);
-  /// Column, or -1: all.
+  /// Return the chosen column; -1: all.
   int column() const;
   void choose_column(int column);
   bool raw() const;
@@ -82,16 +85,16 @@ public:
   bool slice() const;
 
 Q_SIGNALS:
-  /// How much of the colours is seen over the picture, 0 to 1.
+  /// The opacity of the colors over the picture, 0 to 1.
   void tint_chosen(double share);
   /// Another column is shown; -1: all.
   void column_chosen(int column);
-  /// Any of what the getters tell.
+  /// The result of any getter has changed.
   void look_changed();
-  /// A method, by its place in compared_methods().
+  /// An index of compared_methods().
   void comparison_wanted(int method);
   void cancel_wanted();
-  void orientation_chosen(int orientation); ///< of PlaneHandle
+  void orientation_chosen(int orientation); ///< a PlaneHandle::Orientation
   void position_chosen(double position);
 
 private:
@@ -106,7 +109,7 @@ private:
   QCheckBox* isolines_;
   QCheckBox* extrema_;
   QLabel* extrema_note_;
-  QWidget* tint_row_; ///< of pictures
+  QWidget* tint_row_; ///< for surfaces with a picture
   ValueRow* tint_;
   QComboBox* method_;
   QPushButton* compare_;

@@ -1,5 +1,6 @@
-// Numbers are found on the surface at rest and taken to its drawn points, which are more where
-// edges are sharp. A pose moves isolines and balls only. The slice lies in the tets at rest.
+// Values are computed on the surface at rest and copied to its drawn points. Sharp edges have
+// several drawn points per vertex. A pose moves only isolines and balls. The slice belongs to the
+// tets at rest.
 #include "weight_view.h"
 
 #include "viewport.h"
@@ -29,7 +30,7 @@ WeightView::WeightView(Viewport* viewport)
   this->slice_mapper_->SetColorModeToMapScalars();
   this->slice_mapper_->UseLookupTableScalarRangeOn();
   this->slice_mapper_->SelectColorArray(colour_array_name);
-  // Lines lie in what they are drawn on and must win against it.
+  // Lines have the depth of the surface under them and must be drawn in front of it.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->slice_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->slice_actor_->SetMapper(this->slice_mapper_);
@@ -55,9 +56,9 @@ WeightView::WeightView(Viewport* viewport)
   {
     renderer->AddActor(actor);
   }
-  this->balls_.face(Vec3::Zero()); // none yet
+  this->balls_.face(Vec3::Zero()); // there are none yet
   renderer->AddObserver(vtkCommand::StartEvent, this, &WeightView::before_drawing);
-  this->plane_->draw_box(false); // the surface says how far it goes
+  this->plane_->draw_box(false); // the surface shows its extent
   QObject::connect(this->plane_, &PlaneHandle::moved, this,
     [this]
     {
@@ -152,7 +153,7 @@ void WeightView::show_surface()
   if (this->options_.slice)
   {
     this->viewport_->show_values(nullptr, true, name, this->colouring_.map);
-    return; // colours around the slice's would be taken for them
+    return; // colors of the surface would be mistaken for those of the slice
   }
   vtkPolyData* drawn = this->viewport_->drawn();
   bool on_points = true;
@@ -169,7 +170,7 @@ void WeightView::show_surface()
   }
   else
   {
-    values = colour_values(drawn, this->colouring_, on_points); // of its triangles
+    values = colour_values(drawn, this->colouring_, on_points); // one value per triangle
   }
   this->viewport_->show_values(values, on_points, name, this->colouring_.map);
   this->draw_isolines(0, drawn);
@@ -194,7 +195,7 @@ void WeightView::update_slice()
   this->slice_actor_->SetVisibility(shown);
   if (shown)
   {
-    // At the lower end of the box tets only touch the plane.
+    // At the lower end of the box the tets only touch the plane.
     const auto [first, last] = this->plane_->positions();
     const double inside = std::clamp(
       this->plane_->position(), first + 1e-6 * (last - first), last - 1e-6 * (last - first));

@@ -20,9 +20,9 @@
 
 class Viewport;
 
-/// Weights in the picture: on the surface, posed or not, in bands with isolines, with balls at
-/// their extrema, and inside on a plane that the mouse drags. What is shown is said as for
-/// `bindpose render`: by PictureOptions.
+/// Weights in the picture: on the surface, posed or at rest, in bands with isolines and with balls
+/// at their extrema; and inside, on a plane that the mouse drags. PictureOptions determine what is
+/// shown, as in `bindpose render`.
 class WeightView : public QObject
 {
   Q_OBJECT
@@ -30,14 +30,15 @@ class WeightView : public QObject
 public:
   explicit WeightView(Viewport* viewport);
 
-  /// What is looked at: the surface at rest as the viewport has it, and the tets that were solved
-  /// on, both with weights; null: none.
+  /// Set the surface at rest, as the viewport has it, and the tets that were solved on, both with
+  /// weights; null: none.
   void set_data(vtkPolyData* surface, vtkUnstructuredGrid* volume);
-  /// The same surface with its points elsewhere: a pose.
+  /// Move the points of the same surface: a pose.
   void move_surface(vtkPolyData* shape);
 
-  /// Of the options array, component, colour_by, minus, bands, isolines, extrema and slice count.
-  /// Fails, showing the plain surface, when the data has no such numbers.
+  /// Show the weights. The options that count are array, component, colour_by, minus, bands,
+  /// isolines, extrema and slice. Return an error, and show the plain surface, if the data has no
+  /// such numbers.
   bindpose::Status show(const bindpose::PictureOptions& options);
   void hide();
   bool is_shown() const { return this->shown_; }
@@ -46,16 +47,17 @@ public:
   PlaneHandle* plane() const { return this->plane_; }
 
   const bindpose::Colouring& colouring() const { return this->colouring_; }
-  /// Numbers of what is shown; see render_to_png().
+  /// Return numbers about the shown data; see render_to_png().
   const bindpose::Report& numbers() const { return this->colouring_.numbers; }
-  /// Of the surface, or of all tets while they are sliced: then the surface is plain.
+  /// Return the extrema of the surface. While tets are sliced, return those of all tets; the
+  /// surface is then plain.
   const std::vector<bindpose::Extremum>& extrema() const { return this->extrema_; }
   vtkPolyData* slice() const { return this->slice_; }
-  /// On the surface.
+  /// Return the isolines on the surface.
   vtkPolyData* isolines() const { return this->isolines_[0]; }
 
 Q_SIGNALS:
-  /// The plane is elsewhere, whoever has moved it.
+  /// The plane has moved, for any reason.
   void plane_moved();
 
 private:
@@ -68,7 +70,7 @@ private:
   Viewport* viewport_;
   PlaneHandle* plane_;
   vtkSmartPointer<vtkPolyData> surface_; // at rest
-  vtkSmartPointer<vtkPolyData> shape_; // as posed
+  vtkSmartPointer<vtkPolyData> shape_; // posed
   vtkSmartPointer<vtkUnstructuredGrid> volume_;
   vtkSmartPointer<vtkUnstructuredGrid> volume_values_; // with the shown number only
   bindpose::PictureOptions options_;
@@ -80,7 +82,7 @@ private:
   vtkSmartPointer<vtkPolyData> slice_;
   vtkNew<vtkPolyDataMapper> slice_mapper_;
   vtkNew<vtkActor> slice_actor_;
-  // Of the surface and of the slice.
+  // 0: of the surface. 1: of the slice.
   std::array<vtkNew<vtkPolyData>, 2> isolines_;
   std::array<vtkNew<vtkPolyDataMapper>, 2> isoline_mappers_;
   std::array<vtkNew<vtkActor>, 2> isoline_actors_;

@@ -109,7 +109,7 @@ void WindingVolume::finish()
     this->panel_->set_note(QString());
     Q_EMIT this->failed(tr("No winding numbers: %1.").arg(QString::fromStdString(status.message)));
   }
-  else if (this->surface_ == this->document_->work().surface) // else another has come meanwhile
+  else if (this->surface_ == this->document_->work().surface) // not if another one was opened
   {
     const int* size = volume->GetDimensions();
     double range[2];
@@ -118,7 +118,8 @@ void WindingVolume::finish()
     this->document_->set_volume(volume, tr("winding numbers"), {}, tr("compute winding numbers"));
     const double seconds = status.report.number("seconds.total", 0.0);
     this->panel_->set_note(range[1] - range[0] < noise
-        ? tr("0 everywhere: triangles cancel out.") // each has its back as another
+        // Each triangle also exists with the opposite orientation.
+        ? tr("0 everywhere: triangles cancel out.")
         : tr("%1 × %2 × %3 samples in %4.")
             .arg(size[0])
             .arg(size[1])

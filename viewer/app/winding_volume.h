@@ -13,20 +13,20 @@
 class Document;
 class VolumePanel;
 
-/// The winding numbers of the open surface on a grid around it, as `bindpose winding` computes
-/// them: made beside the window, then opened as the document's volume, one step.
+/// Computes the winding numbers of the open surface on a grid around it, as `bindpose winding`
+/// does. It works in the background and opens the result as the document's volume, in one step.
 class WindingVolume : public QObject
 {
   Q_OBJECT
 
 public:
-  /// The panel asks for it and says how far it is.
+  /// The panel requests the computation and shows its progress.
   WindingVolume(Document* document, VolumePanel* panel, QObject* parent);
 
   void start();
   void cancel() { this->job_.cancel(); }
   bool is_running() const { return this->job_.is_running(); }
-  /// What the panel can do depends on what there is.
+  /// Update what can be done in the panel.
   void update();
 
 Q_SIGNALS:
@@ -38,9 +38,9 @@ private:
 
   Document* document_;
   VolumePanel* panel_;
-  const void* surface_ = nullptr; ///< that it is made for
+  const void* surface_ = nullptr; ///< the surface for which it is computed
   std::shared_ptr<vtkSmartPointer<vtkImageData>> made_;
-  KernelJob job_; // last: it ends before what it works on
+  KernelJob job_; // last member, so that it ends before the data it works on is destroyed
 };
 
 #endif

@@ -173,7 +173,7 @@ void WindowHand::wheel(const QPoint& at, double turns, Qt::KeyboardModifiers hel
 
 void WindowHand::leave()
 {
-  if (this->buttons_ == Qt::NoButton) // else the picture keeps it
+  if (this->buttons_ == Qt::NoButton) // while a button is pressed, the picture keeps the mouse
   {
     QEvent event(QEvent::Leave);
     QApplication::sendEvent(this->window_->viewport(), &event);
@@ -263,7 +263,8 @@ QString WindowHand::press_key(const QString& keys)
   const QString text = letter
     ? (held & Qt::ShiftModifier ? QString(QChar(key)) : QString(QChar(key)).toLower())
     : QString();
-  // As Qt does it: a field that is being typed in comes before the menus' shortcuts.
+  // As in Qt, a field in which the user is typing receives the key before the shortcuts of the
+  // menus.
   QKeyEvent first(QEvent::ShortcutOverride, key, held, text);
   first.ignore();
   QApplication::sendEvent(focus, &first);
@@ -330,7 +331,7 @@ QString WindowHand::push(const QString& text)
     name.remove('&');
     while (!name.isEmpty() && !name[0].isLetterOrNumber())
     {
-      name.remove(0, 1); // of a section that folds
+      name.remove(0, 1); // removes the mark of a section
     }
     if (name != text || !each->isVisible())
     {
@@ -340,7 +341,7 @@ QString WindowHand::push(const QString& text)
     if (each->isEnabled())
     {
       each->click();
-      QApplication::processEvents(); // what has opened has a place now
+      QApplication::processEvents(); // lays out the widgets that have appeared
       scroll_to(each);
       return {};
     }
@@ -419,7 +420,8 @@ QString WindowHand::choose(const QString& key, const QVariant& value)
 
 const QStringList& WindowHand::panel_names()
 {
-  static const QStringList names{ "pose", "weights", "tets", "volume" }; // as in PanelColumn
+  // The names are in the order of PanelColumn::Panel.
+  static const QStringList names{ "pose", "weights", "tets", "volume" };
   return names;
 }
 
@@ -503,7 +505,7 @@ bool wait_until(const std::function<bool()>& condition, double seconds)
 {
   QElapsedTimer clock;
   clock.start();
-  QTimer wake; // what is waited for may have no event of its own
+  QTimer wake; // the condition may become true without an event
   wake.start(5);
   while (!condition())
   {

@@ -13,52 +13,55 @@
 class MainWindow;
 class QAction;
 
-/// A person's hand in the window, for tours and tests: events of the mouse on the picture, keys,
-/// entries of the menus, buttons and options, each through the widget that a person would use. What
-/// a person could not do either, because it is disabled or not there, is one sentence.
+/// Simulates a user in the window, for tours and tests: mouse events on the picture, keys, menu
+/// entries, buttons and options. Each action uses the widget that a user would use. An action that
+/// is impossible for a user, because a widget is disabled or missing, returns one sentence.
 class WindowHand
 {
 public:
   explicit WindowHand(MainWindow* window) : window_(window) {}
 
-  // ---- The mouse on the picture; places in pixels from its upper left corner ----
-  QPoint place(double x, double y) const; ///< of shares of its width and height
-  /// Where a posed handle is: between its head (0) and its tail (1). A sentence without one.
+  // ---- The mouse on the picture; positions in pixels from its upper left corner ----
+  QPoint place(double x, double y) const; ///< from fractions of its width and height
+  /// Find a point of a posed handle between its head (0) and its tail (1). Return a sentence if
+  /// there is no such handle.
   QString place_of(const QString& handle, double along, QPoint& at) const;
-  /// Where a part of the selected handle's gizmo is best grabbed. A sentence where it is not seen.
+  /// Find the position where a part of the selected handle's gizmo is best grabbed. Return a
+  /// sentence if it is not visible.
   QString place_of_gizmo(int part, QPoint& at) const;
   void press(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
   void move(const QPoint& at, Qt::KeyboardModifiers held = {});
   void release(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
   void double_click(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
   void wheel(const QPoint& at, double turns, Qt::KeyboardModifiers held = {});
-  /// The mouse is elsewhere; as it is for whatever is not on the picture.
+  /// Move the mouse off the picture, as a user does before using another widget.
   void leave();
-  /// The mouse on the key frames' track.
+  /// Scrub with the mouse on the track of the key frames.
   void scrub(double seconds);
-  /// Buttons that are held.
+  /// Return the buttons that are pressed.
   Qt::MouseButtons buttons() const { return this->buttons_; }
 
-  // ---- Everything else; a sentence, or empty ----
+  // ---- Other actions; they return a sentence on failure, otherwise an empty string ----
   /// Drop a file on the window.
   QString drop(const QString& file);
   /// Replace the text of the visible field that has this accessible name.
   QString type(const QString& text, const QString& field);
-  /// What has the keyboard gets the key, or the entry of the menus whose shortcut it is.
+  /// Send the key to the widget with the keyboard focus, or trigger the menu entry with that
+  /// shortcut.
   QString press_key(const QString& keys);
-  /// By its object name.
+  /// Trigger an action by its object name.
   QString trigger(const QString& action);
-  /// A button that is seen, by its text, without the marks of menus and sections.
+  /// Click a visible button by its text, without the marks of menus and sections.
   QString push(const QString& text);
-  /// Through the widget with the option's key as its name.
+  /// Choose an option with the widget that has the option's key as its name.
   QString choose(const QString& option, const QVariant& value);
   QString show_panel(const QString& name);
   QString select(const QString& handle);
-  /// What the selected handles fix: a word of bindpose::handle_mode_words.
+  /// Set the mode of the selected handles: a word of bindpose::handle_mode_words.
   QString set_mode(const QString& mode);
   static const QStringList& panel_names();
 
-  /// Object names of all entries of the menus.
+  /// Return the object names of all menu entries.
   QStringList actions() const;
   QAction* action(const QString& name) const;
 
@@ -72,11 +75,11 @@ private:
   Qt::MouseButtons buttons_;
 };
 
-/// Nothing runs beside the window, nothing plays, and the shape is that of the pose.
+/// Report whether nothing runs in the background, nothing plays, and the shape is that of the pose.
 bool is_idle(const MainWindow* window);
 
-/// Lets the event loop run until the condition holds, which is looked at after every event and
-/// every few milliseconds; false when so many seconds have passed without.
+/// Run the event loop until the condition is true. It is checked after every event and every few
+/// milliseconds. Return false if it is not true after this many seconds.
 bool wait_until(const std::function<bool()>& condition, double seconds);
 
 #endif

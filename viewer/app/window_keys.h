@@ -8,19 +8,19 @@
 #include <string>
 #include <vector>
 
-// All keys and buttons of the window in one table: actions take their shortcuts from it, the
-// shortcut sheet and `bindpose key-table` show it together with the bindings of the widgets. No Qt:
-// the program has it without the window, too.
+// All keys and mouse buttons of the window in one table. Actions take their shortcuts from it. The
+// shortcut sheet and `bindpose key-table` show it together with the bindings of the widgets. It
+// does not use Qt, because the program without the window contains it, too.
 
 namespace bindpose
 {
 
 struct WindowKey
 {
-  const char* action; ///< by which the window finds its keys; "" for rows for people only
+  const char* action; ///< name by which the window finds its keys; "" for rows that are only shown
   const char* when; ///< heading in the sheet
-  const char* input; ///< as people read it, and as QKeySequence does; several with ", " between
-  const char* text; ///< what it does
+  const char* input; ///< as shown to users, and as QKeySequence reads it; ", " separates several
+  const char* text; ///< the effect of the input
 };
 
 constexpr std::array<WindowKey, 46> window_keys{ {
@@ -79,7 +79,7 @@ constexpr std::array<WindowKey, 46> window_keys{ {
   { "fixes.free", "handles", "Alt+3", "Holds nothing" },
 } };
 
-/// Of an action, as in the table; empty for none.
+/// Return the keys of an action, as in the table; empty if there are none.
 inline std::string keys_of(const char* action)
 {
   for (const WindowKey& key : window_keys)
@@ -95,11 +95,11 @@ inline std::string keys_of(const char* action)
 struct KeyGroup
 {
   std::string when;
-  /// Input and what it does.
+  /// Input and its effect.
   std::vector<std::pair<std::string, std::string>> rows;
 };
 
-/// The window's and the widgets', by when they apply, in the order in which they are read.
+/// Return the keys of the window and of the widgets, grouped by when they apply, in reading order.
 inline std::vector<KeyGroup> all_keys()
 {
   std::vector<KeyGroup> groups;

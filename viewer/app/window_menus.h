@@ -8,7 +8,8 @@ class QAction;
 class QActionGroup;
 class QMenu;
 
-/// The menus of the window, and what of them can be chosen now. Keys are those of window_keys.h.
+/// The menus of the window, with the entries that can be chosen enabled. window_keys.h defines the
+/// keys.
 class WindowMenus : public QObject
 {
   Q_OBJECT
@@ -16,7 +17,7 @@ class WindowMenus : public QObject
 public:
   explicit WindowMenus(MainWindow* window);
 
-  /// What is there decides what can be chosen.
+  /// Update which entries can be chosen.
   void update();
   void show_method(int method);
 

@@ -42,7 +42,7 @@ WindowSessions::WindowSessions(
 
 WindowSessions::~WindowSessions() = default;
 
-// ---- What a session is made of -----------------------------------------------------------------
+// ---- Contents of a session ---------------------------------------------------------------------
 
 Session WindowSessions::session() const
 {
@@ -87,7 +87,7 @@ void WindowSessions::show(const Session& session)
   this->window_->viewport()->refresh();
 }
 
-/// What is missing can be looked for.
+/// Show the notes of a session, with a button to locate a missing file.
 void WindowSessions::show_notes(const Session& session)
 {
   this->missing_->hide();
@@ -250,7 +250,7 @@ void WindowSessions::offer_recovery(const QString& root)
   const auto discard = [this, root]
   {
     this->recovered_->remove();
-    this->offer_recovery(root); // perhaps there is another
+    this->offer_recovery(root); // there may be another one
   };
   this->recovery_->offer(
     tr("Bindpose did not end as it should. Its work from %1 is still there.").arg(when),
@@ -278,7 +278,7 @@ void WindowSessions::recover()
   this->window_->update_title();
   if (this->autosave_.save().ok())
   {
-    this->recovered_->remove(); // it is in our own folder now
+    this->recovered_->remove(); // the folder of this process contains it now
   }
   this->recovered_.reset();
 }

@@ -13,8 +13,8 @@ class NoticeBar;
 class QMenu;
 class OptionLinks;
 
-/// The window's session files: open, save, and the question before changes are lost; recent files;
-/// the copy against crashes, and what a crash has left.
+/// The session files of the window: open, save, and the question before changes are lost; recent
+/// files; autosave, and recovery after a crash.
 class WindowSessions : public QObject
 {
   Q_OBJECT
@@ -24,21 +24,21 @@ public:
   WindowSessions(MainWindow* window, OptionLinks* links, NoticeBar* recovery, NoticeBar* missing);
   ~WindowSessions() override;
 
-  /// Opens a session in place of the work; false, with a sentence, when it cannot be read or when
-  /// the work is to stay.
+  /// Open a session in place of the work. Return false if it cannot be read, with a sentence, or if
+  /// the user keeps the work.
   bool open(const QString& path);
-  /// Asks for a name where there is none yet; false when nothing was written.
+  /// Save the session; ask for a name if it has none yet. Return false if nothing was written.
   bool save();
   bool save_as();
   bool write(const QString& path);
-  /// True when nothing would be lost, or the user says so.
+  /// Report whether the work can be closed: nothing would be lost, or the user agrees.
   bool may_go();
-  /// The session file; empty as long as there is none.
+  /// Return the path of the session file; empty if there is none.
   QString path() const { return this->path_; }
-  /// Shows the bar when a process has died and left its work.
+  /// Show the bar if a crashed process has left work.
   void offer_recovery(const QString& root = QString());
   Autosave* autosave() { return &this->autosave_; }
-  /// For the title: the session's name, else what is open.
+  /// Return the name for the title: that of the session, otherwise that of the open data.
   QString name() const;
   void fill_recent(QMenu* menu);
 

@@ -1,4 +1,4 @@
-// Turns the option table into a CLI11 parser and what it parsed into Arguments.
+// Converts the option table to a CLI11 parser, and the parsed values to Arguments.
 #include "cli/arguments.h"
 
 #include "cli/option_table.h"
@@ -133,7 +133,7 @@ void add_option(CLI::App& app, const Option& option, Arguments& arguments)
   add_check(parsed, option);
 }
 
-/// The first option that is required and not there; empty: none.
+/// Return the first required option that is missing; empty if there is none.
 std::string missing_option(const std::vector<Option>& options, const Arguments& arguments)
 {
   for (const Option& option : options)
@@ -157,7 +157,7 @@ std::vector<std::string> verb_names()
   return names;
 }
 
-/// What is wrong with the first option that the verb does not have; empty: nothing.
+/// Return the error message for the first unknown option of the verb; empty if there is none.
 std::string unknown_option(const Verb& verb, const std::vector<std::string>& words)
 {
   std::vector<std::string> known{ "--help" };
@@ -181,7 +181,8 @@ std::string unknown_option(const Verb& verb, const std::vector<std::string>& wor
   return {};
 }
 
-/// @param rest  what no option and no file of the verb took, not empty
+/// Return the error message for unexpected arguments.
+/// @param rest  arguments that neither an option nor a file of the verb uses; not empty
 std::string unexpected_argument(const Verb& verb, const std::vector<std::string>& rest)
 {
   std::string files;

@@ -14,7 +14,7 @@ class Arguments
 {
 public:
   std::string verb;
-  /// The command line as it was typed, without the program's name.
+  /// The original command line without the program's name.
   std::vector<std::string> words;
   std::map<std::string, std::vector<std::string>> values;
   /// Keys of the options that were typed.
@@ -30,16 +30,17 @@ public:
   double number(const std::string& key) const { return std::stod(this->text(key)); }
   /// Return the numbers of "X,Y,Z".
   std::vector<double> numbers(const std::string& key) const;
-  /// Return the number of the word that was typed; the parser has checked that it is one of `words`.
-  int choice(const std::string& key, const std::map<std::string, int>& words) const
+  /// Return the number of the word that was typed; the parser has checked that it is one of them.
+  int choice(const std::string& key, const std::map<std::string, int>& values_of_words) const
   {
-    return words.at(this->text(key));
+    return values_of_words.at(this->text(key));
   }
 };
 
-/// Parse the command line by the option table.
-/// @return -1 to go on with the arguments, else the exit code: 0 after --help or --version, 1 after
-/// a usage error, which is printed as one line on the standard error.
+/// Parse the command line with the option table. A usage error prints one line on the standard
+/// error.
+/// @return -1 to continue with the arguments, otherwise the exit code: 0 after --help or --version,
+///   1 after a usage error
 int parse_arguments(int argc, char** argv, Arguments& arguments);
 
 } // namespace bindpose::cli

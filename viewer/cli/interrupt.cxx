@@ -1,6 +1,6 @@
-// All threads block the signals, so that one of ours can wait for them and do whatever is needed. A
-// handler would not do: METIS puts its own one in its place for SIGTERM while it orders a matrix,
-// which ends the ordering and loses the signal. Child processes get an empty mask.
+// All threads block the signals, and one thread waits for them, so it can run any code. A signal
+// handler would not be sufficient: METIS replaces the handler of SIGTERM while it orders a matrix,
+// ends the ordering and loses the signal. Child processes get an empty mask.
 #include "cli/interrupt.h"
 
 #include "io/atomic_file.h"
@@ -42,7 +42,7 @@ void block(int, char**, char**)
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
 }
 
-/// Runs before the constructors of libraries, some of which start threads: these block, too.
+/// Runs before the constructors of libraries. Some of them start threads, which inherit the mask.
 __attribute__((section(".preinit_array"), used)) void (*const block_first)(
   int, char**, char**) = block;
 
@@ -59,7 +59,7 @@ void watch()
     }
     if (released)
     {
-      // What it does by default.
+      // Restore the default action.
       std::signal(number, SIG_DFL);
       pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
       kill(getpid(), number);

@@ -6,20 +6,21 @@ class vtkAlgorithm;
 namespace bindpose::cli
 {
 
-/// From now on SIGINT (Ctrl-C) and SIGTERM cancel instead of killing: the algorithm that runs is
-/// aborted and later ones do not start. A second signal removes temporary files and ends the
-/// program at once with exit code 4, for the one case that cannot be cancelled in between (a
-/// factorisation). They are blocked in all threads from the start of the program; until this is
-/// called they wait. Call once.
+/// Let SIGINT (Ctrl-C) and SIGTERM cancel the work instead of ending the program: the running
+/// algorithm is aborted, and later ones do not start. A second signal removes temporary files and
+/// ends the program immediately with exit code 4, because a factorization cannot be canceled. The
+/// signals are blocked in all threads from the start of the program, and are pending until this
+/// function is called. Call it once.
 void catch_interrupts();
 
-/// Signals kill again, as they do by default: for a window, which nobody waits for.
+/// Let signals end the program again, as they do by default; for windows, which have no work to
+/// cancel.
 void release_interrupts();
 
-/// A signal came.
+/// Report whether a signal has arrived.
 bool interrupted();
 
-/// Aborts the algorithm when a signal comes while this lives.
+/// Aborts the algorithm if a signal arrives during the lifetime of this object.
 class AbortOnInterrupt
 {
 public:

@@ -1,5 +1,5 @@
-// One table a group, in the order of app/window_keys.h, which the window itself takes its keys
-// from.
+// One table per group, in the order of app/window_keys.h, from which the window itself gets its
+// keys.
 #include "cli/key_table.h"
 
 #include "app/window_keys.h"

@@ -6,7 +6,7 @@
 namespace bindpose::cli
 {
 
-/// Keys and buttons of the window as Markdown, for the README.
+/// Return the keys and buttons of the window as Markdown, for the README.
 std::string key_table_markdown();
 
 } // namespace bindpose::cli

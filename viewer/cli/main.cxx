@@ -1,5 +1,5 @@
-// The program bindpose: parses by the option table, runs the verb, ends with its exit code:
-// 0 done, 1 usage, 2 bad input, 3 not converged, 4 cancelled, 5 internal.
+// The program bindpose: parses the command line, runs the verb, and returns its exit code: 0 done,
+// 1 usage, 2 bad input, 3 not converged, 4 canceled, 5 internal.
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
 #include "cli/key_table.h"
@@ -24,7 +24,7 @@ namespace
 using namespace bindpose;
 using namespace bindpose::cli;
 
-/// VTK prints many lines where the program promises one; what matters is in the status.
+/// Suppresses VTK's messages, because the program prints one line per error, from the status.
 class SilentOutputWindow : public vtkOutputWindow
 {
 public:
@@ -59,11 +59,12 @@ void run(Session& session)
 int main(int argc, char** argv)
 {
   catch_interrupts();
-  // A file that may not grow further is a write that fails, not the end. The helper inherits this.
+  // A write beyond the file size limit must fail instead of ending the program. The helper inherits
+  // this.
   std::signal(SIGXFSZ, SIG_IGN);
   vtkNew<SilentOutputWindow> silent;
   vtkOutputWindow::SetInstance(silent);
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it has a way of its own
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it does not use the output window
   Arguments arguments;
   const int early = parse_arguments(argc, argv, arguments);
   if (early >= 0)
@@ -94,7 +95,8 @@ int main(int argc, char** argv)
     session.fail(Status::failure(StatusCode::internal_error, error.what()));
   }
   const int code = session.finish();
-  // No clean-up of libraries: OpenBLAS waits for ever for threads that found no memory (ulimit -v).
+  // Skip the clean-up of libraries: OpenBLAS waits forever for threads that could not be started
+  // (ulimit -v).
   std::cout.flush();
   std::fflush(nullptr);
   std::_Exit(code);

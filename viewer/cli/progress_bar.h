@@ -7,8 +7,8 @@
 namespace bindpose::cli
 {
 
-/// One line on the standard error: a bar, percent, the phase's name. Draws nothing unless the
-/// standard error is a terminal.
+/// One line on the standard error: a bar, the percentage, and the phase's name. It draws nothing if
+/// the standard error is not a terminal.
 class ProgressBar
 {
 public:
@@ -17,9 +17,9 @@ public:
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// fraction of the whole in [0, 1]; the bar never goes back
+  /// Draw the bar at a fraction of the whole in [0, 1]; the bar never moves backwards.
   void show(double fraction, const std::string& phase);
-  /// Takes the line away, so that something else can be printed.
+  /// Remove the line, so that other output can be printed.
   void clear();
 
 private:

@@ -47,7 +47,7 @@ int exit_code(StatusCode code)
 
 namespace
 {
-/// Where the progress of one algorithm goes.
+/// The range of the progress bar for one algorithm.
 struct Stage
 {
   ProgressBar* bar;
@@ -62,7 +62,7 @@ void on_progress(vtkObject* caller, unsigned long, void* stage_data, void*)
   const auto* stage = static_cast<Stage*>(stage_data);
   if (interrupted())
   {
-    algorithm->SetAbortExecute(1); // a signal that came before the pipeline cleared the flag
+    algorithm->SetAbortExecute(1); // a signal arrived before the pipeline cleared the flag
   }
   const char* phase = algorithm->GetProgressText();
   const bool has_phase = phase && *phase && stage->name != phase;
@@ -70,12 +70,12 @@ void on_progress(vtkObject* caller, unsigned long, void* stage_data, void*)
   stage->bar->show(stage->begin + algorithm->GetProgress() * (stage->end - stage->begin), text);
 }
 
-// Expected fractions of the seconds of a run.
+// Expected fractions of the time of a run.
 constexpr double reading = 0.02;
 constexpr double choosing_points = 0.01;
 constexpr double finding_bones = 0.2;
-constexpr double main_end = 0.97; ///< then the results are written
-constexpr double latest_main_begin = 0.5; ///< however many files are read
+constexpr double main_end = 0.97; ///< start of the writing of results
+constexpr double latest_main_begin = 0.5; ///< upper limit for any number of files
 
 bool starts_with(const std::string& text, const std::string& begin)
 {
@@ -136,7 +136,7 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
   vtkNew<vtkCallbackCommand> progress;
   progress->SetCallback(on_progress);
   progress->SetClientData(&stage);
-  vtkNew<vtkCallbackCommand> silent; // what VTK would print stands in the status
+  vtkNew<vtkCallbackCommand> silent; // the status contains the messages that VTK would print
   const unsigned long observers[] = { algorithm->AddObserver(vtkCommand::ProgressEvent, progress),
     algorithm->AddObserver(vtkCommand::ErrorEvent, silent),
     algorithm->AddObserver(vtkCommand::WarningEvent, silent) };
@@ -181,7 +181,8 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
   {
     return status;
   }
-  // Of a failure, too: what was found in the input, and each thing that was tried.
+  // This also applies to failures: the report then has the findings about the input and all
+  // attempts.
   for (const auto& [key, value] : status.report.entries())
   {
     const bool seconds = starts_with(key, "seconds.");
@@ -307,7 +308,7 @@ bool Session::check_report()
   const Status status = AtomicFile::check(path, this->arguments_.has("overwrite"));
   if (!status.ok())
   {
-    this->arguments_.values.erase("report"); // there is no place for it
+    this->arguments_.values.erase("report"); // the report cannot be written
     return this->fail(status);
   }
   return true;
@@ -351,7 +352,7 @@ bool Session::write_rig(vtkDataSet* mesh, vtkPolyData* handles,
   writer->SetMaximumInfluences(this->arguments_.integer("gltf-influences"));
   writer->SetFileName(path.c_str());
   writer->SetOverwrite(this->arguments_.has("overwrite"));
-  // Its numbers stand apart from the verb's own.
+  // The numbers of the writer are kept apart from those of the verb.
   const Report own = this->report_;
   this->report_ = Report();
   const bool written = this->run_stage(writer, "write", main_end, 1.0, Merge::numbers);

@@ -17,21 +17,21 @@ class vtkBindposeAlgorithm;
 namespace bindpose::cli
 {
 
-/// Exit codes of the program.
+/// Return the exit code of the program for a status.
 int exit_code(StatusCode code);
 
-/// What of an algorithm's report goes into the verb's.
+/// The part of an algorithm's report that is merged into the verb's report.
 enum class Merge
 {
-  nothing, ///< its warnings and its total as seconds.STAGE
-  numbers, ///< the same, and all numbers but its phases
-  all ///< warnings, numbers and seconds by phase
+  nothing, ///< only its warnings, and its total time as seconds.STAGE
+  numbers, ///< the same, and all numbers except the times of its phases
+  all ///< warnings, numbers and seconds per phase
 };
 
-/// One run of a verb: runs algorithms with progress and cancel, keeps what they report, and ends
-/// with the report file, one line for an error, and the exit code.
+/// One run of a verb. It runs algorithms with progress and cancellation, collects their reports,
+/// and ends with the report file, one line for an error, and the exit code.
 ///
-/// Steps return false when the verb cannot go on; the session then knows why.
+/// Steps return false if the verb cannot continue; the session then stores the reason.
 class Session
 {
 public:
@@ -45,55 +45,55 @@ public:
   bool invalid(const std::string& sentence) { return this->fail(Status::invalid_input(sentence)); }
   /// Print and report a warning, each sentence once.
   void warn(const std::string& sentence);
-  /// Show progress of work that is not done by an algorithm, as a fraction of the verb's main work.
+  /// Show the progress of work outside of algorithms, as a fraction of the verb's main work.
   void show(double fraction, const std::string& what)
   {
     this->bar_.show(this->of_whole(fraction), what);
   }
 
-  /// Bring the algorithm up to date as the stage [begin, end] of the verb's main work: what comes
-  /// between reading and writing. Its warnings and errors are the session's, nothing is printed by
-  /// VTK.
+  /// Update the algorithm as the stage [begin, end] of the verb's main work, which is everything
+  /// between reading and writing. Its warnings and errors are added to the session; VTK prints
+  /// nothing.
   bool run(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin, double end,
     Merge merge);
-  /// The same, but a failure is only returned, for callers with another way out. A cancel counts
-  /// for the session in any case.
+  /// Run the algorithm like run(), but only return a failure, for callers with a fallback. A cancel
+  /// always ends the session.
   Status try_run(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
     double end, Merge merge);
 
-  /// Reads a mesh, volume or handle file; null when it fails.
+  /// Read a mesh, volume or handle file; return null on failure.
   vtkSmartPointer<vtkDataSet> read(const std::string& path);
-  /// The same for handle files (.tgf), too.
+  /// Read like read(), including .tgf handle files.
   vtkSmartPointer<vtkDataSet> read_any(const std::string& path);
-  /// The value of --handles: a file, auto[:N] points on the surface, skeleton[:N] bones in it; null
-  /// when it fails.
+  /// Return the handles for the value of --handles: a file, auto[:N] points on the surface,
+  /// skeleton[:N] bones in it; null on failure.
   vtkSmartPointer<vtkPolyData> read_handles(const std::string& value, vtkDataSet* surface);
 
-  /// The report can be written.
+  /// Check that the report can be written.
   bool check_report();
-  /// The output can have this ending and can be written: asked before the work, not after.
+  /// Check, before the work, that the output's extension is allowed and the file can be written.
   bool check_output(const std::string& path, const std::string& endings);
   bool write(vtkDataSet* data, const std::string& path);
-  /// To the temporary file of `file`, which gets its name by commit(): for files that are to be
-  /// there all or none.
+  /// Write to the temporary file of `file`, which commit() renames; for groups of files that are
+  /// written all or none.
   bool write_uncommitted(vtkDataSet* data, const std::string& path, AtomicFile& file);
   bool commit(AtomicFile& file);
-  /// A rig as glTF: mesh with weights, its handles (null: none), and frames of an animation.
+  /// Write a rig as glTF: mesh with weights, its handles (null: none), and frames of an animation.
   bool write_rig(vtkDataSet* mesh, vtkPolyData* handles,
     const std::vector<vtkSmartPointer<vtkDataSet>>& frames, double frames_per_second, bool morph,
     const std::string& path);
   bool write_text(const std::string& text, const std::string& path);
 
-  /// Ends the verb: report, error line. Returns the exit code.
+  /// End the verb: write the report, print an error line, and return the exit code.
   int finish();
 
 private:
-  /// The same as a stage [begin, end] of the whole run.
+  /// Run the algorithm as the stage [begin, end] of the whole run.
   Status try_stage(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
     double end, Merge merge);
   bool run_stage(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
     double end, Merge merge);
-  /// Run what prepares the main work, and let that begin `share` of the whole later.
+  /// Run a step before the main work, and reserve the fraction `share` of the whole for it.
   bool run_before(vtkBindposeAlgorithm* algorithm, const std::string& stage, double share);
   double of_whole(double fraction) const;
 
@@ -102,7 +102,7 @@ private:
 
   Arguments arguments_;
   ProgressBar bar_;
-  double main_begin_ = 0.0; ///< where the main work begins, as a fraction of the whole
+  double main_begin_ = 0.0; ///< start of the main work, as a fraction of the whole
   Status status_;
   std::vector<std::string> warnings_;
   Report report_;

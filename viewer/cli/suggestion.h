@@ -11,7 +11,7 @@ namespace bindpose::cli
 /// third of its letters are wrong, missing, added or swapped with their neighbors.
 std::string most_similar(const std::string& word, const std::vector<std::string>& known);
 
-/// Return "; did you mean 'WORD'?" for that word, or an empty text.
+/// Return "; did you mean 'WORD'?" with the most similar known word, or an empty text.
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 
 } // namespace bindpose::cli

@@ -7,8 +7,8 @@
 namespace bindpose::cli
 {
 
-/// Becomes xvfb-run with the same command line (Arguments::words); returns only when that is
-/// impossible.
+/// Replace the process by xvfb-run with the same command line (Arguments::words). Return only if
+/// this is impossible.
 void run_again_under_xvfb(const std::vector<std::string>& command_line);
 
 } // namespace bindpose::cli

@@ -1,6 +1,6 @@
-// bindpose deform MESH_WITH_WEIGHTS --handles H --pose POSE.json: one pose gives one file, a
-// sequence, expressions in time or a body that moves numbered files and a .pvd that ParaView plays,
-// or one animated glTF file.
+// bindpose deform MESH_WITH_WEIGHTS --handles H --pose POSE.json: a single pose gives one file. A
+// sequence, expressions in time and a dynamic body give numbered files and a .pvd file for
+// ParaView, or one animated glTF file.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"
@@ -99,17 +99,18 @@ bool is_rig(const std::string& path)
   return is_listed(file_extension(path), "glb gltf");
 }
 
-/// The frames of a pose file, of expressions in time or of a body that moves.
+/// The frames of a pose file, of expressions in time or of a dynamic body.
 struct Frames
 {
   int count = 1;
   double per_second = 0.0;
   bool sequence = false; ///< else one pose
-  std::function<bool(int)> deform; ///< makes one the deformation's output; false: it failed
+  std::function<bool(int)> deform; ///< computes a frame of the output; false: it failed
 };
 
-/// One glTF file. Linear blends pose the joints, a frame or, of a single pose, how they stand; what
-/// other methods do no joints can: each frame is a morph target.
+/// Write one glTF file. Linear blends are stored as transforms of the joints: one per frame, or the
+/// joints' pose for a single pose. Joints cannot represent other methods, so their frames are morph
+/// targets.
 void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPoseHandles* pose,
   const Frames& frames, vtkBindposeAlgorithm* deformation, const std::string& output)
 {
@@ -146,7 +147,7 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
     session.report().set("counts.frames", frames.count);
   }
 }
-/// A surface made anew between the points that its array Fixed holds.
+/// Compute a fair surface between the points that its array Fixed constrains.
 void run_fairing(Session& session, const std::string& output, const std::string& endings)
 {
   const Arguments& arguments = session.arguments();
@@ -209,7 +210,8 @@ void run_deform(Session& session)
   {
     return;
   }
-  // Frames are those of a sequence; of expressions and of a body that moves, as many as asked for.
+  // A sequence has its own frames. For expressions and dynamic bodies --frames is the number of
+  // frames.
   const bool dynamic = arguments.has("dynamics");
   const int given = pose->GetNumberOfFrames(), asked = arguments.integer("frames");
   const bool moves = dynamic || (given == 1 && pose->GetHasExpressions());
@@ -253,7 +255,7 @@ void run_deform(Session& session)
   const vtkSmartPointer<vtkPoseAlgorithm> deformation =
     dynamic ? vtkSmartPointer<vtkPoseAlgorithm>(body) : make_deformation(arguments);
   set_pose_options(arguments, deformation.Get());
-  // What goes wrong with a pose on the way, the filter behind it says as well.
+  // The downstream filter also reports errors of the pose.
   vtkNew<vtkCallbackCommand> quiet;
   quiet->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   pose->AddObserver(vtkCommand::ErrorEvent, quiet);
@@ -263,7 +265,7 @@ void run_deform(Session& session)
   {
     if (dynamic)
     {
-      body->SetStep(frame); // asks for the poses of all times up to its own
+      body->SetStep(frame); // requests the poses of all times up to the frame's own
     }
     else if (moves)
     {
@@ -293,7 +295,8 @@ void run_deform(Session& session)
       session.write_uncommitted(deformation->GetOutput(), files[i], written[i]);
     }
   }
-  // A sequence is there whole or not at all, and what it replaces stays until then.
+  // A sequence is written completely or not at all, and the files that it replaces are kept until
+  // then.
   for (std::size_t i = 0; i < written.size() && !session.failed(); ++i)
   {
     session.commit(written[i]);

@@ -1,4 +1,4 @@
-// bindpose handles MESH: handles without a hand, bones along the curve skeleton or points.
+// bindpose handles MESH: automatic handles, bones along the curve skeleton or points.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"

@@ -1,4 +1,4 @@
-// bindpose info FILE: what a file holds, as a table for people and as a report for programs.
+// bindpose info FILE: the content of a file, as a table for people and as a report for programs.
 #include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
@@ -28,7 +28,7 @@ namespace bindpose::cli
 
 namespace
 {
-/// Rows for people, in the order in which they are found; the report gets the same numbers.
+/// Rows of the table, in the order in which they are added; the report gets the same numbers.
 class Table
 {
 public:
@@ -233,7 +233,7 @@ void tell_image(vtkImageData* image, Facts& facts)
   facts.report.set("spacing[]", std::vector<double>{ spacing[0], spacing[1], spacing[2] });
 }
 
-/// A polydata without polygons, but with cells that can be handles.
+/// Report whether the data is a polydata without polygons, but with cells that can be handles.
 bool looks_like_handles(vtkDataSet* data)
 {
   auto* cells = vtkPolyData::SafeDownCast(data);
@@ -241,7 +241,7 @@ bool looks_like_handles(vtkDataSet* data)
     cells->GetNumberOfStrips() == 0;
 }
 
-/// Joints as handles, sets of weights and the animation of a glTF file.
+/// Report the joints as handles, sets of weights and the animation of a glTF file.
 bool tell_rig(Session& session, const std::string& path, Facts& facts)
 {
   vtkNew<vtkGLTFSkinReader> reader;

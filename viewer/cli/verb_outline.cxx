@@ -1,4 +1,4 @@
-// bindpose outline IMAGE_OR_CURVES: what an image shows, or curves enclose, as triangles.
+// bindpose outline IMAGE_OR_CURVES: triangles of an image's shape or of the inside of curves.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"

@@ -1,6 +1,6 @@
 // bindpose render FILE… -o OUT.png: pictures by the library bindpose_scene. VTK 9.1 ends the
-// process when there is no X server, even for offscreen pictures; without one the program runs
-// itself again under xvfb-run.
+// process if there is no X server, even for offscreen pictures. Without an X server the program
+// therefore runs itself again under xvfb-run.
 #include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/under_xvfb.h"
@@ -31,7 +31,7 @@ namespace bindpose::cli
 
 namespace
 {
-/// What stands between commas; empty parts count.
+/// Split a text at commas; empty parts are kept.
 std::vector<std::string> split_at_commas(const std::string& text)
 {
   std::vector<std::string> parts(1);
@@ -49,7 +49,7 @@ std::vector<std::string> split_at_commas(const std::string& text)
   return parts;
 }
 
-/// "AxB" with the separator x, as two numbers.
+/// Parse "AxB" with the separator x as two numbers.
 bool parse_pair(const std::string& text, char separator, double& first, double& second)
 {
   const std::size_t at = text.find(separator);
@@ -64,7 +64,7 @@ bool parse_vector(const std::string& text, Vec3& vector)
     parse_number(words[1], vector[1]) && parse_number(words[2], vector[2]);
 }
 
-/// --section: a fraction, an axis' plane, a normal and a point, or none.
+/// Read --section: a fraction, an axis' plane, a normal and a point, or none.
 bool read_section(Session& session, PictureOptions& options)
 {
   const std::string text = session.arguments().text("section");
@@ -141,7 +141,7 @@ bool read_options(Session& session, PictureOptions& options)
   const bool of_weights = !options.component.empty() || options.extrema || arguments.has("minus");
   if (options.array.empty() && options.colour_by == ColourBy::array && of_weights)
   {
-    options.array = "Weights"; // the array whose components have names
+    options.array = "Weights"; // the array with named components
   }
   if (arguments.has("isosurface"))
   {
@@ -179,7 +179,7 @@ vtkSmartPointer<vtkPolyData> defects_of(Session& session, vtkDataSet* surface)
     : nullptr;
 }
 
-/// --defects: of every surface among the files and their context.
+/// Add the defects of every surface among the files and their context, for --defects.
 bool add_defects(Session& session, std::vector<Tile>& tiles)
 {
   bool any = false;
@@ -189,7 +189,7 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
     return polydata && polydata->GetNumberOfPolys() + polydata->GetNumberOfStrips() > 0 &&
       !is_defect_data(data);
   };
-  std::vector<vtkSmartPointer<vtkDataSet>> found; // of the context, which all tiles share
+  std::vector<vtkSmartPointer<vtkDataSet>> found; // for the context, which all tiles share
   for (const auto& data : tiles.front().context)
   {
     if (is_surface(data))
@@ -218,8 +218,8 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
     session.invalid("--defects: there is no surface; name it by --context SURFACE");
 }
 
-/// The files to draw, those of a collection in its stead. Of a strip that is one picture some
-/// frames are taken, evenly.
+/// List the files to draw; a collection is replaced by its files. For a strip in one picture a
+/// limited number of frames is taken at even steps.
 bool list_files(Session& session, bool moving, std::vector<std::string>& files,
   std::vector<std::string>& labels, double& rate)
 {
@@ -263,8 +263,8 @@ bool list_files(Session& session, bool moving, std::vector<std::string>& files,
       " frames per second: expected a number above 0 and at most 1000");
 }
 
-/// A picture a tile, all in one view and one range of colours, then ffmpeg. What is made on the way
-/// goes with the folder, whatever happens.
+/// Render one picture per tile, all with one view and one range of colors, then run ffmpeg.
+/// Temporary files are removed with their folder in all cases.
 Status render_video(Session& session, std::vector<Tile> tiles, const PictureOptions& wanted,
   double rate, const std::string& output)
 {
@@ -276,7 +276,7 @@ Status render_video(Session& session, std::vector<Tile> tiles, const PictureOpti
   PictureOptions options = wanted;
   for (Tile& tile : tiles)
   {
-    tile.label.clear(); // a time that is another one in each picture
+    tile.label.clear(); // the time in the label differs in each picture
   }
   options.around = tiles;
   Status status;
@@ -341,7 +341,7 @@ void run_render(Session& session)
   }
   if (const Status status = check_ffmpeg(); moving && !status.ok())
   {
-    session.fail(status); // now, not after the work
+    session.fail(status); // fail before the work
     return;
   }
   std::vector<Tile> tiles;

@@ -1,4 +1,4 @@
-// bindpose smooth MESH --array NAME: data on a mesh without the extrema that nobody asked for.
+// bindpose smooth MESH --array NAME: smoothed data on a mesh without unlisted extrema.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"

@@ -1,5 +1,5 @@
-// bindpose view FILE…: the window of viewer/app, when it was built; with --play a tour in place of
-// a person, which needs no display that anybody looks at.
+// bindpose view FILE…: opens the window of viewer/app, if it was built. With --play a tour replaces
+// the user and needs no visible display.
 #include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/under_xvfb.h"
@@ -19,7 +19,7 @@ namespace bindpose::cli
 #ifdef BINDPOSE_HAS_QT
 namespace
 {
-/// --screenshot-dir and --time-limit are about --play.
+/// Read --play with --screenshot-dir and --time-limit, which require it.
 bool tour_request(Session& session, TourRequest& request)
 {
   const Arguments& arguments = session.arguments();
@@ -35,16 +35,16 @@ bool tour_request(Session& session, TourRequest& request)
     session.invalid("--screenshot-dir is where --play puts its pictures: name a tour by --play");
 }
 
-/// Read the files before the window opens, with progress on a terminal. Started from a desktop, the
-/// program has no terminal that anybody sees: the window shows what is wrong with a file, and the
-/// standard error gets the same sentence. Only a tour, which nobody watches, ends with it.
+/// Read the files before the window opens, with progress on a terminal. A program that is started
+/// from a desktop has no visible terminal, so the window shows errors of files, and the standard
+/// error gets the same sentence. Only a tour, which has no user, ends with an error.
 bool read_files(Session& session, std::vector<FirstFile>& files)
 {
   const bool ends = session.arguments().has("play");
   for (const std::string& path : session.arguments().list("FILE"))
   {
     files.push_back({ path, std::nullopt, {} });
-    // What only the window reads it speaks about itself.
+    // The window itself reads these files and reports their errors.
     if (is_picture_file(path) || is_listed(file_extension(path), "dmat bindpose"))
     {
       continue;

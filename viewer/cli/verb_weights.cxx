@@ -1,5 +1,6 @@
-// bindpose weights MESH --handles H: the filter knows where to solve for a surface; tets, and
-// surfaces with --domain surface, are solved on directly and carried back to their own points.
+// bindpose weights MESH --handles H: the filter chooses the domain of a surface. Tets, and surfaces
+// with --domain surface, are solved on directly, and the weights are transferred to the input
+// points.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"
@@ -88,8 +89,8 @@ bool is_tets(vtkDataSet* data)
   return data->GetNumberOfCells() > 0 && data->GetCellType(0) == VTK_TETRA;
 }
 
-/// Appends a region handle, named after its label, for each label above 0 that has none; its pivot
-/// is the centroid of the labelled points.
+/// Append a region handle, named after its label, for each label above 0 without a handle; its
+/// pivot is the centroid of the labeled points.
 bool add_region_handles(Session& session, vtkDataSet* mesh, const std::string& array_name,
   vtkSmartPointer<vtkPolyData>& data)
 {
@@ -145,7 +146,7 @@ bool add_region_handles(Session& session, vtkDataSet* mesh, const std::string& a
   return true;
 }
 
-/// A shallow copy of the mesh's own points and cells that may get arrays of its own.
+/// Return a shallow copy of the mesh to which arrays can be added.
 vtkSmartPointer<vtkDataSet> own_copy(vtkDataSet* data)
 {
   auto copy = vtk::TakeSmartPointer(data->NewInstance());
@@ -153,7 +154,7 @@ vtkSmartPointer<vtkDataSet> own_copy(vtkDataSet* data)
   return copy;
 }
 
-/// Writes the mesh, with the array EndpointWeights where it was asked for; as glTF with its joints.
+/// Write the mesh, with the array EndpointWeights if requested; glTF files include the joints.
 void write_with_endpoints(
   Session& session, vtkDataSet* mesh, vtkPolyData* handles, const std::string& output)
 {
@@ -253,7 +254,7 @@ void run_weights(Session& session)
   const bool tets_asked = ending == "vtu";
   if (tets_asked || !on_mesh)
   {
-    const int port = tets_asked && !on_mesh ? 2 : 0; // what was solved on, or the mesh itself
+    const int port = tets_asked && !on_mesh ? 2 : 0; // the solved mesh, or the input mesh
     auto* data = vtkDataSet::SafeDownCast(weights->GetOutputDataObject(port));
     if (data->GetNumberOfPoints() == 0)
     {
@@ -263,7 +264,7 @@ void run_weights(Session& session)
     write_with_endpoints(session, data, handles, output);
     return;
   }
-  // Handles may have added points: back to the mesh's own.
+  // Handles may have added points, so transfer the weights to the input points.
   vtkNew<vtkTransferWeights> transfer;
   transfer->SetInputData(0, mesh);
   transfer->SetInputData(1, weights->GetOutput());
@@ -272,7 +273,7 @@ void run_weights(Session& session)
   {
     return;
   }
-  session.report().merge(of_weights); // the transfer's own keys stay beside
+  session.report().merge(of_weights); // the transfer's own keys are kept too
   auto result = own_copy(transfer->GetOutput());
   vtkNew<vtkTransferWeights> raw;
   if (arguments.has("keep-raw"))

@@ -17,7 +17,7 @@ namespace bindpose::cli
 
 namespace
 {
-/// The file endings that hold a dataset of this kind.
+/// Return the file name extensions for a dataset of this type.
 std::string endings_for(vtkDataSet* data)
 {
   if (data->IsA("vtkPolyData"))
@@ -66,7 +66,7 @@ void run_winding(Session& session)
   }
   if (const Status status = check_vdb_available(); file_extension(output) == "vdb" && !status.ok())
   {
-    session.fail(status); // now, not after the work
+    session.fail(status); // fail before the work
     return;
   }
   const auto surface = session.read(arguments.text("SURFACE"));

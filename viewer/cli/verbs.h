@@ -6,7 +6,7 @@ namespace bindpose::cli
 
 class Session;
 
-// One function a verb, named after it. What they find goes into the session.
+// One function per verb, named after the verb. Results and errors are stored in the session.
 void run_info(Session& session);
 void run_winding(Session& session);
 void run_tetrahedralize(Session& session);

@@ -1,5 +1,5 @@
-// One folder a process, ROOT/PID-RANDOM, with a lock file that names the process. A folder whose
-// lock can be had belongs to nobody any more.
+// Each process has one folder, ROOT/PID-RANDOM, with a lock file that names the process. If the
+// lock of a folder can be acquired, its process has ended.
 #include "document/autosave.h"
 
 #include <QCoreApplication>
@@ -22,7 +22,7 @@ const char* const session_name = "work.bindpose";
 std::unique_ptr<QLockFile> lock_of(const QString& folder)
 {
   auto lock = std::make_unique<QLockFile>(folder + "/lock");
-  lock->setStaleLockTime(0); // only the death of its process frees it
+  lock->setStaleLockTime(0); // a lock is stale only if its process has ended
   return lock;
 }
 } // namespace
@@ -38,7 +38,7 @@ Autosave::Autosave(MakeSession make_session, const QString& root, QObject* paren
 
 Autosave::~Autosave()
 {
-  this->next_ = nullptr; // what is being written would go at once
+  this->next_ = nullptr; // the pending copy would be removed immediately
   if (this->is_saving())
   {
     this->writer_.join();
@@ -75,10 +75,11 @@ QString Autosave::path() const
   return this->folder_.isEmpty() ? QString() : this->folder_ + '/' + session_name;
 }
 
-/// Made when there is something to put into it.
+/// Make the folder when there is something to save.
 bool Autosave::make_folder()
 {
-  constexpr int tries = 8; // another process may look into a new folder before it is locked
+  // Another process may find a new folder before it is locked, and remove it.
+  constexpr int tries = 8;
   for (int k = 0; k < tries && this->folder_.isEmpty(); ++k)
   {
     const QString folder = QString("%1/%2-%3")
@@ -136,7 +137,8 @@ void Autosave::start_writer()
         this,
         [this, round]
         {
-          if (this->is_saving() && round == this->round_) // else wait() was there before
+          // Otherwise wait() has already ended this writer.
+          if (this->is_saving() && round == this->round_)
           {
             this->end_writer();
           }
@@ -192,13 +194,13 @@ std::unique_ptr<RecoveredWork> RecoveredWork::find(const QString& root)
     auto lock = lock_of(folder.filePath());
     if (!lock->tryLock(0))
     {
-      continue; // its process lives
+      continue; // its process is running
     }
     const QFileInfo session(folder.filePath() + '/' + session_name);
     if (!session.exists())
     {
       lock->unlock();
-      QDir(folder.filePath()).removeRecursively(); // it died before there was anything
+      QDir(folder.filePath()).removeRecursively(); // its process ended before the first save
       continue;
     }
     if (latest && latest->time_ >= session.lastModified())

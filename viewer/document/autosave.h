@@ -14,12 +14,13 @@
 
 class QLockFile;
 
-/// Keeps a copy of the work in a folder of this process, against crashes: at most a minute after
-/// something has changed, and at once when it is told to. The folder goes when the process ends as
-/// it should. Nothing happens while nothing changes.
+/// Saves copies of the work to a folder of this process, for recovery after a crash. A copy is
+/// written at most a minute after a change, and immediately on request. The folder is removed when
+/// the process ends normally. Without changes nothing is written.
 ///
-/// Files are written on a thread of their own: what is copied are shared datasets that nobody
-/// changes. One copy at a time; what is asked for meanwhile follows it. The end waits for it.
+/// Files are written on a separate thread from shared datasets that no one changes. Only one copy
+/// is written at a time; a copy that is requested meanwhile follows it. The destructor waits for
+/// the running copy.
 class Autosave : public QObject
 {
   Q_OBJECT
@@ -27,30 +28,32 @@ class Autosave : public QObject
 public:
   using MakeSession = std::function<Session()>;
 
-  /// Under the root; without one under default_root().
+  /// @param root  the folder that will contain the folder of this process; empty: default_root()
   explicit Autosave(
     MakeSession make_session, const QString& root = QString(), QObject* parent = nullptr);
   ~Autosave() override;
 
-  /// QStandardPaths::AppDataLocation/recovery.
+  /// Return QStandardPaths::AppDataLocation/recovery.
   static QString default_root();
-  /// Seconds between a change and its copy: 60, or the environment's BINDPOSE_AUTOSAVE_SECONDS.
+  /// Return the seconds from a change to its copy: 60, or the value of the environment variable
+  /// BINDPOSE_AUTOSAVE_SECONDS.
   static double interval();
 
-  /// Something has changed.
+  /// Note that the work has changed and a copy is due.
   void note_change();
-  /// A copy of what is now, begun. The caller goes on; failed() tells when it cannot be written.
+  /// Begin to write a copy of the current work, and return. failed() is emitted if it cannot be
+  /// written.
   void begin_save();
-  /// A copy of what is now, on the disk.
+  /// Write a copy of the current work, and wait until it is on the disk.
   bindpose::Status save();
   bool is_saving() const { return this->writer_.joinable(); }
-  /// Until what was begun is on the disk; how the last copy went.
+  /// Wait until all begun copies are on the disk, and return the status of the last one.
   bindpose::Status wait();
-  /// The session file of this process; empty as long as nothing was saved.
+  /// Return the path of this process's session file; empty before the first save.
   QString path() const;
-  /// Milliseconds that the last begin_save() took on the caller's thread.
+  /// Return the milliseconds that the last begin_save() took on the caller's thread.
   double milliseconds() const { return this->milliseconds_; }
-  /// Milliseconds that the last copy took to write.
+  /// Return the milliseconds that the writer took for the last copy.
   double writing_milliseconds() const { return this->writing_milliseconds_; }
 
 Q_SIGNALS:
@@ -71,24 +74,24 @@ private:
   double milliseconds_ = 0.0;
   double writing_milliseconds_ = 0.0;
   std::thread writer_;
-  int round_ = 0; // of the writer
-  std::shared_ptr<const SessionFile::Prepared> writing_, next_; // dropped on this thread
-  bindpose::Status written_; // by the writer; read after it has ended
-  bindpose::Status status_; // of the last copy
+  int round_ = 0; // number of the last started writer
+  std::shared_ptr<const SessionFile::Prepared> writing_, next_; // destroyed on the window's thread
+  bindpose::Status written_; // set by the writer; read after its end
+  bindpose::Status status_; // status of the last copy
 };
 
-/// What a process that has died left in the recovery folder. As long as this exists no other
-/// process finds it.
+/// The work that a crashed process left in the recovery folder. Other processes cannot find it
+/// while this object exists.
 class RecoveredWork
 {
 public:
-  /// The latest one; null without. Folders of living processes are left alone.
+  /// Return the latest work; null if there is none. Folders of running processes are skipped.
   static std::unique_ptr<RecoveredWork> find(const QString& root);
   ~RecoveredWork();
 
-  QString path() const; ///< of its session file
+  QString path() const; ///< path of the session file
   QDateTime time() const { return this->time_; }
-  /// It is no longer needed.
+  /// Delete the recovered work.
   void remove();
 
 private:

@@ -1,5 +1,5 @@
-// Handles are found by name first; then those of neither list that stand in the same place are one
-// handle with two names.
+// Handles are matched by name first. Unmatched handles at the same position are then taken for one
+// handle that was renamed.
 #include "document/bound_columns.h"
 
 #include "vtkDataArray.h"
@@ -123,7 +123,7 @@ vtkSmartPointer<vtkPointSet> BoundColumns::arranged(vtkPointSet* data) const
   }
   if (!this->exact_)
   {
-    vtkNew<vtkFieldData> fields; // the copy shares its own
+    vtkNew<vtkFieldData> fields; // the shallow copy shares the original's field data
     fields->ShallowCopy(data->GetFieldData());
     for (const char* name : { "WeightsRelativeGap", "WeightsKKTResidual", "WeightsIterations" })
     {

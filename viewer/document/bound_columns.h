@@ -11,27 +11,27 @@
 #include <string>
 #include <vector>
 
-/// Which column of some weights each handle has. Handles may change after a bind, and the weights
-/// stay usable:
-/// - a handle has the column of the handle of its name and kind that was bound, or of the one in
-///   its place when it was renamed, wherever it has been moved to;
+/// Assigns columns of weights to handles. Handles may change after a bind, and the weights stay
+/// usable:
+/// - a handle gets the column of the bound handle with its name and kind, wherever it has been
+///   moved to; a renamed handle gets the column of the bound handle at the same position;
 /// - a handle without a column moves nothing;
-/// - what a handle that is gone held stays at rest.
-/// A bind makes it exact again: reason() says what for.
+/// - the region of influence of a removed handle stays at rest.
+/// Another bind makes the weights exact again; reason() says why it is needed.
 class BoundColumns
 {
 public:
   BoundColumns() = default;
   BoundColumns(const bindpose::Handles& bound, const bindpose::Handles& now);
 
-  /// Whether there is a column to pose with.
+  /// Report whether at least one handle has a column to pose with.
   bool any() const;
-  /// Whether the weights are those of the handles as they are, column by column.
+  /// Report whether the columns are exactly those of the current handles, in the same order.
   bool exact() const { return this->exact_; }
-  /// One sentence about the handles that have changed; empty when exact.
+  /// Return one sentence about handles that are new, moved or removed; empty if there are none.
   QString reason() const;
-  /// The dataset with its columns in the order of the handles, named after them; itself when they
-  /// are already. Certificates of columns are left out, where columns are.
+  /// Return the dataset with its columns in the order of the handles, named after them; the dataset
+  /// itself if its columns are already so. Certificates are removed unless the columns are exact.
   vtkSmartPointer<vtkPointSet> arranged(vtkPointSet* data) const;
 
 private:
@@ -45,8 +45,8 @@ private:
   bool exact_ = false;
 };
 
-/// Whether these weights, which came with a mesh, are those of the handles: as many, and of the
-/// same names where the columns have names. Else a sentence that says what they are for.
+/// Report whether weights that came with a mesh fit the handles: one column per handle, with equal
+/// names if the columns are named. Otherwise set `why_not` to one sentence.
 bool weights_are_of(
   vtkDataArray* weights, const bindpose::Handles& handles, QString* why_not = nullptr);
 

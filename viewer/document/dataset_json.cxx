@@ -19,7 +19,7 @@ namespace
 {
 constexpr int most_components = 1000000;
 
-/// Names of types in the file. Others are written as doubles.
+/// Names of array types in the file. Arrays of other types are written as doubles.
 const struct
 {
   int type;
@@ -64,7 +64,7 @@ json array_to_json(vtkAbstractArray* array)
       const double value = numbers->GetComponent(i, c);
       if (is_real(type))
       {
-        values.push_back(value); // null where it is not finite
+        values.push_back(value); // becomes null if it is not finite
       }
       else
       {
@@ -366,7 +366,7 @@ json options_to_json(const Options& options)
 
 namespace
 {
-/// Invalid for what no option is.
+/// Return an invalid variant for values that no option can have.
 QVariant value_from_json(const json& value)
 {
   if (value.is_boolean())
@@ -398,7 +398,7 @@ Options options_from_json(const json& value)
     const OptionInfo* option = find_option(QString::fromStdString(key));
     if (!option)
     {
-      continue; // of another version of the program
+      continue; // an option of another version of the program
     }
     const QVariant checked = checked_option(*option, value_from_json(item));
     if (!checked.isValid())

@@ -8,23 +8,22 @@
 #include <stdexcept>
 #include <string>
 
-// Parts of a session as JSON. What is read is checked; numbers come back as they were, to the last
-// bit.
+// Parts of a session as JSON. Input is checked. Numbers survive a round trip bit for bit.
 
-/// What is wrong with a JSON text, as a clause: "the pose has 3 entries for 2 handles".
+/// An error in a JSON text, as a clause: "the pose has 3 entries for 2 handles".
 class SessionError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// The value of a key; SessionError where there is none or it is of another type.
+/// Return the value of a key. Throw SessionError if `object` is not an object or lacks the key.
 const nlohmann::json& json_at(const nlohmann::json& object, const char* key);
 double json_number(const nlohmann::json& value, const char* what);
 int json_integer(const nlohmann::json& value, const char* what, int lowest, int highest);
 std::string json_text(const nlohmann::json& value, const char* what);
 
-/// Points, vertices, lines and polygons with their cell arrays.
+/// Convert points, vertices, lines and polygons with their cell arrays.
 nlohmann::json handles_to_json(vtkPolyData* handles);
 vtkSmartPointer<vtkPolyData> handles_from_json(const nlohmann::json& json);
 
@@ -35,7 +34,7 @@ nlohmann::json key_poses_to_json(const bindpose::PoseShelf& poses);
 bindpose::PoseShelf key_poses_from_json(const nlohmann::json& json);
 
 nlohmann::json options_to_json(const Options& options);
-/// What is missing is as in a new document; what is unknown is left out.
+/// Missing options have the values of a new document; unknown options are ignored.
 Options options_from_json(const nlohmann::json& json);
 
 #endif

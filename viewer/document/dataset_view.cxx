@@ -1,6 +1,6 @@
-// VTK keeps what it has found out about an array (its range, for instance) in the array, and what a
-// pipeline needs to know in the dataset. Both are therefore new here; the memory of the values is
-// the same.
+// VTK caches data about an array (its range, for example) in the array, and pipeline information in
+// the dataset. A view therefore has its own arrays and dataset, and shares only the memory of the
+// values.
 #include "document/dataset_view.h"
 
 #include "vtkCellArray.h"
@@ -17,7 +17,8 @@
 
 namespace
 {
-/// Words, and what does not lie in one piece, are copied: these are few.
+/// Return an array that shares the memory of the values. Strings and arrays without contiguous
+/// memory are copied, because there are few of them.
 vtkSmartPointer<vtkAbstractArray> view_of_array(vtkAbstractArray* array)
 {
   auto view = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());
@@ -26,7 +27,7 @@ vtkSmartPointer<vtkAbstractArray> view_of_array(vtkAbstractArray* array)
     view->DeepCopy(array);
     return view;
   }
-  constexpr int not_ours = 1; // to be freed
+  constexpr int not_ours = 1; // VTK must not free the memory
   view->SetNumberOfComponents(array->GetNumberOfComponents());
   view->SetVoidArray(array->GetVoidPointer(0), array->GetNumberOfValues(), not_ours);
   view->SetName(array->GetName());

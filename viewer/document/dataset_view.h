@@ -4,10 +4,10 @@
 #include "vtkDataSet.h"
 #include "vtkSmartPointer.h"
 
-/// A dataset of its own that shares nothing but the numbers of `data`, a vtkPolyData or a
-/// vtkUnstructuredGrid of cells without faces: no number is copied, and another thread may use the
-/// view, ranges and pipelines included, as long as nobody changes the numbers. To be dropped before
-/// `data`; null for other data.
+/// Return a new dataset that shares only the memory of the numbers with `data`: a vtkPolyData, a
+/// vtkImageData, or a vtkUnstructuredGrid of cells without faces; null for other data. No number is
+/// copied. Another thread can use the view, including ranges and pipelines, while no one changes
+/// the numbers. The view must be destroyed before `data`.
 vtkSmartPointer<vtkDataSet> view_of(vtkDataSet* data);
 
 #endif

@@ -1,6 +1,6 @@
-// The work is a value; an edit makes another value of it and pushes a step with both. What views
-// need besides (handles as kernels take them, weights in the handles' order) is derived from it
-// whenever it changes.
+// The work is a value. An edit makes a new value and pushes a step with the old and the new value.
+// Data that views need in addition (the kernels' handles, the weights in the order of the handles)
+// is derived from the work whenever it changes.
 #include "document/document.h"
 
 #include "document/edit.h"
@@ -33,7 +33,7 @@ vtkDataArray* weights_of(vtkPolyData* surface)
   return surface ? surface->GetPointData()->GetArray("Weights") : nullptr;
 }
 
-/// The labels that the weights were solved for, where others were painted since.
+/// Labels for which the weights were solved, if regions were painted since.
 const char* const bound_labels = "BoundRegionId";
 
 vtkDataArray* labels_of(vtkPolyData* surface)
@@ -41,7 +41,7 @@ vtkDataArray* labels_of(vtkPolyData* surface)
   return surface ? surface->GetPointData()->GetArray("RegionId") : nullptr;
 }
 
-/// Labels under another name; without any as many zeros as `like` has.
+/// Return a copy of the labels under another name; without labels, as many zeros as `like` has.
 vtkSmartPointer<vtkDataArray> copy_of_labels(
   vtkDataArray* labels, vtkDataArray* like, const char* name)
 {
@@ -83,7 +83,7 @@ Document::Document(QObject* parent)
 
 Document::~Document()
 {
-  this->history_->clear(); // its steps know this document
+  this->history_->clear(); // its steps refer to this document
 }
 
 void Document::set_saved()
@@ -155,7 +155,8 @@ QString Document::rebind_reason() const
 
 void Document::push(const QString& step, const Work& after, const QString& merge, Live live)
 {
-  // What views do because of undo or redo is no step: it would delete the one that is being redone.
+  // Changes that views make during undo or redo are no steps. A step would delete the one that is
+  // being redone.
   if (this->in_history_ || differences(this->work_, after) == 0)
   {
     return;
@@ -215,7 +216,7 @@ void Document::become(const Work& work, Live live)
   }
 }
 
-/// Weights in the order of the handles.
+/// Put the columns of the weights into the order of the handles.
 void Document::arrange()
 {
   vtkPolyData* surface = this->preview_ ? this->preview_ : this->work_.surface;
@@ -331,7 +332,7 @@ void Document::set_curves(vtkPolyData* curves, const QString& name, const Source
 
 // ---- Handles and pose --------------------------------------------------------------------------
 
-/// What handle_data() holds as handles and pose of a work; what cannot be used is taken back.
+/// Set handles and pose of a work from handle_data(). Revert handle_data() if it is invalid.
 Status Document::take_live(Work& work)
 {
   work.handles = nullptr;
@@ -498,7 +499,7 @@ bool Document::set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets)
   Work after = this->work_;
   after.surface = surface;
   surface->GetPointData()->RemoveArray(bound_labels);
-  // What was painted during the bind is not in it.
+  // The bind does not include regions that were painted while it ran.
   vtkDataArray* now = labels_of(this->work_.surface);
   if (now && !same_labels(now, labels_of(surface)))
   {
@@ -564,7 +565,7 @@ void Document::note_option(const QString& key, const QVariant& value)
 {
   const OptionInfo* option = find_option(key);
   const QVariant checked = option ? checked_option(*option, value) : QVariant();
-  // What differs by round-off makes no step, so none could take it back: what was stays.
+  // A value that differs only by round-off is ignored, because no step could revert it.
   if (checked.isValid() && checked != this->work_.options.value(key))
   {
     this->work_.options[key] = checked;

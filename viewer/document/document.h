@@ -13,18 +13,17 @@
 class vtkDataArray;
 class vtkDataSet;
 
-/// What a window keeps: surface, handles, weights, pose, options and where they came from, with
-/// their history. It has no widgets; views look at it, follow changed(), and edit through it.
+/// The state of one window and its history: surface, handles, weights, pose, options and their
+/// sources. A document has no widgets. Views read it, follow changed(), and edit through it.
 ///
-/// Every edit is a step of history() with a name, and undo and redo give back the same work to the
-/// last bit. Edits that do nothing make no step.
+/// Every edit is a named step of history(). Undo and redo restore the work bit for bit. Edits
+/// without effect make no step.
 ///
-/// The handles are edited **in place**: a widget moves what handle_data() holds, as it likes, and
-/// when it is done commit_pose() or commit_handles() makes one step of it; revert_handles() takes
-/// back what was not committed.
+/// The handles are edited **in place**: a widget changes handle_data() freely. Then commit_pose()
+/// or commit_handles() makes one step of the changes, or revert_handles() discards them.
 ///
-/// Which weights pose the shape after handles have changed is told at BoundColumns. Another mesh
-/// has the weights that came with it, or none.
+/// BoundColumns describes which weights pose the shape after handles have changed. Another mesh has
+/// its own weights, or none.
 class Document : public QObject
 {
   Q_OBJECT
@@ -35,68 +34,74 @@ public:
 
   const Work& work() const { return this->work_; }
   QUndoStack* history() const { return this->history_; }
-  /// What is now is in a file, or nothing that a person has made.
+  /// Note that the current work is in a file, or contains nothing that the user has made.
   void set_saved();
-  /// It is in no file, though it has no history: recovered work.
+  /// Note that the current work is in no file, although it has no history: recovered work.
   void set_unsaved() { this->history_->resetClean(); }
-  /// Whether there is more than at set_saved(). How things are looked at counts where `looks`.
+  /// Report whether the work has changed since set_saved(). Changes of options alone count only if
+  /// `looks` is true.
   bool is_changed(bool looks) const;
 
-  // ---- What there is ----
-  /// At rest; with weights it has the columns of the handles, in their order. Null without a mesh.
+  // ---- State ----
+  /// Return the surface at rest; null without a mesh. Its weights have one column per handle, in
+  /// the order of the handles.
   vtkPolyData* surface() const;
-  /// Those that the weights were solved on, with the same columns; or null.
+  /// Return the tets on which the weights were solved, with the same columns; or null.
   vtkUnstructuredGrid* weighted_tets() const;
-  /// The handles as they are now, pose arrays included; null without handles. The same object as
-  /// long as the document lives.
+  /// Return the current handles with their pose arrays; null without handles. The object is the
+  /// same throughout the life of the document.
   vtkPolyData* handle_data() const;
   const bindpose::Handles& handles() const { return this->handles_; }
   const std::vector<bindpose::Index>& handle_cells() const { return this->cells_; }
-  /// Number of the handle with this cell of handle_data(); -1: none.
+  /// Return the index of the handle with this cell of handle_data(); -1: none.
   int handle_of_cell(vtkIdType cell) const;
-  /// Of handle_data(): during a drag not yet that of work().
+  /// Return the pose of handle_data(). During a drag it differs from the pose of work().
   bindpose::Pose pose() const;
   bool is_bound() const;
-  /// Why weights that came with the mesh are not used: one sentence, or empty.
+  /// Return the reason why the mesh's own weights are not used: one sentence, or empty.
   QString unused_weights() const { return this->unused_weights_; }
-  /// What another bind is good for: one sentence, or empty.
+  /// Return the reason why another bind is useful: one sentence, or empty.
   QString rebind_reason() const;
   QVariant option(const QString& key) const { return this->work_.options.value(key); }
   int number(const QString& key) const { return this->option(key).toInt(); }
 
   // ---- Opening ----
-  /// A surface, or tets, whose skin is taken. invalid_input: not a surface; nothing changes.
+  /// Open a surface, or tets and their boundary surface. On invalid_input (not a surface) nothing
+  /// changes.
   bindpose::Status set_mesh(vtkDataSet* mesh, const QString& name, const Source& source = {});
-  /// Other handles, with the pose that their arrays tell.
+  /// Open handles with the pose that is in their arrays.
   bindpose::Status set_handles(
     vtkPolyData* handles, const QString& name, const Source& source = {});
-  /// Weights for the surface's points and the handles that are open; invalid_input otherwise.
+  /// Open weights for the surface's points and the open handles; return invalid_input if they do
+  /// not fit.
   bindpose::Status set_weights(const bindpose::Weights& weights, const QString& name);
-  /// A surface that was cut out of a picture (vtkPlanarShape), which it shows.
+  /// Open a surface that was cut out of a picture (vtkPlanarShape). The surface shows the picture.
   bindpose::Status set_picture(
     vtkPolyData* shape, vtkImageData* picture, const QString& name, const Source& source = {});
-  /// Null closes it. `step`: the name of the step, if it is not opened from a file.
+  /// Open a volume; null closes it.
+  /// @param step  name of the step, for a volume that is not from a file
   void set_volume(
     vtkImageData* volume, const QString& name, const Source& source = {}, const QString& step = {});
   void set_curves(vtkPolyData* curves, const QString& name, const Source& source = {});
 
   // ---- Handles and pose ----
-  /// One step of what was changed in handle_data(): handles added, removed, renamed, recoloured,
-  /// moved at rest. Steps of the same non-empty `merge` that follow each other become one. With a
-  /// status that is not ok the handles cannot be used, and the change is taken back. All cells
-  /// gone: there are no handles any more.
+  /// Make one step of the changes of handle_data(): handles added, removed, renamed, recolored, or
+  /// moved at rest. Consecutive steps with the same non-empty `merge` become one. Return a status
+  /// that is not ok, and revert the changes, if the handles are invalid. If all cells were removed,
+  /// the work has no handles.
   bindpose::Status commit_handles(const QString& step, const QString& merge = {});
-  /// The same when regions were painted, too: `labels`, one a vertex of the surface, become its
-  /// point array RegionId.
+  /// Make one step of painted regions and changes of handle_data(). `labels`, one per vertex of the
+  /// surface, become the surface's point array RegionId.
   bindpose::Status commit_regions(vtkDataArray* labels, const QString& step);
-  /// Another name for a handle, in the poses that are kept, too. invalid_input, one sentence, for a
-  /// name that is empty or another handle's.
+  /// Rename a handle, also in the stored poses. Return invalid_input, with one sentence, if the
+  /// name is empty or belongs to another handle.
   bindpose::Status rename_handle(int handle, const QString& name);
-  /// The same when only pose arrays were changed.
+  /// Make one step of the pose arrays of handle_data(), if nothing else has changed there.
   void commit_pose(const QString& step, const QString& merge = {});
-  /// Back to the last step, to the last bit.
+  /// Restore the handles of the last step, bit for bit.
   void revert_handles();
-  /// The dataset to put the first handles into; commit_handles() makes them known.
+  /// Return the dataset to which the first handles are added; commit_handles() makes them part of
+  /// the work.
   vtkPolyData* editable_handles() { return this->live_; }
   void set_pose(const bindpose::Pose& pose, const QString& step, const QString& merge = {});
   void set_mode(int handle, int mode);
@@ -104,45 +109,46 @@ public:
   void set_key_poses(bindpose::PoseShelf poses, const QString& step, const QString& merge = {});
 
   // ---- Weights ----
-  /// What is bound now: the surface and the handles that set_bound() and set_preview() will be
-  /// about.
+  /// Record the current surface and handles as the ones that the next set_bound() and set_preview()
+  /// refer to.
   void begin_bind();
-  /// The handles of the bind that is going on.
+  /// Return the handles of the bind in progress.
   const bindpose::Handles& bound_handles() const { return this->binding_.handles; }
-  /// The surface of the bind with weights for its handles, and what they were solved on (or null).
-  /// False when that surface is no longer there: nothing changes.
+  /// Set the surface of the bind with weights for its handles, and the tets on which they were
+  /// solved (or null). Return false, and change nothing, if that surface is no longer open.
   bool set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets);
-  /// Weights to pose with meanwhile: no step, and gone with drop_preview() or set_bound().
+  /// Set preliminary weights to pose with until the bind ends. They are no step; drop_preview() and
+  /// set_bound() remove them.
   bool set_preview(vtkPolyData* surface);
   void drop_preview();
   bool has_preview() const { return this->preview_ != nullptr; }
 
   // ---- Options ----
-  /// One step; of an option whose number is moved continuously the steps merge, until another step
-  /// or end_merge(). What the table (options.h) does not allow is left.
+  /// Set an option in one step. Consecutive steps of one continuous option merge until end_merge()
+  /// or a step of another option. Values that the table (options.h) does not allow are ignored.
   void set_option(const QString& key, const QVariant& value);
-  /// One step of several that go together, named like the option `key`.
+  /// Set several options in one step that is named like the option `key`.
   void set_options(const Options& values, const QString& key);
-  /// What the program itself chose: kept, but no step.
+  /// Store a value that the program itself has chosen, without a step.
   void note_option(const QString& key, const QVariant& value);
-  /// The next step begins anew, whatever it could be merged with.
+  /// Prevent the next step from merging with the previous one.
   void end_merge() { ++this->merges_; }
 
-  /// Another work, with a history of its own.
+  /// Replace the work and begin a new history.
   void replace(const Work& work);
 
 Q_SIGNALS:
-  /// Undo or redo is about to change handles or pose: a drag ends now.
+  /// Handles or pose are about to change, for example by undo: a drag must end now.
   void about_to_change();
-  /// Which WorkParts are others now.
+  /// The parts of the work (WorkPart) in `parts` have changed.
   void changed(int parts);
-  /// One of the options is another now; after changed().
+  /// The value of an option has changed. Emitted after changed().
   void option_changed(const QString& key, const QVariant& value);
 
 private:
   friend class Edit;
 
-  /// What is already done in handle_data() when a step is made.
+  /// Whether handle_data() already contains the changes of a step.
   enum class Live
   {
     to_be_written,
@@ -158,9 +164,9 @@ private:
   Work saved_;
   QUndoStack* history_;
   vtkSmartPointer<vtkPolyData> live_; // handles, edited in place
-  bindpose::Handles handles_; // of live_
+  bindpose::Handles handles_; // handles of live_
   std::vector<bindpose::Index> cells_;
-  vtkSmartPointer<vtkPolyData> surface_; // arranged
+  vtkSmartPointer<vtkPolyData> surface_; // with columns in the order of the handles
   vtkSmartPointer<vtkUnstructuredGrid> tets_;
   BoundColumns columns_;
   QString unused_weights_;

@@ -5,9 +5,9 @@
 
 #include <QUndoCommand>
 
-/// One step of a document's history: the work before and after it. Undo and redo change what the
-/// step changed and nothing else. The first redo, which QUndoStack calls on push, may find the
-/// handles there already.
+/// One step of a document's history: the work before and after it. Undo and redo change only the
+/// parts that the step changed. QUndoStack calls redo() on push; at that first call handle_data()
+/// may already contain the change.
 class Edit : public QUndoCommand
 {
 public:

@@ -29,7 +29,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Readers and writers speak through their status.
+/// Silence an object's error and warning events, because readers and writers report by their
+/// status.
 void quiet(vtkObject* object)
 {
   vtkNew<vtkCallbackCommand> nothing;
@@ -71,9 +72,10 @@ Status read_with(Reader* reader, const std::string& path, const RunReader& run, 
 
 Status read_file(const std::string& path, OpenedFile& file, const RunReader& run)
 {
-  // Qt takes the first thread that uses it for the application's: that must not be the one below.
+  // Qt takes the first thread that uses it for the application's. The thread that is started below
+  // must not be the first.
   QThread::currentThread();
-  // Beside the reading: of a large mesh it takes as long.
+  // The checksum is computed in parallel with the reading. For a large mesh both take equally long.
   file.checksum = std::async(
     std::launch::async, [name = QString::fromStdString(path)] { return checksum_of(name); });
   if (QString::fromStdString(path).endsWith(".tgf", Qt::CaseInsensitive))

@@ -19,9 +19,9 @@
 
 class vtkBindposeAlgorithm;
 
-// What a document is made of and gives out. Nothing goes to the terminal.
+// Files that a document reads and writes. Nothing is printed to the terminal.
 
-/// What a file holds, by its contents.
+/// The contents of a file.
 struct OpenedFile
 {
   enum class Kind
@@ -30,30 +30,35 @@ struct OpenedFile
     handles, ///< vtkPolyData
     volume, ///< vtkImageData
     curves, ///< vtkPolyData
-    picture, ///< vtkImageData of colours
+    picture, ///< vtkImageData of colors
     weights
   };
   Kind kind = Kind::mesh;
   vtkSmartPointer<vtkDataSet> data;
-  vtkSmartPointer<vtkPolyData> handles; ///< of a mesh: those of its skin, in glTF files
+  vtkSmartPointer<vtkPolyData> handles; ///< handles of the mesh's skin, from a glTF file
   bindpose::Weights weights;
-  std::vector<std::string> warnings; ///< of the reader: what the file loses, mostly
-  std::shared_future<QByteArray> checksum; ///< SHA-256 of the file in hex; empty: it went away
+  std::vector<std::string> warnings; ///< warnings of the reader, mostly about data that is lost
+  /// SHA-256 of the file in hex; empty if the file has disappeared.
+  std::shared_future<QByteArray> checksum;
 };
-/// Brings a reader up to date; not ok: why it could not.
+/// A function that updates a reader and returns its status.
 using RunReader = std::function<bindpose::Status(vtkBindposeAlgorithm*)>;
-/// With `run` for those who show progress or can be interrupted; pictures and weights need none.
+/// Read a file.
+/// @param run  updates the reader, for callers that show progress or can be interrupted; pictures
+/// and weights do not use it
 bindpose::Status read_file(
   const std::string& path, OpenedFile& file, const RunReader& run = nullptr);
 
-/// What a picture shows, as triangles with texture coordinates (vtkPlanarShape): cut out by its
-/// alpha, or the whole rectangle where it is opaque or where that is asked for.
+/// Make a textured shape from a picture: triangles with texture coordinates (vtkPlanarShape). It is
+/// cut out by the picture's alpha. It is the whole rectangle if the picture is opaque or `whole` is
+/// true.
 bindpose::Status make_shape(
   vtkImageData* picture, bool whole, vtkSmartPointer<vtkPolyData>& shape, bool& cut_out);
 
-/// These replace the file that is there: the dialog has asked.
+/// Write the shape. An existing file is replaced, because the dialog has already asked.
 bindpose::Status write_shape(vtkPolyData* shape, const std::string& path);
-/// A pose file of one pose or of a sequence; its warnings name what such a file cannot hold.
+/// Write a pose file of one pose or of a sequence, in place of an existing file. The warnings name
+/// data that a pose file cannot represent.
 bindpose::Status write_poses(const std::vector<bindpose::Pose>& poses,
   const bindpose::Handles& handles, const std::string& path, double frames_per_second = 24.0);
 

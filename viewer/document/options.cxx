@@ -11,7 +11,8 @@ constexpr double any = std::numeric_limits<double>::max();
 constexpr double columns = 1e6;
 const QVariant z_axis = QVariantList{ 0.0, 0.0, 1.0 };
 
-/// Three finite numbers of length one, to the digits that a person would write.
+/// Return three finite numbers of length one, with a tolerance for rounding by hand; invalid
+/// otherwise.
 QVariant checked_direction(const QVariant& value)
 {
   const QVariantList given = value.toList();

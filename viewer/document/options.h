@@ -7,29 +7,29 @@
 
 #include <vector>
 
-/// What can be chosen and is kept, with undo and in sessions. The type is that of `initial`: bool,
-/// int, double, or a direction: a list of three doubles of length one.
+/// One option that the user can choose. Options are part of undo and of sessions. The type is that
+/// of `initial`: bool, int, double, or a direction (a list of three doubles of length one).
 struct OptionInfo
 {
-  const char* key; ///< in session files, and the object name of the widget that chooses it
-  const char* step; ///< name of the step in the history, of the context Document
+  const char* key; ///< in session files; also the object name of the option's widget
+  const char* step; ///< name of the step in the history, in the translation context Document
   QVariant initial;
   double lowest = 0.0;
   double highest = 1.0;
 };
 
-/// All of them. A new option is a row here, and a widget with the key as its object name, or what
-/// else holds it (option_links.h).
+/// Return all options. A new option needs a row in this table, and a widget with the key as its
+/// object name or another link (option_links.h).
 const std::vector<OptionInfo>& option_table();
-/// Null for an unknown key.
+/// Return the option of a key; null if it is unknown.
 const OptionInfo* find_option(const QString& key);
 
-/// By key; every key of the table is there.
+/// Values by key. Every key of the table is present.
 using Options = QMap<QString, QVariant>;
 Options initial_options();
 
-/// The value in the option's own type; invalid when it is of another kind, not finite or out of
-/// range.
+/// Return the value in the option's own type; invalid if it has another type, is not finite or is
+/// out of range.
 QVariant checked_option(const OptionInfo& option, const QVariant& value);
 
 #endif

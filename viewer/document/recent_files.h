@@ -3,7 +3,8 @@
 
 #include <QStringList>
 
-/// The files that were opened last, the latest first, over the program's runs (QSettings).
+/// The most recently opened files, the latest first. They are kept between runs of the program
+/// (QSettings).
 class RecentFiles
 {
 public:

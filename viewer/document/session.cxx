@@ -1,6 +1,6 @@
-// Writing: companions first, each under a name that tells its contents, then the session itself by
-// one rename, then companions that it does not name go. Reading: everything is checked before
-// anything is used; inputs are looked for beside the session file.
+// Writing: first the companions are written, under names that contain a hash of their contents.
+// Then one rename replaces the session, and companions that it does not name are deleted. Reading:
+// everything is checked before it is used. Paths of inputs are relative to the session file.
 #include "document/session.h"
 
 #include "document/dataset_json.h"
@@ -47,18 +47,18 @@ bool write_xml(vtkDataSet* data, const std::string& path)
   writer->SetFileName(path.c_str());
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToNone(); // an autosave should not be felt
+  writer->SetCompressorTypeToNone(); // so that an autosave is not noticeable
   writer->SetHeaderTypeToUInt64();
   return writer->Write() == 1 && writer->GetErrorCode() == 0;
 }
 
-/// "NAME." of NAME.bindpose.
+/// Return "NAME." for NAME.bindpose.
 QString companion_stem(const QString& session)
 {
   return QFileInfo(session).completeBaseName() + '.';
 }
 
-/// What the last save had and this one has not, and what a killed one has left half-written.
+/// Remove companions that only the last save needed, and unfinished files of killed processes.
 void remove_stale_companions(const QString& session, const QStringList& named)
 {
   QDir folder(QFileInfo(session).absolutePath());
@@ -143,7 +143,7 @@ SessionView view_from_json(const json& value)
   return view;
 }
 
-/// A session that is being read: its text, checked, and the folder that paths are relative to.
+/// Reads a session from its parsed text. Paths are relative to `folder_`.
 class SessionReader
 {
 public:
@@ -228,7 +228,7 @@ private:
     return source;
   }
 
-  /// The companion, unless it is missing or another than it was.
+  /// Return a companion. If it is missing or has changed, return null and set `lost`.
   template <typename Reader>
   vtkSmartPointer<vtkDataSet> companion(const json& companions, const char* role, bool& lost) const
   {
@@ -297,7 +297,8 @@ private:
       session.notes << tr("A file beside the session, with what was made here, is missing or "
                           "damaged: bind again.");
     }
-    // What weights were for stays true whichever surface is there.
+    // The handles of the bind are correct for any surface, so they replace those that use_mesh()
+    // has set.
     work.bound_handles = bound_handles;
     if (!surface && lost)
     {
@@ -332,7 +333,7 @@ private:
     };
     if (inputs.contains("handles"))
     {
-      work.handle_source = this->source(inputs["handles"]); // the session has its own
+      work.handle_source = this->source(inputs["handles"]); // the session contains the handles
     }
     if (inputs.contains("picture"))
     {
@@ -422,8 +423,8 @@ Status SessionFile::write_companion(
 struct SessionFile::Prepared
 {
   QString path; // absolute
-  json text; // all but the companions
-  // No input holds these; or null.
+  json text; // everything except the companions
+  // Datasets that no input file contains; or null.
   vtkSmartPointer<vtkPolyData> surface;
   vtkSmartPointer<vtkUnstructuredGrid> tets;
   vtkSmartPointer<vtkImageData> volume;

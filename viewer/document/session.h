@@ -10,63 +10,64 @@
 #include <memory>
 #include <optional>
 
-/// From where a window looks; no part of the work.
+/// The view of a window: its camera and its panel. It is not part of the work.
 struct SessionView
 {
   struct Camera
   {
     std::array<double, 3> position{ 0, 0, 1 }, focal_point{ 0, 0, 0 }, up{ 0, 1, 0 };
     double angle = 30.0; ///< degrees
-    double scale = 1.0; ///< of a parallel camera: half the height
+    double scale = 1.0; ///< half the height of a parallel camera's view
     bool parallel = false;
   };
   std::optional<Camera> camera;
-  int panel = 0; ///< that is shown, of PanelColumn
+  int panel = 0; ///< the panel that is shown, as numbered in PanelColumn
 };
 
-/// A file that a session was made from and that is not there, or not as it was.
+/// An input file of a session that is missing or cannot be read.
 struct LostInput
 {
   QString role; ///< "mesh", "handles", "picture", "volume", "curves"
-  QString path; ///< where it was looked for
-  QByteArray checksum; ///< that it had
+  QString path; ///< where it was expected
+  QByteArray checksum; ///< of the file when the session was saved
 };
 
 struct Session
 {
   Work work;
   SessionView view;
-  QString saved_as; ///< of a recovered one: the session file that it is a later state of
-  std::vector<LostInput> lost; ///< inputs that are missing and that nothing stands for
-  QStringList notes; ///< sentences about what is missing or has changed
+  QString saved_as; ///< for recovered work: the session file of which it is a later state
+  std::vector<LostInput> lost; ///< missing inputs that nothing replaces
+  QStringList notes; ///< sentences about missing or changed files
 };
 
 /// **Session files** (`NAME.bindpose`) are JSON; viewer/sessions_and_tours.md documents the schema.
-/// Inputs are named by paths relative to the session file and by their SHA-256; what no input
-/// holds, surfaces, weights and volumes that were made here, is in companions beside it,
-/// `NAME.surface-HASH.vtp`, `NAME.tets-HASH.vtu` and `NAME.volume-HASH.vti`, named after their
-/// contents.
+/// A session refers to its inputs by paths relative to the session file and by their SHA-256.
+/// Surfaces, weights and volumes that were made in the program are stored in companion files in the
+/// same folder: `NAME.surface-HASH.vtp`, `NAME.tets-HASH.vtu` and `NAME.volume-HASH.vti`. HASH
+/// depends on the contents.
 ///
-/// Nothing is ever half-written: companions are on the disk before the session that names them
-/// takes the place of the last one, in one step, and only then those that nobody names any more
-/// go. A process that is killed anywhere leaves the last session or the new one.
+/// Writing is atomic. First the companions are written to the disk, then the new session replaces
+/// the old one in one step. Only then the companions that are no longer referenced are deleted. If
+/// the process is killed at any time, the old session or the new one is intact.
 ///
-/// To write beside the window: prepare() on its thread, which takes no time, then write() on
-/// another; what was prepared is dropped on the first again.
+/// To write in the background, call prepare() on the window's thread, where it takes no time, and
+/// write() on another thread. The prepared session must be destroyed on the window's thread.
 class SessionFile
 {
 public:
-  struct Prepared; ///< a session as text, and its datasets, which nobody changes
+  struct Prepared; ///< a session as text, with datasets that no one changes
   static std::shared_ptr<const Prepared> prepare(const QString& path, const Session& session);
-  /// Writes the session; companions that this object has written there already stay as they are.
+  /// Write the session. Companions that this object has already written there are not written
+  /// again.
   bindpose::Status write(const Prepared& prepared);
   bindpose::Status write(const QString& path, const Session& session);
 
 private:
   struct Companion
   {
-    vtkSmartPointer<vtkDataSet> data; // that was written
-    QString session; // for which session file
+    vtkSmartPointer<vtkDataSet> data; // the dataset that was written
+    QString session; // path of the session file it belongs to
     QString name;
     QByteArray checksum;
   };
@@ -76,9 +77,9 @@ private:
   Companion surface_, tets_, volume_;
 };
 
-/// Reads a session file of this or an older schema. invalid_input, one sentence, for what is no
-/// session, broken, or of a newer program. Inputs that are missing or other than they were are no
-/// errors: see Session.
+/// Read a session file of this or an older schema. Return invalid_input, with one sentence, if the
+/// file is not a session, is damaged, or is from a newer program. Missing or changed inputs are not
+/// errors; Session lists them.
 bindpose::Status read_session(const QString& path, Session& session);
 
 constexpr const char* session_ending = "bindpose";

@@ -5,7 +5,8 @@
 
 class QSettings;
 
-/// What is kept over the program's runs, whatever is opened.
+/// Return the settings that are kept between runs of the program. They do not depend on the open
+/// files.
 std::unique_ptr<QSettings> user_settings();
 
 #endif

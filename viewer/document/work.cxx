@@ -50,7 +50,8 @@ bool same_cells(vtkCellArray* a, vtkCellArray* b)
     same_values(a->GetConnectivityArray(), b->GetConnectivityArray());
 }
 
-/// What of handles neither bends a shape nor is counted as theirs: how they look, and their pose.
+/// Report whether a handle array is only a look (layer, color, lock) or a pose, and affects no
+/// bind.
 bool is_look(const char* array)
 {
   static const char* const looks[] = { "Layer", "Color", "Locked", "Transform", "Mode", "Stretch",
@@ -59,7 +60,7 @@ bool is_look(const char* array)
     [array](const char* look) { return std::string(look) == array; });
 }
 
-/// Each array of one that is no look is one of the other.
+/// Report whether `a` has all arrays of `b`, apart from looks, with the same values.
 bool has_arrays_of(vtkPolyData* a, vtkPolyData* b)
 {
   vtkCellData* arrays = b->GetCellData();
@@ -76,7 +77,7 @@ bool has_arrays_of(vtkPolyData* a, vtkPolyData* b)
   return true;
 }
 
-/// Handles that differ in how they look alone.
+/// Report whether handles differ only in their looks.
 bool only_look_different(vtkPolyData* a, vtkPolyData* b)
 {
   return a && b && a->GetPoints() && b->GetPoints() &&

@@ -18,7 +18,7 @@ using namespace bindpose;
 
 namespace
 {
-/// The mesh's skin: of tets their boundary; weights come along.
+/// Return the surface of a mesh. For tets it is their boundary, with their weights.
 vtkSmartPointer<vtkPolyData> skin_of(vtkDataSet* mesh)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
@@ -49,7 +49,7 @@ Handles handles_of(vtkPolyData* data)
   return handles;
 }
 
-/// Weights that came with the mesh are those of the handles that are there, when they fit.
+/// Adopt weights that came with the mesh for the current handles, if they fit.
 void adopt_weights(Work& work)
 {
   if (!work.bound_handles && work.handles && weights_of(work.surface) &&

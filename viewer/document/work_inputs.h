@@ -6,19 +6,19 @@
 
 class vtkDataSet;
 
-// What files hold, as parts of a work. With a status that is not ok the work stays as it is.
+// Put the contents of files into a work. If the status is not ok, the work is unchanged.
 
-/// A surface, or tets, whose skin is taken; weights that belong to the handles are used.
-/// invalid_input: neither.
+/// Use a surface, or tets and their boundary surface. Use its weights if they fit the handles.
+/// Return invalid_input for other data.
 bindpose::Status use_mesh(vtkDataSet* mesh, const QString& name, const Source& source, Work& work);
-/// Handles with the pose that their arrays tell. Weights that are there stay in use where handles
-/// are those that were bound (BoundColumns), or are used because they are theirs.
+/// Use handles with the pose that is in their arrays. Weights stay in use for handles that were
+/// bound (BoundColumns). Unused weights are adopted if they fit the handles.
 bindpose::Status use_handles(vtkPolyData* handles, const Source& source, Work& work);
-/// Weights of another file for the surface; invalid_input, one sentence, when they are not as many
-/// as its points and handles.
+/// Use weights from another file for the surface. Return invalid_input, with one sentence, if their
+/// size does not match the surface's points and the handles.
 bindpose::Status use_weights(const bindpose::Weights& weights, const QString& name, Work& work);
 
-/// SHA-256 in hex; empty when the file cannot be read.
+/// Return the SHA-256 of a file in hex; empty if the file cannot be read.
 QByteArray checksum_of(const QString& path);
 
 #endif

@@ -26,7 +26,7 @@ bool same_pose(const Pose& a, const Pose& b)
   return same;
 }
 
-/// The new value, or the one before where it is the same.
+/// Return `before` if it equals `value`, otherwise a shared copy of `value`.
 template <typename Value, typename Same>
 std::shared_ptr<const Value> shared_with(
   const std::shared_ptr<const Value>& before, const Value& value, const Same& same)
@@ -84,7 +84,8 @@ Status Body::bind(ExecutionContext& context, const PoseOptions& options)
                                source.weights, source.handles, reduced);
   if (status.usable() && options.in_tets)
   {
-    // The same extra weights as those of the posing method: both are made from the same columns.
+    // The surface gets the same extra weights as in posing, because both are computed from the same
+    // columns.
     ReducedArap arap;
     Weights columns, weights;
     Status carried = arap.bind(
@@ -191,7 +192,8 @@ Status Body::play(ExecutionContext& context, const BodyRun& given,
   {
     return Status::invalid_input("there is no run to play");
   }
-  const BodyRun run = given; // it may be the body's own
+  // A copy, because `given` may be the body's own run, which restart() clears.
+  const BodyRun run = given;
   Points posed;
   Status status = this->restart(context, *run.start, posed);
   bool more = status.usable() && seen(0, posed);

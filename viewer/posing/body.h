@@ -11,65 +11,69 @@
 namespace bindpose
 {
 
-/// How the shape moves by itself, in units of the shape, so that the same numbers suit any file:
-/// a length is its diagonal.
+/// Parameters of the shape's dynamics. Lengths are in bounding-box diagonals of the shape, so that
+/// the same numbers suit any file.
 struct BodyOptions
 {
   double gravity = 0.5; ///< diagonals / s^2, 0 to 20
-  int down = 1; ///< the axis along which things fall, towards its lower end: 0 x, 1 y, 2 z
-  /// Waves cross the diagonal sqrt(stiffness) times a second; 1 to 1e5.
+  int down = 1; ///< gravity points along this axis in its negative direction: 0 x, 1 y, 2 z
+  /// Elastic waves cross the diagonal sqrt(stiffness) times per second; 1 to 1e5.
   double stiffness = 100.0;
   double damping = 0.5; ///< 1 / s, 0 to 20
   double steps_per_second = 60.0; ///< 1 to 1000
 };
 bool operator==(const BodyOptions& a, const BodyOptions& b);
 
-/// A run as it was done: the pose that it began with, and pose and options of every step. Played
-/// again it gives the same bits.
+/// A recorded run: the pose at its start, and the pose and the options of every step. Playing a run
+/// again gives the same bits.
 struct BodyRun
 {
   struct Step
   {
-    std::shared_ptr<const Pose> pose; ///< shared by steps in a row that have the same
+    std::shared_ptr<const Pose> pose; ///< shared by consecutive steps with equal poses
     std::shared_ptr<const BodyOptions> options;
   };
   std::shared_ptr<const Pose> start;
   std::vector<Step> steps;
 };
 
-/// The shape as a body with mass (ReducedDynamics), on the surface or in its tets, with a record of
-/// what it did. A free handle that is held follows whoever holds it, and keeps its velocity when
-/// it is let go.
+/// Simulates the shape as a body with mass (ReducedDynamics), on the surface or in its tets, and
+/// records the run. A free handle follows the pose while a drag constrains it, and keeps its
+/// velocity when it is released.
 class Body
 {
 public:
-  /// Longest run that is recorded, ten minutes at 60 steps a second; the body moves on after it.
+  /// Maximum number of recorded steps: ten minutes at 60 steps per second. Later steps move the
+  /// body but are not recorded.
   static constexpr std::size_t longest_run = 36000;
 
   explicit Body(std::shared_ptr<const PoseSource> source) : source_(std::move(source)) {}
 
   bool is_bound(const PoseOptions& options) const;
-  /// @param options  of reduced as-rigid-as-possible: energy, tets, extra weights
+  /// @param options  the used options are those of reduced as-rigid-as-possible: energy, tets,
+  /// extra weights
   Status bind(ExecutionContext& context, const PoseOptions& options);
   Index binds() const { return this->binds_; }
 
-  /// To time zero, at rest in this pose; a new run begins.
+  /// Put the body at rest in this pose at time zero, and begin a new run.
   Status restart(ExecutionContext& context, const Pose& pose, Points& posed);
-  /// One step of 1 / steps_per_second. Report: vtkReducedDynamics'.
+  /// Advance by one step of 1 / steps_per_second. The report is that of vtkReducedDynamics.
   Status step(
     ExecutionContext& context, const Pose& pose, const BodyOptions& options, Points& posed);
   bool has_started() const { return this->run_.start != nullptr; }
   double time() const { return this->body_.state().time; }
   const BodyRun& run() const { return this->run_; }
-  /// Steps beyond longest_run that the run does not hold.
+  /// Report whether the run contains all steps. It does not if there were more than longest_run.
   bool run_is_whole() const { return this->whole_; }
-  /// One a handle: where the body has taken those that are not full.
+  /// Return one transform per handle. For handles whose mode is not full, it is the transform that
+  /// the body has computed.
   const std::vector<Affine>& transforms() const { return this->body_.transforms(); }
-  /// What it is turned by; null before it has started.
+  /// Return the fitted rotations; null before the body has started.
   const PoseRotations* rotations();
 
-  /// Plays a run from its start; each of its poses in turn, the first without motion.
-  /// @param seen  false from it ends the play
+  /// Play a run from its start, and call `seen` with every shape: first the start without motion,
+  /// then each step.
+  /// @param seen  stops the run by returning false
   Status play(ExecutionContext& context, const BodyRun& run,
     const std::function<bool(std::size_t step, const Points& posed)>& seen);
 
@@ -79,8 +83,8 @@ private:
   std::shared_ptr<const PoseSource> source_;
   std::optional<PoseOptions> bound_;
   ReducedDynamics body_;
-  PoseRotations rotations_; ///< as they were last asked for
-  Skinning on_surface_; ///< in tets only
+  PoseRotations rotations_; ///< cache for rotations()
+  Skinning on_surface_; ///< with tets only
   BodyRun run_;
   bool whole_ = true;
   double diagonal_ = 0.0;

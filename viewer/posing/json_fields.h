@@ -14,12 +14,12 @@ namespace bindpose
 
 using Json = nlohmann::ordered_json;
 
-/// Reads the fields of one object of a session file. The first that cannot be read is remembered as
-/// one sentence; fields that are missing leave what is there.
+/// Reads the fields of one JSON object of a session file. status() reports the first invalid field
+/// in one sentence. A missing field leaves its variable unchanged.
 class JsonFields
 {
 public:
-  /// @param what  for the sentence: "the pose options"
+  /// @param what  the object's name in messages, for example "the pose options"
   JsonFields(const Json& json, std::string what) : json_(json), what_(std::move(what))
   {
     if (!json.is_object())
@@ -67,7 +67,7 @@ public:
     value = found ? found->get<std::string>() : value;
   }
 
-  /// One of some words, which stand for 0, 1, …
+  /// Read one of the words; the value is the word's index.
   template <typename Choice, std::size_t Count>
   void read(const char* key, Choice& value, const char* const (&words)[Count])
   {
@@ -89,7 +89,7 @@ public:
     this->fail(key, "one of " + all);
   }
 
-  /// Finite numbers, exactly as many as there are in `values`.
+  /// Read exactly `count` finite numbers.
   void read(const char* key, double* values, std::size_t count)
   {
     const Json* found = this->find(key);
@@ -113,7 +113,7 @@ public:
     }
   }
 
-  /// A part that is an object or a list; null when it is missing.
+  /// Return a member that must be a list or an object; null if it is missing or of another type.
   const Json* part(const char* key, bool list)
   {
     const Json* found = this->find(key);
@@ -130,7 +130,7 @@ public:
 private:
   static std::string text(double number)
   {
-    std::string digits = std::to_string(number); // six places
+    std::string digits = std::to_string(number); // six decimals
     digits.erase(digits.find_last_not_of('0') + 1);
     return digits.back() == '.' ? digits.substr(0, digits.size() - 1) : digits;
   }

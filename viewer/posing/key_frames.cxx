@@ -21,7 +21,7 @@ constexpr const char* interpolation_words[] = { "linear", "spline" };
 Vec3 on_spline(const Vec3 (&p)[4], const double (&t)[4], double time)
 {
   const double span = t[2] - t[1];
-  // The slope at a key: that of the parabola through it and its neighbours.
+  // The slope at a key is that of the parabola through the key and its neighbors.
   const auto slope = [&](int k, int before, int after) -> Vec3
   {
     const double h0 = t[k] - t[before], h1 = t[after] - t[k];
@@ -151,7 +151,7 @@ std::vector<Pose> KeyFrames::frames(const Handles& handles, const Pose& base) co
   const std::size_t count = this->frame_count();
   for (std::size_t k = 0; k < count; ++k)
   {
-    // A frame that is at a key to round-off is that key.
+    // A frame time that equals a key's time up to round-off becomes that key's time.
     const double time = static_cast<double>(k) / this->frames_per_second;
     const int key = this->at(time);
     result.push_back(this->pose_at(

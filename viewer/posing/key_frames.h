@@ -6,17 +6,18 @@
 namespace bindpose
 {
 
-/// How pivots go between keys. Rotations always turn by the shorter arc (slerp), scale and shear,
-/// stretch and twist change linearly, modes at the key.
+/// Interpolation of pivots between keys. In both cases rotations turn by the shorter arc (slerp);
+/// scale, shear, stretch and twist change linearly, and modes change at the key.
 enum class KeyInterpolation : int
 {
   linear = 0,
-  /// Cubic, through every key, with the slope of its neighbours (Catmull and Rom, times apart).
+  /// Cubic through every key, with the slope of the parabola through the key and its neighbors
+  /// (Catmull and Rom, for non-uniform times).
   spline = 1
 };
 
-/// Poses at times, and what is between them. At a key's time the pose is the key's, to the bit;
-/// before the first and after the last it stays.
+/// Poses at times, and the interpolation between them. At a key's time the pose equals the key's,
+/// bit for bit. The pose is constant before the first key and after the last.
 class KeyFrames
 {
 public:
@@ -25,26 +26,29 @@ public:
     double time = 0.0; ///< seconds, 0 or more
     NamedPose pose;
   };
-  /// In the order of their times.
+  /// Return the keys in the order of their times.
   const std::vector<Key>& keys() const { return this->keys_; }
-  /// A key that is at this time already (to a millisecond) is replaced. Returns its number.
+  /// Set the pose at a time and return the key's index. A key that is less than 0.5 milliseconds
+  /// away is replaced.
   std::size_t set(double time, NamedPose pose);
-  /// To another time; a key that is there already goes. Returns its new number.
+  /// Move a key to another time and return its new index. A key that is already at that time is
+  /// replaced.
   std::size_t move(std::size_t key, double time);
   void remove(std::size_t key);
   void clear() { this->keys_.clear(); }
   void rename_handle(const std::string& from, const std::string& to);
-  /// The key at a time, -1 for none.
+  /// Return the index of the key at a time; -1: none.
   int at(double time) const;
 
   double duration() const { return this->keys_.empty() ? 0.0 : this->keys_.back().time; }
-  double frames_per_second = 24.0; ///< of exports; 1 to 240
+  double frames_per_second = 24.0; ///< frame rate of exports; 1 to 240
   KeyInterpolation interpolation = KeyInterpolation::linear;
   bool loop = true;
 
-  /// @param base  the pose of handles that the keys do not know; returned where there is no key
+  /// @param base  the pose of handles that the keys do not contain; it is returned if there are no
+  /// keys
   Pose pose_at(double time, const Handles& handles, const Pose& base) const;
-  /// From 0 to duration(), both among them.
+  /// Return the poses of all frames from time 0 to duration(), both included.
   std::vector<Pose> frames(const Handles& handles, const Pose& base) const;
   std::size_t frame_count() const;
 

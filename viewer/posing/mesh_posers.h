@@ -11,8 +11,8 @@
 namespace bindpose
 {
 
-/// Full as-rigid-as-possible: every vertex on its own, of the surface or of the tets with the
-/// surface carried along. A solve goes on from where the last one was.
+/// Full as-rigid-as-possible: every vertex of the surface, or of the tets, has its own position.
+/// The surface follows the tets. A solve starts from the result of the last one.
 class FullPoser : public Poser
 {
 public:
@@ -28,11 +28,11 @@ protected:
 private:
   std::optional<PoseOptions> bound_;
   FullArap arap_;
-  PoseRotations rotations_; ///< as they were last asked for
+  PoseRotations rotations_; ///< cache for rotations()
   TetAnchors anchors_;
 };
 
-/// The smooth surface through what handles hold.
+/// The smooth surface that satisfies the constraints of the handles.
 class VariationalPoser : public Poser
 {
 public:

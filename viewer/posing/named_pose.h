@@ -11,19 +11,19 @@
 namespace bindpose
 {
 
-/// A pose that is kept: it knows its handles by their names, so that it still fits when handles
-/// were added, removed or put in another order.
+/// A stored pose. It identifies handles by name, so that it still fits after handles were added,
+/// removed or reordered.
 class NamedPose
 {
 public:
   NamedPose() = default;
   NamedPose(const Handles& handles, Pose pose);
 
-  /// Return the pose of these handles. Handles that it does not know follow their parents from the
-  /// base pose. The result has the size of the base pose.
+  /// Return the pose of these handles. A handle that has no entry follows its parent from the base
+  /// pose. The result has the size of the base pose.
   Pose of(const Handles& handles, const Pose& base) const;
   bool empty() const { return this->names_.empty(); }
-  /// The handle has another name now. What the pose knows of a handle that had it before goes.
+  /// Rename a handle. An older entry with the new name is removed.
   void rename(const std::string& from, const std::string& to);
 
 private:
@@ -35,7 +35,7 @@ private:
 };
 
 /// {NAME: {"mode": "full", "transform": [12 numbers, 3x4 row by row], "stretch": 1, "twist": [0,
-/// 0]}}: exact, what a pose file is not. What is missing is rest.
+/// 0]}}. Unlike in a pose file, the numbers are exact. Missing fields have their rest values.
 nlohmann::ordered_json to_json(const NamedPose& pose);
 Status from_json(const nlohmann::ordered_json& json, NamedPose& pose);
 

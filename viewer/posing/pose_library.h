@@ -6,7 +6,7 @@
 namespace bindpose
 {
 
-/// Poses that are kept by name, in the order in which they were stored.
+/// Named poses in the order in which they were stored.
 class PoseLibrary
 {
 public:
@@ -17,9 +17,10 @@ public:
   };
   const std::vector<Entry>& entries() const { return this->entries_; }
 
-  /// Adds it, under a name that nobody has: "pose" becomes "pose 2". Returns the name.
+  /// Store a pose under a unique name, and return that name: a second "pose" becomes "pose 2".
   std::string store(const std::string& name, NamedPose pose);
-  /// False, and nothing happens, for an empty name and one that another has.
+  /// Rename an entry. Return false and change nothing if the name is empty or belongs to another
+  /// entry.
   bool rename(std::size_t entry, const std::string& name);
   void remove(std::size_t entry);
   void clear() { this->entries_.clear(); }

@@ -10,7 +10,7 @@
 namespace bindpose
 {
 
-/// All ways to pose. The integers are those of the window's actions.
+/// All pose methods. The window's actions use the same integers.
 enum class PoseMethod : int
 {
   linear_blend = 0,
@@ -23,21 +23,25 @@ enum class PoseMethod : int
 };
 constexpr int pose_method_count = 7;
 
-/// The words of `bindpose deform --method`: "lbs", "dqs", "reduced-arap", "stbs", "cor",
-/// "full-arap", "variational".
+/// Return the method's word in `bindpose deform --method`: "lbs", "dqs", "reduced-arap", "stbs",
+/// "cor", "full-arap", "variational".
 const char* to_string(PoseMethod method);
-/// Whether it blends by weights: all but full as-rigid-as-possible and variational surfaces.
+/// Report whether the method blends by weights: all but full as-rigid-as-possible and variational
+/// surfaces.
 bool needs_weights(PoseMethod method);
-/// Whether it blends transforms as they are given, and finds none.
+/// Report whether the method only blends the given transforms and computes none.
 bool is_skinning(PoseMethod method);
-/// Whether it is as rigid as possible: it finds rotations that the pose leaves free.
+/// Report whether the method is as-rigid-as-possible, so that it computes the rotations that the
+/// pose leaves free.
 bool finds_rotations(PoseMethod method);
-/// What it does with the stretch and the twist of bones.
+/// Return how the method uses the stretch and the twist of bones.
 StretchUse stretch_use(PoseMethod method);
-/// Whether a solve takes as long as the mesh is large: it then runs beside the window.
+/// Report whether the time of a solve grows with the size of the mesh. Slow methods run in the
+/// background.
 bool is_slow(PoseMethod method);
 
-/// Which pseudo-edges turn points when skinning. The integers are vtkSkinningDeformation's.
+/// Which pseudo-edges rotate point handles in skinning. vtkSkinningDeformation uses the same
+/// integers.
 enum class PseudoEdgeChoice : int
 {
   none = 0,
@@ -45,36 +49,38 @@ enum class PseudoEdgeChoice : int
   automatic = 2
 };
 
-/// What a person chooses of a method. Each says which methods look at it.
+/// The user's options of a pose method. Each comment begins with the methods that use the option.
 struct PoseOptions
 {
   PoseMethod method = PoseMethod::linear_blend;
 
-  /// Skinning: weights as floats, right to a millionth of the shape.
+  /// Skinning: weights in single precision. Positions are exact to a millionth of the shape's size.
   bool single_precision = false;
-  /// Skinning: rotations of points from where they are dragged.
+  /// Skinning: the pseudo-edges that give dragged points their rotations.
   PseudoEdgeChoice pseudo_edges = PseudoEdgeChoice::given;
   bool pseudo_edge_stretch = false;
-  /// Stretchable bones without the array EndpointWeights.
+  /// Stretchable bones: how to compute endpoint weights if there is no array EndpointWeights.
   EndpointMethod endpoints = EndpointMethod::projection;
 
   /// Both as-rigid-as-possible methods: which edges share a rotation.
   ArapEnergy energy = ArapEnergy::automatic;
-  /// Both: the energy of the tets that the weights were solved in, which keep volume.
+  /// Both as-rigid-as-possible methods: use the energy of the tets on which the weights were
+  /// solved. Tets preserve volume.
   bool in_tets = false;
-  /// Reduced: weights besides the handles', 0 to 30.
+  /// Reduced: number of weights in addition to the handles', 0 to 30.
   Index extra_weights = 0;
   ExtraWeights extra_kind = ExtraWeights::bumps;
-  /// Reduced: most iterations a frame (1 to 1000), and microseconds (0: no limit).
+  /// Reduced: limits per frame: iterations (1 to 1000), and microseconds (0: no limit).
   Index iterations = 100;
   double budget_microseconds = 0.0;
 
-  /// Variational surface: 1 membrane, 2 thin plate, 3 smoother still; and what holds at the edge.
+  /// Variational surface: order 1 is a membrane, 2 a thin plate, 3 is smoother than 2; and the
+  /// conditions at the edge of the patch.
   int order = 2;
   PatchBoundary boundary = PatchBoundary::region;
 };
 
-/// Whether the options differ in what only a new bind brings.
+/// Report whether both options can use the same bind.
 bool same_bind(const PoseOptions& a, const PoseOptions& b);
 bool operator==(const PoseOptions& a, const PoseOptions& b);
 inline bool operator!=(const PoseOptions& a, const PoseOptions& b)

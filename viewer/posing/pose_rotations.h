@@ -10,17 +10,18 @@
 namespace bindpose
 {
 
-/// What a method turns the shape by.
+/// The rotations that a method has fitted.
 struct PoseRotations
 {
-  /// Which rotation each point of the surface follows, -1 for none; another object for another
-  /// bind.
+  /// Index of the rotation that each surface point follows, #V, -1 for none. A new bind makes a new
+  /// object.
   std::shared_ptr<const std::vector<Index>> of_point;
   std::vector<Eigen::Matrix3d> rotations;
 };
 
-/// Rotations for the points of the surface: each follows its own group, or in tets that of the
-/// vertex nearest to it in its tet. Who has taken some of the same bind has the groups already.
+/// Set `taken` to the rotations of the surface's points. A point follows its own group; in tets it
+/// follows the group of the nearest vertex of its tet. If `taken` already has groups, they must be
+/// of the same bind and are kept.
 void take_rotations(const PoseSource& source, const RotationGroups& groups,
   const std::vector<Eigen::Matrix3d>& rotations, bool in_tets, PoseRotations& taken);
 

@@ -7,7 +7,7 @@
 namespace bindpose
 {
 
-/// All poses that are kept: a value, for sessions and for undo.
+/// All stored poses, as a value for sessions and for undo.
 struct PoseShelf
 {
   PoseLibrary library;
@@ -16,7 +16,7 @@ struct PoseShelf
 
 /// {"library": […], "key_frames": {…}}
 nlohmann::ordered_json to_json(const PoseShelf& shelf);
-/// What is missing is empty. invalid_input leaves the shelf as it was.
+/// Read a shelf. Missing parts are empty. On invalid_input the shelf is unchanged.
 Status from_json(const nlohmann::ordered_json& json, PoseShelf& shelf);
 
 } // namespace bindpose

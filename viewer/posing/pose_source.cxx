@@ -14,8 +14,8 @@ namespace bindpose
 
 namespace
 {
-/// Rows of a point array with so many numbers each, filled up with zeros to three; nothing without
-/// it, and where it has another shape.
+/// Return the rows of a point array, padded with zeros to three components. The result is empty if
+/// the array is missing, or has fewer than `fewest` or more than three components.
 Points to_rows(vtkPolyData* surface, const char* name, int fewest)
 {
   vtkDataArray* array = surface->GetPointData()->GetArray(name);

@@ -13,21 +13,21 @@ class vtkUnstructuredGrid;
 namespace bindpose
 {
 
-/// What is bent, and by what: everything that a bind reads, in copies, so that binds may run beside
-/// the window. Does not change once it is made; other weights or handles make another one.
+/// Copies of everything that a bind reads (the surface, its weights and its handles), so that a
+/// bind can run in the background. A source is immutable; new weights or handles make a new source.
 struct PoseSource
 {
   Points points; ///< the surface at rest
   Triangles triangles;
-  Weights weights; ///< #V x #handles; empty: not bound yet
-  Weights endpoints; ///< the point array EndpointWeights; empty: there is none
-  /// Regions, and the point arrays Fixed, Parameterization, Tangents and Load, as
-  /// vtkVariationalSurface reads them. Options are set when a method is bound.
+  Weights weights; ///< #V x #handles; empty before a bind
+  Weights endpoints; ///< the point array EndpointWeights; empty if there is none
+  /// The region ids and the point arrays Fixed, Parameterization, Tangents and Load, as
+  /// vtkVariationalSurface reads them. The other options are set when a method is bound.
   VariationalSurfaceOptions arrays;
   Handles handles;
-  PseudoEdges pseudo_edges; ///< those of the handle dataset
-  Status of_pseudo_edges; ///< what is wrong with them
-  /// What weights were solved in; empty: not known, or no tets.
+  PseudoEdges pseudo_edges; ///< from the handle dataset
+  Status of_pseudo_edges; ///< why pseudo_edges cannot be used
+  /// The tets on which the weights were solved; empty if they are unknown or were not tets.
   Points tet_points;
   Tets tets;
   Weights tet_weights;
@@ -36,9 +36,10 @@ struct PoseSource
   bool has_tets() const { return this->tets.rows() > 0 && this->tet_weights.rows() > 0; }
 };
 
-/// @param tets  with the point array Weights; may be null.
-/// invalid_input for what the filters refuse: a surface that is none, handles that are none,
-/// weights of other handles, endpoint weights that are not between 0 and 1.
+/// Read the source from datasets. Return invalid_input for all input that the filters reject: an
+/// invalid surface, invalid handles, weights that do not match the handles, endpoint weights
+/// outside [0, 1].
+/// @param tets  tets with the point array Weights; may be null
 Status to_pose_source(
   vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, PoseSource& source);
 

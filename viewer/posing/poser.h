@@ -11,30 +11,34 @@
 namespace bindpose
 {
 
-/// One method at work on one source, by the kernels: binds once, poses many times, and gives what
-/// the filter of that method gives, to the bit. Either call may be made on any thread, one at a
-/// time.
+/// Runs one pose method on one source with the kernels: it binds once and poses many times. The
+/// result equals that of the method's filter, bit for bit. bind() and solve() can be called on any
+/// thread, one call at a time.
 ///
-/// All points of a pose's report are those of the kernels; besides, seconds.solve (finding
-/// transforms or points) and seconds.skin (moving the surface by them).
+/// The report of a pose has the entries of the kernel. In addition it has seconds.solve (computing
+/// transforms or points) and seconds.skin (moving the surface by transforms).
 class Poser
 {
 public:
   virtual ~Poser() = default;
 
-  /// Whether solve() has all that these options need.
+  /// Report whether solve() has all data that these options need.
   virtual bool is_bound(const PoseOptions& options) const = 0;
-  /// Makes what is missing; what is there stays. Warnings are those of the bind.
+  /// Compute the missing parts of the bind, and keep the existing ones. Return the warnings of the
+  /// bind.
   Status bind(ExecutionContext& context, const PoseOptions& options);
-  /// The surface in a pose, one entry a handle. not_converged comes with points, too.
-  /// @param most_iterations  fewer than the options', for a slice of a long solve; 0: theirs
+  /// Compute the surface in a pose, which has one entry per handle. With the status not_converged
+  /// the points are valid, too.
+  /// @param most_iterations  limit on iterations for a slice of a long solve; 0: the default limit
   Status solve(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
     Index most_iterations, Points& posed);
-  /// After a solve: the transforms that were found, one a handle or more; null where none are.
+  /// Return the transforms that the last solve computed, at least one per handle; null if the
+  /// method computes none.
   virtual const std::vector<Affine>* found() const { return nullptr; }
-  /// After a solve: the rotations that its energy was measured against; null where it fits none.
+  /// Return the rotations with which the last solve measured its energy; null if the method fits
+  /// none.
   virtual const PoseRotations* rotations() { return nullptr; }
-  /// How often something was bound.
+  /// Return the number of binds so far.
   Index binds() const { return this->binds_; }
 
 protected:
@@ -49,13 +53,13 @@ private:
   Index binds_ = 0;
 };
 
-/// The poser of a method; the four skinning methods have one in common.
+/// Return the poser of a method. The four skinning methods use one type of poser.
 std::unique_ptr<Poser> make_poser(PoseMethod method, std::shared_ptr<const PoseSource> source);
-/// Whether make_poser() gives the same for both.
+/// Report whether one poser serves both methods.
 bool same_poser(PoseMethod a, PoseMethod b);
 
-/// The elements that an as-rigid-as-possible energy is of: those of the source's tets, if the
-/// options want them.
+/// Return invalid_input if the options require the energy of tets and the source has no tets with
+/// weights.
 Status check_tets(const PoseSource& source, const PoseOptions& options);
 
 } // namespace bindpose

@@ -9,8 +9,8 @@
 namespace bindpose
 {
 
-/// Reduced as-rigid-as-possible on the surface, or in the tets with the surface carried along: its
-/// points blend the same transforms by their own weights.
+/// Reduced as-rigid-as-possible on the surface or in the tets. In tets, the surface's points blend
+/// the same transforms by their own weights.
 class ReducedPoser : public Poser
 {
 public:
@@ -27,14 +27,14 @@ protected:
 private:
   std::optional<PoseOptions> bound_;
   ReducedArap arap_;
-  PoseRotations rotations_; ///< as they were last asked for
-  Skinning on_surface_; ///< in tets only: the surface by all columns
+  PoseRotations rotations_; ///< cache for rotations()
+  Skinning on_surface_; ///< with tets only: skins the surface by all columns
 };
 
-/// What the kernels of reduced as-rigid-as-possible need to know of the options.
+/// Return the options of the reduced as-rigid-as-possible kernels.
 ReducedArapOptions reduced_options(const PoseOptions& options);
-/// The surface's weights by the columns of a space in the source's tets: its own, and extra weights
-/// carried from the tets' vertices.
+/// Compute the surface's weights for all columns of a space in the source's tets. The columns of
+/// handles are the source's own weights; extra columns are interpolated from the tets' vertices.
 Status weights_on_surface(
   ExecutionContext& context, const PoseSource& source, const Weights& in_tets, Weights& weights);
 

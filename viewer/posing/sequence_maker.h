@@ -14,15 +14,16 @@ namespace bindpose
 struct PosedFrames
 {
   std::vector<Points> points;
-  std::vector<std::vector<Affine>> transforms; ///< one a frame, or none
+  std::vector<std::vector<Affine>> transforms; ///< one list per frame, or empty
   double frames_per_second = 24.0;
 };
 
-/// Poses all frames, each from where the one before was, as the window shows them when it plays.
+/// Pose all frames. Each solve starts from the result of the previous frame, as it does when the
+/// window plays them.
 Status make_frames(ExecutionContext& context, const std::shared_ptr<const PoseSource>& source,
   const PoseOptions& options, const std::vector<Pose>& poses, PosedFrames& frames);
 
-/// The same of a body's run: every step is a frame.
+/// Make the frames of a body's run: one for its start and one per step.
 Status make_frames(ExecutionContext& context, const std::shared_ptr<const PoseSource>& source,
   const PoseOptions& options, const BodyRun& run, PosedFrames& frames);
 

@@ -1,5 +1,5 @@
-// Centres of rotation take seconds, and endpoint weights as long as a bind: they are phases of
-// bind(), so that the window shows how far they are and can stop them.
+// Centers of rotation take seconds to compute, and endpoint weights take as long as a bind. Both
+// are phases of bind(), so that the window can show their progress and cancel them.
 #include "posing/skinning_poser.h"
 
 #include "pose/rotation_centres.h"
@@ -98,7 +98,7 @@ Status SkinningPoser::bind_missing(ExecutionContext& context, const PoseOptions&
   return status;
 }
 
-/// As vtkBoneEndpointWeights does for a surface.
+/// Compute the same endpoint weights as vtkBoneEndpointWeights for a surface.
 Status SkinningPoser::make_endpoints(ExecutionContext& context, EndpointMethod method)
 {
   Phase phase(context, "endpoints", 0.1, 1.0);

@@ -9,9 +9,9 @@
 namespace bindpose
 {
 
-/// Linear blend, dual quaternions, stretchable bones and centres of rotation: one set of sparse
-/// weights; centres, endpoint weights and automatic pseudo-edges are made when they are asked for
-/// first.
+/// Linear blend, dual quaternions, stretchable bones and centers of rotation share one set of
+/// sparse weights. Centers, endpoint weights and automatic pseudo-edges are computed by the first
+/// bind that needs them.
 class SkinningPoser : public Poser
 {
 public:
@@ -27,7 +27,7 @@ private:
   bool has_endpoints(const PoseOptions& options) const;
   Status make_endpoints(ExecutionContext& context, EndpointMethod method);
 
-  std::optional<bool> single_; ///< the precision that weights are bound in
+  std::optional<bool> single_; ///< precision of the bound weights; empty before a bind
   Skinning skinning_;
   Points pivots_;
   Points centres_;

@@ -9,18 +9,19 @@
 namespace bindpose
 {
 
-/// Where a surface's points lie in tets, so that they follow these: a point that is one of their
-/// vertices, bit by bit, takes its place; others move with the tet that holds them or is nearest.
+/// Locations of a surface's points in tets, so that the surface can follow the tets. A point that
+/// is identical to a tet's vertex moves with that vertex, bit for bit. Any other point moves with
+/// the tet that contains it or is nearest to it.
 class TetAnchors
 {
 public:
   TetAnchors() = default;
   TetAnchors(PointsView surface, PointsView tet_points, TetsView tets);
 
-  /// Of each of the surface's points the vertex of its tet that has the greatest share in it.
+  /// Return, for each surface point, the vertex of its tet with the largest barycentric coordinate.
   std::vector<Index> nearest_vertices() const;
 
-  /// The surface's points when the tets' are moved.
+  /// Compute the surface's points for moved tet points.
   void move(PointsView surface, PointsView tet_points, PointsView moved, Points& posed) const;
 
 private:

@@ -1,7 +1,9 @@
-// Fitting: in the camera's axes (right r, up u, forward f) a camera at c sees p when
-// |(p - c)·r| <= tx (p - c)·f and the same for u. For the right border this says
-// c·r - tx c·f >= max(p·r - tx p·f) =: A, for the left -c·r - tx c·f >= max(-p·r - tx p·f) =: B;
-// their sum bounds c·f from above by -(A + B) / (2 tx), their difference centres c·r.
+// Fitting: a camera at c with axes r (right), u (up) and f (forward) sees a point p if
+// |(p - c)·r| <= tx (p - c)·f
+// and likewise for u. The right and left borders require
+// c·r - tx c·f >= max(p·r - tx p·f) =: A and
+// -c·r - tx c·f >= max(-p·r - tx p·f) =: B.
+// The sum of the two bounds c·f from above by -(A + B) / (2 tx). Their difference centers c·r.
 #include "scene/camera.h"
 
 #include "vtkCamera.h"
@@ -35,7 +37,7 @@ Frame choose_frame(const Box& box, const std::string& up)
   {
     if (named)
     {
-      frame.flat = false; // a floor, looked at from the side and above
+      frame.flat = false; // a floor, viewed from the side and above
     }
     else
     {
@@ -51,7 +53,7 @@ Frame choose_frame(const Box& box, const std::string& up)
 Vec3 view_direction(const Frame& frame, const View& view)
 {
   const Vec3 up = Vec3::Unit(frame.up);
-  // From +z, +x, and, with z up, from -y: then the other level axis runs to the right.
+  // View from +z, +x, or -y with z up. The other level axis then points to the right.
   const double side = frame.up == 2 && frame.depth == 1 ? -1.0 : 1.0;
   const Vec3 front = side * Vec3::Unit(frame.depth);
   const double azimuth = view.azimuth + (frame.flat ? 0.0 : default_azimuth);
@@ -65,13 +67,13 @@ Vec3 view_direction(const Frame& frame, const View& view)
 
 namespace
 {
-/// As View has it, and which way is up in the picture.
+/// Axes of the camera, unit vectors.
 struct Axes
 {
   Vec3 forward, right, up;
 };
 
-/// Along the axes, from where all points are seen as large as they can be.
+/// Fit the camera along the axes: move it to where all points are visible and as large as possible.
 void fit_along(vtkCamera* camera, PointsView points, const Axes& axes, double angle, double aspect,
   double margin)
 {
@@ -97,7 +99,7 @@ void fit_along(vtkCamera* camera, PointsView points, const Axes& axes, double an
     near_point = std::min(near_point, z);
     far_point = std::max(far_point, z);
   }
-  // A point or a line along the view has no width: keep some distance from it.
+  // A point, or a line along the view, has no width. Keep some distance from it.
   const double smallest = std::max(0.5 * box.diagonal(), 1e-6);
   double depth =
     std::min(-(high[0] + high[1]) / (2.0 * free * tx), -(high[2] + high[3]) / (2.0 * free * ty));
@@ -115,7 +117,7 @@ void fit_along(vtkCamera* camera, PointsView points, const Axes& axes, double an
   camera->SetClippingRange(std::max(near_point - depth - slack, 1e-3 * far_plane), far_plane);
 }
 
-/// Whether all points lie within the picture.
+/// Report whether all points are within the picture.
 bool sees_all(vtkCamera* camera, PointsView points, const Axes& axes, double aspect)
 {
   const Vec3 eye(camera->GetPosition());
@@ -133,7 +135,8 @@ bool sees_all(vtkCamera* camera, PointsView points, const Axes& axes, double asp
   return true;
 }
 
-/// How far from the points' middle, or at which scale, all of them are seen.
+/// Return the distance from the points' center, or the parallel scale, at which all points are
+/// visible.
 double least_size(vtkCamera* camera, PointsView points, const Axes& axes, double aspect)
 {
   const Vec3 center = bounding_box(points).center();
@@ -159,7 +162,7 @@ void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const 
   axes.up = axes.right.cross(axes.forward);
   camera->ParallelProjectionOff();
   fit_along(camera, points, axes, view_angle, aspect, margin);
-  // Zoom by the angle: the perspective stays, and the camera never enters the shape.
+  // Zoom by the view angle. The perspective is preserved, and the camera never enters the shape.
   const double ty = std::tan(0.5 * view_angle * pi / 180.0);
   camera->SetViewAngle(2.0 * std::atan(ty / view.zoom) * 180.0 / pi);
 }
@@ -201,13 +204,14 @@ bool find_plane(PointsView points, Vec3& normal)
   {
     return false;
   }
-  const Eigen::RowVector3d middle = points.colwise().mean(); // in the plane, as the box's is not
+  // The mean is in the plane, unlike the center of the box.
+  const Eigen::RowVector3d middle = points.colwise().mean();
   const Points apart = points.rowwise() - middle;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
     apart.transpose() * apart / (diagonal * diagonal * static_cast<double>(points.rows())));
   constexpr double flat = 1e-6;
   normal = axes.eigenvectors().col(0);
-  // The side that the default view would see.
+  // Orient the normal toward the default view.
   const Vec3 axis_order(normal.z(), normal.x(), -normal.y());
   for (const double component : { axis_order[0], axis_order[1], axis_order[2] })
   {
@@ -217,7 +221,7 @@ bool find_plane(PointsView points, Vec3& normal)
       break;
     }
   }
-  for (int k = 0; k < 3; ++k) // planes along the axes are so to the last bit
+  for (int k = 0; k < 3; ++k) // make normals along an axis exact
   {
     normal[k] = std::abs(normal[k]) < 1e-12 ? 0.0 : normal[k];
   }
@@ -232,7 +236,7 @@ void fit_parallel_camera(
   const Vec3 vertical = std::abs(normal.y()) > 0.999 ? Vec3::UnitZ() : Vec3::UnitY();
   const Vec3 up = (vertical - vertical.dot(normal) * normal).normalized();
   const Vec3 right = up.cross(normal);
-  Box box; // right, up, towards the eye
+  Box box; // right, up, toward the eye
   for (Index i = 0; i < points.rows(); ++i)
   {
     const Vec3 p = points.row(i);
@@ -243,7 +247,7 @@ void fit_parallel_camera(
   const double smallest = std::max(0.5 * box.diagonal(), 1e-6);
   const Vec3 center = box.center();
   const Vec3 focus = center.x() * right + center.y() * up + center.z() * normal;
-  // As far away as a perspective view would be: who turns it on sees the same.
+  // Use the distance of a perspective view, so that switching to perspective shows the same.
   const double scale =
     std::max({ 0.5 * size.y() / free, 0.5 * size.x() / (free * aspect), 1e-3 * smallest });
   const double distance = scale / std::tan(0.5 * view_angle * pi / 180.0);

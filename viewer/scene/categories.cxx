@@ -1,5 +1,5 @@
-// Colours are told apart by colour-blind eyes, too: neighbours differ in lightness (after the
-// palettes of Paul Tol).
+// Color-blind viewers can distinguish the colors: neighbors differ in lightness (after the palettes
+// of Paul Tol).
 #include "scene/categories.h"
 
 #include "base/number_text.h"
@@ -91,7 +91,8 @@ std::vector<Category> handle_categories(const std::vector<std::string>& names)
 
 namespace
 {
-/// The number of the first value that is no category's, or -1.
+/// Count the values of each category. Return the index of the first value without a category, or
+/// -1.
 Index count_values(vtkDataArray* array, std::vector<Category>& categories)
 {
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
@@ -170,7 +171,7 @@ void count_defects(vtkPolyData* defects, std::vector<Category>& categories)
 
 namespace
 {
-/// "12,345"
+/// Format a count with separators: "12,345".
 std::string grouped(Index count)
 {
   std::string digits = std::to_string(count);

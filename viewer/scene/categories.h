@@ -15,7 +15,8 @@ class vtkUnstructuredGrid;
 namespace bindpose
 {
 
-/// A class of things that a legend names: its number in the data, colour, and how many there are.
+/// One entry of a legend: the number in the data, the name, the color and the number of
+/// occurrences.
 struct Category
 {
   int value = 0;
@@ -24,42 +25,45 @@ struct Category
   Index count = 0;
 };
 
-/// The four values of the cell array `Label` of vtkTetrahedralizeSurface, each with its colour:
-/// decisions against the winding number are the darker.
+/// The four values of the cell array `Label` of vtkTetrahedralizeSurface, each with its color.
+/// Decisions against the winding number are darker.
 const std::vector<Category>& label_categories();
-/// The ways to make tets: cdt, remesh, embed, wrap, ftetwild; what is named else is "other".
+/// The methods that make tets: cdt, remesh, embed, wrap, ftetwild. Any other name is "other".
 const std::vector<Category>& rung_categories();
-/// The kinds of defects, in the order of vtkSurfaceDefects.
+/// The types of defects, in the order of vtkSurfaceDefects.
 const std::vector<Category>& defect_categories();
 
-/// Local extrema, minima before maxima: sky blue and vermilion, which every eye tells apart.
+/// Local extrema, minima before maxima: sky blue and vermilion, which color-blind viewers can
+/// distinguish.
 const std::vector<Category>& extremum_categories();
-/// Colours of handles that differ: those that vtkWeightedColors gives to handles without one, their
-/// lighter ones, their darker ones.
+/// Number of distinct handle colors: those that vtkWeightedColors gives to handles without a color,
+/// their lighter variants and their darker variants.
 constexpr std::size_t handle_colours = 24;
-/// The colour of the handle of a column; after the last comes the first again.
+/// Return the color of the handle of a column. After the last color, the first is used again.
 Rgb handle_colour(std::size_t column);
-/// Handles by their names, in the order of their columns.
+/// Return one category per handle name, in the order of the columns.
 std::vector<Category> handle_categories(const std::vector<std::string>& names);
 
-/// How many cells have each label. invalid_input when there is no such cell array or a value is
-/// none of the labels.
+/// Count the cells of each label. Return invalid_input if the cell array `Label` is missing or has
+/// a value that is not a label.
 Status count_labels(vtkDataSet* tets, std::vector<Category>& categories);
-/// All tets as one rung, by the field data `Method`. invalid_input when there is none.
+/// Count all tets as one rung (method), the one in the field data `Method`. Return invalid_input if
+/// `Method` is missing.
 Status count_rung(vtkDataSet* tets, std::vector<Category>& categories);
 
-/// Whether a dataset shows defects, as vtkSurfaceDefects gives them.
+/// Report whether a dataset is an output of vtkSurfaceDefects.
 bool is_defect_data(vtkDataSet* data);
-/// How many there are of each kind, as `bindpose info` counts them: cells, and of inward components
-/// the components.
+/// Count the defects of each type as `bindpose info` does: cells, but components for inward
+/// components.
 void count_defects(vtkPolyData* defects, std::vector<Category>& categories);
 
-/// A legend and table of the categories that occur, from below in their order: the i-th of them has
-/// the value i + 0.5. Texts are name and count.
+/// Return a legend and a lookup table of the categories that occur, in their order from the bottom.
+/// The i-th of them has the value i + 0.5. Tick texts are name and count.
 ColourMap category_map(const std::vector<Category>& categories);
-/// The same for a legend of at most `most` lines, the last of which says how many more there are.
+/// Shorten the legend to at most `most` lines. The last line states how many more categories there
+/// are.
 ColourMap shortened(const ColourMap& map, int most);
-/// The table's value for each category that occurs, -1 for others.
+/// Return the table's value for each category that occurs, -1 for the other categories.
 std::vector<double> category_values(const std::vector<Category>& categories);
 
 } // namespace bindpose

@@ -1,5 +1,5 @@
-// Looks the array up by name in all tiles, the component by name or number, and takes one range
-// over all of them, so that equal colours mean equal numbers across a picture.
+// The array is found by name in all tiles, the component by name or number. One range covers all
+// tiles, so that equal colors mean equal numbers in the whole picture.
 #include "scene/colouring.h"
 
 #include "conversion.h"
@@ -88,12 +88,12 @@ bool is_weights_array(const std::string& name)
   return name == "Weights" || name == "RawWeights";
 }
 
-// Instead of the number of a component.
+// Special values for the number of a component.
 constexpr int tuple_length = -1;
 constexpr int no_component = -2;
 constexpr int tuple_sum = -3;
 
-// Number of the component that is asked for, or one of these.
+// Return the number of the requested component, or one of the special values.
 int find_component(vtkDataArray* array, const std::string& component)
 {
   const int count = array->GetNumberOfComponents();
@@ -153,7 +153,7 @@ std::string component_words(vtkDataArray* array)
 
 namespace
 {
-// Beyond a regular tet's smallest (and largest) dihedral angle no tet's smallest one can be.
+// A tet's smallest dihedral angle is at most that of the regular tet, in degrees.
 constexpr double regular_angle = 70.52877936550931;
 
 bool names_tets(ColourBy by)
@@ -166,7 +166,7 @@ std::string word_of(ColourBy by)
   return by == ColourBy::label ? "label" : by == ColourBy::quality ? "quality" : "rung";
 }
 
-// Quality, labels and rungs: what tets have, whatever their arrays.
+// Return quality, labels or rungs, which tets have independently of their arrays.
 vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Colouring& colouring)
 {
   TetInput tets;
@@ -232,8 +232,8 @@ std::vector<std::string> handle_names(vtkDataArray* weights)
   return names;
 }
 
-// For each cell the column with the largest sum over the cell's points; -1 where no weight is above
-// 0. Null without weights.
+// Return for each cell the column with the largest sum over the cell's points, or -1 if no weight
+// is above 0. Return null without weights.
 vtkSmartPointer<vtkDoubleArray> strongest_columns(vtkDataSet* data)
 {
   const FoundArray found = find_array(data, "Weights");
@@ -262,7 +262,7 @@ vtkSmartPointer<vtkDoubleArray> strongest_columns(vtkDataSet* data)
   return strongest;
 }
 
-/// Takes numbers of categories for what the table has for them; negative ones have no colour.
+/// Replace category numbers by their values in the table. Negative numbers have no color.
 void look_up(vtkDoubleArray* numbers, const std::vector<double>& table)
 {
   for (vtkIdType i = 0; i < numbers->GetNumberOfValues(); ++i)
@@ -274,7 +274,7 @@ void look_up(vtkDoubleArray* numbers, const std::vector<double>& table)
   }
 }
 
-// The same as the table's values.
+// Return the table's value of the strongest column of each cell.
 vtkSmartPointer<vtkDoubleArray> handle_values(vtkDataSet* data, const Colouring& colouring)
 {
   const auto columns = strongest_columns(data);
@@ -282,7 +282,8 @@ vtkSmartPointer<vtkDoubleArray> handle_values(vtkDataSet* data, const Colouring&
   {
     return nullptr;
   }
-  // Tiles may hold weights of other handles: names count, not columns.
+  // Tiles may have weights of different handles. Handles are therefore matched by name, not by
+  // column.
   const std::vector<std::string> names = handle_names(find_array(data, "Weights").array);
   const std::vector<double> shown = category_values(colouring.categories);
   std::vector<double> values;
@@ -350,7 +351,7 @@ Status choose_handle_colouring(
   return {};
 }
 
-// The same of clusters.
+// Return the table's value of the cluster of each cell.
 vtkSmartPointer<vtkDoubleArray> cluster_values(vtkDataSet* data, const Colouring& colouring)
 {
   const auto values = clusters_of_cells(data);
@@ -383,12 +384,12 @@ Status choose_cluster_colouring(
   colouring.categories = cluster_categories(datasets);
   colouring.kind = Colouring::Kind::other;
   colouring.map = category_map(colouring.categories);
-  colouring.map.ticks.clear(); // they have no names
+  colouring.map.ticks.clear(); // clusters have no names
   colouring.map.texts.clear();
   return {};
 }
 
-// Bands of a tenth, or the same range without bands, and the isolines between.
+// Choose bands of 0.1, or the same range without bands, and the isolines between the bands.
 void choose_weight_map(
   const PictureOptions& options, double lower, double upper, Colouring& colouring)
 {
@@ -402,7 +403,8 @@ void choose_weight_map(
   }
   else if (lower < -1e-6 || upper > 1.0 + 1e-6)
   {
-    // Unconstrained weights leave [0, 1]; the bands stay tenths while they can be told apart.
+    // Unconstrained weights leave [0, 1]. The bands stay at 0.1 while they can be distinguished, at
+    // most 40.
     from = std::floor(10.0 * lower) / 10.0;
     to = std::ceil(10.0 * upper) / 10.0;
     bands = std::min(std::round(10.0 * (to - from)), 40.0);
@@ -410,13 +412,13 @@ void choose_weight_map(
   colouring.map = !options.bands ? sequential_map(from, to, 0)
     : from == 0.0 && to == 1.0   ? weight_map()
                                  : sequential_map(from, to, static_cast<int>(bands));
-  for (int i = 1; i < static_cast<int>(bands); ++i) // the ends of the scale are no level
+  for (int i = 1; i < static_cast<int>(bands); ++i) // no isoline at the ends of the scale
   {
     colouring.isolines.push_back(from + (to - from) * i / bands);
   }
 }
 
-// What is subtracted fits a tile that has the array.
+// Check that the subtracted dataset fits a tile that has the array.
 Status check_minus(const FoundArray& found, const Colouring& colouring)
 {
   const FoundArray other = find_array(colouring.minus, colouring.array);
@@ -441,7 +443,7 @@ Status check_minus(const FoundArray& found, const Colouring& colouring)
   return {};
 }
 
-// For what only tets have: the map, from all tiles that hold tets.
+// Choose the map of quantities that only tets have, from all tiles that contain tets.
 Status choose_tet_colouring(
   const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring)
 {

@@ -17,7 +17,7 @@ class vtkDoubleArray;
 namespace bindpose
 {
 
-/// What is coloured, and how; the same for all tiles.
+/// The colored quantity and its color map, common to all tiles.
 struct Colouring
 {
   enum class Kind
@@ -30,33 +30,35 @@ struct Colouring
   Kind kind = Kind::none;
   ColourBy by = ColourBy::array;
   std::string array;
-  std::string component; ///< as asked for
-  std::string component_name; ///< as shown: name or number, empty for single numbers and lengths
+  std::string component; ///< as requested
+  std::string component_name; ///< as shown: name or number; empty for arrays of one component and
+                              ///< for lengths
   ColourMap map;
   std::vector<Category> categories; ///< of labels, rungs and handles
-  std::vector<double> isolines; ///< of weights: the borders of the bands, tenths
-  vtkSmartPointer<vtkDataSet> minus; ///< whose numbers are subtracted; may be null
-  Report numbers; ///< of all tiles' values: of row sums and differences
+  std::vector<double> isolines; ///< of weights: the borders of the bands, multiples of 0.1
+  vtkSmartPointer<vtkDataSet> minus; ///< the dataset whose numbers are subtracted; may be null
+  Report numbers; ///< statistics over all tiles, of row sums and differences
 
   std::string legend_name() const;
 };
 
-/// Finds the array and component in the tiles and the range of their values.
+/// Find the array and the component in the tiles, and the range of their values.
 Status choose_colouring(
   const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring);
 
-/// The shown number as an array of its own, on the same points or cells; null when the data lacks
-/// the array or its component, or what only tets have.
+/// Return the shown number as a separate array on the same points or cells. Return null if the data
+/// lacks the array or its component, or is not tets where only tets have the number.
 vtkSmartPointer<vtkDoubleArray> colour_values(
   vtkDataSet* data, const Colouring& colouring, bool& on_points);
 
-/// Its name.
+/// Name of the array of colour_values().
 constexpr const char* colour_array_name = "bindpose.Colour";
 
-/// Lines where a point array of that name has these values; none without it.
+/// Return the lines where the array colour_array_name of the points has these values; no lines if
+/// the array is missing.
 vtkSmartPointer<vtkPolyData> contour_lines(vtkPolyData* data, const std::vector<double>& values);
 
-constexpr double isoline_width = 1.2; ///< of weights, pixels
+constexpr double isoline_width = 1.2; ///< of weights, in pixels
 
 } // namespace bindpose
 

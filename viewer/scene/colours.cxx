@@ -1,5 +1,5 @@
-// Maps are given by a few anchors and interpolated in CIE Lab, where equal steps look equal. The
-// anchors' lightness falls evenly from 92 to 22.
+// Maps are defined by a few anchors and interpolated in CIE Lab, where equal steps look equal. The
+// lightness of the anchors decreases evenly from 92 to 22.
 #include "scene/colours.h"
 
 #include "base/number_text.h"
@@ -34,7 +34,7 @@ Rgb mix(const Rgb& a, const Rgb& b, double t)
   return rgb;
 }
 
-// In Lab, so that the anchors' lightness is what is written here.
+// In Lab, so that the lightness of the anchors is explicit.
 const std::array<std::array<double, 3>, 6> sequential_anchors = { { { 92, 0, 6 }, { 78, -18, 16 },
   { 64, -24, -2 }, { 50, -15, -20 }, { 36, 6, -38 }, { 22, 22, -42 } } };
 
@@ -47,7 +47,7 @@ vtkSmartPointer<vtkLookupTable> make_table(double lower, double upper, int count
   return table;
 }
 
-// Five to seven round values over a range: steps of 1, 2 or 5 times a power of ten.
+// Return five to seven round values in a range, in steps of 1, 2 or 5 times a power of ten.
 std::vector<double> round_ticks(double lower, double upper)
 {
   const double rough = (upper - lower) / 5.0;
@@ -123,13 +123,14 @@ ColourMap sequential_map(double lower, double upper, int bands)
 {
   ColourMap map;
   map.lower = lower;
-  // A constant array still needs a range with a length.
+  // A constant array needs a range of nonzero length.
   map.upper = upper > lower ? upper : lower + std::max(1e-12, 1e-6 * std::abs(lower));
   const int count = bands > 0 ? bands : 256;
   map.table = make_table(map.lower, map.upper, count);
   for (int i = 0; i < count; ++i)
   {
-    // Bands take the colour of their middle, but the first and last reach the map's ends.
+    // Each band has the color of its center, but the first and last bands have the colors of the
+    // map's ends.
     const double t = count > 1 ? i / (count - 1.0) : 0.5;
     const Rgb c = sequential_colour(t);
     map.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
@@ -142,11 +143,12 @@ ColourMap sequential_map(double lower, double upper, int bands)
 ColourMap diverging_map(double lower, double upper, double centre)
 {
   ColourMap map;
-  const double least = std::max(1e-12, 1e-9 * std::abs(centre)); // where all values are the centre
+  // Half of the range if all values equal the center.
+  const double least = std::max(1e-12, 1e-9 * std::abs(centre));
   const bool constant = !(upper - lower > 2.0 * least);
   map.lower = constant ? centre - least : lower;
   map.upper = constant ? centre + least : upper;
-  constexpr int count = 257; // odd: the centre of an even range has an entry of its own
+  constexpr int count = 257; // odd, so that the center of a symmetric range has its own entry
   map.table = make_table(map.lower, map.upper, count);
   const double reach = std::max(map.upper - centre, centre - map.lower);
   for (int i = 0; i < count; ++i)
@@ -173,7 +175,7 @@ ColourMap winding_map()
   ColourMap map;
   map.lower = -1.0;
   map.upper = 2.0;
-  constexpr int count = 300; // steps of 0.01: -0.02 and 1.02 lie between two entries
+  constexpr int count = 300; // steps of 0.01, so that -0.02 and 1.02 are between two entries
   map.table = make_table(map.lower, map.upper, count);
   for (int i = 0; i < count; ++i)
   {

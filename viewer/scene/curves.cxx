@@ -22,13 +22,13 @@ namespace bindpose
 {
 namespace
 {
-constexpr int classes = 3; // counting once, twice, more often
+constexpr int classes = 3; // multiplicity 1, 2, and 3 or more
 constexpr double widths[classes] = { 1.0, 1.5, 2.0 };
 
 vtkSmartPointer<vtkPolyData> lines_of_class(vtkPolyData* data, int wanted)
 {
   vtkDataArray* multiplicity = data->GetCellData()->GetArray("Multiplicity");
-  const vtkIdType first = data->GetNumberOfVerts(); // cells are numbered vertices first
+  const vtkIdType first = data->GetNumberOfVerts(); // cells are numbered starting with vertices
   vtkNew<vtkCellArray> lines;
   vtkNew<vtkIdList> ids;
   for (vtkIdType line = 0; line < data->GetNumberOfLines(); ++line)
@@ -96,8 +96,8 @@ std::vector<vtkSmartPointer<vtkActor>> make_curves(
     {
       continue;
     }
-    // Edges become polylines, whose tubes have no gaps at their joints; a tube stops at a doubled
-    // point.
+    // Join edges to polylines, whose tubes have no gaps at their joints. Points are merged first,
+    // because a tube ends at a doubled point.
     vtkNew<vtkCleanPolyData> clean;
     clean->SetInputData(lines);
     clean->ConvertLinesToPointsOff();
@@ -118,7 +118,7 @@ std::vector<vtkSmartPointer<vtkActor>> make_curves(
     tube->GetProperty()->SetSpecular(0.15);
     tube->GetProperty()->SetSpecularPower(20.0);
     actors.push_back(tube);
-    // Far nearer than it is, as depth goes: before everything else.
+    // The depth offset draws the faint lines in front of everything else.
     const auto faint = make_actor(strips->GetOutput());
     faint->GetProperty()->LightingOff();
     faint->GetProperty()->SetOpacity(0.35);

@@ -12,16 +12,17 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Whether a dataset is nothing but curves: lines without faces that are no handles. Two-point
-/// lines are bones unless the cell array Multiplicity says that they are a surface's boundary.
+/// Report whether a dataset consists only of curves: lines without faces that are not handles.
+/// Lines of two points are bones unless the cell array Multiplicity marks them as the boundary of a
+/// surface.
 bool is_curve_data(vtkDataSet* data);
 
-/// The lines of a polydata as round tubes, and faintly where something stands before them.
-/// With the cell array Multiplicity (how often a surface ends there) those that count twice are
-/// 1.5 times as wide, three times and more 2 times; those that count 0 times are left out.
-/// Empty without lines.
-/// @param radius  of the tubes, world units
-/// @param line_width  of the faint lines, pixels
+/// Return actors that show the lines of a polydata as round tubes, and faintly where something
+/// hides them. The cell array Multiplicity (how often a surface ends at a line) sets the width:
+/// factor 1.5 for 2, factor 2 for 3 and more; lines with 0 are left out. The result is empty if
+/// there are no lines.
+/// @param radius  radius of the tubes, world units
+/// @param line_width  width of the faint lines, pixels
 std::vector<vtkSmartPointer<vtkActor>> make_curves(
   vtkPolyData* data, double radius, double line_width);
 

@@ -19,7 +19,7 @@ namespace bindpose
 {
 namespace
 {
-/// One cell array of the defects, cells coloured by kind.
+/// Return an actor for one cell array of the defects, with cells colored by type.
 vtkSmartPointer<vtkActor> make_actor(
   vtkPolyData* defects, vtkCellArray* cells, vtkIdType first, vtkPolyData* part)
 {
@@ -61,7 +61,7 @@ std::vector<vtkSmartPointer<vtkActor>> make_defects(vtkPolyData* defects, double
     vtkNew<vtkPolyData> part;
     part->SetPolys(defects->GetPolys());
     const auto faces = make_actor(defects, defects->GetPolys(), verts + lines, part);
-    // Lit from all sides alike: the colour names the defect.
+    // Mostly ambient light, because the color identifies the defect.
     faces->GetProperty()->SetInterpolationToFlat();
     faces->GetProperty()->SetAmbient(0.45);
     faces->GetProperty()->SetDiffuse(0.55);
@@ -86,7 +86,8 @@ std::vector<vtkSmartPointer<vtkActor>> make_defects(vtkPolyData* defects, double
       property->SetPointSize(static_cast<float>(3.0 * line_width));
       property->SetRenderPointsAsSpheres(dots); // round
       property->SetOpacity(hidden ? 0.35 : 1.0);
-      // Far nearer than it is, as depth goes, or just before the surface that it lies in.
+      // The depth offset draws in front of everything else, or just in front of the surface that
+      // contains the defect.
       const double nearer = hidden ? -66000.0 : -8.0;
       actor->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, nearer);
       actor->GetMapper()->SetRelativeCoincidentTopologyPointOffsetParameter(nearer);

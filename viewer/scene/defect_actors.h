@@ -11,10 +11,10 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Actors for the output of vtkSurfaceDefects, in the colours of defect_categories(): triangles as
-/// faces a little before the surface, edges as thick lines, vertices as dots. Edges and vertices
-/// shine faintly through what hides them.
-/// @param line_width  pixels of the edges' lines; dots are 3 times as wide
+/// Return actors for the output of vtkSurfaceDefects, in the colors of defect_categories():
+/// triangles as faces slightly in front of the surface, edges as thick lines, vertices as dots.
+/// Edges and vertices are faintly visible through surfaces that hide them.
+/// @param line_width  width of the edges in pixels; dots are 3 times as wide
 std::vector<vtkSmartPointer<vtkActor>> make_defects(vtkPolyData* defects, double line_width);
 
 } // namespace bindpose

@@ -1,8 +1,8 @@
-// libX11 is looked up at run time: VTK brings it when it needs it, and nothing else here does.
+// libX11 is looked up at run time: VTK loads it if it needs it, and nothing else here does.
 //
-// Xvfb starts over whenever its last client leaves, and refuses connections while it does so. The
-// connection that proves the display is therefore kept until the process ends, and a refused one
-// is tried again for a second.
+// Xvfb restarts when its last client disconnects, and refuses connections meanwhile. Therefore the
+// connection that proves the display is kept until the process ends, and a refused connection is
+// retried for one second.
 #include "scene/display.h"
 
 #include "vtkRenderingOpenGLConfigure.h"

@@ -4,13 +4,13 @@
 namespace bindpose
 {
 
-/// Whether this process can draw. VTK 9.1 on X11 ends the process, uncatchably, when no X server
-/// answers, even for offscreen pictures; ask first. Connects to $DISPLAY, about a millisecond, and
-/// up to a second when nobody answers; a connection that was made stays open, and later calls
-/// cost nothing. Not thread-safe.
+/// Report whether this process can draw. Call it before any rendering: without an X server, VTK 9.1
+/// on X11 terminates the process, even for offscreen pictures, and no handler can catch that. The
+/// function connects to $DISPLAY, which takes about 1 millisecond, or up to 1 second if no server
+/// answers. A successful connection stays open, so later calls cost nothing. Not thread-safe.
 bool can_render();
 
-/// One sentence for users that says what to do when can_render() is false.
+/// Return one sentence for users that says what to do when can_render() is false.
 const char* no_display_message();
 
 } // namespace bindpose

@@ -1,6 +1,6 @@
-// The mesh becomes a graph of its points, the kernel counts on it. A ball's rim is a larger ball of
-// which only the far side is drawn: it stands out from any colour below. Both lie before the
-// surface, on the line to the eye, or the surface would cover the rim.
+// The kernel finds the extrema on the graph of the mesh's points. The rim of a ball is a larger
+// ball of which only the far side is drawn: it stands out from any color below. Both are in front
+// of the surface, on the line to the eye; otherwise the surface would cover the rim.
 #include "scene/extrema.h"
 
 #include "conversion.h"

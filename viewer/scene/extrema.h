@@ -21,27 +21,27 @@ class vtkRenderer;
 namespace bindpose
 {
 
-/// Local extrema of the shown number on each tile's mesh, along the edges of its triangles or tets,
-/// with a persistence above notable_persistence; see interior_extrema(). Points whose `Weights` or
-/// `RawWeights` hold a 1 are handles, whose extrema are wanted: they are left out. Tiles without
-/// the array have none.
+/// Find the local extrema of the shown number on each tile's mesh, along the edges of its triangles
+/// or tets, with a persistence above notable_persistence; see interior_extrema(). Points with a 1
+/// in `Weights` or `RawWeights` are handles. Their extrema are intended and left out. Tiles without
+/// the array have no extrema.
 ///
-/// Handles inside a surface that is shown without its inside are none of its points: the columns'
-/// greatest values near them then count.
+/// If a surface is shown without its interior, handles inside it are not among its points. The
+/// largest values of their columns near them are then counted.
 ///
-/// invalid_input when no tile has the number at the points of a surface or of tets, or one of them
-/// is not finite.
+/// Return invalid_input if no tile has the number at the points of a surface or of tets, or if a
+/// number is not finite.
 Status find_extrema(const std::vector<Tile>& tiles, const Colouring& colouring,
   std::vector<std::vector<Extremum>>& extrema);
 
-/// extremum_categories() with the numbers of all tiles together.
+/// Return extremum_categories() with counts over all tiles.
 std::vector<Category> count_extrema(const std::vector<std::vector<Extremum>>& extrema);
 
-/// picture.extrema[].maxima, .minima and .drawn: a tile each.
+/// Report picture.extrema[].maxima, .minima and .drawn, one entry per tile.
 void report_extrema(const std::vector<std::vector<Extremum>>& extrema,
   const std::vector<std::int64_t>& drawn, Report& report);
 
-/// Balls with dark rims, maxima and minima in their colours.
+/// Balls with dark rims at extrema. Maxima and minima differ in color.
 class ExtremumBalls
 {
 public:
@@ -53,8 +53,8 @@ public:
     bool maximum = false;
   };
   void set(const std::vector<Place>& places, double radius);
-  /// Balls lie before their places, on the line to the eye, or a surface would cover the rims. To
-  /// be called when the eye has moved.
+  /// Move the balls in front of their extrema, on the line to the eye; otherwise a surface would
+  /// cover the rims. Call this after the eye has moved.
   void face(const Vec3& eye);
   const std::vector<vtkSmartPointer<vtkActor>>& actors() const { return this->actors_; }
 
@@ -66,9 +66,9 @@ private:
   std::vector<vtkSmartPointer<vtkActor>> actors_;
 };
 
-/// A ball with a dark rim at each extremum.
-/// @param seen  #V: 1 for points whose extrema are drawn; empty: all
-/// @return how many are drawn
+/// Add a ball with a dark rim at each extremum.
+/// @param seen  #V: 1 for points whose extrema are drawn; empty: all extrema are drawn
+/// @return number of extrema drawn
 Index add_extrema(vtkRenderer* renderer, vtkDataSet* data, const std::vector<Extremum>& extrema,
   const std::vector<char>& seen, double radius);
 

@@ -1,5 +1,5 @@
-// Drawn by hand from flat quads and lines of text: vtkScalarBarActor fits its text to the space,
-// so that no two pictures have the same type size.
+// Legends are drawn from flat quads and lines of text. vtkScalarBarActor scales its text to the
+// available space, so that the font size would differ between pictures.
 #include "scene/legend.h"
 
 #include "base/number_text.h"
@@ -42,13 +42,14 @@ std::string tick_text(const ColourMap& map, std::size_t tick)
   return text;
 }
 
-// Of bold letters, generous, since it only reserves space.
+// Return an upper estimate of the width of text in bold letters. It only reserves space.
 double text_width(const std::string& text, int font_size)
 {
   return 0.66 * font_size * static_cast<double>(text.size());
 }
 
-// Of words in plain letters: many letters are nearer to their mean width.
+// Return the estimated width of text in plain letters. In long texts, the widths of letters average
+// out.
 double words_width(const std::string& text, int font_size)
 {
   constexpr std::size_t many = 8;
@@ -137,7 +138,7 @@ void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& 
   const PixelBox& box, int font_size, const Rgb& ink)
 {
   const double name_height = 2.0 * font_size;
-  const double bottom = box.y + 0.5 * font_size; // half a tick's text sticks out
+  const double bottom = box.y + 0.5 * font_size; // half the height of a tick's text sticks out
   const double top = box.y + box.height - name_height;
   const double left = box.x;
   const double right = box.x + bar_width(font_size);
@@ -146,7 +147,7 @@ void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& 
     true, ink);
   if (map.ticks.empty())
   {
-    return; // nothing to tell but that
+    return; // without ticks only the name is drawn
   }
   FlatShapes shapes;
   shapes.add_box(left - line, bottom - line, right + line, top + line, ink);

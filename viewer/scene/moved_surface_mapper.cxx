@@ -1,5 +1,5 @@
-// vtkOpenGLPolyDataMapper rebuilds its index buffers whenever the data set is newer, and a data
-// set is as new as its points.
+// vtkOpenGLPolyDataMapper rebuilds its index buffers whenever the data set is newer than they are.
+// The modification time of a data set includes that of its points.
 #include "scene/moved_surface_mapper.h"
 
 #include "base/parallel.h"
@@ -42,7 +42,7 @@ std::vector<vtkMTimeType> state_of(MovedSurfaceMapper& mapper, vtkActor* actor)
   { add(object, object ? object->GetMTime() : 0); };
   vtkPolyData* surface = mapper.GetInput();
   add(surface, 0);
-  add_object(&mapper); // as new as its lookup table
+  add_object(&mapper); // includes the time of its lookup table
   add_object(actor->GetProperty());
   add_object(actor->GetTexture());
   for (vtkCellArray* cells :
@@ -69,7 +69,7 @@ std::vector<vtkMTimeType> state_of(MovedSurfaceMapper& mapper, vtkActor* actor)
   return state;
 }
 
-/// The same numbers as floats, converted on all cores.
+/// Convert the numbers to floats, on all cores.
 void copy_as_floats(vtkDoubleArray* from, vtkFloatArray* to)
 {
   to->SetNumberOfComponents(from->GetNumberOfComponents());
@@ -102,7 +102,8 @@ void MovedSurfaceMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* act
     this->drawn_.clear();
     if (this->CurrentInput)
     {
-      this->drawn_ = state_of(*this, actor); // afterwards: a first upload makes a lookup table
+      this->drawn_ = state_of(*this, actor); // afterward, because the first upload makes a lookup
+                                             // table
     }
   }
   this->microseconds_ =
@@ -128,13 +129,13 @@ void MovedSurfaceMapper::ComputeBounds()
     .GetBounds(this->Bounds);
 }
 
-/// Disable VTK's shift and scale where single precision is accurate without them.
+/// Disable VTK's shift and scale if single precision is accurate without them.
 void MovedSurfaceMapper::choose_shift()
 {
   double bounds[6];
   this->GetBounds(bounds);
   const vtkBoundingBox box(bounds);
-  constexpr double far = 1000.0; // diagonals: VTK's own limit
+  constexpr double far = 1000.0; // in diagonals: VTK's own limit
   double center[3] = { 0.0, 0.0, 0.0 };
   if (box.IsValid())
   {
@@ -142,7 +143,8 @@ void MovedSurfaceMapper::choose_shift()
   }
   const bool shifts = Eigen::Map<const Vec3>(center).norm() > far * box.GetDiagonalLength();
   using Buffer = vtkOpenGLVertexBufferObject;
-  // Once disabled, VTK keeps the last shift: first it must find that none is needed.
+  // If shifting is disabled, VTK keeps the last shift. So VTK must have found that no shift is
+  // needed before shifting is disabled.
   Buffer* buffer = this->VBOs->GetVBO("vertexMC");
   const bool shifted = buffer && buffer->GetCoordShiftAndScaleEnabled();
   const int method = shifts || shifted ? Buffer::AUTO_SHIFT_SCALE : Buffer::DISABLE_SHIFT_SCALE;

@@ -10,14 +10,15 @@
 namespace bindpose
 {
 
-/// A mapper for a surface whose points move in every frame while its triangles stay. Where only
-/// points and point normals have changed, it brings these to the graphics card and keeps
-/// everything else there; VTK's own mapper builds the list of triangles again as well, which takes
-/// most of the time. VTK also shifts and scales points on the way to the graphics card unless their
-/// bounding box has a diagonal near 1; here that is done only for points so far from the origin
-/// that single precision would show, and then the slow way is taken.
+/// A mapper for a surface whose points move in every frame while its triangles do not change. If
+/// only points and point normals have changed, it uploads only these to the graphics card. VTK's
+/// own mapper also rebuilds the list of triangles, which takes most of the time.
 ///
-/// Bounds are those of all points: a surface must use all of its points, as
+/// VTK also shifts and scales the points for the upload unless the diagonal of their bounding box
+/// is near 1. This mapper shifts points only if they are so far from the origin that rounding to
+/// single precision would be visible. Such an upload takes the slow path.
+///
+/// The bounds include all points. Therefore a surface must use all of its points, as
 /// ShadedSurface::polydata() does.
 class MovedSurfaceMapper : public vtkOpenGLPolyDataMapper
 {
@@ -25,9 +26,9 @@ public:
   static MovedSurfaceMapper* New();
   vtkTypeMacro(MovedSurfaceMapper, vtkOpenGLPolyDataMapper);
 
-  /// Time that the last upload took. Unit: microseconds.
+  /// Duration of the last upload in microseconds.
   double upload_microseconds() const { return this->microseconds_; }
-  /// Number of uploads until now that brought points and normals only.
+  /// Number of uploads so far that contained only points and normals.
   int moves() const { return this->moves_; }
 
 protected:
@@ -39,10 +40,10 @@ private:
   bool upload_moved();
   void choose_shift();
 
-  /// Addresses and times of all that an upload depends on but points and normals.
+  /// Addresses and times of all inputs of an upload except points and normals.
   std::vector<vtkMTimeType> drawn_;
-  vtkNew<vtkFloatArray> places_; ///< of the points, as the graphics card takes them
-  vtkMTimeType bounds_time_ = 0; ///< of the points that Bounds is of
+  vtkNew<vtkFloatArray> places_; ///< of the points, as uploaded to the graphics card
+  vtkMTimeType bounds_time_ = 0; ///< modification time of the points that Bounds was computed from
   double microseconds_ = 0.0;
   int moves_ = 0;
 };

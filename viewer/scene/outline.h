@@ -21,20 +21,20 @@ class ShadedSurface;
 
 constexpr double outline_width = 1.3; ///< pixels
 
-/// The silhouette of a shape that is bent and turned, drawn as lines on it: found anew for every
-/// picture whose shape or view is another one.
+/// The silhouette of a moving shape, drawn as lines on the shape. The lines are computed again for
+/// every picture in which the shape or the view has changed.
 class Outline
 {
 public:
-  /// In this renderer, as long as the object lives.
+  /// Draw in this renderer during the lifetime of the object.
   explicit Outline(vtkRenderer* renderer);
   ~Outline();
 
-  /// The shape that is drawn, which must live as long; null: none.
+  /// Set the shape, which must outlive its use here; null: no shape.
   void set_shape(const ShadedSurface* shape);
-  /// @param width  pixels of the window
+  /// @param width  in pixels of the window
   void show(bool shown, double width = 1.0);
-  /// Edges of the last picture.
+  /// Silhouette edges of the last picture.
   const std::vector<Silhouette::Edge>& edges() const { return this->edges_; }
 
 private:
@@ -43,12 +43,12 @@ private:
   vtkRenderer* renderer_;
   unsigned long observer_;
   const ShadedSurface* shape_ = nullptr;
-  std::unique_ptr<Silhouette> silhouette_; ///< made for the first picture
+  std::unique_ptr<Silhouette> silhouette_; ///< created for the first picture
   std::vector<Silhouette::Edge> edges_;
   vtkNew<vtkPolyData> lines_;
   vtkNew<vtkPolyDataMapper> mapper_;
   vtkNew<vtkActor> actor_;
-  vtkMTimeType shape_time_ = 0; ///< of what is drawn
+  vtkMTimeType shape_time_ = 0; ///< modification time of the drawn shape
   vtkMTimeType view_time_ = 0;
 };
 

@@ -1,6 +1,6 @@
-// Three layers: the background over the whole window; one renderer per tile, all with the same
-// camera; text and legend on top. Drawn larger than asked for, in tiles, and averaged down, because
-// the driver's antialiasing smooths neither isolines nor colour bands.
+// A picture has three layers: the background over the whole window; one renderer per tile, all with
+// the same camera; text and legend on top. It is drawn larger than requested, in tiles, and
+// averaged down, because the driver's antialiasing smooths neither isolines nor color bands.
 #include "scene/picture.h"
 
 #include "base/number_text.h"
@@ -33,7 +33,7 @@ namespace bindpose
 {
 namespace
 {
-/// A colour map with the name above it.
+/// A color map with its name.
 struct Legend
 {
   ColourMap map;
@@ -42,7 +42,7 @@ struct Legend
 
 struct Layout
 {
-  std::vector<PixelBox> tiles; // of the window
+  std::vector<PixelBox> tiles; // in the window
   std::vector<PixelBox> label_boxes; // below each tile
   std::vector<PixelBox> legends; // right of the tiles, one below the other
   int font = 12; // window pixels
@@ -149,7 +149,7 @@ bool has_tets(const Tile& tile)
   return vtkPointSet::SafeDownCast(tile.data) && to_tets(tile.data, tets).ok();
 }
 
-// Options that would do nothing.
+// Refuse options that would have no effect.
 Status check_tets(const std::vector<Tile>& tiles, const PictureOptions& options)
 {
   const bool tets = std::any_of(tiles.begin(), tiles.end(), has_tets);
@@ -172,7 +172,7 @@ Status check_tets(const std::vector<Tile>& tiles, const PictureOptions& options)
   return {};
 }
 
-// All defects of the picture; those of a context stand in every tile and count once.
+// Count all defects of the picture. A context that is common to all tiles counts once.
 std::vector<Category> all_defects(const std::vector<Tile>& tiles, bool& any)
 {
   std::vector<Category> categories = defect_categories();
@@ -199,8 +199,8 @@ std::vector<Category> all_defects(const std::vector<Tile>& tiles, bool& any)
   return categories;
 }
 
-// Whether what isosurfaces and a cloud are wanted of can give them; warns of levels that nothing
-// reaches.
+// Check whether the data allows the requested isosurfaces and volume rendering. Warn of levels that
+// no value reaches.
 Status check_volumes(
   const std::vector<Tile>& tiles, const PictureOptions& options, const Colouring& colouring)
 {
@@ -253,7 +253,7 @@ bool sorts_by_depth(const std::vector<Tile>& tiles, const PictureOptions& option
       [](const Tile& tile) { return !tile.context.empty() || tile.defects; });
 }
 
-// As many columns as make the tiles' shape most like the shapes' own.
+// Choose the number of columns that shows the shapes as large as possible.
 int choose_columns(int count, double width, double height, double shape_aspect)
 {
   int best = 1;
@@ -271,10 +271,10 @@ int choose_columns(int count, double width, double height, double shape_aspect)
   return best;
 }
 
-// Of the height, what lists of names may take.
+// Fraction of the height that lists of names may take.
 constexpr double list_share = 0.94;
 
-// What of it a legend shows: a bar, or a field for each of a few levels.
+// Return the map that a legend shows: a bar, or one field per isosurface level.
 ColourMap make_legend_map(const PictureOptions& options, const ColourMap& map)
 {
   if (options.isosurfaces.empty())
@@ -285,8 +285,8 @@ ColourMap make_legend_map(const PictureOptions& options, const ColourMap& map)
                         : level_map(map, options.isosurfaces);
 }
 
-// Boxes at the right border, each as high as it needs, together in the middle. Lists that do not
-// fit are shortened.
+// Place boxes at the right border, each as high as it needs, together at half height. Lists that do
+// not fit are shortened.
 int place_legends(std::vector<Legend>& legends, int width, int top, Layout& layout)
 {
   const int margin = layout.font;
@@ -304,7 +304,7 @@ int place_legends(std::vector<Legend>& legends, int width, int top, Layout& layo
   {
     PixelBox box;
     box.width = legend_width(legend.map, legend.name, layout.font);
-    // A bar of fields is as long as their texts need.
+    // A bar of fields is as long as the texts require.
     const double fields = legend.map.texts.empty() ? 17.5 : 1.7 * legend.map.texts.size();
     const double share = legend.map.downwards ? list_share / legends.size()
                                               : 0.62 / std::min<double>(legends.size(), 1.5);
@@ -512,7 +512,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetAlphaBitPlanes(1);
-  // The driver cannot sort see-through surfaces by depth with several samples a pixel.
+  // The driver cannot sort see-through surfaces by depth with several samples per pixel.
   window->SetMultiSamples(samples > 1 && !sorts_by_depth(tiles, options) ? 4 : 0);
   window->SetNumberOfLayers(3);
 
@@ -646,7 +646,7 @@ Status write_png(vtkImageData* image, const std::string& path, bool overwrite)
 Status render_to_png(const std::vector<Tile>& tiles, const PictureOptions& options,
   const std::string& path, bool overwrite)
 {
-  // Said before the work, not after it.
+  // Report a problem with the path before the work starts.
   Status status = AtomicFile::check(path, overwrite);
   vtkSmartPointer<vtkImageData> image;
   if (status.ok())

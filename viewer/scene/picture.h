@@ -19,39 +19,40 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// One dataset of a picture. How it is drawn follows from what it is:
-/// - surface: smooth shaded, sharp edges kept; arrays as colours; weights in bands with isolines;
-/// - tets: cut open along the middle, whole tets kept ("crinkle cut"), the laid-open sides in
-///   another colour with edges, or cut through by the plane, or all tets shrunk; arrays as colours
-///   on all sides;
-/// - defects (what vtkSurfaceDefects gives): each kind in its colour, with a legend;
-/// - image volume: one slice through the middle; a winding number also shows where it is 0.5; or,
-///   asked for, isosurfaces or the volume as a cloud instead of the slice;
+/// One dataset of a picture. Its type determines how it is drawn:
+/// - surface: smooth shading with sharp edges kept; arrays as colors; weights in bands with
+///   isolines;
+/// - tets: cut open in the middle with whole tets kept ("crinkle cut"), the exposed sides in
+///   another color with edges; or cut through by the plane; or all tets shrunk; arrays as colors on
+///   all sides;
+/// - defects (output of vtkSurfaceDefects): one color per type, with a legend;
+/// - image volume: one slice through the middle, and for a winding number also the surface where it
+///   is 0.5; on request isosurfaces or a volume rendering instead of the slice;
 /// - handles (a polydata with HandleKind or HandleName): drawn over everything else;
 /// - curves (lines of more than two points, or with the cell array Multiplicity): green tubes;
-/// - other lines and points: as such.
+/// - other lines and points: as lines and points.
 struct Tile
 {
   vtkSmartPointer<vtkDataSet> data;
   vtkSmartPointer<vtkPolyData> handles; ///< drawn on top; may be null
   std::string label; ///< below the tile; may be empty
-  /// Drawn along, uncoloured: surfaces and skins see-through, curves as tubes.
+  /// Additional data, drawn uncolored: surfaces and tets see-through, curves as tubes.
   std::vector<vtkSmartPointer<vtkDataSet>> context{};
-  /// Of vtkSurfaceDefects, drawn over a surface, which is then see-through; may be null.
+  /// Output of vtkSurfaceDefects, drawn over a surface, which is then see-through; may be null.
   vtkSmartPointer<vtkPolyData> defects{};
 };
 
-/// What gives the colours.
+/// Source of the colors.
 enum class ColourBy
 {
-  array, ///< the array of that name
+  array, ///< the array named by PictureOptions::array
   winding_number, ///< the array WindingNumber
   label, ///< tets: the decision in the cell array Label
   quality, ///< tets: the smallest dihedral angle, degrees
-  rung, ///< tets: the method that made them, by the field data Method
-  handle, ///< cells of meshes: the handle whose Weights are the greatest there, by name
+  rung, ///< tets: the method that made them, from the field data Method
+  handle, ///< cells of meshes: the handle with the largest Weights at the cell, by name
   row_sum, ///< the sum of each point's RawWeights
-  rotation_cluster, ///< cells: the rotation that most of their points follow (RotationCluster)
+  rotation_cluster, ///< cells: the rotation cluster of most of their points (RotationCluster)
   rotation ///< the angle of each point's Rotation
 };
 
@@ -65,7 +66,7 @@ struct Plane
 enum class Background
 {
   white,
-  gradient, ///< very light grey
+  gradient, ///< very light gray
   transparent
 };
 
@@ -73,94 +74,111 @@ struct PictureOptions
 {
   int width = 1200; ///< pixels, 16 to 8192
   int height = 900;
-  /// The same picture in so many times as many pixels each way, 1 to 8: lines, points, text and
-  /// legends grow along. See check_picture_size().
+  /// Factor on the number of pixels in each direction, 1 to 8, for the same picture: lines, points,
+  /// text and legends grow along. See check_picture_size().
   int scale = 1;
-  /// Point or cell array that gives the colours. Empty: none, but for an image volume
+  /// Point or cell array that gives the colors. Empty: no colors; for an image volume,
   /// WindingNumber or else its first array.
   std::string array;
-  ColourBy colour_by = ColourBy::array; ///< others than array want `array` to be empty
-  /// Subtracted from the shown number, point by point (cell by cell): a dataset with the same array
-  /// and component and as many points. Null: nothing.
+  ColourBy colour_by = ColourBy::array; ///< `array` must be empty for all values except
+                                        ///< ColourBy::array
+  /// Dataset whose numbers are subtracted from the shown number, point by point or cell by cell. It
+  /// needs the same array and component and the same number of points or cells. Null: no
+  /// subtraction.
   vtkSmartPointer<vtkDataSet> minus;
-  /// Local extrema of the shown number as balls; see find_extrema(). On tets, of all that there
-  /// are, those on the drawn sides are seen.
+  /// Show local extrema of the shown number as balls; see find_extrema(). On tets, only extrema on
+  /// the drawn sides are visible.
   bool extrema = false;
-  /// Name or number of the array's component. Empty: the first of Weights, the length of a
-  /// 3-vector, the first of others.
+  /// Name or number of the array's component. Empty: the first component of Weights, the length of
+  /// a 3-vector, the first component of other arrays.
   std::string component;
-  /// Values at the ends of the colours; lower > upper: from the data of all tiles (row sums and
-  /// differences as far to both sides of 1 and 0; weights 0 to 1,
-  /// winding numbers -1 to 2, quality 0 to a regular tet's 70.5 whatever the data).
+  /// Values at the ends of the colors. If lower > upper, the range comes from the data of all
+  /// tiles. Row sums and differences then extend equally far to both sides of 1 and 0. Some ranges
+  /// are fixed: weights 0 to 1 (wider if a weight is outside), winding numbers -1 to 2, quality 0
+  /// to 70.5 degrees, the angle of a regular tet.
   std::array<double, 2> range = { 0.0, -1.0 };
   View view;
   Background background = Background::white;
-  int columns = 0; ///< of tiles; 0: as square as the picture allows
+  int columns = 0; ///< number of columns of tiles; 0: chosen to show the shapes as large as
+                   ///< possible
   std::string title;
   bool legend = true;
-  bool bands = true; ///< of weights, a tenth each; else their colours change smoothly
-  bool isolines = true; ///< of weights, at the borders of the bands (steps of 0.1)
+  bool bands = true; ///< weights in bands of 0.1; else their colors change smoothly
+  bool isolines = true; ///< lines of weights at the borders of the bands (steps of 0.1)
   bool edges = false; ///< triangle edges of surfaces
-  bool handle_names = false; ///< beside each handle
-  bool cut = true; ///< tets: lay the inside open; else only the outside is seen
-  /// Tets are cut through by the plane, instead of staying whole where their centre lies behind it.
+  bool handle_names = false; ///< draw the name next to each handle
+  bool cut = true; ///< tets: expose the interior; else only the outside is visible
+  /// The plane cuts through tets. Otherwise a tet is whole, and shown if its center is behind the
+  /// plane.
   bool slice = false;
-  /// Where cuts and slices lie along the view's depth axis: 0 at its lower end, 1 at its upper.
-  /// What lies towards the camera is taken away.
+  /// Position of cuts and slices along the view's depth axis: 0 at its lower end, 1 at its upper
+  /// end. The part toward the camera is removed.
   double section = 0.5;
-  /// Cuts and slices by this plane instead.
+  /// Plane of cuts and slices, instead of `section`.
   std::optional<Plane> section_plane;
-  double shrink = 1.0; ///< size of each tet, of its own, in (0, 1]; below 1 they stand apart
-  /// Levels whose isosurfaces image volumes show instead of a slice, each in the map's colour.
-  /// Those with no other inside (the highest; the lowest when below 0) are solid, the others
-  /// see-through.
+  double shrink = 1.0; ///< size factor of each tet about its center, in (0, 1]; below 1 there are
+                       ///< gaps between tets
+  /// Levels of the isosurfaces that image volumes show instead of a slice, each in the map's color.
+  /// The innermost surfaces (the highest level; the lowest level if below 0) are opaque, the other
+  /// surfaces see-through.
   std::vector<double> isosurfaces;
-  /// Image volumes of winding numbers as a cloud instead of a slice; see make_winding_volume().
+  /// Show image volumes of winding numbers by volume rendering instead of a slice; see
+  /// make_winding_volume().
   bool volume = false;
-  /// Pixels are averages of this many samples in each direction, 1 to 4, each antialiased by the
-  /// graphics driver (4 samples). 1 switches all antialiasing off.
+  /// A pixel is the average of this many samples in each direction, 1 to 4. The graphics driver
+  /// antialiases each sample with 4 samples. 1 disables all antialiasing.
   int supersampling = 2;
-  /// Not drawn, but the view and the colours' range are theirs, too: the other frames of a moving
-  /// picture.
+  /// Tiles that are not drawn but are included in the view and the range of the colors: the other
+  /// frames of a moving picture.
   std::vector<Tile> around;
 };
 
-/// What a finished picture shows where, so that numbers can be checked against it.
+/// The position of the tiles in a finished picture, so that tests can check numbers against the
+/// picture.
 struct PictureGeometry
 {
   struct TileView
   {
     Eigen::Matrix4d world_to_pixel; ///< homogeneous, rows x y depth w
-    int x = 0, y = 0, width = 0, height = 0; ///< the tile, pixels, from the lower left corner
+    int x = 0, y = 0, width = 0, height = 0; ///< the tile, in pixels from the lower left corner
   };
   std::vector<TileView> tiles;
 
-  /// Pixel coordinates, from the lower left corner of the picture.
+  /// Return pixel coordinates from the lower left corner of the picture.
   Eigen::Vector2d project(std::size_t tile, const Vec3& point) const;
 };
 
-/// Draws all tiles, seen by one common camera and in one common colour map, into an image of
-/// unsigned char RGB, or RGBA for a transparent background (not premultiplied).
-/// invalid_input, one sentence, for: no tile or an empty one, an array or component that no tile
-/// has (naming those there are), options out of range, isosurfaces or a cloud of what
-/// check_volume() refuses, a section that leaves no tet, colours of tets where there are none,
-/// differences of unequal datasets, extrema of what is no point array of a mesh, a slice of tets
-/// that are shrunk or have no section. Warns of levels that are not reached. unavailable when there
-/// is no display. The same input gives the same picture on the same machine and driver.
+/// Draw all tiles with one common camera and one common color map into an image of unsigned char
+/// RGB, or RGBA for a transparent background (not premultiplied).
+///
+/// Return invalid_input with one sentence for:
+/// - no tile or an empty tile;
+/// - an array or component that no tile has (the sentence lists the existing ones);
+/// - options out of range;
+/// - isosurfaces or a volume rendering of data that check_volume() refuses;
+/// - a section that leaves no tet;
+/// - colors of tets if there are no tets;
+/// - differences of unequal datasets;
+/// - extrema of an array that is not a point array of a mesh;
+/// - a slice of tets that are shrunk or have no section.
+///
+/// Warn of levels that are not reached. Return unavailable if there is no display. The same input
+/// gives the same picture on the same machine and driver.
 Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& options,
   vtkSmartPointer<vtkImageData>& image, PictureGeometry* geometry = nullptr);
 
-/// The same into a PNG file, whole or not at all. invalid_input also when the file is there and
-/// may not be overwritten, or cannot be written. Report: picture.width, picture.height,
-/// picture.tiles, picture.array, picture.component, picture.range, picture.isosurfaces,
-/// picture.tets (drawn), picture.colours[].name and .count (labels, rungs, cells of handles),
-/// picture.defects[].name and .count, picture.extrema[].maxima, .minima and .drawn (a tile each),
-/// picture.difference.largest (absolute) and .rms, picture.row_sum.minimum and .maximum where they
-/// apply.
+/// Render into a PNG file. The file is written completely or not at all. Return invalid_input also
+/// if the file exists and must not be overwritten, or cannot be written.
+///
+/// Report where applicable: picture.width, picture.height, picture.tiles, picture.array,
+/// picture.component, picture.range, picture.isosurfaces, picture.tets (drawn),
+/// picture.colours[].name and .count (labels, rungs, cells of handles), picture.defects[].name and
+/// .count, picture.extrema[].maxima, .minima and .drawn (one entry per tile),
+/// picture.difference.largest (absolute) and .rms, picture.row_sum.minimum and .maximum.
 Status render_to_png(const std::vector<Tile>& tiles, const PictureOptions& options,
   const std::string& path, bool overwrite = false);
 
-/// Writes an image of render_to_image.
+/// Write an image of render_to_image.
 Status write_png(vtkImageData* image, const std::string& path, bool overwrite);
 
 } // namespace bindpose

@@ -11,12 +11,12 @@
 namespace bindpose
 {
 
-/// By its ending: png, jpg, jpeg, tif, tiff or bmp.
+/// Report whether the file name's extension is png, jpg, jpeg, tif, tiff or bmp.
 bool is_picture_file(const std::string& path);
 
-/// Reads a picture; its first line is on top, at the largest y. PNG: red, green, blue and, when the
-/// file has any, alpha, in bytes; the others as VTK's readers give them. invalid_input: what is not
-/// there, is broken or of another kind.
+/// Read a picture. Its top line is at the largest y. A PNG file gives red, green, blue and, if the
+/// file has it, alpha, in bytes. Other formats give the data of VTK's readers. Return invalid_input
+/// if the file is missing, damaged or in another format.
 Status read_picture(const std::string& path, vtkSmartPointer<vtkImageData>& image);
 
 } // namespace bindpose

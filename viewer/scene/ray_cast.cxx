@@ -1,6 +1,6 @@
-// Seen along the ray a triangle is met when the origin lies in it: three signs of areas. Triangles
-// that share an edge compute its area from the same numbers, with the other sign, so that one of
-// the two has it.
+// In the coordinates of the ray, a triangle is hit if it contains the origin, which the signs of
+// three areas decide. Triangles that share an edge compute its area from the same numbers with
+// opposite signs, so that at least one of them is hit.
 #include "scene/ray_cast.h"
 
 #include <algorithm>
@@ -11,13 +11,13 @@ namespace bindpose
 {
 namespace
 {
-/// Twice the area of the origin and two points.
+/// Return twice the signed area of the triangle of the origin and two points.
 double area(const double* a, const double* b)
 {
   return a[0] * b[1] - a[1] * b[0];
 }
 
-/// Whether a triangle of seen points is met, and where.
+/// Report whether the ray hits a triangle of transformed points, and where.
 bool meets(const double* a, const double* b, const double* c, Vec3& shares, double& distance)
 {
   Vec3 areas;
@@ -91,7 +91,7 @@ bool first_tet(const SightRay& ray, PointsView points, TetsView tets,
     };
     if (beside(0) || beside(1))
     {
-      continue; // what is drawn smaller lies within
+      continue; // the shrunk tet is within the tet
     }
     Eigen::Matrix<double, 3, 4> own;
     for (int k = 0; k < 4; ++k)

@@ -1,5 +1,5 @@
-// Clusters are graph-coloured greedily in the order of their numbers, each beginning to look for a
-// free colour at its own number, so that all colours are used about equally often.
+// Clusters are graph-colored greedily in the order of their numbers. The search for a free color
+// begins at the cluster's own number, so that all colors are used about equally often.
 #include "scene/rotation_colours.h"
 
 #include "base/most_frequent.h"
@@ -25,8 +25,9 @@ vtkDataArray* cluster_array(vtkDataSet* data)
   return data ? data->GetPointData()->GetArray("RotationCluster") : nullptr;
 }
 
-/// Tells each cell in turn the cluster that most of its points follow, the lowest of equals, and
-/// those of all its points, ascending; -1 and nothing for a cell whose points follow none.
+/// Call `each` for every cell with the cell, the cluster of most of its points (the lowest if
+/// several are equally frequent), and the clusters of all its points in ascending order. A cell
+/// without a cluster gets -1 and an empty list.
 template <typename Cell>
 void for_each_cell(vtkDataSet* data, const Cell& each)
 {
@@ -52,7 +53,8 @@ void for_each_cell(vtkDataSet* data, const Cell& each)
 
 using Pairs = std::set<std::pair<int, int>>; // higher, lower
 
-/// A colour of handles for each cluster, another one than those of the lower that it touches.
+/// Assign a handle color to each cluster. It differs from those of the lower clusters that it
+/// touches.
 std::vector<std::size_t> deal_colours(std::size_t clusters, const Pairs& touching)
 {
   std::vector<std::size_t> colours;

@@ -13,20 +13,22 @@ class vtkDoubleArray;
 namespace bindpose
 {
 
-/// invalid_input when no dataset has the point array RotationCluster, or one has a value that is no
-/// number of a cluster: -1 (none), 0, 1, … and no more than there are points and cells.
+/// Check the point array RotationCluster. Return invalid_input if no dataset has the array, or if a
+/// value is not -1 (no cluster) or a cluster number 0, 1, … below the number of points plus cells.
 Status check_clusters(const std::vector<vtkDataSet*>& datasets);
 
-/// For each cell the cluster that most of its points follow by the point array RotationCluster (the
-/// lowest of equals), -1 where they follow none. Null without that array. Checked before.
+/// Return for each cell the cluster of most of its points (the lowest if several are equally
+/// frequent), or -1 if no point has a cluster. Return null without the point array RotationCluster.
+/// The data must have passed check_clusters().
 vtkSmartPointer<vtkDoubleArray> clusters_of_cells(vtkDataSet* data);
 
-/// The clusters of all these datasets by their numbers, and how many cells follow them. The colours
-/// are those of handles, dealt out such that clusters that touch differ. Checked before.
+/// Return the clusters of all datasets by number, with the count of their cells. The colors are
+/// those of handles, assigned such that clusters that touch differ. The datasets must have passed
+/// check_clusters().
 std::vector<Category> cluster_categories(const std::vector<vtkDataSet*>& datasets);
 
-/// Where a scale of angles ends that holds these degrees: at a round angle, so that it stays where
-/// it is while a shape is bent.
+/// Return the upper end of a scale of angles that contains `largest` degrees. It is a round angle,
+/// so that it rarely changes while a shape is bent.
 double angle_scale(double largest);
 
 } // namespace bindpose

@@ -9,30 +9,30 @@
 namespace bindpose
 {
 
-/// The frames of a sequence: files and when they are.
+/// The frames of a sequence: files and times.
 struct Sequence
 {
   std::vector<std::string> files;
-  std::vector<double> times; ///< seconds, one a file
+  std::vector<double> times; ///< seconds, one per file
 };
 
-/// OUT_0007.vtp for OUT.vtp: one frame of a sequence.
+/// Return the file of one frame of a sequence: OUT_0007.vtp for OUT.vtp.
 std::string numbered_file(const std::string& path, int frame);
-/// OUT.pvd for OUT.vtp: the collection beside them.
+/// Return the collection file next to the frames: OUT.pvd for OUT.vtp.
 std::string collection_file(const std::string& path);
 
-/// ParaView's collection (.pvd) of files that stand beside it.
+/// Return the text of ParaView's collection (.pvd) of files in the same folder.
 std::string format_collection(const std::vector<std::string>& files, double frames_per_second);
 
-/// Reads a collection; its files' names are taken from its folder on, in the order of their times.
-/// invalid_input: what is no collection, or one without a file or with times that are no numbers.
+/// Read a collection. File names are relative to its folder; files are sorted by time. Return
+/// invalid_input if the file is not a collection, contains no file name, or has a time that is not
+/// a number.
 Status read_collection(const std::string& path, Sequence& sequence);
 
-/// The number of frames a second, 24 where times do not tell.
+/// Return the number of frames per second; 24 if the times do not determine it.
 double frames_per_second(const Sequence& sequence);
 
-/// Which of `count` things to take when there is place for `most`: evenly, first and last among
-/// them.
+/// Choose at most `most` of `count` items, evenly spaced, including the first and the last.
 std::vector<std::size_t> evenly(std::size_t count, std::size_t most);
 
 } // namespace bindpose

@@ -1,7 +1,7 @@
-// vtkPolyDataNormals decides where to part vertices; id arrays that it carries along tell which
-// input point each display point is, and of which input cell each triangle. Normals are then sums
-// of triangle normals weighted by area: each point gathers those of its triangles, in their order,
-// so that all cores may work at once and the bits are those of one.
+// vtkPolyDataNormals decides where to split vertices. Id arrays that it passes through give the
+// input point of each drawn point and the input cell of each triangle. Normals are then sums of
+// triangle normals weighted by area. Each point sums over its own triangles in a fixed order, so
+// that any number of cores gives the same bits.
 #include "scene/shaded_surface.h"
 
 #include "base/parallel.h"
@@ -42,7 +42,7 @@ vtkSmartPointer<vtkIdTypeArray> make_ids(vtkIdType count)
   return ids;
 }
 
-/// What has become of the ids.
+/// Return the id array that a filter passed through.
 std::vector<Index> carried_ids(vtkDataSetAttributes* data, vtkIdType count)
 {
   std::vector<Index> result(static_cast<std::size_t>(count));
@@ -53,7 +53,7 @@ std::vector<Index> carried_ids(vtkDataSetAttributes* data, vtkIdType count)
   return result;
 }
 
-/// All arrays of one, the tuples with these ids in their order.
+/// Copy all arrays of `from`: the tuples with these ids, in this order.
 void gather(vtkDataSetAttributes* from, const std::vector<Index>& ids, vtkDataSetAttributes* to)
 {
   bool all = static_cast<vtkIdType>(ids.size()) == from->GetNumberOfTuples();
@@ -139,7 +139,7 @@ void ShadedSurface::take(vtkPolyData* surface)
   vtkPointData* data = this->display_->GetPointData();
   gather(surface->GetPointData(), this->input_points_, data);
   gather(surface->GetCellData(), this->input_cells_, this->display_->GetCellData());
-  data->SetNormals(nullptr); // ours follow the shape; a file's do not
+  data->SetNormals(nullptr); // our normals follow the shape, those of a file do not
   data->SetNormals(this->normals_);
   this->move(to_points(surface).view());
 }
@@ -166,7 +166,7 @@ void ShadedSurface::move(PointsView points)
   this->display_->Modified();
 }
 
-/// So that bounds are those of what is drawn.
+/// Remove unused points, so that the bounds are those of the drawn points.
 void ShadedSurface::drop_unused_points()
 {
   std::vector<Index> kept(this->input_points_.size(), -1);

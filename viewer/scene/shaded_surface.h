@@ -15,36 +15,37 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// A surface as it is drawn: triangles, smooth normals within patches, vertices doubled along
-/// sharp edges so that these stay sharp. Where an edge is sharp is decided once, in the shape
-/// given; moving the vertices then costs one pass over triangles and vertices, so that a shape
-/// can be bent at mouse rate.
+/// A surface prepared for drawing: triangles, smooth normals within patches, and vertices doubled
+/// along sharp edges so that these edges stay sharp. Sharp edges are determined once, in the
+/// initial shape. Moving the vertices then costs one pass over triangles and vertices, so that a
+/// shape can be bent at mouse rate.
 ///
-/// Polygons are triangulated; vertices and lines are left out. Triangles are not reoriented:
-/// lighting is two-sided, and neighbours that face opposite ways are parted by a sharp edge.
+/// Polygons are triangulated; vertex and line cells are left out. Triangles are not reoriented:
+/// lighting is two-sided, and neighbors with opposite orientation are separated by a sharp edge.
 class ShadedSurface
 {
 public:
-  /// @param feature_angle  degrees between the normals of two triangles from which on their
-  ///   common edge is drawn sharp; in (0, 180]
+  /// @param feature_angle  angle in degrees between the normals of two triangles at or above which
+  ///   their common edge is drawn sharp; in (0, 180]
   explicit ShadedSurface(vtkPolyData* surface, double feature_angle = 50.0);
 
-  /// Whether another surface has the same points and cells, so that this one may carry its arrays.
+  /// Report whether another surface has the same points and cells, so that this object can use its
+  /// arrays.
   bool is_of(vtkPolyData* surface) const;
-  /// Goes back to where that surface's points are, with its point and cell arrays in place of those
-  /// carried until now. It must be of it.
+  /// Reset the points to those of `surface`, and replace the point and cell arrays by those of
+  /// `surface`. is_of(surface) must be true.
   void take(vtkPolyData* surface);
 
-  /// What to draw: the points that triangles use, normals, and the input's point and cell arrays
-  /// carried along.
+  /// The surface to draw: the points that triangles use, normals, and the input's point and cell
+  /// arrays.
   vtkPolyData* polydata() const { return this->display_; }
-  /// For each point of polydata() the point of the input.
+  /// Point of the input for each point of polydata().
   const std::vector<Index>& input_points() const { return this->input_points_; }
-  /// Of points of polydata().
+  /// Triangles of points of polydata().
   TrianglesView triangles() const { return this->triangles_; }
 
-  /// New places for the input's points, #V x 3, in the input's order. O(#V + #F); marks
-  /// polydata() modified.
+  /// Set the positions of the input's points, #V x 3, in the input's order. The cost is O(#V + #F).
+  /// polydata() is marked as modified.
   void move(PointsView points);
 
 private:
@@ -52,18 +53,19 @@ private:
   void find_triangles_of_points();
   void update_normals();
 
-  vtkSmartPointer<vtkPolyData> input_; ///< its points and cells only
+  vtkSmartPointer<vtkPolyData> input_; ///< points and cells only
   vtkSmartPointer<vtkPolyData> display_;
   std::vector<Index> input_points_;
-  std::vector<Index> input_cells_; ///< of each triangle
+  std::vector<Index> input_cells_; ///< input cell of each triangle
   Triangles triangles_;
-  std::vector<Index> first_triangle_; ///< of each point in triangles_of_points_, and the end
+  std::vector<Index> first_triangle_; ///< start of each point's range in triangles_of_points_, and
+                                      ///< the end
   std::vector<Index> triangles_of_points_; ///< ascending for each point
   Points triangle_normals_; ///< scratch
-  vtkNew<vtkFloatArray> normals_; ///< of the points drawn
+  vtkNew<vtkFloatArray> normals_; ///< of the drawn points
 };
 
-/// The house's material: soft, with a slight gloss.
+/// Apply the material of surfaces in Bindpose: soft, with a slight gloss.
 void use_surface_material(vtkActor* actor);
 
 } // namespace bindpose

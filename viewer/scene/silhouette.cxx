@@ -1,4 +1,4 @@
-// Triangles are joined where their points are at the same place. Where more than two meet at an
+// Triangles are adjacent if their points are at the same position. If more than two meet at an
 // edge, each is compared with the next.
 #include "scene/silhouette.h"
 

@@ -9,41 +9,44 @@
 namespace bindpose
 {
 
-/// Who looks at a surface: from a place, or in a parallel view along a direction.
+/// The viewer of a surface: at a position, or in a parallel view along a direction.
 struct Eye
 {
   Vec3 place = Vec3::Zero();
-  Vec3 direction = -Vec3::UnitZ(); ///< of sight
+  Vec3 direction = -Vec3::UnitZ(); ///< viewing direction
   bool parallel = false;
 };
 
-/// Where a surface turns away from the eye: its edges between a triangle that faces the eye and one
-/// that does not, whichever way triangles are turned, and the edges of one triangle only. Which
-/// triangles meet is found once, the edges anew for every pose and view.
+/// Silhouette edges of a surface: edges between a triangle that faces the eye and a triangle that
+/// faces away, whatever the orientation of the triangles, and edges of only one triangle. The
+/// adjacency of triangles is computed once, the edges for every pose and view.
 class Silhouette
 {
 public:
-  /// Points at the same place are one, so that what is drawn may be parted along sharp edges.
-  /// Cost: a sort of the points and of the triangles' sides.
+  /// Build the adjacency. Points at the same position count as one, so that the drawn surface may
+  /// be split along sharp edges. The cost is a sort of the points and of the sides of the
+  /// triangles.
   /// @param points     #V x 3, at rest
   /// @param triangles  #F x 3, of these points
   Silhouette(PointsView points, TrianglesView triangles);
 
-  using Edge = std::array<Index, 2>; ///< points
-  /// Cost: one pass over triangles, one over edges, on all cores.
+  using Edge = std::array<Index, 2>; ///< point ids
+  /// Find the silhouette edges. The cost is one pass over triangles and one over edges, on all
+  /// cores.
   void find(PointsView points, const Eye& eye, std::vector<Edge>& edges);
 
 private:
-  struct Side // small: all of them are read for every frame
+  struct Side // small, because all of them are read for every frame
   {
     std::array<int, 2> points;
     int triangle;
-    int other; ///< -1: none
-    bool same_way; ///< both run along it in the same direction: one of them is turned over
+    int other; ///< triangle on the other side; -1 if there is none
+    bool same_way; ///< both triangles traverse it in the same direction, so their orientations
+                   ///< differ
   };
   TrianglesView triangles_;
   std::vector<Side> sides_;
-  std::vector<signed char> facing_; ///< scratch, of each triangle
+  std::vector<signed char> facing_; ///< scratch, per triangle
 };
 
 } // namespace bindpose

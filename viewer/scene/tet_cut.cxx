@@ -1,5 +1,5 @@
-// A side is seen when one of its two tets stays and the other does not. Sides are matched once, by
-// sorting them by their vertices; a new plane then costs one pass over centres and one over sides.
+// A side is visible if one of its two tets is kept and the other is not. Sides are matched once, by
+// sorting them by their vertices. A new plane then costs one pass over centers and one over sides.
 #include "scene/tet_cut.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace bindpose
 {
 namespace
 {
-// Side k lies opposite to vertex k, ordered to point away from it.
+// Side k is opposite vertex k and oriented to point away from it.
 constexpr int side[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
 } // namespace
 
@@ -36,7 +36,7 @@ TetCut::TetCut(PointsView points, TetsView tets)
   }
   std::sort(entries.begin(), entries.end(),
     [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.at < b.at; });
-  // Of each side the other tet; -1 where there is none, or where more than two share it.
+  // The other tet of each side; -1 if there is none, or if more than two tets share the side.
   std::vector<Index> other(entries.size(), -1);
   for (std::size_t i = 0, j = 0; i < entries.size(); i = j)
   {
@@ -54,7 +54,7 @@ TetCut::TetCut(PointsView points, TetsView tets)
     const auto t = static_cast<Index>(at / 4);
     if (other[at] < t && other[at] >= 0)
     {
-      continue; // it stands with that tet
+      continue; // the facet is stored with the other tet
     }
     const int* k = side[at % 4];
     this->facets_.push_back({ { tets(t, k[0]), tets(t, k[1]), tets(t, k[2]) }, t, other[at] });

@@ -9,13 +9,13 @@
 namespace bindpose
 {
 
-/// Tets that a plane lays open without cutting any ("crinkle cut"): those whose centre is not
-/// beyond the plane stay whole. Neighbours and centres are found once, so that a plane can be
+/// Tets that a plane exposes without cutting any ("crinkle cut"): tets whose center is not beyond
+/// the plane are kept whole. Neighbors and centers are computed once, so that a plane can be
 /// dragged.
 class TetCut
 {
 public:
-  /// Sides of tets, turned outwards, each with the tet that it belongs to.
+  /// Sides of tets, oriented outward, with the tet of each side.
   struct Sides
   {
     Triangles triangles; ///< #S x 3 vertex ids
@@ -23,30 +23,30 @@ public:
   };
 
   TetCut() = default;
-  /// O(#T log #T): 100,000 tets take 0.1 s.
+  /// Build the sides. The cost is O(#T log #T): 100,000 tets take 0.1 seconds.
   explicit TetCut(PointsView points, TetsView tets);
 
-  /// Takes the tets away whose centre lies on the side of the plane that the normal points to.
-  /// With keep_all() instead none is taken away, which is how it begins. 1 us a thousand tets.
+  /// Remove the tets whose center is on the side of the plane that the normal points to. keep_all()
+  /// keeps all tets, which is the initial state. The cost is 1 microsecond per 1000 tets.
   void keep_behind(const Vec3& origin, const Vec3& normal);
   void keep_all();
 
   Index kept_count() const { return this->kept_count_; }
-  /// #T: 1 for a tet that stays.
+  /// #T: 1 for a kept tet.
   const std::vector<char>& kept() const { return this->kept_; }
-  /// Sides of kept tets at the boundary of the whole, and those that the cut lays open.
+  /// Sides of kept tets on the boundary of the whole mesh, and sides that the cut exposes.
   const Sides& outside() const { return this->outside_; }
   const Sides& laid_open() const { return this->laid_open_; }
-  /// Smallest and largest place of a centre along a direction.
+  /// Return the smallest and largest coordinate of a center along a direction.
   std::array<double, 2> reach(const Vec3& direction) const;
 
 private:
-  /// A side with the one or two tets that it belongs to, turned outwards from the first.
+  /// A side with its one or two tets, oriented outward from the first.
   struct Facet
   {
     std::array<Index, 3> vertices;
     Index tet;
-    Index other; ///< -1 for none
+    Index other; ///< -1 if there is no second tet
   };
   void find_sides();
 
@@ -58,17 +58,17 @@ private:
   Sides laid_open_;
 };
 
-/// Tets apart from each other: four points a tet, moved towards the tet's centre.
+/// Tets with gaps between them: four points per tet, moved toward the tet's center.
 struct ShrunkTets
 {
   Points points; ///< 4 #kept x 3
-  Triangles triangles; ///< 4 #kept x 3, turned outwards
-  std::vector<Index> tets; ///< 4 #kept: of each triangle
-  std::vector<Index> vertices; ///< 4 #kept: of each point
+  Triangles triangles; ///< 4 #kept x 3, oriented outward
+  std::vector<Index> tets; ///< 4 #kept: tet of each triangle
+  std::vector<Index> vertices; ///< 4 #kept: input vertex of each point
 };
 
-/// @param factor  size of each tet, of its own, in (0, 1]
-/// @param kept  #T, 1 for the tets wanted
+/// @param factor  size factor of each tet about its center, in (0, 1]
+/// @param kept  #T, 1 for the tets to return
 ShrunkTets shrink_tets(
   PointsView points, TetsView tets, const std::vector<char>& kept, double factor);
 

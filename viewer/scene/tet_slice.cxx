@@ -1,4 +1,5 @@
-// VTK's filters cut; in tets a value is linear, so that a slice's bands and isolines are exact.
+// VTK's filters do the cutting. Values are linear in a tet, so the bands and isolines of a slice
+// are exact.
 #include "scene/tet_slice.h"
 
 #include "conversion.h"

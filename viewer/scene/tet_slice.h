@@ -15,17 +15,17 @@ namespace bindpose
 
 struct TetInput;
 
-/// Where a plane goes through tets: triangles that carry the tets' point arrays, linear between
-/// points, and cell arrays. Tets that the plane only touches from the side its normal points to
-/// have none. 100,000 tets take about 10 ms.
+/// Cut tets by a plane. The result is triangles with the tets' point arrays, interpolated linearly,
+/// and cell arrays. Tets that touch the plane only from the side that its normal points to give no
+/// triangles. 100,000 tets take about 10 milliseconds.
 vtkSmartPointer<vtkPolyData> slice_tets(
   vtkUnstructuredGrid* tets, const Vec3& origin, const Vec3& normal);
 
-/// The tets with corners on both sides of a plane, or on it and behind it.
+/// Return the tets with corners on both sides of a plane, or on the plane and behind it.
 std::vector<Index> tets_at_plane(const TetInput& tets, const Vec3& origin, const Vec3& normal);
 
-/// What of a surface lies on the side that the normal does not point to; triangles that the plane
-/// goes through are cut there, with their arrays.
+/// Return the part of a surface on the side that the normal does not point to. The plane cuts
+/// triangles that it crosses; their arrays are interpolated.
 vtkSmartPointer<vtkPolyData> part_behind(
   vtkPolyData* surface, const Vec3& origin, const Vec3& normal);
 

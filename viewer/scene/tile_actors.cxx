@@ -1,6 +1,6 @@
-// What each kind of dataset looks like. Surfaces of all kinds end in add_surface(): smooth or flat
-// triangles, coloured by one number a point or cell. Colours are looked up per pixel after the
-// number has been interpolated, so that bands and isolines agree.
+// The appearance of each type of dataset. All types of surfaces are drawn by add_surface(): smooth
+// or flat triangles, colored by one number per point or cell. Colors are looked up per pixel after
+// the number has been interpolated, so that bands and isolines agree.
 #include "scene/tile_actors.h"
 
 #include "conversion.h"
@@ -43,7 +43,7 @@ namespace bindpose
 {
 namespace
 {
-// A shallow copy that carries the shown number only.
+// Return a shallow copy with the shown number as its only array.
 template <typename Data>
 vtkSmartPointer<Data> with_colour_values(Data* data, const Colouring& colouring)
 {
@@ -99,7 +99,7 @@ vtkSmartPointer<vtkActor> add_actor(
   use_surface_material(actor);
   if (mapper->GetScalarVisibility())
   {
-    // Flatter light and less gloss: the colours are to be read.
+    // Flatter light and less gloss make the colors readable.
     actor->GetProperty()->SetAmbient(0.32);
     actor->GetProperty()->SetDiffuse(0.74);
     actor->GetProperty()->SetSpecular(0.04);
@@ -108,8 +108,8 @@ vtkSmartPointer<vtkActor> add_actor(
   return actor;
 }
 
-// Lines that lie in a surface must win against it; pushing the surface back does that without
-// moving anything visibly.
+// Draw the surface behind lines that are in it. The lines must win the depth test; pushing the
+// surface back does that without a visible shift.
 void push_back(vtkActor* actor)
 {
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
@@ -133,7 +133,7 @@ void add_lines(vtkRenderer* renderer, vtkPolyData* data, const Rgb& colour, doub
   renderer->AddActor(actor);
 }
 
-// The map's colours as they are.
+// Show the map's colors unchanged.
 void switch_off_light(vtkActor* actor)
 {
   actor->GetProperty()->LightingOff();
@@ -183,7 +183,7 @@ void add_flat(vtkRenderer* renderer, vtkPolyData* faces, const Colouring& colour
   use_edges(actor, palette::cut_edges, 0.7 * scale);
 }
 
-// The plane of cuts and slices.
+// Return the plane of cuts and slices.
 Plane section_of(const Box& box, const PictureOptions& options, const Frame& frame)
 {
   if (options.section_plane)
@@ -198,7 +198,8 @@ Plane section_of(const Box& box, const PictureOptions& options, const Frame& fra
 
 // ---- Tets --------------------------------------------------------------------------------------
 
-// Faces with the grid's points and the shown number; for a number per tet, owners say whose.
+// Return faces with the grid's points and the shown number. owners[f] is the tet of face f, for
+// numbers per tet.
 vtkSmartPointer<vtkPolyData> face_polydata(
   vtkUnstructuredGrid* grid, const Triangles& faces, const std::vector<Index>& owners)
 {
@@ -240,7 +241,8 @@ void add_shrunk(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
   add_flat(renderer, data, colouring, scale);
 }
 
-// The plane's cut with its numbers unlit, to be read, and the outside behind the plane.
+// Add the cut of the plane, unlit so that its colors are readable, and the outside behind the
+// plane.
 Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
   const Plane& plane, const PictureOptions& options, const Colouring& colouring, double scale,
   Index& shown, std::vector<char>& seen)
@@ -332,7 +334,7 @@ Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
 
 // ---- Volumes -----------------------------------------------------------------------------------
 
-// A plane of samples, or a cut by any plane.
+// Return a plane of samples, or a cut by the section plane.
 vtkSmartPointer<vtkPolyData> slice_faces(
   vtkImageData* image, const PictureOptions& options, const Frame& frame)
 {
@@ -382,7 +384,7 @@ void add_slice(vtkRenderer* renderer, vtkImageData* image, const PictureOptions&
   }
 }
 
-// Crossings of see-through surfaces are sorted by the graphics driver.
+// Let the graphics driver sort see-through surfaces by depth where they cross.
 void sort_by_depth(vtkRenderer* renderer)
 {
   renderer->SetUseDepthPeeling(true);
@@ -401,7 +403,7 @@ void add_isosurfaces(vtkRenderer* renderer, vtkImageData* image, const PictureOp
     const auto actor = add_actor(renderer, surface, Colouring());
     const Rgb colour = colour_of(colouring.map, level);
     actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
-    // A little darker than the map, so that its white, at 0.5, stands out from paper.
+    // Slightly darker than the map, so that its white at 0.5 stands out from a white background.
     actor->GetProperty()->SetAmbient(0.14);
     actor->GetProperty()->SetDiffuse(0.76);
     const bool innermost = level == *highest || (level == *lowest && level < 0.0);
@@ -421,7 +423,7 @@ void add_handles(
   vtkNew<vtkHandleSetRepresentation> representation;
   representation->SetHandles(handles);
   representation->SetRenderer(renderer);
-  // Balls of 1.2 % of the picture's shorter side read well at all sizes.
+  // Balls of 1.2 % of the picture's shorter side are readable at all sizes.
   const double pixels = std::clamp(0.012 * std::min(options.width, options.height), 3.0, 24.0);
   representation->SetPixelScale(scale * pixels / representation->GetPointSize());
   representation->SetShowLabels(options.handle_names);
@@ -442,7 +444,7 @@ void add_lines_and_points(
     {
       return;
     }
-    vtkNew<vtkCellArray> verts; // a cloud of points without cells
+    vtkNew<vtkCellArray> verts; // a point cloud without cells
     for (vtkIdType v = 0; v < copy->GetNumberOfPoints(); ++v)
     {
       verts->InsertNextCell(1, &v);
@@ -451,7 +453,7 @@ void add_lines_and_points(
   }
   if (data->GetNumberOfCells() != copy->GetNumberOfCells())
   {
-    copy->GetCellData()->Initialize(); // its values belong to other cells, too
+    copy->GetCellData()->Initialize(); // the values include those of the removed cells
   }
   const auto actor = add_actor(renderer, copy, colouring);
   actor->GetProperty()->SetLineWidth(static_cast<float>(2.0 * scale));
@@ -565,7 +567,8 @@ Points shown_points(
 
 namespace
 {
-// Of curves: 0.25 % of the picture's diagonal reads well, as lines do in a drawing.
+// Return the radius of curves' tubes. 0.25 % of the picture's diagonal is readable, like lines in a
+// drawing.
 double tube_radius(const Tile& tile, const PictureOptions& options, const Colouring& colouring)
 {
   return 0.0025 * bounding_box(shown_points(tile, options, colouring)).diagonal();
@@ -617,7 +620,8 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
   const Colouring& colouring, const std::vector<Extremum>& extrema, const Frame& frame,
   double scale, Drawn& shown)
 {
-  // Points whose extrema are drawn: all of a surface, of tets those on the drawn sides.
+  // Points whose extrema are drawn. Empty: all points of a surface. For tets, the points of the
+  // drawn sides.
   std::vector<char> seen;
   if (auto* image = vtkImageData::SafeDownCast(tile.data))
   {
@@ -654,7 +658,7 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
     const auto actor = add_surface(renderer, surface, options, colouring, scale);
     if (actor && tile.defects)
     {
-      actor->GetProperty()->SetOpacity(0.4); // most defects lie inside or behind
+      actor->GetProperty()->SetOpacity(0.4); // most defects are inside or behind
       sort_by_depth(renderer);
     }
     add_lines_and_points(renderer, surface, colouring, scale);
@@ -728,8 +732,8 @@ void add_lights(vtkRenderer* renderer)
   kit->SetHeadLightWarmth(0.5);
   kit->SetKeyToBackRatio(3.6);
   kit->AddLightsToRenderer(renderer);
-  // Counts for clouds only: rays on the processor take their ambient light from lights, surfaces
-  // have it of themselves.
+  // Only volume renderings use this ambient color: CPU ray casting takes the ambient light from
+  // lights, surfaces have their own.
   renderer->GetLights()->InitTraversal();
   vtkLight* first = renderer->GetLights()->GetNextItem();
   const double full = 1.0 / first->GetIntensity();

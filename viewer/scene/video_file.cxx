@@ -1,4 +1,4 @@
-// ffmpeg is a program of its own: it is found on the PATH, run on a folder of pictures, and killed
+// ffmpeg is a separate program. It is found on the PATH, run on a folder of pictures, and killed
 // when the user cancels.
 #include "scene/video_file.h"
 
@@ -14,19 +14,19 @@ namespace
 {
 constexpr double time_limit = 3600.0; // seconds
 
-/// What ffmpeg needs to know of a kind of file.
+/// Return the arguments of ffmpeg for a file format.
 std::vector<std::string> codec_of(const std::string& ending)
 {
   if (ending == "gif")
   {
-    // A palette of these very frames, not the common one of 256 colours.
+    // Use a palette of these frames, not the common one of 256 colors.
     return { "-vf", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse" };
   }
   if (ending == "apng")
   {
     return { "-plays", "0", "-f", "apng" };
   }
-  // Players take even sizes and a colour for each four pixels only.
+  // Players only support even sizes and one color per four pixels.
   const std::string even = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
   return ending == "webm" ? std::vector<std::string>{ "-vf", even, "-c:v", "libvpx-vp9", "-crf",
     "24", "-b:v", "0", "-pix_fmt", "yuv420p" }
@@ -63,7 +63,7 @@ Status write_video(const std::string& folder, double frames_per_second, const st
     folder + "/%06d.png" };
   const std::vector<std::string> codec = codec_of(file_extension(path));
   request.arguments.insert(request.arguments.end(), codec.begin(), codec.end());
-  request.arguments.push_back("file:" + path); // a name may have a colon
+  request.arguments.push_back("file:" + path); // the prefix allows a name with a colon
   request.time_limit = time_limit;
   std::string said;
   ChildEnd end;

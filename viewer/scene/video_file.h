@@ -9,17 +9,17 @@
 namespace bindpose
 {
 
-/// Endings of moving pictures, which ffmpeg makes.
+/// File name extensions of moving pictures, which ffmpeg writes.
 constexpr const char* video_extensions = "gif webm mp4 apng";
 
-/// unavailable, with the package to install, when there is no ffmpeg on the PATH.
+/// Return unavailable, with the package to install, if ffmpeg is not on the PATH.
 Status check_ffmpeg();
 
-/// The picture of frame k (from 0) in a folder of pictures.
+/// Return the picture of a frame (from 0) in a folder of pictures.
 std::string frame_file(const std::string& folder, int frame);
 
-/// Makes a moving picture of the pictures frame_file() in a folder. `path` is written to as it is:
-/// its ending is its kind.
+/// Make a moving picture from the pictures frame_file() in a folder. The result is written directly
+/// to `path`, whose extension determines the format.
 Status write_video(const std::string& folder, double frames_per_second, const std::string& path,
   ExecutionContext& context);
 

@@ -1,5 +1,5 @@
-// Isosurfaces and slices by flying edges. They walk the sample grid row by row, so that their time
-// is that of reading the samples: a level can be dragged.
+// Isosurfaces and slices use flying edges, which walk the sample grid row by row. Their time is
+// that of reading the samples, so that a level can be dragged.
 #include "scene/volume.h"
 
 #include "vtkCellArray.h"
@@ -20,7 +20,7 @@ namespace bindpose
 {
 namespace
 {
-// The image with nothing but this array: filters carry all arrays along.
+// Return the image with only this array, because filters pass all arrays through.
 vtkSmartPointer<vtkImageData> with_array_only(vtkImageData* image, const std::string& array)
 {
   auto copy = vtkSmartPointer<vtkImageData>::New();
@@ -122,7 +122,7 @@ vtkSmartPointer<vtkPolyData> slice(
 
 bool value_at(vtkImageData* image, const std::string& array, const Vec3& place, double& value)
 {
-  // On the border rounding must not decide.
+  // Clamp to the border, so that rounding does not decide there.
   double bounds[6];
   image->GetBounds(bounds);
   const double slack = 1e-6 * image->GetLength();

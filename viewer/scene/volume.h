@@ -16,30 +16,33 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Whether isosurfaces, slices and volume rendering can be made of this point array.
-/// invalid_input, one sentence, for: no image, an image one sample thick, no such point array
-/// (naming those there are), an array of several components, a value that is not finite.
+/// Check whether isosurfaces, slices and volume rendering can be made of this point array. Return
+/// invalid_input with one sentence for: no image, an image one sample thick, no such point array
+/// (the sentence lists the existing ones), an array of several components, a value that is not
+/// finite.
 /// Report: volume.samples, volume.minimum, volume.maximum.
 Status check_volume(vtkDataSet* data, const std::string& array);
 
-/// Where the array's value, linear between samples, is the level; with normals from the field's
-/// gradient. Empty when the level is not reached. For an image that check_volume() accepts.
+/// Return the surface where the array's value, interpolated linearly between samples, equals the
+/// level. Normals come from the field's gradient. The result is empty if the level is not reached.
+/// check_volume() must accept the image.
 vtkSmartPointer<vtkPolyData> isosurface(
   vtkImageData* image, const std::string& array, double level);
 
-/// The cut of a plane with the image, with the array's values as its scalars.
+/// Cut the image by a plane. The array's values are the scalars of the result.
 vtkSmartPointer<vtkPolyData> slice(
   vtkImageData* image, const std::string& array, const Vec3& origin, const Vec3& normal);
 
-/// Value between samples, linear in each direction; false outside the image (beyond
-/// a millionth of its diagonal).
+/// Interpolate the value between samples, linearly in each direction. Return false if the position
+/// is outside the image by more than a millionth of its diagonal.
 bool value_at(vtkImageData* image, const std::string& array, const Vec3& place, double& value);
 
-/// Sum of the triangles' areas.
+/// Return the sum of the areas of the polygons.
 double surface_area(vtkPolyData* surface);
 
-/// The box of all samples beside which a level is crossed and, with `far_from_zero`, of those
-/// whose value is more than 0.1 away from 0; the whole image when there is none.
+/// Return the bounding box of all samples next to a crossing of a level and, with `far_from_zero`,
+/// of samples whose absolute value is above 0.1. If there are none, return the box of the whole
+/// image.
 Box occupied_box(vtkImageData* image, const std::string& array, const std::vector<double>& levels,
   bool far_from_zero);
 

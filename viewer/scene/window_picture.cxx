@@ -1,11 +1,11 @@
-// A tile shows the part of each renderer's view that lies in it: the viewport becomes that part in
-// the tile, and a copy of the camera looks at nothing else, by a narrower angle off its middle.
-// What is drawn in pixels of the window (2D actors) is moved along. Tiles overlap by a margin that
-// is cut off, because a wide line that runs just outside a tile is not drawn in it.
+// A tile shows a part of each renderer's view. The viewport becomes that part within the tile, and
+// a copy of the camera covers only the part, with a narrower angle and a shifted window center. 2D
+// actors, which are positioned in window pixels, are moved along. Tiles overlap by a margin that is
+// cut off, because a wide line just outside a tile would not be drawn in the tile.
 //
-// A transparent picture is drawn over black and over white, and solved for colour and opacity: that
-// is right for whatever is drawn over the ground in whatever way, where the framebuffer's own alpha
-// is that of some ways only (not of surfaces that are sorted by depth).
+// A transparent picture is drawn over black and over white, then solved for color and opacity. That
+// is correct for every drawing method. The framebuffer's own alpha is correct only for some methods
+// (not for surfaces that are sorted by depth).
 #include "scene/window_picture.h"
 
 #include "vtkActor.h"
@@ -34,7 +34,8 @@ namespace bindpose
 {
 namespace
 {
-/// Samples: of a tile with its margins, which any graphics can draw, and of a margin.
+/// Size of a tile with its margins, which any graphics card can draw, and size of a margin, in
+/// samples.
 constexpr int tile_size = 3072;
 constexpr int tile_margin = 160;
 
@@ -56,7 +57,7 @@ Rect common_part(const Rect& a, const Rect& b)
   return both;
 }
 
-/// Shows parts of a renderer's view; as long as it lives.
+/// Shows parts of a renderer's view during its lifetime.
 class TiledRenderer
 {
 public:
@@ -110,7 +111,7 @@ public:
       static_cast<double>(part.y - tile.y) / tile.height,
       static_cast<double>(part.x + part.width - tile.x) / tile.width,
       static_cast<double>(part.y + part.height - tile.y) / tile.height);
-    if (this->renderer_->GetGradientBackground()) // of the part what the whole has there
+    if (this->renderer_->GetGradientBackground()) // the part's section of the whole gradient
     {
       const double low = static_cast<double>(part.y - this->whole_.y) / this->whole_.height;
       const double high = low + static_cast<double>(part.height) / this->whole_.height;
@@ -123,7 +124,7 @@ public:
     camera->SetParallelScale(share * this->camera_->GetParallelScale());
     const double half = std::tan(0.5 * vtkMath::RadiansFromDegrees(this->camera_->GetViewAngle()));
     camera->SetViewAngle(2.0 * vtkMath::DegreesFromRadians(std::atan(share * half)));
-    // From the middle of the view to that of the part, in halves of the part.
+    // Offset from the center of the view to that of the part, in halves of the part.
     camera->SetWindowCenter(
       (2.0 * (part.x - this->whole_.x) + part.width - this->whole_.width) / part.width,
       (2.0 * (part.y - this->whole_.y) + part.height - this->whole_.height) / part.height);
@@ -135,7 +136,7 @@ public:
     }
   }
 
-  /// Grey, where it is the lowest renderer, behind which there is nothing.
+  /// Set the background to gray if the renderer is the lowest, with nothing behind it.
   void set_ground(double level)
   {
     if (this->renderer_->GetLayer() == 0)
@@ -163,14 +164,14 @@ private:
   Colour below_{}, above_{}; // background
   bool gradient_ = false;
   std::array<double, 4> viewport_{};
-  Rect whole_; // of the picture
+  Rect whole_; // in the picture
   std::vector<std::pair<vtkSmartPointer<vtkActor2D>, std::array<double, 2>>> flat_;
 };
 
-/// A tile's samples, four bytes each.
+/// The samples of a tile, four bytes each.
 using Samples = vtkSmartPointer<vtkUnsignedCharArray>;
 
-/// Averages of red, green and blue over the samples of a pixel, 0 to 255.
+/// Return averages of red, green and blue over the samples of a pixel, 0 to 255.
 std::array<double, 3> average(const Samples& pixels, const Rect& tile, int x, int y, int samples)
 {
   std::array<int, 3> sums{};
@@ -192,8 +193,8 @@ std::array<double, 3> average(const Samples& pixels, const Rect& tile, int x, in
   return mean;
 }
 
-/// The pixels of a part of the image from a tile's samples over white and, of transparent pictures,
-/// over black: how much of the ground is seen tells how clear they are.
+/// Fill a part of the image from a tile's samples over white and, for transparent pictures, over
+/// black. The visible fraction of the background determines the opacity.
 void fill_image(const Samples& on_white, const Samples& on_black, const Rect& tile,
   const Rect& part, int samples, vtkImageData* image)
 {
@@ -213,13 +214,13 @@ void fill_image(const Samples& on_white, const Samples& on_black, const Rect& ti
         continue;
       }
       const std::array<double, 3> black = average(on_black, tile, x, y, samples);
-      double seen = 0.0; // of the ground
+      double seen = 0.0; // visible fraction of the background
       for (std::size_t k = 0; k < 3; ++k)
       {
         seen += (white[k] - black[k]) / (3.0 * 255.0);
       }
       const double opacity = 1.0 - seen;
-      const bool clear = opacity < 1.5 / 255.0; // all but: planes that are there to be caught
+      const bool clear = opacity < 1.5 / 255.0; // almost clear: planes that only exist to be picked
       to = std::transform(black.begin(), black.end(), to,
         [&](double value) { return clear ? byte(0.0) : byte(value / opacity); });
       *to++ = clear ? byte(0.0) : byte(255.0 * opacity);
@@ -237,7 +238,7 @@ Status read_samples(vtkRenderWindow* window, const Rect& tile, Samples& pixels)
     : Status::failure(StatusCode::internal_error, "the picture could not be read back");
 }
 
-/// Where tiles begin and how long they are without their margins: one when it fits.
+/// Return the length of a tile without margins; the whole length if it fits into one tile.
 int core_length(int length, int samples)
 {
   return length <= tile_size ? length : (tile_size - 2 * tile_margin) / samples * samples;
@@ -327,7 +328,7 @@ Status draw_in_tiles(
     }
   }
   renderers.clear();
-  if (size[0] > 0 && size[1] > 0) // one that was never shown has none
+  if (size[0] > 0 && size[1] > 0) // a window that was never shown has no size
   {
     window->SetSize(size[0], size[1]);
   }

@@ -17,32 +17,34 @@ class vtkWidgetRepresentation;
 namespace bindpose
 {
 
-/// invalid_input, one sentence, for a picture of more than 32,767 pixels wide or high or 268
-/// million (2^28, a gigabyte with alpha) in all.
+/// Check the size of a picture. Return invalid_input with one sentence for more than 32,767 pixels
+/// in width or height, or more than 268 million pixels (2^28, a gigabyte with alpha) in total.
 Status check_picture_size(std::int64_t width, std::int64_t height);
 
-/// Of a picture that is written.
+/// Largest scale factor of a picture that is written to a file.
 constexpr int largest_scale_factor = 8;
 
 struct WindowPicture
 {
   int width = 0, height = 0; ///< pixels
-  /// Pixels are averages of this many samples in each direction.
+  /// A pixel is the average of this many samples in each direction.
   int samples = 2;
-  /// No background: RGBA, not premultiplied, instead of RGB. Everything is drawn twice.
+  /// Draw no background: the image is RGBA, not premultiplied, instead of RGB. Everything is drawn
+  /// twice.
   bool transparent = false;
 };
 
-/// What a window shows, as large as wanted, whatever the largest framebuffer: in tiles, each of
-/// which is a part of every renderer's view, so that the memory of the graphics is that of a tile.
-/// Sizes in pixels (of lines, text) are those of the samples. The window's size, cameras and
-/// viewports are as before when it returns; it is not drawn with them again. internal_error when
-/// the driver gives no pixels. Perspective and parallel cameras; 2D actors stand in coordinates of
-/// the viewport.
+/// Draw the content of a window at any size, even larger than the largest framebuffer. The picture
+/// is drawn in tiles, each a part of every renderer's view, so that the graphics memory needed is
+/// that of one tile. Sizes in pixels (of lines, text) are in samples.
+///
+/// On return, the window's size, cameras and viewports are restored; the window is not drawn again
+/// with them. Return internal_error if the driver returns no pixels. Perspective and parallel
+/// cameras are supported. Positions of 2D actors must be in viewport coordinates.
 Status draw_in_tiles(
   vtkRenderWindow* window, const WindowPicture& picture, vtkSmartPointer<vtkImageData>& image);
 
-/// As long as it lives, lines, points and handles of the widgets are so many times as wide: for
+/// Scales the widths of lines, points and widget handles by a factor during its lifetime, for
 /// pictures that are drawn larger than the window.
 class ScaledLines
 {

@@ -1,6 +1,6 @@
-// The layout is written for axes of 80 pixels and scaled to the asked size. Whatever would be seen
-// edge-on or along itself is left out: it can neither be read nor used. Of rings only the half
-// towards the camera is drawn, so that three of them do not make a cage.
+// The layout is defined for axes of 80 pixels and scaled to the requested size. Parts that would be
+// seen edge-on or along themselves are left out, because they can be neither recognized nor used.
+// Only the half of a ring toward the camera is drawn, so that three rings do not look like a cage.
 #include "gizmo.h"
 
 #include <Eigen/Geometry>
@@ -16,17 +16,17 @@ namespace bindpose
 {
 namespace
 {
-/// Pixels from the origin, for axes of 80.
+/// Distances from the origin in pixels, for axes of 80 pixels.
 struct Layout
 {
-  double shaft; // from the gap to here
-  double cone; // to here; 0: none
-  double plate; // centre along both axes; 0: none
-  double box; // centre; 0: none
+  double shaft; // end of the shaft, which begins at the gap
+  double cone; // end of the cone; 0: none
+  double plate; // center along both axes; 0: none
+  double box; // center; 0: none
   double ring; // radius; 0: none
   double view_ring; // radius; 0: none
 };
-// in the order of GizmoKind
+// In the order of GizmoKind.
 constexpr Layout layouts[5] = { {}, { 74, 92, 33, 0, 0, 0 }, { 0, 0, 0, 0, 78, 96 },
   { 76, 0, 0, 80, 0, 104 }, { 84, 102, 27, 45, 64, 124 } };
 constexpr double gap = 15.0; // around the ball
@@ -34,16 +34,16 @@ constexpr double plate_half = 7.0;
 constexpr double cone_radius = 5.6;
 constexpr double box_half = 4.6;
 constexpr double thin = 2.4;
-constexpr double thick = 3.8; // under the mouse
+constexpr double thick = 3.8; // thickness under the mouse
 constexpr double outline = 1.2;
 constexpr double twist_radius = 20.0;
 constexpr double stretch_from = 10.0;
 constexpr double stretch_to = 30.0;
-constexpr double stretch_room = 32.0; // around tips
+constexpr double stretch_room = 32.0; // distance kept free around tips
 constexpr int ring_sides = 72;
-constexpr double along_sight = 0.985; // cosine: an axis seen along itself
-constexpr double edge_on = 0.13; // cosine: a plate seen from its side
-constexpr double face_on = 0.3; // sine: a ring that is seen whole
+constexpr double along_sight = 0.985; // cosine beyond which an axis is seen along itself
+constexpr double edge_on = 0.13; // cosine below which a plate is seen edge-on
+constexpr double face_on = 0.3; // sine below which a ring is drawn whole
 
 const char* const letters[3] = { "X", "Y", "Z" };
 
@@ -197,7 +197,7 @@ Gizmo::Part Gizmo::ring(
   ring.thickness = thin;
   const double radius = pixels * this->unit_ * this->pixel_;
   const Vector3d sight = this->view_.sight_to(center);
-  // Begins on the far side, so that the half in front is in one piece.
+  // Begin on the far side, so that the half in front is in one piece.
   Vector3d u = sight - axis * axis.dot(sight);
   whole = whole || u.norm() < face_on;
   u = u.norm() > 1e-6 ? Vector3d(u.normalized()) : axis.unitOrthogonal();
@@ -279,7 +279,7 @@ void Gizmo::add_bone()
     knob.part = stretch_bone;
     knob.colour = this->setup_.bone;
     const double pixel = this->unit_ * this->pixel_;
-    // Farther out where an arrow's tip is in the way.
+    // Move the knob farther out if an arrow's tip is in its position.
     double out = stretch_to;
     const auto is_taken = [&]()
     {
@@ -323,7 +323,8 @@ void Gizmo::add_bone()
   }
 }
 
-/// While an axis is dragged: a long line along it. While a ring is: from where to where.
+/// Add lines for the dragged part: a long line along its axis, or the start and the current
+/// position of a turn.
 void Gizmo::add_drag()
 {
   const int part = this->marks_.active;
@@ -433,7 +434,8 @@ void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
   {
     const bool hot =
       !part.guide && (part.part == this->marks_.hovered || part.part == this->marks_.active);
-    // halfway to white would lose the axis: the colour stays, the size grows
+    // Mixing halfway with white would lose the axis color. Lighten the color less, and enlarge the
+    // part.
     Colour colour = part.colour;
     for (double& c : colour)
     {
@@ -531,7 +533,7 @@ std::optional<Vector2d> Gizmo::grip(int wanted) const
     }
     else
     {
-      // off the middle, where a ring in front crosses an axis
+      // away from the middle, where a ring in front crosses an axis
       place = part.path[part.path.size() * 2 / 5];
     }
     return Vector2d(this->view_.to_display(place).head<2>());

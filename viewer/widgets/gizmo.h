@@ -20,21 +20,21 @@ enum class GizmoKind
   all = 4
 };
 
-/// Parts of the gizmo. The numbers are those of the representation's states; the axis of a part of
-/// three is its number less the first one's.
+/// Parts of the gizmo. The numbers equal the interaction states of the representation. In a group
+/// of three parts, the axis is the number minus the number of the first part.
 enum GizmoPart : int
 {
   no_part = 0,
   move_x = 10,
   move_y,
   move_z,
-  move_yz, ///< in a plane: the number says which axis stays
+  move_yz, ///< in a plane; the number gives the fixed axis
   move_zx,
   move_xy,
   turn_x = 20,
   turn_y,
   turn_z,
-  turn_view, ///< about the line of sight
+  turn_view, ///< about the viewing direction
   scale_x = 30,
   scale_y,
   scale_z,
@@ -44,7 +44,7 @@ enum GizmoPart : int
   twist_tail
 };
 
-/// The words for them, in tours.
+/// Names of the parts in tours.
 struct GizmoPartWord
 {
   const char* word;
@@ -62,45 +62,47 @@ struct GizmoSetup
   GizmoKind kind = GizmoKind::all;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< axes as columns
-  bool only_moves = false; ///< no turning, scaling, stretching
-  std::optional<Eigen::Vector3d> tail; ///< of a bone; its head is the origin
-  bool twists_apart = true; ///< a twist ring at each end, else one in the middle
-  double pixels = 80.0; ///< length of the axes of the gizmo that only moves
-  /// Red, green and blue as everywhere, but told apart without each kind of cone.
+  bool only_moves = false; ///< no turning, scaling or stretching
+  std::optional<Eigen::Vector3d> tail; ///< tail of a bone, whose head is the origin
+  bool twists_apart = true; ///< a twist ring at each end, else one ring in the middle
+  double pixels = 80.0; ///< length of the axes of a gizmo that only moves
+  /// Red, green and blue by convention, in shades that viewers with any type of color blindness can
+  /// distinguish.
   Colour axes[3] = { { 0.80, 0.15, 0.25 }, { 0.50, 0.80, 0.25 }, { 0.18, 0.43, 0.93 } };
   Colour bone = { 0.72, 0.40, 0.72 };
-  Colour plain = { 0.60, 0.61, 0.65 }; ///< what belongs to no axis
+  Colour plain = { 0.60, 0.61, 0.65 }; ///< parts without an axis
 };
 
-/// The kind of gizmo that has a part, the given one if it has.
+/// Return the kind of gizmo that has a part: the given kind if it has the part.
 GizmoKind gizmo_with(int part, GizmoKind kind);
-/// The radius of a ring, in pixels of the window.
+/// Return the radius of a ring, in pixels of the window.
 double ring_pixels(const GizmoSetup& setup, int part);
 
-/// What the mouse does with the gizmo.
+/// The state of the gizmo in an interaction with the mouse.
 struct GizmoMarks
 {
   int hovered = no_part;
-  int active = no_part; ///< dragged: all other parts are left out
-  /// A turn: from the origin to where it was grabbed (world), and to where that is now.
+  int active = no_part; ///< the dragged part; all other parts are left out
+  /// The ends of two lines from the origin during a turn, in world coordinates: the grabbed
+  /// position and its current position.
   std::optional<Eigen::Vector3d> spokes[2];
 };
 
-/// Arrows, plates, rings and boxes around one place, all of a constant size on the screen: laid out
-/// in the world for one view, to be picked or drawn.
+/// Arrows, plates, rings and boxes around one position, with constant size on the screen. They are
+/// laid out in world coordinates for one view, for picking or drawing.
 class Gizmo
 {
 public:
   Gizmo(const ScreenView& view, const GizmoSetup& setup, const GizmoMarks& marks = {});
 
-  /// The part under the mouse. Boxes, cones and bone parts win over plates, plates over shafts,
-  /// shafts over rings, rings over the ring that faces the camera; among equals the nearest to the
-  /// mouse, then to the camera.
-  /// @param tolerance  pixels beyond what is drawn
+  /// Return the part under the mouse. The order of priority is: boxes, cones and bone parts;
+  /// plates; shafts; rings; the ring that faces the camera. Among parts of equal priority, the
+  /// nearest to the mouse wins, then the nearest to the camera.
+  /// @param tolerance  distance in pixels from the drawn part that still counts as a hit
   int pick(const Eigen::Vector2d& mouse, double tolerance) const;
-  /// @param outline  the same, a little larger, for the hull
+  /// @param outline  receives the same shapes, slightly larger, for the outline hull
   void draw(HandleShapes& solid, HandleShapes& outline) const;
-  /// X, Y, Z beside the tips, and beside a ring that the mouse is on.
+  /// The letters X, Y, Z next to the tips, and next to a ring under the mouse.
   struct Label
   {
     std::string text;
@@ -108,7 +110,7 @@ public:
     Colour colour;
   };
   std::vector<Label> labels() const;
-  /// Where a part is best grabbed, on the screen; nothing when it is not there.
+  /// Return a screen position at which a part can be grabbed, or nothing if the part is not shown.
   std::optional<Eigen::Vector2d> grip(int part) const;
 
 private:
@@ -120,11 +122,11 @@ private:
     std::vector<Eigen::Vector3d> path; // a tube
     double thickness = 2.4; // pixels
     std::vector<Eigen::Vector3d> plate; // four corners
-    std::vector<Eigen::Vector3d> box; // one centre
+    std::vector<Eigen::Vector3d> box; // one center
     double box_half = 0.0; // pixels
     std::vector<Eigen::Vector3d> cone; // base and tip
     double cone_radius = 0.0; // pixels
-    bool guide = false; // is only seen
+    bool guide = false; // visible, but cannot be picked
     bool quiet = false; // without an outline
     std::string label;
   };
@@ -140,7 +142,7 @@ private:
   GizmoSetup setup_;
   GizmoMarks marks_;
   double pixel_ = 0.0; // world length of a pixel at the origin
-  double unit_ = 1.0; // pixels of a pixel of the layout
+  double unit_ = 1.0; // window pixels per pixel of the layout
   std::vector<Part> parts_;
 };
 

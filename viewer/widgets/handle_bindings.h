@@ -6,7 +6,8 @@
 namespace bindpose
 {
 
-/// What a key or button does to the widget. Those without a key are listed for people only.
+/// The effects of keys and buttons on the widget. Actions without a key are listed for
+/// documentation only.
 enum class HandleAction
 {
   select,
@@ -33,7 +34,7 @@ enum class HandleAction
   snap_place
 };
 
-/// The same for the region brush.
+/// The effects of keys and buttons on the region brush.
 enum class BrushAction
 {
   paint,
@@ -43,8 +44,8 @@ enum class BrushAction
   cancel
 };
 
-/// One row of the table of keys and buttons, of which the widget's documentation and the program's
-/// key sheet are made, and by which the widget knows its keys.
+/// One row of the table of keys and buttons. The widget's documentation and the program's key sheet
+/// are made from the table, and the widget looks up its keys in it.
 template <typename Action>
 struct Binding
 {
@@ -52,10 +53,9 @@ struct Binding
   /// "pose", "drag" (in any mode), "move rest", "add points", "add bones", "add cage",
   /// "paint regions"
   const char* when;
-  const char* input; ///< as people read it
-  const char*
-    keys; ///< names of keys (vtkRenderWindowInteractor's KeySym) with blanks around, or ""
-  const char* text; ///< what it does
+  const char* input; ///< in the form shown to users
+  const char* keys; ///< key names (KeySym of vtkRenderWindowInteractor), each between blanks; or ""
+  const char* text; ///< description of the action
 };
 
 using HandleBinding = Binding<HandleAction>;

@@ -1,5 +1,6 @@
-// Arrays are looked up once a call, not once a cell: hundreds of handles are read at every move of
-// the mouse. Nothing is kept between calls, so an array that was edited without a word is seen.
+// Arrays are looked up once per call, not once per cell, because hundreds of handles are read at
+// every move of the mouse. Nothing is cached between calls, so edits of an array without Modified()
+// are seen.
 #include "handle_data.h"
 
 #include "pose/found_rotations.h"
@@ -112,7 +113,7 @@ private:
   CellNumbers kinds_, modes_, locks_, parents_, transforms_, stretches_, twists_, colours_;
 };
 
-/// The array as a drag needs it: of doubles, a tuple a cell.
+/// Return the array in the form that a drag requires: doubles, one tuple per cell.
 vtkDataArray* writable(
   vtkPolyData* data, const char* name, int components, const std::vector<double>& rest)
 {
@@ -170,7 +171,7 @@ std::string HandleData::name(vtkIdType cell) const
   {
     return names->GetValue(cell);
   }
-  // the names that the filters give: points and bones are numbered apart
+  // The names that the filters give: points and bones are numbered separately.
   const std::vector<HandlePlace> all = this->places(true);
   const bool bone = all[static_cast<std::size_t>(cell)].is_bone();
   int number = 0;

@@ -15,21 +15,22 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// One cell of a handle dataset as a hand sees it.
+/// The interactively editable properties of one cell of a handle dataset.
 struct HandlePlace
 {
-  int kind = 0; ///< HandleKind; negative: a bar that is no handle
+  int kind = 0; ///< HandleKind; negative: a bar, which is not a handle
   int mode = static_cast<int>(HandleMode::automatic); ///< HandleMode
   bool locked = false;
   vtkIdType parent = -1;
-  Vec3 rest_head = Vec3::Zero(); ///< of a bar, too: its first two points
-  Vec3 rest_tail = Vec3::Zero(); ///< of anything but a bone and a bar: rest_head
-  Vec3 head = Vec3::Zero(); ///< posed, or at rest when that was asked for
+  Vec3 rest_head = Vec3::Zero(); ///< for a bar: its first point
+  Vec3 rest_tail = Vec3::Zero(); ///< for a bar: its second point; for all but bones and bars:
+                                 ///< rest_head
+  Vec3 head = Vec3::Zero(); ///< posed, or at rest if that was requested
   Vec3 tail = Vec3::Zero();
   Affine transform = identity_affine();
   double stretch = 1.0;
   Eigen::Vector2d twist = Eigen::Vector2d::Zero();
-  std::optional<Eigen::Vector3d> colour; ///< of the array `Color`, 0 to 1
+  std::optional<Eigen::Vector3d> colour; ///< from the array `Color`, 0 to 1
 
   bool is_handle() const { return this->kind >= 0; }
   bool is_bone() const { return this->kind == static_cast<int>(HandleKind::bone); }
@@ -37,7 +38,7 @@ struct HandlePlace
   bool only_moves() const { return this->mode == static_cast<int>(HandleMode::position); }
 };
 
-/// Reads and writes the cell arrays of a handle dataset, with a default for whatever is missing.
+/// Reads and writes the cell arrays of a handle dataset. Missing arrays have defaults.
 class HandleData
 {
 public:
@@ -47,14 +48,14 @@ public:
   vtkIdType count() const;
   std::string name(vtkIdType cell) const;
 
-  /// All cells. At rest: neither transforms nor stretches.
+  /// Return all cells. With at_rest, transforms and stretches are ignored.
   std::vector<HandlePlace> places(bool at_rest = false) const;
-  /// Replace mode automatic by what a method that finds rotations makes of it
-  /// (with_found_rotations()), else by full.
+  /// Replace mode automatic by the mode that with_found_rotations() chooses for a method that finds
+  /// rotations, else by full.
   static void resolve_modes(std::vector<HandlePlace>& places, bool finds_rotations);
-  /// One cell; a default one for a number that there is not.
+  /// Return one cell, or a default one if the cell does not exist.
   HandlePlace place(vtkIdType cell, bool at_rest = false) const;
-  /// The ends of bars: cage elements go with their cage vertices, pseudo-edges with their points.
+  /// The ends of a bar. Cage elements follow their cage vertices, pseudo-edges follow their points.
   struct Bar
   {
     vtkIdType cell;
@@ -62,15 +63,16 @@ public:
   };
   std::vector<Bar> bars(const std::vector<HandlePlace>& places) const;
 
-  /// What a drag writes.
+  /// The pose of one cell, as a drag writes it.
   struct CellPose
   {
     Affine transform;
     double stretch;
     Eigen::Vector2d twist;
   };
-  /// Writes the pose of some cells: the array Transform, made when absent, and Stretch and Twist
-  /// where they are there already or a number is not the rest's. Others stay.
+  /// Write the pose of some cells. The array Transform is created if it is missing. Stretch and
+  /// Twist are written if they exist or if a value differs from the rest pose. Other cells and
+  /// arrays do not change.
   void set_poses(const std::vector<vtkIdType>& cells, const std::vector<CellPose>& poses);
 
 private:

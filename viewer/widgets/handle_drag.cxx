@@ -1,12 +1,13 @@
-// Every kind of drag compares the followed mouse with where it was at the start:
+// Every type of drag compares the followed mouse position with that at the start:
 //
-// - a move along a plane: where both rays meet it; along a line: in the plane through the line that
-//   faces the camera most, the way along the line;
-// - a turn: the angle, in the ring's plane, from the start's hit to the current one, summed step by
-//   step so that several turns are counted; a ring seen from its side has no hits, there the way
-//   along its near side counts, as if it were rolled by a finger;
-// - a scale: the ratio of distances from the pivot, on the screen or along an axis;
-// - an arm: the smallest rotation towards the mouse, in the plane that faces the camera.
+// - A move along a plane uses the intersections of both rays with the plane. A move along a line
+//   uses the plane through the line that faces the camera most, and the distance along the line.
+// - A turn is the angle, in the ring's plane, from the start's intersection to the current one. It
+//   is summed step by step, so that several turns are counted. A ring seen from its side has no
+//   usable intersections; there the distance along its near side is used, as if a finger rolled the
+//   ring.
+// - A scale is the ratio of distances from the pivot, on the screen or along an axis.
+// - An arm uses the smallest rotation toward the mouse, in the plane that faces the camera.
 #include "handle_drag.h"
 
 #include <algorithm>
@@ -22,11 +23,12 @@ namespace bindpose
 namespace
 {
 constexpr double fine_share = 0.1;
-constexpr double seen_along = 0.998; // cosine: a line so near to the line of sight gives no way
-constexpr double seen_from_side = 0.12; // cosine: of a ring's axis to the line of sight
+constexpr double seen_along = 0.998; // cosine beyond which a line is too near to the viewing
+                                     // direction
+constexpr double seen_from_side = 0.12; // cosine of a ring's axis to the viewing direction
 constexpr double smallest_factor = 0.01;
-constexpr double near_pixels = 8.0; // a scale grabbed so near to its pivot has no ratio
-constexpr double double_pixels = 80.0; // then so many pixels are a factor of two
+constexpr double near_pixels = 8.0; // distance from the pivot up to which a scale uses no ratio
+constexpr double double_pixels = 80.0; // mouse motion that then gives a factor of two
 
 Affine3d about(const Vector3d& pivot, const Matrix3d& linear)
 {
@@ -41,7 +43,8 @@ int count_bits(int axes)
   return (axes & 1) + ((axes >> 1) & 1) + ((axes >> 2) & 1);
 }
 
-/// The number of the only axis in the mask, or of the only one that is not; -1 for none and all.
+/// Return the only axis in the mask, or the only axis not in the mask. Return -1 for no axis and
+/// all axes.
 int single_axis(int axes)
 {
   const int mask = count_bits(axes) == 2 ? 7 ^ axes : axes;
@@ -88,7 +91,8 @@ Vector3d Drag::axis() const
                     : Vector3d(this->setup_.frame.col(single));
 }
 
-/// The way along an axis through the grabbed place; none when it is seen along.
+/// Return the distance along an axis through the grabbed position; nothing if the axis is seen
+/// along itself.
 std::optional<double> Drag::along(const Vector3d& axis, const Vector2d& mouse) const
 {
   const Vector3d& place = this->setup_.grabbed;
@@ -186,7 +190,7 @@ DragMotion Drag::moved() const
       Vector3d own = s.frame.transpose() * way;
       for (int k = 0; k < 3; ++k)
       {
-        // exactly in the plane, without the round-off of the hits
+        // exactly in the plane, without the round-off of the intersections
         own[k] = (s.axes >> k) & 1 ? this->snapped(own[k], s.length_step) : 0.0;
       }
       way = s.frame * own;
@@ -261,7 +265,7 @@ DragMotion Drag::scaled() const
   }
   if (this->typed_)
   {
-    // A negative one mirrors; nothing is flattened.
+    // A negative number mirrors. The magnitude is at least smallest_factor.
     factor = std::copysign(std::max(std::abs(*this->typed_), smallest_factor), *this->typed_);
   }
   else if (before && after && std::abs(*before) > near_pixels * this->view_.pixel_at(s.pivot))

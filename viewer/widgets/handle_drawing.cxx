@@ -1,5 +1,6 @@
-// Sizes are in pixels, so every ball gets the world radius that a pixel has at its place. An
-// outline is a hull of the same shape, a little larger, of which only the back sides are drawn.
+// Sizes are in pixels. Every ball gets the world radius that corresponds to its size at its
+// position. An outline is a slightly larger hull of the same shape, of which only the back sides
+// are drawn.
 #include "handle_drawing.h"
 
 #include <algorithm>
@@ -52,7 +53,8 @@ void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places
     const Colour edge = selected ? look.selected : look.outline;
     const double growth = hot ? hot_growth : 1.0;
     const double line = look.pixel_scale * outline_pixels * (selected ? 1.6 : 1.0);
-    // Around the selected handle's outline there is another, so that it shows on any ground.
+    // Surround the selected handle's outline with another one, so that it is visible on any
+    // background.
     const double rim = line + look.pixel_scale * outline_pixels;
     const auto add_ball = [&](const Vec3& center, double size)
     {

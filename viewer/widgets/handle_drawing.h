@@ -11,35 +11,35 @@
 namespace bindpose
 {
 
-/// How handles look; colours by mode.
+/// The appearance of handles; colors by mode.
 struct HandleLook
 {
   Colour modes[3];
   Colour outline;
-  Colour selected; ///< the outline of selected handles, with the other around it
-  double pixel_scale = 1.0; ///< on the width of outlines
+  Colour selected; ///< outline of selected handles, inside another outline in the color `outline`
+  double pixel_scale = 1.0; ///< factor on the width of outlines
 };
 
-/// Which handles are not like the others.
+/// Handles that are highlighted.
 struct HandleMarks
 {
   vtkIdType hovered = -1;
-  vtkIdType active = -1; ///< the one that is dragged
+  vtkIdType active = -1; ///< the dragged handle
   std::vector<vtkIdType> selected;
 };
 
-/// A colour halfway to white.
+/// Return a color mixed with white.
 Colour lighter(const Colour& colour);
 
-/// Adds all handles and bars to the shapes: the bodies, and the same a little larger for the
-/// outline hull.
+/// Add all handles and bars to the shapes: the bodies, and slightly larger copies for the outline
+/// hull.
 void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places,
   const std::vector<HandleData::Bar>& bars, const HandleSizes& sizes, const HandleLook& look,
   const HandleMarks& marks, HandleShapes& solid, HandleShapes& outline);
 
-/// Where a handle's name stands: right of a ball; of a bone on the side that faces right, so as not
-/// to cover it.
-/// @param ball  radius in pixels
+/// Return the position of a handle's name: right of a ball; for a bone, on the side that faces
+/// right, so that the name does not cover the bone.
+/// @param ball  radius of a ball in pixels
 Eigen::Vector2d label_place(const ScreenView& view, const HandlePlace& place, double ball);
 
 } // namespace bindpose

@@ -1,5 +1,5 @@
-// Picking is done on the screen, without rendering: every place is projected once, and the first
-// in the order of rank, distance and depth is kept.
+// Picking is computed on the screen, without rendering. Every position is projected once, and the
+// first candidate in the order of rank, distance and depth is kept.
 #include "handle_picking.h"
 
 #include <algorithm>
@@ -57,8 +57,8 @@ HandlePick pick_handle(const ScreenView& view, const std::vector<HandlePlace>& p
     }
     const Vector3d tail = view.to_display(place.tail);
     const double to_tail = (tail.head<2>() - mouse).norm();
-    // Of a joint that two bones share the tail is grabbed: turning the upper bone is what is
-    // meant, moving the lower one off it hardly ever.
+    // At a joint of two bones, prefer the tail. Users usually want to turn the upper bone, and
+    // rarely to move the lower bone away from it.
     if (to_tail <= end)
     {
       offer(HandlePart::tail, 1, to_tail, tail[2]);

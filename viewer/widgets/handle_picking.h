@@ -7,7 +7,8 @@
 namespace bindpose
 {
 
-/// What of a handle the mouse is on. The numbers are those of the representation's states.
+/// The part of a handle under the mouse. The numbers equal the interaction states of the
+/// representation.
 enum class HandlePart
 {
   none = 0,
@@ -20,12 +21,13 @@ enum class HandlePart
 struct HandleSizes
 {
   double ball = 7.0; ///< radius of a ball, pixels
-  double bone_width = 0.08; ///< half width over length
-  double tolerance = 4.0; ///< pixels beyond what is drawn
+  double bone_width = 0.08; ///< half the width divided by the length
+  double tolerance = 4.0; ///< distance in pixels from the drawn part that still counts as a hit
 
-  /// Of a bone's end.
+  /// Return the radius of a bone's end.
   double end() const { return 0.6 * this->ball; }
-  /// Half the width of a bone of a length, both in the same unit, `pixel` of which is a pixel.
+  /// Return half the width of a bone of the given length. `pixel` is the size of a pixel in the
+  /// unit of the length and of the result.
   double half_width(double length, double pixel) const;
 };
 
@@ -35,9 +37,9 @@ struct HandlePick
   vtkIdType handle = -1;
 };
 
-/// The part of a handle under the mouse: balls of points win over tails, tails over heads, ends
-/// over bodies; among equals the nearest to the mouse, then the one nearest to the camera. What
-/// lies behind the eye does not count.
+/// Return the part of a handle under the mouse. The order of priority is: balls of points, tails,
+/// heads, bodies. Among parts of equal priority, the nearest to the mouse wins, then the nearest to
+/// the camera. Parts behind the eye are ignored.
 HandlePick pick_handle(const ScreenView& view, const std::vector<HandlePlace>& places,
   const Eigen::Vector2d& mouse, const HandleSizes& sizes);
 

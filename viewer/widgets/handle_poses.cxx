@@ -29,8 +29,8 @@ Affine after(const Affine3d& motion, const Affine& transform)
   return moved;
 }
 
-/// Return where the branch that a follower belongs to is attached to the first grabbed bone: 0 at
-/// its head, 1 at its tail.
+/// Return the position on the first grabbed bone at which a follower's branch is attached: 0 at its
+/// head, 1 at its tail.
 double attachment(const std::vector<HandlePlace>& places, const HandleGroup& group, vtkIdType cell)
 {
   const HandlePlace& bone = places[static_cast<std::size_t>(group.cells.front())];
@@ -81,7 +81,7 @@ HandleGroup make_group(
   { return std::find(grabbed.begin(), grabbed.end(), cell) != grabbed.end(); };
   for (vtkIdType cell = 0; descend && cell < count; ++cell)
   {
-    // Up the hierarchy; the number of steps is bounded, whatever the file says.
+    // Walk up the hierarchy. The number of steps is bounded, in case the file contains a cycle.
     vtkIdType ancestor = places[static_cast<std::size_t>(cell)].parent;
     for (vtkIdType step = 0; step < count && ancestor >= 0 && ancestor < count; ++step)
     {

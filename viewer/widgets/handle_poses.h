@@ -8,34 +8,36 @@
 namespace bindpose
 {
 
-/// A handle's own axes at rest, as columns: of a bone y along it; of all others the world's.
+/// Return a handle's own axes at rest, as columns: y along a bone, the world's axes for all other
+/// handles.
 Eigen::Matrix3d rest_axes(const HandlePlace& place);
-/// The same, turned with the pose.
+/// Return the axes of rest_axes(), turned by the pose.
 Eigen::Matrix3d posed_axes(const HandlePlace& place);
 
-/// Handles that move together: those that are grabbed and, below them by Parent, those that follow.
+/// Handles that move together: the grabbed handles and their followers, which are below them by
+/// Parent.
 struct HandleGroup
 {
   std::vector<vtkIdType> cells; ///< grabbed ones first
-  std::size_t grabbed = 0; ///< how many are
-  std::vector<HandleData::CellPose> start; ///< one a cell
+  std::size_t grabbed = 0; ///< number of grabbed handles
+  std::vector<HandleData::CellPose> start; ///< one per cell
 };
-/// @param descend  whether any follow
+/// @param descend  true to include followers
 HandleGroup make_group(
   const std::vector<HandlePlace>& places, const std::vector<vtkIdType>& grabbed, bool descend);
 
-/// What happens to the first grabbed handle of a group, beyond the motion of all.
+/// Changes to the first grabbed handle of a group, in addition to the common motion.
 struct GrabbedChange
 {
-  double factor = 1.0; ///< of its length
+  double factor = 1.0; ///< factor on its length
   Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< degrees added at head and tail
-  /// Whether that goes to Stretch and Twist, or into the transform.
+  /// True to write the changes to Stretch and Twist, else into the transform.
   bool to_arrays = true;
 };
 
-/// Poses after a motion of the world. A handle whose mode is position goes with its pivot and does
-/// not turn. If a bone stretches or twists, its followers move with the cross-section to which they
-/// are attached, as in transform_for_child().
+/// Return the poses after a motion in world coordinates. A handle whose mode is position moves with
+/// its pivot and does not turn. If a bone stretches or twists, its followers move with the
+/// cross-section to which they are attached, as in transform_for_child().
 std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& places,
   const HandleGroup& group, const Eigen::Affine3d& motion, const GrabbedChange& change = {});
 

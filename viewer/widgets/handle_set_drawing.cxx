@@ -1,9 +1,9 @@
-// What is drawn is rebuilt whenever the handles, the camera or the window change. All solid parts
-// make one polydata, all outlines another.
+// The shapes are rebuilt whenever the handles, the camera or the window change. All solid parts are
+// one polydata, all outlines another.
 //
-// Handles lie inside the shape they bend. To be seen they are drawn in the overlay pass after the
-// depth buffer has been cleared, so they hide each other correctly and nothing hides them; the same
-// once more for the gizmo.
+// Handles are inside the shape that they bend. To make them visible, they are drawn in the overlay
+// pass after the depth buffer has been cleared. So they hide each other correctly, and nothing
+// hides them. The gizmo is drawn in the same way afterward.
 #include "handle_drawing.h"
 #include "handle_set_internals.h"
 #include "screen_view.h"
@@ -94,7 +94,7 @@ void vtkHandleSetRepresentation::BuildRepresentation()
   }
   if (preview.ball)
   {
-    // On something that was there: a ring around it.
+    // A ring marks a snapped ball.
     const double pixel = view.pixel_at(*preview.ball);
     const double size = this->EditMode == ADD_BONES ? sizes.end() : sizes.ball;
     const double rim = this->PixelScale * (preview.snapped ? 4.5 : 1.6);
@@ -121,7 +121,7 @@ void vtkHandleSetRepresentation::BuildRepresentation()
       Vector2d at = bindpose::label_place(view, place, this->PixelScale * this->PointSize);
       if (dragged && self.Dragged->part() != bindpose::no_part)
       {
-        // below the gizmo, where there is room
+        // below the gizmo, where the screen is free
         const double aside = this->PixelScale * (1.45 * this->GizmoSize + 14.0);
         at = view.to_display(place.head).head<2>();
         at += Vector2d(-0.25 * aside, at[1] > 1.2 * aside ? -aside : aside);
@@ -142,7 +142,7 @@ void vtkHandleSetRepresentation::BuildRepresentation()
     gizmo_marks.hovered = self.HoveredPart;
     if (self.Dragged)
     {
-      // Whatever starts a drag, what it is held to is drawn.
+      // The constraint is drawn, no matter how the drag was started.
       gizmo_marks.active = self.Dragged->part();
       setup.kind = bindpose::gizmo_with(gizmo_marks.active, setup.kind);
       setup.frame = self.Dragged->frame();

@@ -1,7 +1,8 @@
 #ifndef handle_set_internals_h
 #define handle_set_internals_h
 
-// What vtkHandleSetRepresentation keeps, for the files that its member functions are in.
+// Internal state of vtkHandleSetRepresentation, common to the files that implement its member
+// functions.
 
 #include "gizmo.h"
 #include "handle_data.h"
@@ -26,7 +27,7 @@
 namespace bindpose
 {
 
-/// Shapes and their hull, as two actors.
+/// Shapes and their outline hull, as two actors.
 class ShapeActors
 {
 public:
@@ -50,7 +51,7 @@ public:
     this->Outline->GetProperty()->LightingOff();
     this->Outline->GetProperty()->FrontfaceCullingOn();
   }
-  /// Colours as they are, not as lights make them.
+  /// Show colors almost without shading.
   void SetFlat()
   {
     this->Solid->GetProperty()->SetAmbient(0.75);

@@ -1,4 +1,5 @@
-// Poses in numbers: each function splits the transform, replaces one part and joins it again.
+// Poses as numbers. Each function splits the transform, replaces one part and combines the parts
+// again.
 #include "handle_set_internals.h"
 #include "pose/transform_parts.h"
 
@@ -26,8 +27,8 @@ bool vtkHandleSetRepresentation::WriteHandle(vtkIdType handle, const HandlePlace
   const HandlePlace& before = places[static_cast<std::size_t>(handle)];
   const bindpose::HandleGroup group =
     bindpose::make_group(places, { handle }, this->MoveDescendants != 0);
-  // The motion from the one to the other is what the followers do; the handle itself takes the
-  // numbers as they are.
+  // Followers move by the motion from the old to the new transform. The handle itself gets exactly
+  // the given numbers.
   Eigen::Affine3d motion = Eigen::Affine3d::Identity();
   const Eigen::Matrix3d inverse = before.transform.leftCols<3>().inverse();
   if (posed.transform != before.transform && inverse.allFinite())
@@ -82,7 +83,7 @@ bool vtkHandleSetRepresentation::SetHandleScale(vtkIdType handle, const double f
   parts.scale = axes * scale.asDiagonal() * axes.transpose();
   if (scale[0] == scale[1] && scale[1] == scale[2])
   {
-    parts.scale = scale[0] * Eigen::Matrix3d::Identity(); // without round-off
+    parts.scale = scale[0] * Eigen::Matrix3d::Identity(); // exact, without round-off
   }
   place.transform = bindpose::affine_of(parts, place.rest_head);
   return this->WriteHandle(handle, place);

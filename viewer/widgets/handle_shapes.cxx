@@ -1,7 +1,6 @@
-// Balls are a subdivided icosahedron, made once; tubes carry their circle along the path without
-// twist. A bone is an octahedron: head, a square
-// waist around the axis near the head, tail; each of its 8 sides owns its three corners, so that
-// the shading is flat.
+// Balls are a subdivided icosahedron, created once. Tubes carry their circle along the path without
+// twist. A bone is an octahedron: head, a square waist around the axis near the head, tail. Each of
+// its 8 sides has its own three corners, so that the shading is flat.
 #include "handle_shapes.h"
 
 #include "vtkCellArray.h"

@@ -16,27 +16,29 @@ namespace bindpose
 /// Red, green, blue in [0, 1].
 using Colour = std::array<double, 3>;
 
-/// Collects balls, bones and the parts of a gizmo into one polydata with point normals and a colour
-/// per point, wound outwards: one actor draws any number of handles.
+/// Collects balls, bones and the parts of a gizmo in one polydata with point normals and a color
+/// per point, oriented outward. One actor draws any number of handles.
 class HandleShapes
 {
 public:
-  /// @param fine  balls of 320 triangles, else of 80 (for hundreds of handles)
+  /// @param fine  true: balls of 320 triangles; false: of 80 (for hundreds of handles)
   explicit HandleShapes(bool fine) : fine_(fine) {}
-  /// A smooth ball.
+  /// Add a smooth ball.
   void add_ball(const Eigen::Vector3d& center, double radius, const Colour& colour);
-  /// An elongated octahedron with flat sides, 1/8 of its length behind the head at its widest.
+  /// Add an elongated octahedron with flat sides. Its waist is at 1/8 of its length from the head.
   /// @param half_width  distance of the four waist corners from the axis, world units
-  /// @param margin      moves every corner outwards (for the outline hull), world units
+  /// @param margin      distance by which every corner moves outward (for the outline hull), world
+  ///   units
   void add_bone(const Eigen::Vector3d& head, const Eigen::Vector3d& tail, double half_width,
     const Colour& colour, double margin = 0.0);
 
-  /// A round tube along a polyline, closed at both ends; a closed one ends where it begins.
+  /// Add a round tube along a polyline, with caps at both ends. A closed polyline ends at its first
+  /// point.
   void add_tube(const std::vector<Eigen::Vector3d>& path, double radius, const Colour& colour);
-  /// A cone with its base.
+  /// Add a cone with its base.
   void add_cone(
     const Eigen::Vector3d& base, const Eigen::Vector3d& tip, double radius, const Colour& colour);
-  /// A box with flat sides along the columns of the frame.
+  /// Add a box with flat sides along the columns of the frame.
   void add_box(const Eigen::Vector3d& center, const Eigen::Matrix3d& frame,
     const Eigen::Vector3d& half, const Colour& colour);
 

@@ -1,6 +1,6 @@
-// Which part does what: balls, bodies and heads move in the plane that faces the camera; a tail
-// aims its bone, or reaches; parts of the gizmo are named for what they do. A handle whose mode is
-// position only ever moves.
+// Each part has its own type of drag. Balls, bodies and heads move in the plane that faces the
+// camera. A tail aims its bone, or reaches. Parts of the gizmo are named after their effect. A
+// handle whose mode is position always moves.
 #include "pose_drag.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ DragKind kind_of_part(int part, bool reach)
   return part == stretch_bone ? DragKind::stretch : DragKind::move;
 }
 
-/// What only the handle does that the mouse holds.
+/// Report whether a part affects only the grabbed handle.
 bool is_of_one(int part)
 {
   return part == static_cast<int>(HandlePart::tail) || part >= stretch_bone;
@@ -68,7 +68,7 @@ DragSetup setup_of(const HandlePlace& place, int part, const DragSettings& setti
   setup.axes = axes_of_part(part);
   if (is_twist(part))
   {
-    // about the bone, through the ring's place on it
+    // about the bone, through the ring's position on it
     setup.frame =
       Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), setup.arm).toRotationMatrix();
     setup.axes = 2;
@@ -128,7 +128,7 @@ void PoseDrag::press_axis(int axis, bool plane)
 {
   if (is_twist(this->start_part_) || this->drag_.setup().kind == DragKind::stretch)
   {
-    return; // they have an axis of their own
+    return; // these drags have their own axis
   }
   const int axes = plane ? 7 ^ (1 << axis) : 1 << axis;
   this->presses_ = axes == this->pressed_axes_ ? (this->presses_ + 1) % 3 : 1;

@@ -12,28 +12,29 @@
 namespace bindpose
 {
 
-/// What all drags of one widget share.
+/// Settings common to all drags of one widget.
 struct DragSettings
 {
-  bool local_space = false; ///< axes of the gizmo and of keys: the handle's own
+  bool local_space = false; ///< axes of the gizmo and of the keys X, Y, Z are the handle's own
   bool descend = true;
-  bool bone_arrays = true; ///< stretch and twist go to their arrays, else into the transform
-  bool reach = false; ///< a tail's drag stretches, too
+  bool bone_arrays = true; ///< write stretch and twist to their arrays, else into the transform
+  bool reach = false; ///< dragging a tail also stretches the bone
   double ring_pixels = 80.0;
   double length_step = 0.0;
   double degree_step = 15.0;
   double factor_step = 0.1;
 };
 
-/// The axes that a part of the gizmo is held to, as a mask; 7 for those that are not.
+/// Return the mask of axes to which a part of the gizmo is constrained; 7 for parts without a
+/// constraint.
 int axes_of_part(int part);
 
-/// One drag of handles: what the mouse holds becomes a drag, the drag's motion becomes poses.
+/// One drag of handles. It derives a Drag from the grabbed part and poses from the Drag's motion.
 class PoseDrag
 {
 public:
   /// @param part      HandlePart or GizmoPart
-  /// @param grabbed   cells, the one that the mouse holds first; none of them free or locked
+  /// @param grabbed   cells, the one under the mouse first; none of them may be free or locked
   PoseDrag(const ScreenView& view, std::vector<HandlePlace> places, int part,
     const std::vector<vtkIdType>& grabbed, const Eigen::Vector2d& mouse,
     const DragSettings& settings);
@@ -42,23 +43,24 @@ public:
   const HandleGroup& group() const { return this->group_; }
   std::vector<HandleData::CellPose> poses();
 
-  /// A key: held to an axis, or to the plane across it. Once: in the settings' space; again: in the
-  /// other one; a third time: not held.
+  /// Handle an axis key: constrain the drag to an axis, or to the plane perpendicular to it. The
+  /// first press uses the settings' space, the second the other space, and the third removes the
+  /// constraint.
   void press_axis(int axis, bool plane);
-  /// A key of a number: digits, '.', '-' (turns the sign), 'b' (takes the last back). False for
-  /// any other.
+  /// Handle a key of a number: a digit, '.', '-' (toggles the sign) or 'b' (deletes the last
+  /// character). Return false for any other key.
   bool type(char key);
   const std::string& typed() const { return this->typed_; }
 
   /// "move", "turn", "scale", "stretch", "twist".
   const char* name() const;
-  /// "0.25 along X", "30°": for people.
+  /// Return the amount for display, such as "X 0.25" or "30.0°".
   std::string text();
-  /// The part of the gizmo that this is like, to be drawn; no_part for none.
+  /// Return the part of the gizmo to draw, which corresponds to the drag; no_part if there is none.
   int part() const;
-  /// The axes that it is held to.
+  /// Return the axes of the constraint.
   const Eigen::Matrix3d& frame() const { return this->drag_.setup().frame; }
-  /// A turn's ends, from the pivot to the ring: see GizmoMarks.
+  /// Return the ends of a turn's lines from the pivot to the ring; see GizmoMarks.
   std::array<std::optional<Eigen::Vector3d>, 2> spokes(double radius);
 
 private:

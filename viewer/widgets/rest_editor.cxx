@@ -1,9 +1,9 @@
-// Where a click means: the end of a handle under the mouse; else where the ray meets the surface,
-// or halfway to where it comes out again; else, off the surface, in the plane that faces the camera
-// through what was placed before. A cage lies around a shape: its vertices go into that plane, the
-// first one onto the surface.
+// The position of a click is the first of these that exists: the end of a handle under the mouse;
+// the intersection of the ray with the surface, or the point halfway to its exit; the intersection
+// with the plane that faces the camera through the previously placed position. A cage surrounds a
+// shape: its vertices are placed in that plane, the first vertex on the surface.
 //
-// Cells change their numbers with every edit, so a cage in the making is remembered by names.
+// Every edit renumbers cells, so an unfinished cage is identified by the names of its vertices.
 #include "rest_editor.h"
 
 #include "vtkNew.h"
@@ -17,7 +17,7 @@ namespace bindpose
 namespace
 {
 constexpr double snap_pixels = 14.0;
-constexpr double shortest_pixels = 5.0; // of a bone that is meant
+constexpr double shortest_pixels = 5.0; // minimum length of a bone; a shorter one is a click
 } // namespace
 
 Index RestEditor::handle_of(vtkIdType cell) const
@@ -60,7 +60,7 @@ std::optional<RestEditor::Target> RestEditor::end_under(const ScreenView& view,
   const std::vector<HandlePlace> places = this->data_.places(true);
   for (std::size_t i = 0; i < places.size(); ++i)
   {
-    for (const bool tail : { true, false }) // of a joint the upper bone's tail
+    for (const bool tail : { true, false }) // at a joint, the upper bone's tail
     {
       const HandlePlace& place = places[i];
       const Vec3& at = tail ? place.tail : place.head;
@@ -76,7 +76,7 @@ std::optional<RestEditor::Target> RestEditor::end_under(const ScreenView& view,
       }
     }
   }
-  // A tail at the same place wins over a head that was found first.
+  // A tail at the same position wins over a head that was found first.
   for (std::size_t i = 0; best && !best->tail && i < places.size(); ++i)
   {
     if (places[i].is_bone() && (places[i].tail - best->place).norm() == 0.0)
@@ -119,7 +119,7 @@ std::optional<RestEditor::Target> RestEditor::find(const ScreenView& view, const
   }
   if (probe && !depth && !cage)
   {
-    return std::nullopt; // beside the shape
+    return std::nullopt; // outside the shape
   }
   const Vec3 through = depth ? *depth : probe ? this->surface_.center() : settings.focus;
   if (!meet_plane(ray, through, view.sight(), target.place))
@@ -142,7 +142,7 @@ void RestEditor::hover(const ScreenView& view, const Hand& hand, const EditSetti
   {
     return;
   }
-  // An undo may have taken the vertices away.
+  // An undo may have removed the vertices.
   while (!this->cage_.empty() && this->cell_named(this->cage_.back()) < 0)
   {
     this->cage_.pop_back();
@@ -214,7 +214,7 @@ void RestEditor::move(const ScreenView& view, const Hand& hand, const EditSettin
     return;
   }
   const bool bone = settings.mode == EditMode::add_bones;
-  // A bone's tail that leaves the shape stays at its head's depth.
+  // Outside the shape, a bone's tail keeps its head's depth.
   this->target_ = this->find(
     view, hand, settings, bone ? std::optional<Vec3>(this->head_.place) : std::nullopt, false);
   this->preview_ = Preview();
@@ -265,7 +265,7 @@ void RestEditor::release(const ScreenView& view, const Hand& hand, const EditSet
     {
       return; // a click
     }
-    // from a bone's end its child
+    // a bone that starts at a bone's end is its child
     handle.parent =
       this->data_.place(this->head_.cell).is_bone() ? this->handle_of(this->head_.cell) : -1;
   }
@@ -285,7 +285,8 @@ void RestEditor::cancel()
   }
 }
 
-/// The dataset's arrays are replaced by edits, never written into: a shallow copy keeps them.
+/// Save the dataset for a cancel. Edits replace the arrays and never write into them, so a shallow
+/// copy is sufficient.
 void RestEditor::remember()
 {
   this->start_ = vtkSmartPointer<vtkPolyData>::New();
@@ -311,10 +312,10 @@ bool RestEditor::press_cage(const Target& target)
     const Index to = this->handle_of(target.cell);
     if (from < 0)
     {
-      this->cage_ = { name }; // goes on from there
+      this->cage_ = { name }; // continue from that vertex
       return true;
     }
-    // Back along the edge that was just made is no way.
+    // Going back along the edge that was just added is ignored.
     const bool back = this->cage_.size() > 1 && name == this->cage_[this->cage_.size() - 2];
     if (!back)
     {
@@ -457,13 +458,13 @@ void RestEditor::move_rest(const ScreenView& view, const Hand& hand, const EditS
   this->drag_->move_to(hand.mouse, hand.fine);
   this->drag_->set_snapping(hand.snap);
   Vec3 way = this->drag_->motion().motion.translation();
-  // as it began: edits do not add up
+  // Start again from the initial state, because edits must not accumulate.
   vtkNew<vtkPolyData> valid;
   valid->ShallowCopy(this->data_.get());
   this->data_.get()->ShallowCopy(this->start_);
   if (hand.snap && this->drag_->setup().axes == 7)
   {
-    // onto another handle's end or a vertex of the surface, where one is near
+    // Snap to another handle's end or a vertex of the surface, if one is near.
     const std::optional<Target> target =
       this->find(view, hand, settings, this->drag_->setup().grabbed, false);
     const bool own =
@@ -482,7 +483,7 @@ void RestEditor::move_rest(const ScreenView& view, const Hand& hand, const EditS
         [&](const Handles& before, EditedHandles& after)
         { return move_ends(before, this->ends_, places, after); }))
   {
-    this->data_.get()->ShallowCopy(valid); // where it last could be
+    this->data_.get()->ShallowCopy(valid); // keep the last valid position
   }
   this->data_.get()->Modified();
 }

@@ -18,7 +18,7 @@
 namespace bindpose
 {
 
-/// What the hand does. The numbers are those of the representation's edit modes.
+/// The effect of the mouse. The numbers equal the edit modes of the representation.
 enum class EditMode
 {
   pose = 0,
@@ -28,7 +28,7 @@ enum class EditMode
   add_cage = 4
 };
 
-/// The mouse at one moment.
+/// State of the mouse and the modifiers.
 struct Hand
 {
   Eigen::Vector2d mouse = Eigen::Vector2d::Zero();
@@ -39,60 +39,63 @@ struct Hand
 struct EditSettings
 {
   EditMode mode = EditMode::pose;
-  bool place_inside = true; ///< points and bones at mid-thickness, else on the surface
-  double length_step = 0.0; ///< of rest places that are moved and snap
+  bool place_inside = true; ///< place points and bones at mid-thickness, else on the surface
+  double length_step = 0.0; ///< snap step for moving rest positions
   HandleSizes sizes;
-  Eigen::Vector3d focus = Eigen::Vector3d::Zero(); ///< where there is no surface: at its depth
+  Eigen::Vector3d focus = Eigen::Vector3d::Zero(); ///< depth of new handles if there is no surface
 };
 
-/// What an edit did to the numbers of cells.
+/// The effect of an edit on the numbers of the cells.
 struct EditResult
 {
   bool changed = false;
-  std::string message; ///< why it was refused; empty otherwise
+  std::string message; ///< reason for a refusal, else empty
   std::vector<Index> cell_of;
   std::vector<Index> added;
 };
 
-/// Handles at rest, made and moved by hand. Writes the dataset only when something is done: until
-/// then there is a preview. Every edit is one of handle_edits.h; what these refuse changes nothing.
+/// Creates and moves handles at rest interactively. The dataset is written only when an edit is
+/// complete; until then there is a preview. All edits are functions of handle_edits.h. If they
+/// refuse an edit, nothing changes.
 class RestEditor
 {
 public:
   explicit RestEditor(HandleData& data) : data_(data) {}
   RestSurface& surface() { return this->surface_; }
 
-  /// The mouse is somewhere, no button held: the preview follows.
+  /// Update the preview for a mouse position without a pressed button.
   void hover(const ScreenView& view, const Hand& hand, const EditSettings& settings);
-  /// The mouse is on nothing.
+  /// Clear the preview, because the mouse is on nothing.
   void leave();
-  /// The button goes down. True when a drag or a placing has begun, or is done (see result()).
-  /// @param selected  all of these are moved when one of them is
+  /// Handle a press of the button. Return true if a drag or a placement has begun or is complete
+  /// (see take_result()).
+  /// @param selected  all of these are moved if one of them is
   bool press(const ScreenView& view, const Hand& hand, const EditSettings& settings,
     const std::vector<vtkIdType>& selected);
   void move(const ScreenView& view, const Hand& hand, const EditSettings& settings);
   void release(const ScreenView& view, const Hand& hand, const EditSettings& settings);
-  /// Whether a button is held that began something.
+  /// Report whether an interaction is in progress while the button is down.
   bool busy() const { return this->busy_; }
-  /// The dataset as it was when that began.
+  /// Restore the dataset to its state before the interaction.
   void cancel();
-  /// Holds a move to axes of the world, a mask as in DragSetup; the same again: to none.
+  /// Constrain a move to axes of the world, a mask as in DragSetup. The same mask again removes the
+  /// constraint.
   void constrain(int axes);
 
   ///@{
-  /// The cage that is being made: whether there is one; ends it as it is; takes its last vertex
-  /// away. False when there is none.
+  /// Operations on the unfinished cage: report whether there is one; end it unchanged; remove its
+  /// last vertex. Return false if there is no unfinished cage.
   bool has_cage() const { return !this->cage_.empty(); }
   bool finish_cage();
   bool drop_cage_vertex();
   ///@}
 
-  /// Of the last edit; asking clears it.
+  /// Return the result of the last edit and clear it.
   EditResult take_result();
   /// "move rest", "add point", "add bone", "add cage vertex", "add cage edge", "close cage",
   /// "remove cage vertex".
   const std::string& name() const { return this->name_; }
-  /// The end of a bone or the handle that a press would take; -1: none.
+  /// Return the bone or other handle whose end a press would use; -1 if there is none.
   vtkIdType target() const { return this->target_ ? this->target_->cell : -1; }
 
   struct Preview
@@ -100,16 +103,16 @@ public:
     std::optional<Eigen::Vector3d> ball;
     std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> bone;
     std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> bar;
-    bool snapped = false; ///< the ball sits on something that was there
+    bool snapped = false; ///< the ball is on an existing handle or vertex
   };
   const Preview& preview() const { return this->preview_; }
 
 private:
-  /// Where something would be placed.
+  /// The position where a press would place something.
   struct Target
   {
     Vec3 place = Vec3::Zero();
-    vtkIdType cell = -1; ///< a handle whose end is there
+    vtkIdType cell = -1; ///< a handle with an end at this position
     bool tail = false;
     bool snapped = false;
   };
@@ -122,7 +125,7 @@ private:
     const std::vector<vtkIdType>& selected);
   void move_rest(const ScreenView& view, const Hand& hand, const EditSettings& settings);
   bool edit(const char* name, const HandleListEdit& edit);
-  /// The number in the list of handles that a cell has.
+  /// Return the index of a cell in the list of handles.
   Index handle_of(vtkIdType cell) const;
   vtkIdType cell_named(const std::string& name) const;
   void remember();
@@ -134,9 +137,9 @@ private:
   EditResult result_;
   std::string name_;
   bool busy_ = false;
-  Target head_; // of the bone that is drawn
-  std::vector<std::string> cage_; // names of the vertices that were added, in order
-  // a move of rest places
+  Target head_; // head of the unfinished bone
+  std::vector<std::string> cage_; // names of the added vertices, in order
+  // State of a move of rest positions:
   vtkSmartPointer<vtkPolyData> start_;
   std::optional<Drag> drag_;
   std::vector<HandleEnd> ends_;

@@ -15,8 +15,8 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// The surface that handles are placed on, or regions painted: its probe is built when it is asked
-/// for, and again when points or cells have changed (arrays may change at every move of the mouse).
+/// The surface on which handles are placed or regions are painted. Its probe is built on demand,
+/// and again after points or cells have changed. (Arrays may change with every move of the mouse.)
 class RestSurface
 {
 public:
@@ -24,21 +24,23 @@ public:
   ~RestSurface();
   void set(vtkPolyData* data);
   vtkPolyData* get() const;
-  /// Null without a surface, or for one that has no triangle or cannot be read.
+  /// Return the probe. Return null without a surface, or if the surface has no triangle or cannot
+  /// be read.
   const SurfaceProbe* probe();
-  /// How often a probe was built: other points and triangles than before.
+  /// Number of times a probe was built. It increases when points or triangles have changed.
   int builds() const { return this->builds_; }
-  /// After probe() was not null.
+  /// Valid after probe() has returned a probe.
   PointsView points() const { return this->input_.points.view(); }
   TrianglesView triangles() const { return this->input_.triangles.view(); }
-  /// The vertex of a triangle nearest to a place.
+  /// Return the vertex of a triangle that is nearest to a position.
   Vec3 nearest_vertex(Index triangle, const Vec3& place) const;
-  /// The middle of its box; the origin without a surface.
+  /// Return the center of its bounding box; the origin without a surface.
   Vec3 center();
 
 private:
   vtkSmartPointer<vtkPolyData> data_;
-  std::vector<std::pair<const void*, vtkMTimeType>> read_; // what the probe was built of
+  std::vector<std::pair<const void*, vtkMTimeType>> read_; // inputs of the probe and their
+                                                           // modification times
   SurfaceInput input_;
   int builds_ = 0;
   std::unique_ptr<SurfaceProbe> probe_;

@@ -1,4 +1,4 @@
-// A text actor draws its letters in the opaque pass and shows them in the overlay.
+// A text actor renders its letters in the opaque pass and shows them in the overlay pass.
 #include "screen_labels.h"
 
 #include "vtkCoordinate.h"

@@ -17,14 +17,14 @@ class vtkWindow;
 namespace bindpose
 {
 
-/// Short texts at display positions, all in one font. Actors are kept for the next time.
+/// Short texts at display positions, all in one font. Actors are reused.
 class ScreenLabels
 {
 public:
   vtkTextProperty* text() const { return this->text_; }
   void clear() { this->shown_ = 0; }
   /// @param scale   factor on the font's size
-  /// @param colour  without a plate behind, or null for the font's own colour and plate
+  /// @param colour  text color, without a background plate; null: the font's own color and plate
   void add(const std::string& text, const Eigen::Vector2d& display, double scale,
     const double* colour = nullptr);
   int render(vtkViewport* viewport);

@@ -1,6 +1,6 @@
-// World to display is the camera's matrix, a division, and an affine map of the view's square to
-// the viewport's pixels; the renderer is asked where two corners of the square lie, so that both
-// agree to the last pixel.
+// The mapping from world to display is the camera's matrix, a division, and an affine map of the
+// view's square to the viewport's pixels. The affine map is derived from the renderer's own mapping
+// of two corners of the square, so that both agree to the last pixel.
 #include "screen_view.h"
 
 #include "vtkCamera.h"

@@ -9,15 +9,15 @@ class vtkRenderer;
 namespace bindpose
 {
 
-/// What a pixel of the window looks along.
+/// The ray through a pixel of the window.
 struct Ray
 {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< in the near plane
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ(); ///< unit, away from the eye
 };
 
-/// A renderer's camera at one moment: where the world is on the screen, and back. Reads the camera
-/// once, so that hundreds of places cost hundreds of small products.
+/// A renderer's camera at one moment. It maps world positions to the screen and back. The camera is
+/// read once, so that each of hundreds of positions costs only a small matrix product.
 class ScreenView
 {
 public:
@@ -26,9 +26,9 @@ public:
   /// Display coordinates in pixels, from the window's lower left; z is the depth, 0 near to 1 far.
   Eigen::Vector3d to_display(const Eigen::Vector3d& world) const;
   Ray ray(const Eigen::Vector2d& display) const;
-  /// The world length of a pixel at a place; 0 behind the eye.
+  /// Return the world length of a pixel at a position; 0 behind the eye.
   double pixel_at(const Eigen::Vector3d& place) const;
-  /// Unit, from the eye to the place.
+  /// Return the unit vector from the eye to a position.
   Eigen::Vector3d sight_to(const Eigen::Vector3d& place) const;
 
   const Eigen::Vector3d& sight() const { return this->sight_; }
@@ -45,10 +45,12 @@ private:
   Eigen::Vector3d right_;
   Eigen::Vector3d up_;
   bool parallel_ = false;
-  double pixel_slope_ = 0.0; // world length of a pixel: at any place, or a unit away from the eye
+  double pixel_slope_ = 0.0; // world length of a pixel: anywhere if parallel, else at distance 1
+                             // from the eye
 };
 
-/// Where a ray meets a plane. False when it does not, or behind the ray's origin.
+/// Intersect a ray with a plane. Return false if there is no intersection in front of the ray's
+/// origin.
 bool meet_plane(
   const Ray& ray, const Eigen::Vector3d& place, const Eigen::Vector3d& normal, Eigen::Vector3d& at);
 

@@ -1,9 +1,9 @@
-// The glue between the handle dataset (handle_data, handle_poses), the mouse (handle_picking,
-// gizmo, pose_drag; rest_editor in edit modes) and the picture, which handle_set_drawing.cxx makes.
+// This file connects the handle dataset (handle_data, handle_poses), the mouse (handle_picking,
+// gizmo, pose_drag; rest_editor in edit modes) and the drawing in handle_set_drawing.cxx.
 //
-// A drag keeps the poses from its start. Every move makes one motion D from the start to now and
-// writes D * start for the grabbed handle and its descendants: no error accumulates, and a cancel
-// copies the start back.
+// A drag keeps the poses from its start. Every move computes one motion D from the start to now and
+// writes D * start for the grabbed handle and its descendants. So no error accumulates, and a
+// cancel copies the start back.
 #include "vtkHandleSetRepresentation.h"
 
 #include "handle_picking.h"
@@ -29,7 +29,7 @@ using Eigen::Vector3d;
 
 namespace
 {
-/// 1, 2 or 5 times a power of ten: the largest that is not above the length.
+/// Return the largest number 1, 2 or 5 times a power of ten that is not above the length.
 double round_length(double length)
 {
   if (!(length > 0.0) || !std::isfinite(length))
@@ -67,7 +67,7 @@ void vtkHandleSetRepresentation::SetHandles(vtkPolyData* handles)
   {
     return;
   }
-  this->Internal->Editor.cancel(); // writes into the old ones
+  this->Internal->Editor.cancel(); // writes into the old handles
   this->Internal->Editor.finish_cage();
   this->Internal->Data.set(handles);
   this->HoveredHandle = -1;
@@ -207,7 +207,7 @@ int vtkHandleSetRepresentation::GetDragRefusal(vtkIdType handle)
   {
     return IS_NO_HANDLE;
   }
-  // At rest a handle has a place of its own, whatever its mode.
+  // At rest, a handle has its own position, whatever its mode.
   const bool poses = this->EditMode == POSE;
   const bool free = place.is_free() && poses && !this->DragFree;
   return place.locked         ? IS_LOCKED
@@ -567,7 +567,7 @@ bindpose::Hand vtkHandleSetRepresentation::MakeHand(const double eventPos[2])
   return { Vector2d(eventPos), this->Fine != 0, this->Snap != 0 };
 }
 
-/// What the editor has done, when it is done: cells may have other numbers now.
+/// Read the result of a finished edit, which may have renumbered cells.
 void vtkHandleSetRepresentation::TakeEdit()
 {
   Internals& self = *this->Internal;
@@ -591,7 +591,7 @@ void vtkHandleSetRepresentation::TakeEdit()
         selected.push_back(result.cell_of[cell]);
       }
     }
-    // What is new is selected alone.
+    // A new handle becomes the only selected one.
     self.Selected = result.added.empty() ? selected : std::vector<vtkIdType>{ result.added.back() };
     this->SetHoveredHandle(-1);
   }

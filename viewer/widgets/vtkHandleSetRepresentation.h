@@ -1,76 +1,81 @@
 /**
  * @class   vtkHandleSetRepresentation
- * @brief   all handles of a handle dataset: drawn, picked and dragged
+ * @brief   draws, picks and drags all handles of a handle dataset
  *
- * Draws every handle of a handle polydata where its `Transform` takes it (points, cage vertices
- * and region pivots as balls, bones as elongated octahedra with a ball at each end), finds the
- * handle under the mouse, and turns a drag into a new `Transform`. It is the representation of
- * vtkHandleSetWidget; added to a renderer by itself it only draws.
+ * Draws every handle of a handle polydata at its posed position (points, cage vertices and region
+ * pivots as balls, bones as elongated octahedra with a ball at each end), finds the handle under
+ * the mouse, and converts a drag to a new `Transform`. It is the representation of
+ * vtkHandleSetWidget. Added to a renderer without the widget, it only draws.
  *
- * A handle is named by its cell id in the handle dataset; -1 means none. Cage elements (HandleKind
- * -1) are no handles: they are drawn as thin bars and cannot be picked.
+ * A handle is identified by its cell id in the handle dataset; -1 means no handle. Cage elements
+ * (HandleKind -1) are not handles: they are drawn as thin bars and cannot be picked.
  *
  * **Dragging** writes absolute transforms (3x4, rest to posed) into the cell array `Transform`,
- * which is made when absent, and for bones that stretch or twist `Stretch` and `Twist`; all other
- * arrays are left alone.
- * - a ball (point, cage vertex, region) or a bone's body or head: translation in the plane through
- *   the grabbed place that faces the camera;
- * - a bone's tail: rotation about the bone's posed head, the shortest that turns the bone towards
- *   the mouse. The bone's length stays, unless Reach is on: then the tail stays under the mouse.
- * - a part of the gizmo (see SetGizmo()), which stands at the selected handle: arrows move along
- *   its axes, plates in its planes, rings turn about its axes and about the line of sight, boxes
- *   scale along its axes, the grey box or ring scales evenly; of a bone the box beyond its tail
- *   stretches it and the rings around it twist it.
- * - All selected handles move, turn and scale together, about the one that is grabbed. Tails,
- *   stretches and twists are of one bone alone.
- * - With MoveDescendants (on) the same motion is applied to all handles below them by `Parent`; of
- *   a stretched bone these move with the tail, of one twisted at its tail they turn with it.
- * - A handle whose Mode is position only moves: when others turn, it goes with its place. One whose
- *   Mode is free can be selected but not dragged, its place is for the solver to find; nor can one
- *   with a number other than 0 in the cell array `Locked` (it follows its parent). See
- *   GetDragRefusal().
+ * which is created if it is missing. For bones that stretch or twist, it also writes `Stretch` and
+ * `Twist`. All other arrays do not change.
+ * - A ball (point, cage vertex, region) or a bone's body or head moves in the plane through the
+ *   grabbed position that faces the camera.
+ * - A bone's tail turns the bone about its posed head, by the shortest rotation toward the mouse.
+ *   The bone keeps its length, unless Reach is on: then the tail stays under the mouse.
+ * - The gizmo (see SetGizmo()) is drawn at the selected handle. Its arrows move along its axes, its
+ *   plates move in its planes, its rings turn about its axes and about the viewing direction. Its
+ *   boxes scale along its axes, the gray box or ring scales uniformly. For a bone, the box beyond
+ *   its tail stretches it and the rings around it twist it.
+ * - All selected handles move, turn and scale together, about the grabbed handle. Dragging a tail,
+ *   stretching and twisting affect one bone only.
+ * - With MoveDescendants (on), the same motion is applied to all handles below them by `Parent`.
+ *   The descendants of a stretched bone move with its tail; those of a bone twisted at its tail
+ *   turn with it.
+ * - A handle whose Mode is position never turns: when other handles turn, it moves with its
+ *   position.
+ * - A handle whose Mode is free can be selected but not dragged, because the solver determines its
+ *   position. A handle with a number other than 0 in the cell array `Locked` cannot be dragged
+ *   either, because it follows its parent. See GetDragRefusal().
  *
- * CancelWidgetInteraction() gives all poses back as they were, bit by bit.
+ * CancelWidgetInteraction() restores all poses bit by bit.
  *
- * **Stretch and twist** are what vtkSkinningDeformation's stretchable bones read: `Stretch`, the
- * posed length over the rest length, and `Twist`, the angles in degrees at head and tail. Methods
- * that do not read them need StretchableBones off: then a stretch scales the transform along the
- * bone, and a twist, of one ring, turns it about the bone.
+ * **Stretch and twist** are read by the stretchable bones of vtkSkinningDeformation: `Stretch`, the
+ * posed length divided by the rest length, and `Twist`, the angles in degrees at head and tail.
+ * Methods that do not read these arrays need StretchableBones off. Then a stretch scales the
+ * transform along the bone, and a twist, which has only one ring, turns the transform about the
+ * bone.
  *
- * **Scale** along an axis is exact in the 3x4 transform; in world space of a turned handle it
- * makes a shear, which pose files cannot hold.
+ * **Scale** along an axis is exact in the 3x4 transform. In world space, scaling a turned handle
+ * causes a shear, which pose files cannot store.
  *
- * **Picking** happens on the screen, without rendering: a place counts when the mouse is within
+ * **Picking** is computed on the screen, without rendering. A part is hit if the mouse is within
  * its drawn radius plus PickTolerance. The order of priority is: boxes, cones and bone parts of the
- * gizmo, its plates, its shafts, its rings, its ring that faces the camera; then balls of points,
- * tails, heads, bodies; among equals the nearest to the mouse wins, then the one nearest to the
- * camera.
+ * gizmo; its plates; its shafts; its rings; its ring that faces the camera; then balls of points,
+ * tails, heads, bodies. Among parts of equal priority, the nearest to the mouse wins, then the
+ * nearest to the camera.
  *
- * **Edit modes** (SetEditMode()) show handles at rest and change what a bind depends on: points,
- * cells and the arrays HandleName, HandleKind, Parent and RegionId, in place. All other cell arrays
- * follow their handles, new ones are at rest with a free name (p1, b1, c1, …). What would not be a
- * valid handle dataset (two points at one place, a bone without length) is refused:
- * GetEditMessage(). Cells are numbered points first, so numbers of bones move when a point is
- * added; selected handles stay selected.
- * - MOVE_REST drags rest places in the plane that faces the camera: points, cage vertices, pivots,
- *   ends of bones with all bones that meet there, whole bones by their body; of several selected
- *   handles all.
- * - ADD_POINTS puts a point where the button is released: on the surface (SetSurface()) under the
- *   mouse or, with PlaceInside, halfway to where the line of sight comes out again, by winding
- *   number (overlapping and nested parts are one, a cavity ends it; an open surface: halfway to the
- *   second hit, or on the only one). Beside the surface the camera has the mouse.
- * - ADD_BONES draws a bone from where the button goes down to where it comes up, at the same
- * depths; beside the surface its tail stays in the plane through its head that faces the camera.
- * From the end of a bone it is that bone's child, so the next drag continues the chain.
- * - ADD_CAGE adds a cage vertex with every click, joined to the last one by a cage's edge; a click
- * on the first one closes the cage, one on another cage vertex joins it. The first lies on the
- *   surface under the mouse, if there is any, the others in the plane through it that faces the
- *   camera. FinishCage() leaves it open.
- * - Snap places on ends of other handles and on vertices of the surface, or, moving rest places
- * away from any, in steps.
+ * **Edit modes** (SetEditMode()) show handles at rest and change inputs of a bind, in place:
+ * points, cells and the arrays HandleName, HandleKind, Parent and RegionId. All other cell arrays
+ * follow their handles. New handles are at rest and have an unused name (p1, b1, c1, …). An edit
+ * that would give an invalid handle dataset (two points at one position, a bone of length 0) is
+ * refused; see GetEditMessage(). Cells are numbered starting with points, so numbers of bones
+ * change when a point is added. Selected handles stay selected.
+ * - MOVE_REST drags rest positions in the plane that faces the camera: points, cage vertices,
+ *   pivots, ends of bones with all bones that meet there, whole bones by their body. If the dragged
+ *   handle is selected, all selected handles move.
+ * - ADD_POINTS adds a point where the button is released, on the surface (SetSurface()) under the
+ *   mouse. With PlaceInside, the point is halfway to where the line of sight leaves the inside
+ *   again, by winding number. Overlapping and nested parts count as one; a cavity ends the inside.
+ *   On an open surface, the point is halfway to the second hit, or on the only hit. Outside the
+ *   surface, mouse events go to the camera.
+ * - ADD_BONES draws a bone from the position of the press to that of the release, at the same
+ *   depths. Outside the surface, its tail is in the plane through its head that faces the camera. A
+ *   bone that begins at the end of another bone is a child of that bone, so that the next drag
+ *   continues the chain.
+ * - ADD_CAGE adds a cage vertex with every click, joined to the last one by a cage edge. A click on
+ *   the first vertex closes the cage; a click on another cage vertex joins it. The first vertex is
+ *   on the surface under the mouse, if there is any. The other vertices are in the plane through it
+ *   that faces the camera. FinishCage() ends the cage without closing it.
+ * - Snap moves positions to ends of other handles and to vertices of the surface. If none is near
+ *   while rest positions are moved, it moves in steps.
  *
- * Sizes are in pixels of the window, multiplied by PixelScale (for pictures rendered larger than
- * they are shown). Handles are drawn over everything else unless DrawOnTop is off.
+ * Sizes are in pixels of the window, multiplied by PixelScale (for pictures that are rendered
+ * larger than they are shown). Handles are drawn over everything else unless DrawOnTop is off.
  */
 
 #ifndef vtkHandleSetRepresentation_h
@@ -100,7 +105,7 @@ public:
   vtkTypeMacro(vtkHandleSetRepresentation, vtkWidgetRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// What the mouse is on: the interaction state.
+  /// The part under the mouse: the interaction state.
   enum InteractionStateType
   {
     OUTSIDE = 0, ///< no handle
@@ -108,7 +113,7 @@ public:
     ON_HEAD = 2, ///< a bone's head
     ON_TAIL = 3, ///< a bone's tail
     ON_BODY = 4, ///< a bone between its ends
-    // parts of the gizmo at the selected handle
+    // Parts of the gizmo at the selected handle:
     MOVE_X = 10, ///< arrows
     MOVE_Y,
     MOVE_Z,
@@ -118,7 +123,7 @@ public:
     TURN_X = 20, ///< rings
     TURN_Y,
     TURN_Z,
-    TURN_VIEW, ///< about the line of sight
+    TURN_VIEW, ///< about the viewing direction
     SCALE_X = 30, ///< boxes
     SCALE_Y,
     SCALE_Z,
@@ -126,10 +131,10 @@ public:
     STRETCH = 40, ///< the box beyond a bone's tail
     TWIST_HEAD, ///< rings around a bone
     TWIST_TAIL,
-    PLACING = 50 ///< an edit mode has a place for what the button would add
+    PLACING = 50 ///< in an edit mode, the button would add something at this position
   };
 
-  /// What the hand does with handles.
+  /// The effect of the mouse on handles.
   enum EditModeType
   {
     POSE = 0,
@@ -139,10 +144,10 @@ public:
     ADD_CAGE = 4
   };
 
-  /// What the gizmo at the selected handle does.
+  /// The effect of the gizmo at the selected handle.
   enum GizmoType
   {
-    GIZMO_NONE = 0, ///< handles are dragged by themselves
+    GIZMO_NONE = 0, ///< handles are dragged directly
     GIZMO_MOVE = 1,
     GIZMO_TURN = 2,
     GIZMO_SCALE = 3,
@@ -152,70 +157,72 @@ public:
   enum SpaceType
   {
     WORLD = 0,
-    LOCAL = 1 ///< the handle's own axes, turned with it; a bone's y axis is along it
+    LOCAL = 1 ///< the handle's own axes, turned with it; the y axis is along a bone
   };
 
-  /// Why a handle cannot be dragged.
+  /// The reason why a handle cannot be dragged.
   enum RefusalType
   {
     DRAGGABLE = 0,
     IS_FREE = 1, ///< its Mode is free
     IS_LOCKED = 2,
-    IS_NO_HANDLE = 3, ///< no such cell, or a cage element
+    IS_NO_HANDLE = 3, ///< the cell does not exist, or is a cage element
     IS_AT_REST = 4 ///< ShowRest is on
   };
 
   ///@{
-  /// The handle dataset. It is edited in place: in POSE the pose arrays only.
+  /// The handle dataset. It is edited in place; in POSE only the pose arrays change.
   void SetHandles(vtkPolyData* handles);
   vtkPolyData* GetHandles();
   ///@}
 
   ///@{
-  /// See EditModeType and the class's text. Default POSE. Changing it ends what was begun.
+  /// The edit mode, see EditModeType and the class documentation. Default POSE. A change of the
+  /// mode ends the current interaction.
   void SetEditMode(int mode);
   vtkGetMacro(EditMode, int);
   ///@}
   ///@{
-  /// In POSE: draw handles at rest, whatever their pose. They can be selected, not dragged. Default
-  /// off. Changing it ends what was begun.
+  /// In POSE, draw handles at rest, whatever their pose. They can be selected but not dragged.
+  /// Default off. A change ends the current interaction.
   void SetShowRest(vtkTypeBool show);
   vtkGetMacro(ShowRest, vtkTypeBool);
   vtkBooleanMacro(ShowRest, vtkTypeBool);
   ///@}
   ///@{
-  /// The surface at rest that handles are placed on. Default none: they are placed at the depth of
-  /// the camera's focal point.
+  /// The surface at rest on which handles are placed. Default null: handles are placed at the depth
+  /// of the camera's focal point.
   void SetSurface(vtkPolyData* surface);
   vtkPolyData* GetSurface();
   ///@}
   ///@{
-  /// Whether points and bones are placed inside the surface, else on it. Default on.
+  /// Place points and bones inside the surface, else on the surface. Default on.
   vtkSetMacro(PlaceInside, vtkTypeBool);
   vtkGetMacro(PlaceInside, vtkTypeBool);
   vtkBooleanMacro(PlaceInside, vtkTypeBool);
   ///@}
   ///@{
-  /// The cage that ADD_CAGE is making: whether there is one; ends it, open; takes its last vertex
-  /// away, with its edge. False when there is none.
+  /// Operations on the unfinished cage of ADD_CAGE: report whether there is one; end it without
+  /// closing it; remove its last vertex with its edge. Return false if there is no unfinished cage.
   bool IsMakingCage();
   bool FinishCage();
   bool DropCageVertex();
   ///@}
-  /// Why the last edit was refused, in one sentence; empty when it was not.
+  /// Return one sentence with the reason why the last edit was refused; empty if it was not
+  /// refused.
   std::string GetEditMessage();
-  /// Whether the last press, release or drop has changed the handles.
+  /// Report whether the last press, release or drop has changed the handles.
   vtkGetMacro(Edited, bool);
-  /// Whether the button that began a drag or a placing is held still.
+  /// Report whether the button that began a drag or a placement is still pressed.
   bool IsInteracting();
 
   ///@{
-  /// The gizmo: see GizmoType. Default GIZMO_NONE.
+  /// The type of the gizmo; see GizmoType. Default GIZMO_NONE.
   vtkSetClampMacro(Gizmo, int, GIZMO_NONE, GIZMO_ALL);
   vtkGetMacro(Gizmo, int);
   ///@}
   ///@{
-  /// The axes of the gizmo, and of the keys X, Y and Z: see SpaceType. Default WORLD.
+  /// The space of the axes of the gizmo and of the keys X, Y and Z; see SpaceType. Default WORLD.
   vtkSetClampMacro(Space, int, WORLD, LOCAL);
   vtkGetMacro(Space, int);
   ///@}
@@ -225,16 +232,17 @@ public:
   vtkGetMacro(GizmoSize, double);
   ///@}
   ///@{
-  /// Whether stretches and twists are written to `Stretch` and `Twist`, else into `Transform`; see
-  /// the class's text. Default on.
+  /// Write stretches and twists to `Stretch` and `Twist`, else into `Transform`; see the class
+  /// documentation. Default on.
   vtkSetMacro(StretchableBones, vtkTypeBool);
   vtkGetMacro(StretchableBones, vtkTypeBool);
   vtkBooleanMacro(StretchableBones, vtkTypeBool);
   ///@}
   ///@{
-  /// Steps of drags that snap: of lengths, along each axis, from where the drag began (0, the
-  /// default: a round number near a fiftieth of what the renderer shows; see GetSnapLength()), of
-  /// angles in degrees (default 15), of factors (default 0.1).
+  /// Steps of drags that snap. LengthStep is the step along each axis from the start of the drag;
+  /// 0, the default, selects a round number near a fiftieth of the size of the renderer's content
+  /// (see GetSnapLength()). DegreeStep is in degrees (default 15). FactorStep applies to factors
+  /// (default 0.1).
   vtkSetClampMacro(LengthStep, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(LengthStep, double);
   vtkSetClampMacro(DegreeStep, double, 0.0, 180.0);
@@ -242,12 +250,12 @@ public:
   vtkSetClampMacro(FactorStep, double, 0.0, 10.0);
   vtkGetMacro(FactorStep, double);
   ///@}
-  /// LengthStep, or the number that stands for 0.
+  /// Return LengthStep, or the number that is used instead of 0.
   double GetSnapLength();
   ///@{
-  /// How the drag that goes on takes the mouse, and may be changed at any time of it: Fine, a tenth
-  /// of its motion from now on; Snap, in steps; Reach (from the next drag on), tails stretch their
-  /// bones. Default off. The widget sets them by Shift, Ctrl and Alt.
+  /// Modifiers of the current drag, which may change at any time. Fine applies a tenth of the
+  /// mouse's motion from now on. Snap moves in steps. Reach, which takes effect at the next drag,
+  /// makes tails stretch their bones. Default off. The widget sets them from Shift, Ctrl and Alt.
   vtkSetMacro(Fine, vtkTypeBool);
   vtkGetMacro(Fine, vtkTypeBool);
   vtkSetMacro(Snap, vtkTypeBool);
@@ -262,50 +270,49 @@ public:
   vtkGetMacro(PointSize, double);
   ///@}
   ///@{
-  /// Half the width of a bone as a fraction of its length, kept between 0.5 and 2 ball radii.
+  /// Half the width of a bone as a fraction of its length, limited to 0.5 to 2 ball radii.
   /// Default 0.08, range 0.001 to 0.5.
   vtkSetClampMacro(BoneWidth, double, 0.001, 0.5);
   vtkGetMacro(BoneWidth, double);
   ///@}
   ///@{
-  /// Pixels beyond the drawn radius that still hit. Default 4, range 0 to 100.
+  /// Distance in pixels from the drawn shape that still counts as a hit. Default 4, range 0 to 100.
   vtkSetClampMacro(PickTolerance, double, 0.0, 100.0);
   vtkGetMacro(PickTolerance, double);
   ///@}
   ///@{
-  /// Factor on all pixel measures and on the font size. Default 1, range 0.1 to 16.
+  /// Factor on all pixel measures and on the font size. Default 1, range 0.1 to 64.
   vtkSetClampMacro(PixelScale, double, 0.1, 64.0);
   vtkGetMacro(PixelScale, double);
   ///@}
   ///@{
-  /// Names of all handles. Default off.
+  /// Show the names of all handles. Default off.
   vtkSetMacro(ShowLabels, vtkTypeBool);
   vtkGetMacro(ShowLabels, vtkTypeBool);
   vtkBooleanMacro(ShowLabels, vtkTypeBool);
   ///@}
   ///@{
-  /// The name of the handle under the mouse. Default on.
+  /// Show the name of the handle under the mouse. Default on.
   vtkSetMacro(ShowHoverName, vtkTypeBool);
   vtkGetMacro(ShowHoverName, vtkTypeBool);
   vtkBooleanMacro(ShowHoverName, vtkTypeBool);
   ///@}
   ///@{
-  /// Draw over everything else in the renderer, so that handles inside a shape are seen. Default
+  /// Draw over everything else in the renderer, so that handles inside a shape are visible. Default
   /// on.
   vtkSetMacro(DrawOnTop, vtkTypeBool);
   vtkGetMacro(DrawOnTop, vtkTypeBool);
   vtkBooleanMacro(DrawOnTop, vtkTypeBool);
   ///@}
   ///@{
-  /// Whether handles below the dragged one in the `Parent` hierarchy move with it. Default on.
+  /// Move handles below the dragged one in the `Parent` hierarchy with it. Default on.
   vtkSetMacro(MoveDescendants, vtkTypeBool);
   vtkGetMacro(MoveDescendants, vtkTypeBool);
   vtkBooleanMacro(MoveDescendants, vtkTypeBool);
   ///@}
 
   ///@{
-  /// Whether free handles can be dragged all the same: a body that moves is pulled by them and let
-  /// go. Default off.
+  /// Allow drags of free handles, which pull a moving body and release it at the end. Default off.
   vtkSetMacro(DragFree, vtkTypeBool);
   vtkGetMacro(DragFree, vtkTypeBool);
   vtkBooleanMacro(DragFree, vtkTypeBool);
@@ -313,15 +320,16 @@ public:
 
   ///@{
   /// Draw handles in mode automatic as a method that finds rotations treats them (see
-  /// vtkReducedARAP): those that are only translated as mode position. Off by default.
+  /// vtkReducedARAP): handles that are only translated are drawn as mode position. Default off.
   vtkSetMacro(FindsRotations, vtkTypeBool);
   vtkGetMacro(FindsRotations, vtkTypeBool);
   vtkBooleanMacro(FindsRotations, vtkTypeBool);
   ///@}
 
   ///@{
-  /// Colours by Mode (full: orange, position and ends: blue, free: grey) and of the outline; the
-  /// selected handle's outline has its own, with the outline's colour around it.
+  /// Colors by Mode (full: orange; position, tail and ends: blue; free: gray) and color of the
+  /// outline. The outline of a selected handle has its own color and is surrounded by the normal
+  /// outline.
   vtkSetVector3Macro(FullColor, double);
   vtkGetVector3Macro(FullColor, double);
   vtkSetVector3Macro(PositionColor, double);
@@ -334,44 +342,45 @@ public:
   vtkGetVector3Macro(SelectedColor, double);
   ///@}
 
-  /// Font of names; its size is multiplied by PixelScale. Default: Arial 13, dark on a light plate.
+  /// Font of names. Its size is multiplied by PixelScale. Default: Arial 13, dark on a light plate.
   vtkTextProperty* GetLabelTextProperty();
 
   ///@{
-  /// Handle under the mouse, as found by ComputeInteractionState(); -1: none.
+  /// Handle under the mouse, as found by ComputeInteractionState(); -1 if there is none.
   void SetHoveredHandle(vtkIdType handle);
   vtkGetMacro(HoveredHandle, vtkIdType);
   ///@}
   ///@{
-  /// The handle that was selected last, at which the gizmo stands; -1: none. Setting it selects it
-  /// alone.
+  /// The handle that was selected last, at which the gizmo is drawn; -1 if there is none. Setting
+  /// it deselects all other handles.
   void SetSelectedHandle(vtkIdType handle);
   vtkIdType GetSelectedHandle();
   ///@}
   ///@{
-  /// Several selected handles, in the order in which they were.
+  /// The selected handles, in the order of their selection.
   void ToggleSelected(vtkIdType handle);
   bool IsSelected(vtkIdType handle);
   int GetNumberOfSelectedHandles();
   vtkIdType GetSelectedHandle(int number);
   void ClearSelection() { this->SetSelectedHandle(-1); }
-  /// Selects all handles whose place (of a bone its middle) is in a rectangle of the display, and
-  /// no others.
+  /// Select all handles whose position (the middle of a bone) is in a rectangle of the display, and
+  /// deselect the other handles.
   void SelectInRectangle(const double corner[2], const double opposite[2]);
   ///@}
-  /// Handle being dragged; -1: none.
+  /// Handle being dragged; -1 if there is none.
   vtkGetMacro(ActiveHandle, vtkIdType);
 
-  /// DRAGGABLE or why not: see RefusalType.
+  /// Return DRAGGABLE or the reason why not; see RefusalType.
   int GetDragRefusal(vtkIdType handle);
 
   ///@{
-  /// The pose of a handle with pivot c (its place at rest, of a bone its head), in numbers: x goes
-  /// to c + translation + R S (x - c), R the rotation, S a scale along the handle's own axes at
-  /// rest (the world's; of a bone y is along it). Each sets one part and keeps the others, a shear
-  /// but goes when the scale is set; with MoveDescendants those below go along. False, and
-  /// nothing changes, when there is no such handle, it is locked, or a number is not finite, the
-  /// axis has no length, a factor is 0 or a stretch not positive.
+  /// The pose of a handle as numbers. The pivot c is its rest position, for a bone its head. A
+  /// point x moves to c + translation + R S (x - c), where R is the rotation and S a scale along
+  /// the handle's own axes at rest (the world's axes; for a bone, y is along the bone). Each setter
+  /// changes one part and keeps the other parts, but setting the scale removes a shear. With
+  /// MoveDescendants, handles below the handle move with it. A setter changes nothing and returns
+  /// false if the handle does not exist or is locked, a number is not finite, the axis has length
+  /// 0, a factor is 0, or a stretch is not positive.
   bool SetHandleTranslation(vtkIdType handle, const double translation[3]);
   bool SetHandleRotation(vtkIdType handle, const double axis[3], double degrees);
   bool SetHandleScale(vtkIdType handle, const double factors[3]);
@@ -379,18 +388,18 @@ public:
   bool SetHandleStretch(vtkIdType handle, double ratio);
   bool SetHandleTwist(vtkIdType handle, double headDegrees, double tailDegrees);
   void GetHandleTranslation(vtkIdType handle, double translation[3]);
-  /// The angle in degrees, 0 to 180, about an axis of length 1.
+  /// Return the angle in degrees, 0 to 180, and the axis of length 1.
   double GetHandleRotation(vtkIdType handle, double axis[3]);
   void GetHandleScale(vtkIdType handle, double factors[3]);
   double GetHandleStretch(vtkIdType handle);
   void GetHandleTwist(vtkIdType handle, double degrees[2]);
-  /// Back to rest, with the mode kept.
+  /// Return the handle to rest, with its mode kept.
   bool ResetHandle(vtkIdType handle);
   ///@}
 
   ///@{
-  /// Name, mode (0 full, 1 position, 2 free) and posed ends of a handle. The tail of anything but
-  /// a bone is its head.
+  /// Name, mode (0 full, 1 position, 2 free, 3 tail, 4 ends, 5 auto) and posed ends of a handle. If
+  /// the handle is not a bone, its tail equals its head.
   std::string GetHandleName(vtkIdType handle);
   int GetHandleMode(vtkIdType handle);
   bool IsBone(vtkIdType handle);
@@ -398,45 +407,47 @@ public:
   void GetPosedTail(vtkIdType handle, double tail[3]);
   ///@}
 
-  /// Finds what is under the display position and makes it the hovered handle. Returns one of
-  /// InteractionStateType.
+  /// Find the part under the display position and set its handle as the hovered handle. Return one
+  /// of InteractionStateType.
   int ComputeInteractionState(int x, int y, int modify = 0) override;
 
-  /// The mouse is on nothing.
+  /// Clear the highlight, because the mouse is on nothing.
   void LeaveHandles();
 
   ///@{
-  /// One drag: grabs what the interaction state says (nothing when outside or free), follows the
-  /// display position, ends. The state and hovered handle come from ComputeInteractionState().
+  /// One drag: grab the part in the interaction state (nothing if the state is OUTSIDE or the
+  /// handle is free), follow the display position, and end. The state and the hovered handle come
+  /// from ComputeInteractionState().
   void StartWidgetInteraction(double eventPos[2]) override;
   void WidgetInteraction(double eventPos[2]) override;
   void EndWidgetInteraction(double eventPos[2]) override;
   ///@}
-  /// Ends the drag and restores all poses as they were when it began.
+  /// End the drag and restore all poses to their state at its start.
   void CancelWidgetInteraction();
-  /// Starts a drag of the selected handles without holding any part of them: a move in the plane
-  /// that faces the camera, a turn about the line of sight, or an even scale. False when there is
-  /// nothing that can be dragged, or it does not turn or scale.
+  /// Start a drag of the selected handles without grabbing a part of them: a move in the plane that
+  /// faces the camera, a turn about the viewing direction, or a uniform scale. Return false if no
+  /// handle can be dragged, or if the handle cannot turn or scale.
   bool StartDrag(int gizmo, double eventPos[2]);
 
   ///@{
-  /// While a drag goes on: holds it to an axis (0, 1, 2), or to the plane across it. The first time
-  /// in Space, the second in the other space, the third not at all.
+  /// Constrain the current drag to an axis (0, 1, 2) or to the plane perpendicular to it. The first
+  /// call uses Space, the second the other space, and the third removes the constraint.
   void ConstrainDrag(int axis, bool plane);
-  /// A key of a number that is taken in place of the mouse: a digit, '.', '-' (turns the sign), 'b'
-  /// (takes the last one back). A length along the axis that the drag is held to (X when to none),
-  /// degrees, or a factor. False for any other key.
+  /// Handle a key of a number that replaces the mouse: a digit, '.', '-' (toggles the sign) or 'b'
+  /// (deletes the last character). The number is a length along the axis of the constraint (X
+  /// without a constraint), degrees, or a factor. Return false for any other key.
   bool TypeIntoDrag(char key);
   ///@}
   ///@{
-  /// What the drag does, or did last: "move", "turn", "scale", "stretch", "twist", or in edit modes
-  /// "move rest", "add point", "add bone", "add cage vertex", "add cage edge", "close cage" or
-  /// "remove cage vertex"; and how much, in words: "X 0.25", "30.0°".
+  /// The type of the current or last drag: "move", "turn", "scale", "stretch", "twist", or in edit
+  /// modes "move rest", "add point", "add bone", "add cage vertex", "add cage edge", "close cage"
+  /// or "remove cage vertex". GetInteractionText() returns the amount: "X 0.25", "30.0°".
   std::string GetInteractionName();
   std::string GetInteractionText();
   ///@}
-  /// Where a part of the gizmo (see InteractionStateType) is best grabbed, in display coordinates.
-  /// False when it is not shown: seen edge-on, or not of this gizmo.
+  /// Return a display position at which a part of the gizmo (see InteractionStateType) can be
+  /// grabbed. Return false if the part is not shown, because it is seen edge-on or is not in this
+  /// gizmo.
   bool GetGizmoGrip(int part, double display[2]);
 
   ///@{

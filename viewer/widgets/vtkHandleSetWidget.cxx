@@ -1,6 +1,6 @@
-// Two states. Hovering: the mouse only moves the highlight, and events pass on. Dragging: the
-// widget holds the focus, moves go to the representation, and every change of poses is told by an
-// InteractionEvent. Keys are looked up in handle_bindings.h.
+// The widget has two states. While hovering, the mouse only moves the highlight, and events are
+// passed on. While dragging, the widget has the focus, moves are passed to the representation, and
+// an InteractionEvent reports every change of poses. Keys are looked up in handle_bindings.h.
 #include "vtkHandleSetWidget.h"
 
 #include "handle_bindings.h"
@@ -23,7 +23,7 @@ using bindpose::HandleAction;
 
 namespace
 {
-/// Letters are one key, whether Shift is held or not.
+/// Map a letter to lower case, so that it is the same key with and without Shift.
 std::string plain_key(const char* key)
 {
   std::string name = key ? key : "";
@@ -47,7 +47,7 @@ bool is_key_of(HandleAction action, const std::string& key)
   return false;
 }
 
-/// As vtkHandleSetRepresentation::TypeIntoDrag() takes it.
+/// Return the character that vtkHandleSetRepresentation::TypeIntoDrag() expects.
 char typed_character(const std::string& key)
 {
   if (key == "period" || key == "comma" || key == "KP_Decimal")
@@ -144,7 +144,7 @@ bool vtkHandleSetWidget::Hover()
   {
     representation->LeaveHandles();
   }
-  // Within a handle it is the same highlight.
+  // Within a handle the highlight does not change.
   const bool on_gizmo = state >= vtkHandleSetRepresentation::MOVE_X ||
     state_before >= vtkHandleSetRepresentation::MOVE_X;
   if (representation->GetEditMode() > vtkHandleSetRepresentation::MOVE_REST &&
@@ -207,7 +207,7 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
   }
   if (!self->Hover())
   {
-    return; // the camera's
+    return; // the camera handles the event
   }
   self->EventCallbackCommand->SetAbortFlag(1);
   vtkHandleSetRepresentation* representation = self->GetHandleSetRepresentation();
@@ -215,7 +215,7 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
   const bool on_gizmo = representation->GetInteractionState() >= vtkHandleSetRepresentation::MOVE_X;
   if (!on_gizmo && self->Interactor->GetShiftKey())
   {
-    // (a place for something new counts as a part of the gizmo)
+    // (A position for a new handle counts as a part of the gizmo.)
     representation->ToggleSelected(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
     self->Render();
@@ -244,8 +244,8 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
   self->Render();
 }
 
-/// In edit modes: what a press begins, or does at once. StartInteractionEvent comes first, so that
-/// whoever remembers the handles for an undo sees them as they were.
+/// Handle a press in edit modes. StartInteractionEvent is invoked before any change, so that an
+/// observer can store the handles for an undo.
 void vtkHandleSetWidget::PressInMode()
 {
   vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
@@ -309,7 +309,7 @@ void vtkHandleSetWidget::EndSelectAction(vtkAbstractWidget* widget)
   const bool click = !self->Moved && representation->GetNumberOfSelectedHandles() > 1 &&
     representation->GetInteractionState() < vtkHandleSetRepresentation::MOVE_X;
   self->EndDrag();
-  if (click) // on one of several, without a drag
+  if (click) // a click on one of several selected handles, without a drag
   {
     representation->SetSelectedHandle(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);

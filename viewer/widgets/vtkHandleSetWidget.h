@@ -2,46 +2,47 @@
  * @class   vtkHandleSetWidget
  * @brief   one widget for all handles of a handle dataset
  *
- * The handle, or the part of the gizmo, under the mouse is highlighted and named; the left button
- * selects and drags it, as vtkHandleSetRepresentation says. Away from handles all events pass on to
- * the interactor's style, so the camera can still be moved.
+ * The handle, or the part of the gizmo, under the mouse is highlighted and named. The left button
+ * selects and drags it; see vtkHandleSetRepresentation. Away from handles, all events are passed to
+ * the interactor's style, so that the camera can still be moved.
  *
- * Mouse events can be changed through GetEventTranslator(); keys are in a table, which
- * GetBindingInput() and its neighbours read out:
+ * Mouse events can be changed through GetEventTranslator(). Keys are in a table, which
+ * GetBindingInput() and the functions next to it return:
  * <pre>
  *   MouseMoveEvent            hover, or follow the drag
  *   LeftButtonPressEvent      select the handle under the mouse and start to drag it;
- *                             with Shift: toggle its selection; with Alt on a tail: stretch, too;
+ *                             with Shift: toggle its selection; with Alt on a tail: also stretch;
  *                             on a part of the gizmo: drag all selected handles
  *   LeftButtonReleaseEvent    end the drag
  *   RightButtonPressEvent     cancel the drag
  *   KeyPressEvent
  *     G, R, S                 move, turn, scale the selected handles with the mouse, no button
  *                             held; the left button or Enter ends it
- *     X, Y, Z                 hold the drag to an axis; again: of the other space; again: to none
- *     Shift + X, Y, Z         hold it to the plane across the axis
+ *     X, Y, Z                 constrain the drag to an axis; again: in the other space;
+ *                             a third time: no constraint
+ *     Shift + X, Y, Z         constrain it to the plane perpendicular to the axis
  *     0-9 . - Backspace       type the length, degrees or factor in place of the mouse
  *     Enter                   end the drag
- *     Escape                  cancel the drag: every pose is as before it, bit by bit
+ *     Escape                  cancel the drag: every pose is restored bit by bit
  *     in edit modes (see vtkHandleSetRepresentation::SetEditMode()):
- *     Enter, double click     end a cage, open
- *     Escape                  cancel what the button has begun; take a cage's last vertex away;
- *                             else back to POSE
+ *     Enter, double click     end a cage without closing it
+ *     Escape                  cancel the current interaction; else remove a cage's last vertex;
+ *                             else return to POSE
  *   Shift held in a drag      fine: a tenth of the mouse's motion
  *   Ctrl held in a drag       snap: see vtkHandleSetRepresentation::SetLengthStep()
  * </pre>
  * Events that it invokes:
  * <pre>
- *   HighlightEvent          another handle or part of the gizmo, or none, is under the mouse
- *   SelectionChangedEvent   other handles are selected
- *   StartInteractionEvent   a drag begins; GetInteractionName() says of what kind
+ *   HighlightEvent          the handle or part of the gizmo under the mouse has changed
+ *   SelectionChangedEvent   the selection has changed
+ *   StartInteractionEvent   a drag begins; GetInteractionName() returns its type
  *   InteractionEvent        poses have changed (also when a cancel restores them)
- *   EndInteractionEvent     the drag has ended; GetCancelled() tells whether nothing has changed,
- *                           GetInteractionName() what it was, for an undo step's name
- *   PlacePointEvent         an edit mode has added or removed a handle or an edge, between
- *                           StartInteractionEvent (the dataset is as before) and InteractionEvent
- *   WarningEvent            an edit was refused; the call data is the sentence
- *   StateChangedEvent       Escape has left an edit mode
+ *   EndInteractionEvent     the drag has ended; GetCancelled() reports whether nothing has changed,
+ *                           GetInteractionName() returns a name for an undo step
+ *   PlacePointEvent         an edit mode has added or removed a handle or an edge; invoked between
+ *                           StartInteractionEvent (the dataset is unchanged) and InteractionEvent
+ *   WarningEvent            an edit was refused; the call data is a sentence with the reason
+ *   StateChangedEvent       Escape has ended an edit mode
  * </pre>
  * @code
  *   vtkNew<vtkHandleSetWidget> widget;
@@ -71,7 +72,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// The representation; a default one is made on demand.
+  /// The representation. A default one is created on demand.
   void SetRepresentation(vtkHandleSetRepresentation* representation);
   vtkHandleSetRepresentation* GetHandleSetRepresentation();
   void CreateDefaultRepresentation() override;
@@ -84,39 +85,41 @@ public:
   ///@}
 
   ///@{
-  /// Whether the keys G, R and S start drags. Default on.
+  /// Allow the keys G, R and S to start drags. Default on.
   vtkSetMacro(StartKeys, vtkTypeBool);
   vtkGetMacro(StartKeys, vtkTypeBool);
   vtkBooleanMacro(StartKeys, vtkTypeBool);
   ///@}
 
-  /// Whether a drag is going on.
+  /// Report whether a drag is in progress.
   bool IsDragging() { return this->State == DRAGGING; }
   ///@{
-  /// The representation's edit mode. Changing it cancels a drag that is going on.
+  /// The representation's edit mode. Changing it cancels a drag in progress.
   void SetEditMode(int mode);
   int GetEditMode();
   ///@}
 
-  /// Whether the last drag was cancelled, or changed nothing.
+  /// Report whether the last drag was canceled or changed nothing.
   vtkGetMacro(Cancelled, bool);
-  /// What the drag does, or did last; see vtkHandleSetRepresentation::GetInteractionName().
+  /// Return the type of the current or last drag; see
+  /// vtkHandleSetRepresentation::GetInteractionName().
   std::string GetInteractionName();
 
-  /// Starts a drag of the selected handles that follows the mouse without a button, as the keys G,
-  /// R and S do: GIZMO_MOVE, GIZMO_TURN or GIZMO_SCALE. False when nothing can be dragged so.
+  /// Start a drag of the selected handles that follows the mouse without a button, as the keys G, R
+  /// and S do: GIZMO_MOVE, GIZMO_TURN or GIZMO_SCALE. Return false if no handle can be dragged this
+  /// way.
   bool StartDrag(int gizmo);
-  /// Ends the drag that is going on, as Enter does; nothing otherwise.
+  /// End a drag in progress, as Enter does.
   void EndDrag();
-  /// Cancels the drag that is going on, as the Escape key does; nothing otherwise.
+  /// Cancel a drag in progress, as the Escape key does.
   void CancelDrag();
 
-  /// Disabling cancels a drag that is going on.
+  /// Enable or disable the widget. Disabling cancels a drag in progress.
   void SetEnabled(int enabling) override;
 
   ///@{
-  /// The table of buttons and keys, a row each: when it applies ("pose", "drag" in any mode, or
-  /// the edit modes), the input as people read it, and what it does.
+  /// The table of buttons and keys. Each row contains its condition ("pose", "drag" in any mode, or
+  /// the edit modes), the input in the form shown to users, and the action.
   static int GetNumberOfBindings();
   static std::string GetBindingWhen(int row);
   static std::string GetBindingInput(int row);
@@ -155,8 +158,8 @@ private:
 
   vtkTypeBool StartKeys = 1;
   int State = HOVERING;
-  bool ByKey = false; // the drag is without a button
-  bool Moved = false; // since the button was pressed
+  bool ByKey = false; // the drag was started by a key and needs no button
+  bool Moved = false; // the mouse has moved since the button was pressed
   bool Cancelled = false;
 };
 

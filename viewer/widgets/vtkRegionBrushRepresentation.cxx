@@ -1,6 +1,6 @@
-// The place under the mouse is a ray's first hit; the disc's vertices come from the kernel
-// (surface_disc), or from a pass over all vertices. Only labels that change are written and
-// remembered, so a cancel gives back exactly these.
+// The position under the mouse is a ray's first intersection. The disc's vertices come from the
+// kernel (surface_disc), or from a pass over all vertices. Only labels that change are written and
+// recorded, so a cancel restores exactly these.
 #include "vtkRegionBrushRepresentation.h"
 
 #include "handle_shapes.h"
@@ -30,8 +30,8 @@ using Eigen::Vector3d;
 namespace
 {
 constexpr int outline_sides = 64;
-constexpr double spacing = 0.4; // of the radius, between the discs of a stroke
-constexpr int most_discs = 200; // of one move of the mouse
+constexpr double spacing = 0.4; // distance between the discs of a stroke, in radii
+constexpr int most_discs = 200; // per move of the mouse
 } // namespace
 
 class vtkRegionBrushRepresentation::Internals
@@ -39,7 +39,7 @@ class vtkRegionBrushRepresentation::Internals
 public:
   bindpose::RestSurface Surface;
   std::unique_ptr<bindpose::SurfaceDisc> Disc;
-  int DiscOf = -1; // which build of the surface
+  int DiscOf = -1; // the build of the surface that Disc belongs to
 
   bool HasPlace = false;
   Vector3d Place = Vector3d::Zero();
@@ -239,7 +239,7 @@ void vtkRegionBrushRepresentation::WidgetInteraction(double eventPos[2])
   {
     return;
   }
-  // Discs along the way of the mouse, which may have gone far since the last event.
+  // Place discs along the path of the mouse, which may be long since the last event.
   const Vector2d to(eventPos);
   const Vector2d way = to - self.Last;
   const double pixel =
@@ -275,7 +275,7 @@ void vtkRegionBrushRepresentation::CancelWidgetInteraction()
   }
   self.Painting = false;
   vtkDataArray* labels = self.Labels();
-  // backwards: a vertex may have changed twice
+  // in reverse order, because a vertex may have changed twice
   for (auto change = self.Before.rbegin(); change != self.Before.rend(); ++change)
   {
     labels->SetComponent(change->first, 0, change->second);
@@ -306,7 +306,7 @@ void vtkRegionBrushRepresentation::BuildRepresentation()
         self.Place + this->GetDiscRadius() * (std::cos(angle) * u + std::sin(angle) * v));
     }
     shapes.add_tube(circle, 2.0 * pixel, { 0.13, 0.13, 0.15 });
-    // towards the eye, so that the dark one is its edge
+    // Move it toward the eye, so that the dark one becomes its edge.
     for (Vector3d& place : circle)
     {
       place -= 3.0 * pixel * view.sight_to(place);

@@ -2,22 +2,22 @@
  * @class   vtkRegionBrushRepresentation
  * @brief   a disc on a surface that paints region labels
  *
- * Paints the point array `RegionId` of a surface (vtkPolyData) in place: under the mouse, the
- * vertices within Radius of where the line of sight meets the surface get the label RegionId, or 0
- * (free) while Erase is on. A handle of kind region with that RegionId then owns them; see
- * vtkHandleFileReader. It is the representation of vtkRegionBrushWidget.
+ * Paints the point array `RegionId` of a surface (vtkPolyData) in place. The vertices within Radius
+ * of the point where the line of sight meets the surface get the label RegionId, or 0 (free) while
+ * Erase is on. A handle of kind region with that RegionId then owns these vertices; see
+ * vtkHandleFileReader. The class is the representation of vtkRegionBrushWidget.
  *
- * With Geodesic (on) the distance is along the surface, grown from triangle to triangle, so that
- * the brush does not reach through thin walls or over gaps; else it is through space, and all
- * vertices in the ball are painted.
+ * With Geodesic (on), the distance is measured along the surface, from triangle to triangle, so
+ * that the brush does not reach through thin walls or over gaps. Otherwise the distance is measured
+ * through space, and all vertices in the ball are painted.
  *
- * The array is an int array of one number a point, 0 where nothing is painted; it is made when
- * absent, and an array of another kind is written into as it is. A stroke is one step: all discs
- * from StartWidgetInteraction() to EndWidgetInteraction(), placed so densely along the mouse's way
- * that none is missed. CancelWidgetInteraction() gives the labels back as they were.
+ * The array is an int array with one number per point, 0 where nothing is painted. It is created if
+ * it is missing; an existing array of another type keeps its type. A stroke is one step: all discs
+ * from StartWidgetInteraction() to EndWidgetInteraction(). They are placed densely along the
+ * mouse's path, so that no vertex is missed. CancelWidgetInteraction() restores the labels.
  *
- * Cost: at 100,000 triangles below a millisecond a disc of a tenth of the shape's size; the first
- * use on a surface builds a tree over its triangles (about 0.1 s).
+ * At 100,000 triangles, a disc of a tenth of the shape's size costs less than a millisecond. The
+ * first use on a surface builds a tree over its triangles (about 0.1 s).
  */
 
 #ifndef vtkRegionBrushRepresentation_h
@@ -43,12 +43,12 @@ public:
   };
 
   ///@{
-  /// The surface that is painted.
+  /// The surface to paint.
   void SetSurface(vtkPolyData* surface);
   vtkPolyData* GetSurface();
   ///@}
   ///@{
-  /// The label that is painted. Default 1, at least 1.
+  /// The label to paint. Default 1, at least 1.
   vtkSetClampMacro(RegionId, int, 1, VTK_INT_MAX);
   vtkGetMacro(RegionId, int);
   ///@}
@@ -58,10 +58,10 @@ public:
   vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Radius, double);
   ///@}
-  /// Radius, or the number that stands for 0.
+  /// Return Radius, or the number that is used instead of 0.
   double GetDiscRadius();
   ///@{
-  /// Distances along the surface, else through space. Default on.
+  /// Measure distances along the surface, else through space. Default on.
   vtkSetMacro(Geodesic, vtkTypeBool);
   vtkGetMacro(Geodesic, vtkTypeBool);
   vtkBooleanMacro(Geodesic, vtkTypeBool);
@@ -73,21 +73,21 @@ public:
   vtkBooleanMacro(Erase, vtkTypeBool);
   ///@}
   ///@{
-  /// Factor on the width of the disc's outline. Default 1, range 0.1 to 16.
+  /// Factor on the width of the disc's outline. Default 1, range 0.1 to 64.
   vtkSetClampMacro(PixelScale, double, 0.1, 64.0);
   vtkGetMacro(PixelScale, double);
   ///@}
   ///@{
-  /// Colours of the disc's outline while it paints and while it erases.
+  /// Colors of the disc's outline while painting and while erasing.
   vtkSetVector3Macro(PaintColor, double);
   vtkGetVector3Macro(PaintColor, double);
   vtkSetVector3Macro(EraseColor, double);
   vtkGetVector3Macro(EraseColor, double);
   ///@}
 
-  /// How many labels the stroke that goes on, or the last one, has changed.
+  /// Return the number of labels that the current or last stroke has changed.
   vtkIdType GetNumberOfChangedPoints();
-  /// Whether a stroke goes on.
+  /// Report whether a stroke is in progress.
   bool IsPainting();
 
   ///@{
@@ -101,9 +101,9 @@ public:
   int RenderOverlay(vtkViewport* viewport) override;
   vtkTypeBool HasTranslucentPolygonalGeometry() override { return 0; }
   ///@}
-  /// Ends the stroke and gives all labels back as they were when it began.
+  /// End the stroke and restore all labels to their state at its start.
   void CancelWidgetInteraction();
-  /// The mouse is not on the surface.
+  /// Clear the disc, because the mouse is not on the surface.
   void Leave();
 
 protected:

@@ -1,5 +1,5 @@
-// Two states, as vtkHandleSetWidget has them: hovering, where only the disc follows the mouse and
-// events pass on, and painting, where the widget holds the focus.
+// The widget has two states, like vtkHandleSetWidget. While hovering, the disc follows the mouse,
+// and events are passed on. While painting, the widget has the focus.
 #include "vtkRegionBrushWidget.h"
 
 #include "handle_bindings.h"
@@ -18,7 +18,7 @@
 
 namespace
 {
-constexpr double growth = 1.15; // of the radius, a step
+constexpr double growth = 1.15; // factor on the radius per step
 
 bool is_key(const char* keys, const char* key)
 {
@@ -129,7 +129,7 @@ void vtkRegionBrushWidget::SelectAction(vtkAbstractWidget* widget)
   auto* self = static_cast<vtkRegionBrushWidget*>(widget);
   if (self->State == PAINTING || !self->Hover())
   {
-    return; // the camera's
+    return; // the camera handles the event
   }
   self->EventCallbackCommand->SetAbortFlag(1);
   self->State = PAINTING;

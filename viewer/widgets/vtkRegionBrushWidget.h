@@ -2,29 +2,29 @@
  * @class   vtkRegionBrushWidget
  * @brief   paints regions on a surface
  *
- * The left button paints region labels on the surface under the mouse, as
- * vtkRegionBrushRepresentation says. Beside the surface all events pass on to the interactor's
- * style, so the camera can still be moved.
+ * The left button paints region labels on the surface under the mouse; see
+ * vtkRegionBrushRepresentation. Away from the surface, all events are passed to the interactor's
+ * style, so that the camera can still be moved.
  *
- * Mouse events can be changed through GetEventTranslator(); all are in a table that
- * GetBindingInput() and its neighbours read out:
+ * Mouse events can be changed through GetEventTranslator(). All events are in a table, which
+ * GetBindingInput() and the functions next to it return:
  * <pre>
  *   MouseMoveEvent             the disc follows the mouse; with the button held it paints
  *   LeftButtonPressEvent       begin a stroke; with Ctrl: erase
  *   LeftButtonReleaseEvent     end the stroke
  *   MouseWheelForward/BackwardEvent
- *     with Shift, or in a stroke: a larger or smaller disc; else the camera's
+ *     with Shift, or in a stroke: a larger or smaller disc; else the camera zooms
  *   KeyPressEvent
  *     ] and [                  a larger or smaller disc
- *     Escape                   cancel the stroke: all labels are as before it
+ *     Escape                   cancel the stroke: all labels are restored
  * </pre>
  * Events that it invokes:
  * <pre>
- *   StartInteractionEvent   a stroke begins: the labels are as before it
+ *   StartInteractionEvent   a stroke begins; the labels are unchanged
  *   InteractionEvent        labels have changed (also when a cancel restores them)
- *   EndInteractionEvent     the stroke has ended; GetCancelled() tells whether nothing has changed,
- *                           GetInteractionName() whether it was "paint region" or "erase region"
- *   StateChangedEvent       the disc has another radius
+ *   EndInteractionEvent     the stroke has ended; GetCancelled() is true if nothing has changed,
+ *                           GetInteractionName() returns "paint region" or "erase region"
+ *   StateChangedEvent       the radius of the disc has changed
  * </pre>
  */
 
@@ -46,7 +46,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// The representation; a default one is made on demand.
+  /// The representation. A default one is created on demand.
   void SetRepresentation(vtkRegionBrushRepresentation* representation);
   vtkRegionBrushRepresentation* GetRegionBrushRepresentation();
   void CreateDefaultRepresentation() override;
@@ -55,20 +55,20 @@ public:
   /// The surface of the representation.
   void SetSurface(vtkPolyData* surface);
 
-  /// Whether a stroke is going on.
+  /// Report whether a stroke is in progress.
   bool IsPainting() { return this->State == PAINTING; }
-  /// Whether the last stroke was cancelled, or changed nothing.
+  /// Report whether the last stroke was canceled or changed nothing.
   vtkGetMacro(Cancelled, bool);
-  /// "paint region" or "erase region".
+  /// Return "paint region" or "erase region".
   std::string GetInteractionName();
-  /// Cancels the stroke that is going on, as the Escape key does; nothing otherwise.
+  /// Cancel a stroke in progress, as the Escape key does.
   void CancelStroke();
 
-  /// Disabling cancels a stroke that is going on.
+  /// Enable or disable the widget. Disabling cancels a stroke in progress.
   void SetEnabled(int enabling) override;
 
   ///@{
-  /// The table of buttons and keys, a row each; see vtkHandleSetWidget::GetNumberOfBindings().
+  /// The table of buttons and keys, in rows; see vtkHandleSetWidget::GetNumberOfBindings().
   static int GetNumberOfBindings();
   static std::string GetBindingWhen(int row);
   static std::string GetBindingInput(int row);
@@ -101,7 +101,7 @@ private:
 
   int State = HOVERING;
   bool Cancelled = false;
-  bool Erased = false; // by the last stroke
+  bool Erased = false; // the last stroke erased
 };
 
 #endif

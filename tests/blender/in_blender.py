@@ -1,7 +1,7 @@
-"""Runs inside of Blender: in_blender.py -- FILE.glb RESULT.json [BONE DEGREES] [FRAME…].
+"""Script that runs inside of Blender: in_blender.py -- FILE.glb RESULT.json [BONE DEGREES] [FRAME…].
 
-Imports the file, turns a bone about the z axis of glTF through its head, or goes to frames of the animation, and
-leaves what Blender's own armature modifier makes of the vertices, in the coordinates of the file.
+It imports the file, and rotates a bone around the z axis of glTF through its head or goes to frames of the animation.
+It writes the vertices that Blender's armature modifier computes, in the coordinates of the file.
 """
 
 import json
@@ -12,11 +12,11 @@ import bpy
 import numpy
 from mathutils import Matrix
 
-# Blender 3.4's importer uses an old name that Debian's numpy 1.24 has no longer.
+# Blender 3.4's importer uses numpy.bool, which Debian's numpy 1.24 no longer has.
 if "bool" not in numpy.__dict__:
     numpy.bool = bool
 
-# The importer turns glTF's y axis up to Blender's z axis.
+# The importer rotates glTF's y-up coordinates to Blender's z-up coordinates.
 TO_BLENDER = Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
 
 

@@ -1,4 +1,4 @@
-"""Blender imports our glTF files and poses them: its vertices are those of our linear blend skinning."""
+"""Blender imports the glTF files of Bindpose and poses them: its vertices equal those of linear blend skinning."""
 
 import json
 import os
@@ -16,7 +16,7 @@ NAMES = ["p1", "p2", "p3", "b1", "b2", "b3"]
 
 
 def cloth(n=20):
-    """A sheet of triangles, 6 x 1, a bit wavy: no two vertices at one place."""
+    """Return a slightly wavy 6 x 1 sheet of triangles, in which no two vertices coincide."""
     x, y = np.meshgrid(np.linspace(0, 6, 3 * n), np.linspace(0, 1, n), indexing="ij")
     points = np.stack([x, y, 0.5 + 0.2 * np.sin(x)], axis=2).reshape(-1, 3)
     ids = np.arange(len(points)).reshape(x.shape)
@@ -31,7 +31,7 @@ def folder(tmp_path):
 
 
 def rig(folder, row_sum=1.0, **options):
-    """Every vertex has a weight of all six handles, so there are two sets."""
+    """Write a rig in which every vertex has weights of all six handles, so that the file contains two sets."""
     mesh = to_dataset(cloth())
     points = points_of(mesh)
     weights = np.random.default_rng(3).uniform(0.02, 0.1, (len(points), 6))
@@ -51,7 +51,7 @@ def blender(folder, *words):
 
 
 def error(mesh, found, expected):
-    """Largest distance, as a fraction of the diagonal."""
+    """Return the largest distance in bounding-box diagonals."""
     points = points_of(mesh)
     return np.linalg.norm(np.array(found) - expected, axis=1).max() / np.linalg.norm(np.ptp(points, axis=0))
 
@@ -64,7 +64,7 @@ def test_a_posed_bone(folder, row_sum):
     mesh, report = rig(folder, row_sum)
     assert report["sets"] == 2 and report["rest_joint"] == ("no" if row_sum == 1.0 else "yes")
     found = blender(folder, "b2", "40")
-    assert found["most_groups"] == (6 if row_sum == 1.0 else 7)  # it reads both sets
+    assert found["most_groups"] == (6 if row_sum == 1.0 else 7)  # Blender reads both sets
     assert {name: found["bones"][name] for name in NAMES} == {
         "p1": None, "p2": None, "p3": None, "b1": None, "b2": "b1", "b3": "b2"}
     assert error(mesh, found["rest"], points_of(mesh)) < 1e-5
@@ -81,7 +81,7 @@ def test_the_largest_four_weights(folder):
     kept = bindpose.read(folder / "rig.glb")
     posed = points_of(bindpose.deform(kept, folder / "h.tgf", TURN))
     assert error(mesh, found["posed"], posed) < 1e-5
-    # Which is not where all six take them, but as far off as the share that was dropped can do.
+    # With all six weights the vertices differ, but by less than the dropped fraction of the weights.
     all_six = points_of(bindpose.deform(mesh, folder / "h.tgf", TURN))
     assert 1e-4 < error(mesh, found["posed"], all_six) < report["dropped_share"]
 

@@ -1,4 +1,4 @@
-"""Runs a script of examples/ as a user would and looks at what it leaves."""
+"""Run a script of examples/ as a user would, and check its output files."""
 
 import json
 import os
@@ -14,7 +14,7 @@ EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
 
 
 def script(name, *words, environment=None):
-    """Runs it; the finished process, with text."""
+    """Run the script. Return the finished process with its output as text."""
     return subprocess.run([sys.executable, "-B", EXAMPLES / name, *map(str, words)], capture_output=True, text=True,
                           timeout=300, check=False, env={**os.environ, **(environment or {})})
 
@@ -28,7 +28,7 @@ def pixels(path):
 
 
 def numbers_of(name, folder, stem=None, environment=None):
-    """The numbers of a quick run, once its picture is known to show something on white paper."""
+    """Return the numbers of a quick run, after checking that its picture shows something on white paper."""
     done = script(name, "--small", "--output", folder, environment=environment)
     assert done.returncode == 0 and done.stderr == "", done.stderr
     stem = stem or pathlib.Path(name).stem
@@ -37,12 +37,12 @@ def numbers_of(name, folder, stem=None, environment=None):
     assert 0.02 < drawn.mean() < 0.9
     assert len(np.unique(picture.reshape(-1, 3), axis=0)) > 50
     for edge in (drawn[0], drawn[-1], drawn[:, 0], drawn[:, -1]):
-        assert not edge.any()  # nothing is cut off
+        assert not edge.any()  # the picture is not cropped
     return json.loads((folder / f"{stem}.json").read_text())
 
 
 def is_refused(done, *words):
-    """One sentence with these words, no traceback."""
+    """Check that the program printed one sentence with these words and no traceback."""
     assert done.returncode == 2, done.stderr
     assert len(done.stderr.splitlines()) == 1, done.stderr
     for word in words:

@@ -1,4 +1,4 @@
-"""Each script of the gallery proves its claim, on less data."""
+"""Check the claim of each script of the gallery, on less data."""
 
 import pathlib
 
@@ -40,7 +40,7 @@ def test_amount_of_insideness(tmp_path):
 
 def test_jump_and_harmonic(tmp_path):
     numbers = numbers_of("gallery/jump_and_harmonic.py", tmp_path)
-    assert numbers["crossings"] == 8  # in and out: closed, open, and the two of the nested one
+    assert numbers["crossings"] == 8  # the line enters and leaves the closed mesh, the open one, and both nested ones
     assert numbers["largest |jump - 1|"] <= 1e-12
     assert numbers["largest mean value error"] <= 1e-12
     assert numbers["order of the Laplacian"] == pytest.approx(2, abs=0.1)
@@ -83,7 +83,7 @@ def test_drag_only(tmp_path):
 def test_disjoint_skeleton(tmp_path):
     numbers = numbers_of("gallery/disjoint_skeleton.py", tmp_path)
     assert numbers["free bones"] == 5
-    # The hand's own way, for skinning leaves the arm where it is.
+    # The hand's own displacement, because skinning leaves the arm in place.
     assert numbers["skinned: arm to hand"] == pytest.approx(np.hypot(0.02, 0.24), abs=1e-9)
     assert numbers["found: arm to hand"] < 0.02 and numbers["found: triangles turned over"] == 0
     assert abs(numbers["arm's turn, degrees"]) > 20
@@ -135,7 +135,8 @@ def test_torus_and_tubes(tmp_path):
     for name in ("torus rings", "straight tubes", "half the domain"):
         apart, narrowest = numbers[f"{name}: farthest from the torus"], numbers[f"{name}: narrowest"]
         assert apart[0] > apart[1] > apart[2] and narrowest[0] < narrowest[1] < narrowest[2]
-        assert numbers[f"{name}: kink at the end, degrees"][0] == pytest.approx(45, abs=1)  # straight across
+        # Order 1 leads straight from one end to the other.
+        assert numbers[f"{name}: kink at the end, degrees"][0] == pytest.approx(45, abs=1)
         assert max(numbers[f"{name}: kink at the end, degrees"][1:]) < 10
     assert numbers["torus rings: farthest from the torus"][2] < 0.5 * numbers["straight tubes: farthest from the torus"][2]
     assert numbers["half the domain: narrowest"][0] > 2 * numbers["straight tubes: narrowest"][0]
@@ -143,7 +144,8 @@ def test_torus_and_tubes(tmp_path):
 
 def test_rig_in_a_file(tmp_path):
     numbers = numbers_of("gallery/rig_in_a_file.py", tmp_path)
-    assert numbers["all: sets of weights"] == 2 and numbers["four: sets of weights"] == 1  # of six handles
+    # Six handles need two sets of four weights, four influences need one.
+    assert numbers["all: sets of weights"] == 2 and numbers["four: sets of weights"] == 1
     assert max(numbers["all: error, as written"], numbers["all: error, as read"]) < 1e-6
     assert 1e-3 < numbers["four: error, as read"] < 0.2
     assert numbers["four: error, as written"] == pytest.approx(numbers["four: error, as read"], abs=1e-6)
@@ -172,7 +174,8 @@ def test_crowd(tmp_path):
 def test_jello(tmp_path):
     numbers = numbers_of("gallery/jello.py", tmp_path)
     aside, peaks = numbers["aside"], numbers["kinetic energy at its peaks"]
-    assert aside[0] > 0.25 and min(aside) < -0.1 and abs(aside[-1]) < 0.5 * aside[0]  # over, and less and less
+    # The top overshoots to the other side, and its amplitude decreases.
+    assert aside[0] > 0.25 and min(aside) < -0.1 and abs(aside[-1]) < 0.5 * aside[0]
     assert numbers["turns"] >= 2
     assert peaks == sorted(peaks, reverse=True) and 0 < peaks[-1] < 0.6
 
@@ -226,7 +229,8 @@ def test_dragged_points(tmp_path):
     numbers = numbers_of("gallery/dragged_points.py", tmp_path)
     assert numbers["translations, degrees"] == pytest.approx([0, 0, 0, 0], abs=1e-9)
     turned = numbers["pseudo-edges, degrees"]
-    assert turned == pytest.approx([-50, -25, 25, 50], abs=1e-6)  # chords: the mean of those at a point
+    # Each point turns by the mean of the turns of its chords.
+    assert turned == pytest.approx([-50, -25, 25, 50], abs=1e-6)
     assert numbers["reduced ARAP, degrees"] == pytest.approx([-75, -25, 25, 75], abs=30)
     for name in ("pseudo-edges", "reduced ARAP"):
         assert abs(numbers[f"{name}, area"] - 1) < abs(numbers["translations, area"] - 1)
@@ -236,8 +240,8 @@ def test_rigidity_brush(tmp_path):
     numbers = numbers_of("gallery/rigidity_brush.py", tmp_path)
     painted, stretches = numbers["painted"], numbers["largest stretch where painted"]
     assert painted == [0, 0.1, 1, 10, 100]
-    assert stretches[2] < 0.3 * stretches[0]  # 1 is rigid enough to see
-    assert stretches[3] / stretches[4] == pytest.approx(10, rel=0.1)  # 1 / what is painted
+    assert stretches[2] < 0.3 * stretches[0]  # rigidity 1 has a visible effect
+    assert stretches[3] / stretches[4] == pytest.approx(10, rel=0.1)  # the stretch is proportional to 1 / rigidity
     assert numbers["the same, rigid sets"] <= 1e-12
     assert numbers["largest relative gap"] <= 1e-6
 
@@ -258,23 +262,25 @@ def test_boundary_and_parts(tmp_path):
         assert numbers[f"{name}: multiplicities"] == multiplicities
         triangles, open_edges, volume = numbers[f"{name}: triangles, open edges, volume"]
         assert triangles > 0 and (open_edges == 0) == (not multiplicities)
-        # Between an icosahedron subdivided and blown up and the ball itself; three pages enclose nothing.
+        # The volume is between that of the subdivided icosahedron and that of the ball. The three pages enclose
+        # nothing.
         assert (volume < 0) == (name == "inside out") or abs(volume) < 1e-12
     ball = -numbers["inside out: triangles, open edges, volume"][2]
     assert 3.9 < ball < 4.18879 + 1e-9
     assert abs(numbers["three pages: triangles, open edges, volume"][2]) <= 1e-12
-    assert numbers["three pages: triangles, open edges, volume"][1] == 3 * 8 + 3 * 2  # rims, and a spine of two edges
+    # The rims of three pages, and a spine of two edges.
+    assert numbers["three pages: triangles, open edges, volume"][1] == 3 * 8 + 3 * 2
     assert numbers["points where curves do not close"] == 0
     assert numbers["surface - fan, from an integer"] <= 1e-11
 
 
 def test_growth(tmp_path):
-    """Loosely: machines are busy."""
+    """Check with loose bounds, because other processes may run on the machine."""
     numbers = numbers_of("gallery/growth.py", tmp_path)
     assert numbers["difference from textbook sum"] <= 1e-12
 
     def gain(surface, method):
-        """How many times sooner than the plain sum, at the finest."""
+        """Return the speed-up over the plain sum on the finest mesh."""
         return numbers[f"{surface}, plain sum: µs a point"][-1] / numbers[f"{surface}, {method}: µs a point"][-1]
 
     for surface in ("closed", "few holes", "many holes"):
@@ -288,7 +294,7 @@ def test_growth(tmp_path):
 
 
 def test_cost_of_a_point(tmp_path):
-    """Loosely, too; the errors not."""
+    """Check times with loose bounds, but errors with tight ones."""
     numbers = numbers_of("gallery/cost_of_a_point.py", tmp_path)
     assert numbers["largest error beyond what is allowed"] <= 0.0
     assert numbers["elephant 89k, grid 64³, exact: Y"] < 5 < numbers["elephant with holes 4k, scattered, 1e-3: Y"] * 5 < 500
@@ -296,7 +302,7 @@ def test_cost_of_a_point(tmp_path):
 
 def test_defect_classes(tmp_path):
     numbers = numbers_of("gallery/defect_classes.py", tmp_path)
-    # The house is known: a wall of 16 x 16 squares inside, a window of 4 x 4 squares, and a ring.
+    # The defects of the house are known: an inner wall of 16 x 16 squares, a window of 4 x 4 squares, and a ring.
     assert numbers["house: non-manifold edges"] == 4 * 16
     assert numbers["house: boundary edges"] == 4 * 4
     assert numbers["house: components"] == 2
@@ -320,7 +326,7 @@ def test_hull_segmentation(tmp_path):
 
 def test_cut_out_cartoon(tmp_path):
     numbers = numbers_of("gallery/cut_out_cartoon.py", tmp_path)
-    assert numbers["loops"] == 2  # the arm on the hip
+    assert numbers["loops"] == 2  # the outline, and the hole between the arm and the hip
     assert numbers["smallest angle, degrees"] >= 30 - 1e-6
     assert numbers["farthest from the drawing, pixels"] <= 1
     assert numbers["area / area of the drawing"] == pytest.approx(1, abs=0.02)
@@ -343,11 +349,11 @@ def test_near_limbs(tmp_path):
     for name in ("moving least squares", "inverse distance"):
         assert numbers[f"{name}: neighbour goes along"] > 0.2 > 2 * through
     assert numbers["bounded biharmonic: triangles turned over"] == 0
-    # Known from the literature's square.
+    # Values of the slit square in the literature.
     assert numbers["slit square, bounded-biharmonic: weight across the slit"] == pytest.approx(2.69e-3, abs=5e-6)
     assert numbers["slit square, monotone: weight across the slit"] == pytest.approx(2.63e-3, abs=5e-6)
     assert numbers["slit square, inverse-distance: weight across the slit"] == pytest.approx(0.1552, abs=5e-5)
-    # Shepard: 1/d^2 at (0.65, 0.9) of points at distances 0.35 and 0.15.
+    # Shepard's weights: 1/d^2 at (0.65, 0.9) for points at distances 0.35 and 0.15.
     assert numbers["slit square, inverse-distance: weight across the slit"] == pytest.approx(0.15 ** 2 / (0.15 ** 2 + 0.35 ** 2))
 
 
@@ -365,7 +371,7 @@ def test_colours_of_handles(tmp_path):
     numbers = numbers_of("gallery/colours_of_handles.py", tmp_path)
     assert numbers["points out of the gamut"] == [0, 0] and numbers["points beyond the handles' colours"] == [0, 0]
     assert numbers["on handles: largest difference from their colour"] <= 1e-9
-    # Half of the light is 188 of 255.
+    # Half of the light is the sRGB value 188 of 255.
     assert numbers["red and green half-way, as light"] == pytest.approx([188 / 255, 188 / 255, 0], abs=1 / 510)
     assert numbers["red and green half-way, as numbers"] == [0.5, 0.5, 0]
     assert numbers["on curves: largest difference from their sides"] <= 1e-9
@@ -390,14 +396,16 @@ def test_spurious_extrema(tmp_path):
         assert sum(numbers[f"unconstrained {energy}: extrema by column"]) > 10
         assert numbers[f"monotone {energy}: extrema by column"] == [0] * 5
         assert min(numbers[f"unconstrained {energy}: lowest and highest"]) < -0.2
-        for kind in ("unconstrained", "bounded", "monotone"):  # the picture counts as the certificate does
+        # The picture shows as many extrema as the certificate counts.
+        for kind in ("unconstrained", "bounded", "monotone"):
             shown = numbers[f"{kind} {energy}: maxima, minima in the picture"]
             assert sum(shown) == numbers[f"{kind} {energy}: extrema by column"][3]
             lowest, highest = numbers[f"{kind} {energy}: lowest and highest"]
             assert kind == "unconstrained" or 0 <= lowest <= highest <= 1
     assert numbers["bounded biharmonic: extrema by column"] == [0] * 5
     assert min(numbers["bounded triharmonic: extrema by column"]) > 2
-    assert numbers["bounded triharmonic: farthest jump of an extremum"] > 0.1  # four squares, for one of the handle
+    # An extremum jumps by four squares if the handle moves by one.
+    assert numbers["bounded triharmonic: farthest jump of an extremum"] > 0.1
     assert max(value for name, value in numbers.items() if name.endswith("relative gap")) <= 1e-6
 
 
@@ -416,7 +424,8 @@ def test_small_features(tmp_path):
     numbers = numbers_of("gallery/small_features.py", tmp_path)
     ahead = [numbers[f"{name}: tip runs ahead, part of the pull"] for name in ("unconstrained", "bounded", "monotone")]
     assert ahead[0] > ahead[1] > 0.1 > 0.03 > abs(ahead[2])
-    for name, share in zip(("unconstrained", "bounded", "monotone"), ahead):  # the pose moves the tip by its weight
+    # The pose moves the tip in proportion to its weight.
+    for name, share in zip(("unconstrained", "bounded", "monotone"), ahead):
         foot, tip = numbers[f"{name}: middle point's weight at foot and tip"]
         assert tip - foot == pytest.approx(share, abs=1e-9)
     assert numbers["unconstrained: middle point's weight at foot and tip"][1] > 1.1
@@ -474,7 +483,7 @@ def test_the_readme_has_them_all():
 
 
 def test_bent_furniture(tmp_path):
-    """Of a package that not everybody has: without it a sentence says so."""
+    """The package of these models may be missing. Then the script must refuse with a sentence."""
     if not pathlib.Path("/usr/share/sweethome3d/furniture/BlendSwap-CC-0.sh3f").exists():
         is_refused(script("gallery/bent_furniture.py", "--small", "--output", tmp_path), "sweethome3d-furniture")
         return
@@ -486,7 +495,8 @@ def test_bent_furniture(tmp_path):
 
 
 def test_cost_of_weights(tmp_path):
-    """Loosely: machines are busy. The certificates are kept, the memory is what was estimated."""
+    """Check times with loose bounds, because other processes may run on the machine. The certificates must hold, and
+    the memory must match the estimate."""
     numbers = numbers_of("gallery/cost_of_weights.py", tmp_path)
     assert max(numbers["worst relative gap"], numbers["worst natural residual"]) <= 1e-6
     assert 0 < numbers["4 handles, whole: exponent"] < 4
@@ -498,7 +508,7 @@ def test_cost_of_weights(tmp_path):
 
 def test_automatic_handles(tmp_path):
     numbers = numbers_of("gallery/automatic_handles.py", tmp_path)
-    assert numbers["armadillo: bones"] >= 9 and numbers["armadillo: junctions"] >= 2  # limbs, head, tail, spine
+    assert numbers["armadillo: bones"] >= 9 and numbers["armadillo: junctions"] >= 2  # limbs, head, tail and spine
     assert numbers["armadillo: cut cycles"] == 0 and numbers["elephant with holes: bones"] >= 6
     assert numbers["armadillo: joints outside"] == 0
     assert numbers["armadillo: largest error of a row sum"] <= 1e-9

@@ -1,4 +1,4 @@
-// vtkAutomaticHandles: what comes out is a handle dataset that weights bind to.
+// vtkAutomaticHandles: the output is a handle dataset that weights can be bound to.
 #include "vtkAutomaticHandles.h"
 
 #include "conversion.h"
@@ -33,7 +33,7 @@ class AutomaticBones : public test::NeedsMesher
 {
 };
 
-/// [0, 8] x [0, 1] x [0, 1].
+/// Tets of the box [0, 8] x [0, 1] x [0, 1].
 TetMesh long_box()
 {
   return test::tet_box(24, 3, 3, Vec3::Zero(), Vec3(8.0, 1.0, 1.0));
@@ -68,7 +68,7 @@ TEST_F(AutomaticBones, BindWithoutAHand)
   ASSERT_EQ(filter->GetStatus(), vtkAutomaticHandles::OK) << filter->GetStatusMessage();
   ASSERT_EQ(weights->GetStatus(), vtkAutomaticHandles::OK) << weights->GetStatusMessage();
   const Handles handles = handles_of(filter);
-  ASSERT_EQ(handles.size(), 4u); // 7 of 8.12, halved twice
+  ASSERT_EQ(handles.size(), 4u); // a bone of length 7 with diagonal 8.12, halved twice
   vtkDataArray* array = weights->GetOutput()->GetPointData()->GetArray("Weights");
   ASSERT_NE(array, nullptr);
   ASSERT_EQ(array->GetNumberOfComponents(), 4);

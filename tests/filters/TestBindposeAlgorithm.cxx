@@ -1,4 +1,4 @@
-// The contract that all filters share: report, failure, cancel, execute again.
+// The contract of all filters: report, failure, cancel, repeated execution.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -95,7 +95,7 @@ TEST(BindposeAlgorithm, ExecutesOnlyWhenSomethingChanged)
   filter->Update();
   filter->Update();
   EXPECT_EQ(filter->Executions, 1);
-  filter->SetNumberOfThreads(1); // results do not depend on it
+  filter->SetNumberOfThreads(1); // does not change the result
   EXPECT_EQ(filter->GetNumberOfThreads(), 1);
   filter->Update();
   EXPECT_EQ(filter->Executions, 1);
@@ -109,7 +109,7 @@ TEST(BindposeAlgorithm, ExecutesOnlyWhenSomethingChanged)
 
 TEST(BindposeAlgorithm, TheFirstOfSeveralPiecesIsTheWhole)
 {
-  vtkNew<vtkSphereSource> sphere; // makes pieces
+  vtkNew<vtkSphereSource> sphere; // can produce pieces
   sphere->Update();
   const vtkIdType cells = sphere->GetOutput()->GetNumberOfCells();
   vtkNew<TestFilter> first;
@@ -185,11 +185,11 @@ TEST(BindposeAlgorithm, FailureEmptiesOutputsAndPassesOn)
     EXPECT_THAT(listener->errors[0], HasSubstr("the dog ate it"));
     EXPECT_EQ(downstream->errors.size(), 1u);
 
-    // Nothing changed, but a failure is tried again …
+    // Nothing has changed, but a failed filter executes again …
     second->Update();
     EXPECT_EQ(first->Executions, 2);
   }
-  // … and nothing of it stays once it works.
+  // … and after a success nothing of the failure remains.
   first->Work = nullptr;
   second->Update();
   EXPECT_EQ(first->GetStatus(), vtkBindposeAlgorithm::OK);
@@ -353,7 +353,8 @@ TEST(BindposeAlgorithm, BlocksOfACompositeInput)
     EXPECT_EQ(read_report(block).text("status"), "ok");
   }
 
-  // The middle one fails: it is empty and says why, the others are there, the filter has failed.
+  // The second block fails. Its output is empty and has a report, the other outputs are complete,
+  // and the filter has failed.
   filter->Executions = 0;
   filter->Work = [&](vtkPolyData*, ExecutionContext&)
   { return filter->Executions == 2 ? fail(StatusCode::invalid_input) : Status(); };
@@ -371,7 +372,8 @@ TEST(BindposeAlgorithm, BlocksOfACompositeInput)
     EXPECT_EQ(read_report(block).text("status"), b == 1 ? "invalid_input" : "ok");
   }
 
-  // Cancelled in the second: the third is not begun, and the next Update() does all of them.
+  // The second block is canceled. The third is not started, and the next Update() executes all
+  // blocks.
   filter->Executions = 0;
   filter->Work = [&](vtkPolyData*, ExecutionContext& context)
   {
@@ -424,7 +426,7 @@ TEST(BindposeAlgorithm, InputsThatAreMissingOrOfTheWrongKind)
   EXPECT_EQ(filter->GetInput(), filter->GetInputDataObject(0, 0));
   filter->SetInputData(nullptr);
   EXPECT_EQ(filter->GetNumberOfInputConnections(0), 0);
-  vtkObject::GlobalWarningDisplayOff(); // VTK's executive complains, which is right
+  vtkObject::GlobalWarningDisplayOff(); // VTK's executive reports the missing input
   filter->Update();
   vtkObject::GlobalWarningDisplayOn();
   EXPECT_EQ(filter->Executions, 0);

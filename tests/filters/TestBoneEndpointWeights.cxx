@@ -1,4 +1,4 @@
-// Endpoint weights: 0 at a bone's head, 1 at its tail, along the shape between and beyond them.
+// Endpoint weights: 0 at a bone's head, 1 at its tail, and interpolated over the shape.
 #include "vtkBoneEndpointWeights.h"
 #include "vtkPoseHandles.h"
 #include "vtkSkinningDeformation.h"
@@ -144,7 +144,7 @@ TEST_F(BoneEndpointWeights, OfTetsStayWhilePosesChangeAndSkinningTakesThem)
   skinning->Update();
   ASSERT_TRUE(this->listener->errors.empty()) << this->listener->errors.front();
   EXPECT_EQ(this->report().number("counts.problems", -1), 1);
-  // Both bones twice as long: every joint goes to twice its place.
+  // Both bones become twice as long: every joint moves to twice its position.
   pose->SetPoseJSON(R"({"handles": {"a": {"tail": [4, 0.5, 0.5]},
                                     "b": {"head": [4, 0.5, 0.5], "tail": [8, 0.5, 0.5]}}})");
   skinning->Update();

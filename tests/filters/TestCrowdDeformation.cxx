@@ -1,4 +1,4 @@
-// A crowd as a filter: what it makes of an instance is what vtkReducedARAP makes of its pose.
+// Crowds as a filter: each instance equals the result of vtkReducedARAP for its pose.
 #include "vtkCrowdDeformation.h"
 
 #include "TestFilter.h"
@@ -53,13 +53,14 @@ protected:
     this->handles = to_polydata(this->rig.handles);
     this->filter->SetInputData(0, this->tets);
     this->filter->SetInputData(1, this->handles);
-    // From other rotations the way to the least energy is another: what is left differs.
+    // The solves start from other rotations and converge along other paths. A small tolerance makes
+    // the results comparable.
     this->filter->SetTolerance(1e-12);
     this->filter->SetMaximumIterations(1000);
     this->listener->listen(this->filter);
   }
 
-  /// The right end lifted by i tenths, the middle free.
+  /// Return a pose with the right end lifted by i tenths and the middle free.
   Pose pose(int i) const
   {
     Pose result(3);
@@ -79,7 +80,7 @@ protected:
     set_pose(result, cells, this->pose(i));
     return result;
   }
-  /// The same as rows: a translation of one handle, and modes.
+  /// Add the same poses as rows: a translation of one handle, and modes.
   template <typename Attributes>
   void add_rows(Attributes* arrays, int rows) const
   {
@@ -149,7 +150,7 @@ TEST_F(CrowdDeformationFilter, PosesInstancesAsReducedARAPWouldWhateverTheyAreTo
       EXPECT_LT((this->instance(i) - this->alone(i)).cwiseAbs().maxCoeff(), 1e-5)
         << instances->GetClassName() << " " << i;
     }
-    // The weights and cells are there once.
+    // All instances share the weights and cells.
     auto* all = vtkPartitionedDataSetCollection::SafeDownCast(this->filter->GetOutput());
     auto* last = vtkUnstructuredGrid::SafeDownCast(all->GetPartition(count - 1, 0));
     EXPECT_EQ(last->GetCells(), this->tets->GetCells());
@@ -158,7 +159,7 @@ TEST_F(CrowdDeformationFilter, PosesInstancesAsReducedARAPWouldWhateverTheyAreTo
     EXPECT_STREQ(all->GetMetaData(count - 1)->Get(vtkCompositeDataSet::NAME()), "instance 3");
   }
   EXPECT_GT(this->report("seconds.solve"), 0.0);
-  // In double precision all the way they come to the same place.
+  // Solves in double precision give the same result.
   EXPECT_GT(this->report("single_precision_iterations"), 0.0);
   this->filter->MixedPrecisionOff();
   this->filter->WarmStartOff();
@@ -188,7 +189,7 @@ TEST_F(CrowdDeformationFilter, PlacesInstances)
     const Points expected = this->alone(i).rowwise() + Eigen::RowVector3d(5.0 * i, 1.0, -i);
     EXPECT_LT((this->instance(i) - expected).cwiseAbs().maxCoeff(), 1e-5) << i;
   }
-  // A placement comes before the points: a quarter turn and twice the size.
+  // The array Placement takes precedence over the points: a quarter turn and twice the size.
   vtkNew<vtkDoubleArray> places;
   places->SetName("Placement");
   places->SetNumberOfComponents(12);
@@ -324,7 +325,7 @@ TEST_F(CrowdDeformationFilter, SaysWhatIsWrong)
   table->GetRowData()->AddArray(places);
   EXPECT_THAT(message(table), HasSubstr("instance 1: where it stands"));
 
-  // Other handles than the mesh's.
+  // The handles of an instance differ from those of the mesh.
   blocks->SetBlock(0, this->posed_handles(0));
   Handles others = this->rig.handles;
   others[1].name = "another";
@@ -334,7 +335,7 @@ TEST_F(CrowdDeformationFilter, SaysWhatIsWrong)
   EXPECT_THAT(message(blocks), HasSubstr("instance 1: a vtkUnstructuredGrid has no handles"));
   EXPECT_FALSE(this->listener->errors.empty());
 
-  // It recovers, and says when names fit nothing.
+  // The filter recovers, and warns if no array has the name of a handle.
   vtkNew<vtkTable> strange;
   vtkNew<vtkDoubleArray> other;
   other->SetName("no handle");

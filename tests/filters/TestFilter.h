@@ -1,8 +1,8 @@
 #ifndef TestFilter_h
 #define TestFilter_h
 
-// A filter of ours whose work a test writes down, what a test wants to hear of a filter's events,
-// and how often a filter executed.
+// A filter whose work is defined by the test and that counts its executions, and a listener that
+// records the events of a filter.
 
 #include "vtkBindposeAlgorithm.h"
 
@@ -22,8 +22,8 @@
 namespace bindpose::test
 {
 
-/// vtkDataSet in, vtkPolyData out: a copy of the input, when it is a polydata, then the test's
-/// work.
+/// A filter from vtkDataSet to vtkPolyData: it copies the input if this is a polydata, then runs
+/// the test's work.
 class TestFilter : public vtkBindposeAlgorithm
 {
 public:
@@ -63,8 +63,8 @@ protected:
   }
 };
 
-/// Counts an algorithm's events and keeps the texts of its errors and warnings (which then do not
-/// go to VTK's output window).
+/// Counts an algorithm's events and stores the texts of its errors and warnings. These texts are
+/// then not shown in VTK's output window.
 class Listener : public vtkCommand
 {
 public:

@@ -1,5 +1,5 @@
-// Full as-rigid-as-possible as a filter: no weights, bound once, regions by their labels, errors
-// named.
+// Full as-rigid-as-possible as a filter: no weights, one bind, regions by their labels, named
+// errors.
 #include "vtkFullARAP.h"
 
 #include "TestFilter.h"

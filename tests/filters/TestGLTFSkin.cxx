@@ -1,5 +1,5 @@
-// A rig goes out and comes back: weights to floats, handles equal, poses as linear blend skinning
-// has them. What the file itself holds is tested in core.
+// A rig is written and read back: weights as floats, equal handles, poses of linear blend skinning.
+// The content of the file itself is tested in core.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -36,7 +36,8 @@ using testing::HasSubstr;
 
 namespace
 {
-/// All kinds: points, a cage's vertices with an edge and a face, a region, three bones in a chain.
+/// Return handles of all kinds: points, a cage's vertices with an edge and a face, a region, a
+/// chain of three bones.
 Handles all_kinds()
 {
   Handles handles(8);
@@ -59,7 +60,7 @@ Handles all_kinds()
     handles[h].head = Vec3(-1, 0.3 * static_cast<double>(h), 0.1);
     handles[h].tail = Vec3(-1, 0.3 * static_cast<double>(h + 1), 0.1);
   }
-  handles[5].parent = 6; // parents may stand behind
+  handles[5].parent = 6; // a parent may come later in the list
   handles[6].parent = 7;
   handles[0].parent = 5;
   return handles;
@@ -169,7 +170,7 @@ TEST_F(GLTFSkin, AllKindsOfHandlesComeBackEqual)
     {
       EXPECT_EQ(pose.transform, identity_affine());
     }
-    // The general readers give the same halves.
+    // The general readers return the same mesh and handles.
     vtkNew<vtkMeshFileReader> mesh;
     mesh->SetFileName((this->Folder / name).c_str());
     mesh->Update();
@@ -227,7 +228,7 @@ TEST_F(GLTFSkin, TetsAreTheirBoundary)
   this->Writer->SetInputData(0, grid);
   this->WriteAndRead();
   vtkPolyData* back = this->Mine(0);
-  EXPECT_EQ(back->GetNumberOfPoints(), 64 - 8); // without the inner ones
+  EXPECT_EQ(back->GetNumberOfPoints(), 64 - 8); // without the inner points
   EXPECT_EQ(back->GetNumberOfCells(), 6 * 9 * 2);
   for (vtkIdType v = 0; v < back->GetNumberOfPoints(); ++v)
   {
@@ -236,7 +237,7 @@ TEST_F(GLTFSkin, TetsAreTheirBoundary)
   }
 }
 
-/// The reader and a pose from its file, asked for times in any order: 12 frames a second.
+/// Request times in any order from the reader and from a pose of its file, at 12 frames per second.
 void GLTFSkin::ExpectTheTimesOfTheFrames(const std::vector<Points>& expected)
 {
   vtkNew<vtkPoseHandles> posed;
@@ -263,7 +264,7 @@ void GLTFSkin::ExpectTheTimesOfTheFrames(const std::vector<Points>& expected)
         << time;
     }
   }
-  // Of a frame that was chosen there is one time only.
+  // A reader with a chosen frame has no time steps.
   this->Reader->SetFrame(1);
   this->Reader->UpdateInformation();
   for (const int port : { 0, 1 })
@@ -313,8 +314,8 @@ TEST_F(GLTFSkin, PosesAndAnimationsAreThoseOfLinearBlendSkinning)
     EXPECT_EQ(this->Reader->GetFramesPerSecond(), 12.0);
     for (int k = 0; k < 3; ++k)
     {
-      // The reader's own frames, its pose file, and the file as a pose of the handles: all the
-      // same.
+      // The reader's own frames, its pose file, and the file as a pose of the handles give the same
+      // result.
       vtkNew<vtkSkinningDeformation> again;
       again->SetInputData(0, this->Mesh);
       vtkNew<vtkPoseHandles> posed;
@@ -338,7 +339,7 @@ TEST_F(GLTFSkin, PosesAndAnimationsAreThoseOfLinearBlendSkinning)
     this->Reader->SetFrame(-1);
     this->ExpectTheTimesOfTheFrames(expected);
   }
-  // Without a sequence the joints stand as the handles do.
+  // Without a sequence, the joints have the pose of the handles.
   this->Writer->SetPoseFileName(nullptr);
   pose->SetFrame(2);
   pose->Update();
@@ -350,7 +351,7 @@ TEST_F(GLTFSkin, PosesAndAnimationsAreThoseOfLinearBlendSkinning)
   own->SetInputConnection(1, this->Reader->GetOutputPort(1));
   own->Update();
   EXPECT_LT((to_points(own->GetOutput()).view() - expected[2]).cwiseAbs().maxCoeff(), 3e-6);
-  EXPECT_EQ(this->HandlesRead()[5].head, this->List[5].head); // at rest
+  EXPECT_EQ(this->HandlesRead()[5].head, this->List[5].head); // the handles are at rest
   this->Reader->SetFrame(0);
   this->Reader->Update();
   EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("frame 0"));
@@ -373,9 +374,10 @@ TEST_F(GLTFSkin, FramesOfOtherMethodsAreMorphTargets)
   posed->Update();
   this->Writer->SetHandlesData(posed->GetOutput());
   this->WriteAndRead();
-  EXPECT_EQ(this->PoseRead()[7].transform, identity_affine()); // what is moved is not moved again
+  // The pose is part of the morph targets.
+  EXPECT_EQ(this->PoseRead()[7].transform, identity_affine());
   EXPECT_THAT(this->Writer->GetReportJSON(), HasSubstr("\"animation\": \"morph\""));
-  // Joints that should hold them are off by as much, and say so: 5 to 6 from the ball.
+  // Joints cannot represent the displacement of one vertex: the report states the error.
   vtkNew<vtkDoubleArray> transforms;
   transforms->SetName("HandleTransforms");
   transforms->SetNumberOfComponents(12);
@@ -404,7 +406,8 @@ TEST_F(GLTFSkin, JointsOfOtherProgramsBecomeHandles)
   const TriangleMesh ball = test::sphere(1);
   skin.points = ball.points;
   skin.triangles = ball.triangles;
-  // A tip before its root, two at one place, one below two others.
+  // Three joints have the root j1 as parent. j0 comes before its parent, and j0 and j2 are at one
+  // position.
   for (const Vec3& place : { Vec3(0, 1, 0), Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0.5, 0) })
   {
     GltfJoint joint;
@@ -425,7 +428,7 @@ TEST_F(GLTFSkin, JointsOfOtherProgramsBecomeHandles)
   EXPECT_EQ(handles[2].name, "j1");
   EXPECT_EQ(handles[2].kind, HandleKind::bone);
   EXPECT_LT((handles[2].tail - Vec3(1.0 / 3.0, 2.5 / 3.0, 0)).norm(), 1e-6);
-  EXPECT_EQ(handles[3].name, "j2"); // where another point is: a short bone
+  EXPECT_EQ(handles[3].name, "j2"); // at the position of a point handle, therefore a short bone
   EXPECT_EQ(handles[3].kind, HandleKind::bone);
   EXPECT_EQ(handles[0].parent, 2);
   EXPECT_NEAR(this->Mine(0)->GetPointData()->GetArray("Weights")->GetComponent(0, 2), 0.7, 1e-6);

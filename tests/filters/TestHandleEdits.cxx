@@ -1,5 +1,5 @@
-// Edits of handle datasets in place: what follows its handle, what a bind sees of it, what a
-// refused edit leaves.
+// Edits of handle datasets in place: arrays follow their handles, binds depend on shared arrays,
+// rejected edits change nothing.
 #include "conversion.h"
 #include "handle_edit_cells.h"
 #include "support/meshes.h"
@@ -150,7 +150,7 @@ TEST(HandleEditCells, FromNothingAndBackToNothing)
 
 TEST(HandleEditCells, RemovedParentsAndBackAgainIsTheSameDataset)
 {
-  // An edit that is undone by putting the old dataset back shares its arrays: nothing binds again.
+  // Undo restores the old dataset with its arrays, so nothing binds again.
   const auto data = handles();
   vtkNew<vtkPolyData> before;
   before->ShallowCopy(data);

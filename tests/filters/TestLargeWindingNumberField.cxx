@@ -1,4 +1,4 @@
-// Grids larger than anybody's memory, and stopping in the middle of much work.
+// Grids larger than the memory, and cancellation of long computations.
 #include "TestFilter.h"
 
 #include "base/memory.h"
@@ -26,7 +26,7 @@ using bindpose::test::Listener;
 
 TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
 {
-  // 2 x 2 x 2 with a padding that is no multiple of a voxel's size.
+  // A cube of 2 x 2 x 2 with a padding that is not a multiple of the voxel size.
   const TriangleMesh cube = test::cube();
   constexpr int samples = 1024;
   constexpr int layers = 16;
@@ -58,15 +58,15 @@ TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
     spacing = image->GetSpacing()[0];
   }
   EXPECT_EQ(field->GetNumberOfBuilds(), 1);
-  // Samples on the faces of the cube, if there are any, have other values. The padding is 10 % of
-  // the diagonal on each side.
+  // Samples on the faces of the cube would have other values. The padding is 10 % of the diagonal
+  // on each side.
   const double side = 2.0;
   const double expected_spacing = (side + 0.2 * std::sqrt(3.0) * side) / (samples - 1);
   EXPECT_NEAR(spacing, expected_spacing, 1e-12);
   const double along = side / spacing;
   EXPECT_NEAR(std::cbrt(inside), along, 1.0);
   EXPECT_EQ(other, 0.0);
-#if !defined(__SANITIZE_ADDRESS__) // which keeps what was freed for a while
+#if !defined(__SANITIZE_ADDRESS__) // the sanitizer delays the release of freed memory
   const double block = (8.0 + 1.0) * samples * samples * layers; // with the flags OnSurface
   EXPECT_LT(peak_memory() - before, block + 8e6);
 #endif
@@ -74,7 +74,7 @@ TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
 
 TEST(LargeWindingNumberField, StopsWithinAFifthOfASecond)
 {
-  // A million triangles, 512^3 samples.
+  // 1,000,000 triangles, 512^3 samples.
   const TriangleMesh sphere = test::sphere(8);
   ASSERT_GT(sphere.triangles.rows(), 1000000);
   vtkNew<vtkWindingNumberField> field;
@@ -83,10 +83,10 @@ TEST(LargeWindingNumberField, StopsWithinAFifthOfASecond)
   using Clock = std::chrono::steady_clock;
   for (const double when : { 0.02, 0.1, 0.3, 0.6, 0.9 })
   {
-    double shortest = 1e9; // of some attempts: whoever else is busy here is not the filter's fault
+    double shortest = 1e9; // of three attempts, because other processes may use the processor
     for (int attempt = 0; attempt < 3 && shortest > 0.2; ++attempt)
     {
-      field->SetInputData(to_polydata(sphere.points, sphere.triangles)); // builds anew
+      field->SetInputData(to_polydata(sphere.points, sphere.triangles)); // builds again
       field->SetResolution(512);
       Clock::time_point asked{};
       listener->on_progress = [&](vtkAlgorithm* algorithm)

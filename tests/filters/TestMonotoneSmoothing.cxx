@@ -1,5 +1,5 @@
-// Data on surfaces, polygons and tets through the filter: lists by array, arrays that are made, the
-// extrema's output, errors, cancel.
+// Smoothing of data on surfaces, polygons and tets as a filter: lists of extrema from arrays,
+// result arrays, the output of extrema, errors, cancel.
 #include "TestFilter.h"
 
 #include "vtkMonotoneSmoothing.h"
@@ -30,7 +30,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Waves and noise of the data, whatever the mesh.
+/// Return data with waves and noise for any mesh.
 vtkSmartPointer<vtkDoubleArray> waves(vtkDataSet* mesh)
 {
   test::Random random(4);
@@ -125,7 +125,7 @@ TEST_F(MonotoneSmoothing, ActiveScalarsAreSmoothedAndExtremaTold)
     EXPECT_EQ(told->GetArray("Listed")->GetTuple1(e), 1);
     EXPECT_GT(told->GetArray("Persistence")->GetTuple1(e), 1e-3);
   }
-  // Nothing changed: nothing is done.
+  // If nothing has changed, the filter does not execute.
   const int starts = this->listener->starts;
   this->smoothing->Update();
   EXPECT_EQ(this->listener->starts, starts);
@@ -136,7 +136,7 @@ TEST_F(MonotoneSmoothing, ActiveScalarsAreSmoothedAndExtremaTold)
 
 TEST_F(MonotoneSmoothing, TakesTheListOfTheMeshAndItsOwn)
 {
-  this->add_list(200, 40); // the data are higher there
+  this->add_list(200, 40); // the data is higher at the first point
   this->smoothing->KeepValuesOn();
   this->smoothing->Update();
   ASSERT_EQ(this->smoothing->GetStatus(), vtkBindposeAlgorithm::OK)
@@ -149,7 +149,7 @@ TEST_F(MonotoneSmoothing, TakesTheListOfTheMeshAndItsOwn)
   EXPECT_EQ(range[0], data->GetTuple1(40));
   EXPECT_EQ(range[1], data->GetTuple1(200));
   EXPECT_EQ(read_report(this->smoothing->GetOutput()).text("extrema_from"), "list");
-  // What it used can be given back, under its name.
+  // The list that the filter used can be an input again, under its name.
   vtkNew<vtkMonotoneSmoothing> again;
   again->SetInputConnection(this->smoothing->GetOutputPort());
   again->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Height");
@@ -163,7 +163,7 @@ TEST_F(MonotoneSmoothing, TakesTheListOfTheMeshAndItsOwn)
   {
     ASSERT_EQ(repeated->GetTuple1(v), smoothed->GetTuple1(v));
   }
-  // An empty name: the list is not looked for.
+  // With an empty name, the list of the mesh is ignored.
   this->smoothing->SetExtremaArrayName("");
   this->smoothing->KeepValuesOff();
   this->smoothing->SetNumberOfExtrema(3);

@@ -1,4 +1,5 @@
-// The filter: images by alpha or as a whole, curves, handles; arrays, report, errors, again.
+// vtkPlanarShape: images by alpha or as a rectangle, curves, handles; arrays, report, errors,
+// repeated updates.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -37,7 +38,8 @@ namespace
 {
 constexpr double radius = 20.0;
 
-/// RGBA with a disc around the pixel (40, 30), spaced by 0.5, from (100, 200) on at z = 3.
+/// Return an RGBA image of a disc around the pixel (40, 30), with spacing 0.5, origin (100, 200)
+/// and z = 3.
 vtkSmartPointer<vtkImageData> disc()
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
@@ -132,7 +134,7 @@ TEST_F(PlanarShapeFilter, CutOutOfAnImage)
   {
     const Vec3 p(out->GetPoint(v));
     EXPECT_EQ(p.z(), 3.0);
-    // Texture coordinates find the pixel that is there.
+    // Texture coordinates refer to the pixel at the vertex.
     ASSERT_NEAR(texture->GetComponent(v, 0) * 80.0 - 0.5, (p.x() - 100.0) / 0.5, 1e-9);
     ASSERT_NEAR(texture->GetComponent(v, 1) * 60.0 - 0.5, (p.y() - 200.0) / 0.5, 1e-9);
     ASSERT_LE(std::hypot(p.x() - 120.0, p.y() - 215.0), (radius + 1.0) * 0.5);
@@ -157,7 +159,7 @@ TEST_F(PlanarShapeFilter, WholeImage)
   EXPECT_EQ(range[0], 0.0);
   EXPECT_EQ(range[1], 1.0);
   EXPECT_EQ(read_report(filter->GetOutput()).text("domain"), "rectangle");
-  // Without alpha it is the same.
+  // An image without alpha gives the same result.
   vtkNew<vtkImageData> grey;
   grey->SetDimensions(80, 60, 1);
   grey->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
@@ -195,7 +197,7 @@ TEST_F(PlanarShapeFilter, LinesAndPolygons)
   update();
   EXPECT_NEAR(area_of(filter->GetOutput()), 4.0, 1e-12);
   EXPECT_EQ(filter->GetOutput()->GetPoint(0)[2], 7.0);
-  vtkNew<vtkPlaneSource> plane; // four squares side by side
+  vtkNew<vtkPlaneSource> plane; // four adjacent squares
   plane->SetResolution(2, 2);
   filter->SetInputConnection(plane->GetOutputPort());
   update();

@@ -1,4 +1,4 @@
-// A pose file becomes pose arrays; everything a bind depends on stays the input's own.
+// A pose file becomes pose arrays; the output shares all bind-time arrays with the input.
 #include "vtkPoseHandles.h"
 
 #include "conversion.h"
@@ -23,7 +23,7 @@ using namespace bindpose;
 
 namespace
 {
-/// A point p and two bones in a row along y: b1 from 0 to 1, b2 from 1 to 2.
+/// Return a point p and two consecutive bones along y: b1 from 0 to 1, b2 from 1 to 2.
 vtkSmartPointer<vtkPolyData> arm()
 {
   Handles handles(3);
@@ -55,7 +55,7 @@ Vec3 moved(const Affine& t, const Vec3& p)
   return t.leftCols<3>() * p + t.col(3);
 }
 
-/// Updates and gives the last error or warning, empty without one; nothing goes to the terminal.
+/// Update the filter and return its last error or warning, or an empty string. Nothing is printed.
 std::string update(vtkPoseHandles* filter)
 {
   vtkNew<vtkCallbackCommand> keep;
@@ -96,7 +96,7 @@ TEST(PoseHandles, AParentTakesItsChildAlong)
   const std::string b2 = R"(, "b2": {"rotate": {"axis": [0, 0, 1], "degrees": 90})";
   EXPECT_LT((tip(posed(turned + "}")) - Vec3(-2, 0, 0)).norm(), 1e-15);
   EXPECT_LT((tip(posed(turned + b2 + "}}")) - Vec3(-1, -1, 0)).norm(), 1e-15);
-  // In the world b2 turns about its own rest head alone.
+  // In the world, b2 rotates about its own rest head only.
   EXPECT_LT((tip(posed(turned + b2 + R"(, "space": "world"}})")) - Vec3(-1, 1, 0)).norm(), 1e-15);
 }
 
@@ -195,7 +195,7 @@ TEST(PoseHandles, ExpressionsFollowTime)
   filter->SetTime(0.5);
   EXPECT_EQ(update(filter), "");
   EXPECT_LT((place() - Vec3(1, 0.5, 0)).norm(), 1e-12);
-  // A pipeline's time comes first.
+  // The time of a pipeline has priority.
   filter->UpdateTimeStep(1.5);
   EXPECT_LT((place() - Vec3(-1, 5, 0)).norm(), 1e-12);
   filter->UpdateTimeStep(0.25);

@@ -1,4 +1,4 @@
-// Reduced as-rigid-as-possible as a filter: bound once, posed often, modes respected, errors named.
+// Reduced as-rigid-as-possible as a filter: one bind, many poses, modes, named errors.
 #include "vtkReducedARAP.h"
 
 #include "TestFilter.h"
@@ -50,7 +50,7 @@ vtkSmartPointer<vtkDoubleArray> weights_array(const Weights& weights, const Hand
   return array;
 }
 
-/// The bar as tets and as a surface, its three handles, and the chain pose file -> filter.
+/// The bar as tets and as a surface, its three handles, and a pose file connected to the filter.
 class ReducedARAPFilter : public testing::Test
 {
 protected:
@@ -112,7 +112,7 @@ TEST_F(ReducedARAPFilter, RestStaysAtRestAndEverythingButThePointsIsShared)
     grid->GetPointData()->GetArray("Weights"), this->tets->GetPointData()->GetArray("Weights"));
   EXPECT_EQ(this->report("counts.tets"), this->rig.mesh.tets.rows());
   EXPECT_EQ(read_report(grid).text("method"), "tetrahedra");
-  // A second Update has nothing to do.
+  // A second Update() does not execute.
   const int starts = this->listener->starts;
   this->filter->Update();
   EXPECT_EQ(this->listener->starts, starts);
@@ -129,7 +129,7 @@ TEST_F(ReducedARAPFilter, AHundredDragsOfAllModesBindOnce)
     ASSERT_TRUE(this->output().allFinite());
   }
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
-  // Transforms and modes edited in place, as a widget does.
+  // Transforms and modes are edited in place, as a widget does.
   this->filter->SetInputData(1, this->handles);
   for (const char* name : { "Transform", "Mode", "Stretch", "Twist" })
   {
@@ -169,7 +169,7 @@ TEST_F(ReducedARAPFilter, AHundredDragsOfAllModesBindOnce)
 
 TEST_F(ReducedARAPFilter, AnUpstreamFilterThatRunsAgainDoesNotBind)
 {
-  vtkNew<test::TestFilter> upstream; // a shallow copy at each execution
+  vtkNew<test::TestFilter> upstream; // makes a shallow copy at each execution
   upstream->SetInputData(this->surface);
   this->filter->SetInputConnection(0, upstream->GetOutputPort());
   this->filter->Update();
@@ -201,7 +201,7 @@ TEST_F(ReducedARAPFilter, ModesAreRespected)
     }
     if ((rest - Eigen::RowVector3d(2, 0.5, 0.5)).norm() < 1e-9)
     {
-      middle = bent(v, 1) - rest.y(); // free: goes along, less far
+      middle = bent(v, 1) - rest.y(); // free: moves along, but less far
     }
   }
   EXPECT_GT(middle, 0.1);
@@ -210,7 +210,7 @@ TEST_F(ReducedARAPFilter, ModesAreRespected)
   EXPECT_GT(this->report("energy"), 0.0);
   EXPECT_GT(this->report("microseconds_per_iteration"), 0.0);
 
-  // The found transforms blend to the output.
+  // The found transforms reproduce the output by blending.
   vtkDataArray* found = this->filter->GetOutput()->GetFieldData()->GetArray("HandleTransforms");
   ASSERT_NE(found, nullptr);
   ASSERT_EQ(found->GetNumberOfTuples(), 3);
@@ -264,14 +264,14 @@ TEST_F(ReducedARAPFilter, RotationArraysTellWhatEachVertexIsTurnedBy)
     for (vtkIdType v = 0; v < posed->GetNumberOfPoints(); ++v)
     {
       seen.insert(static_cast<int>(clusters->GetComponent(v, 0)));
-      // The whole bar follows the one handle that is fixed.
+      // The whole bar follows the one constrained handle.
       const Vec3 turn(posed->GetPointData()->GetArray("Rotation")->GetTuple3(v));
       EXPECT_LT((turn - Vec3(0, 0, 50)).norm(), 1e-4) << v;
     }
     EXPECT_EQ(*seen.begin(), 0);
     EXPECT_LE(*seen.rbegin(), this->report("counts.clusters") - 1);
     EXPECT_GT(seen.size(), 4u);
-    // The same object for another pose, and another for another bind.
+    // The output has the same array object for another pose, and another one after another bind.
     this->pose->SetPoseJSON(drag_right(0.5));
     this->filter->Update();
     EXPECT_EQ(this->filter->GetOutput()->GetPointData()->GetArray("RotationCluster"), clusters);
@@ -303,7 +303,7 @@ TEST_F(ReducedARAPFilter, SurfacesBendToo)
   this->fails_with("needs a surface");
 }
 
-// SPEC F51: the same numbers whoever asks, however many threads.
+// SPEC F51: the bits are the same for the filter, the kernel and any number of threads.
 TEST_F(ReducedARAPFilter, ThreadsAndTheKernelAgreeToTheBit)
 {
   this->pose->SetPoseJSON(drag_right(0.5));
@@ -369,7 +369,7 @@ TEST_F(ReducedARAPFilter, WhatDoesNotFitIsNamed)
   this->tets->GetPointData()->AddArray(array);
   this->fails_with("weights of another mesh");
 
-  // Of other handles: a component of another name.
+  // Weights of other handles: a component has another name.
   array = weights_array(this->rig.weights, this->rig.handles);
   array->SetComponentName(1, "elbow");
   this->tets->GetPointData()->AddArray(array);
@@ -384,7 +384,7 @@ TEST_F(ReducedARAPFilter, WhatDoesNotFitIsNamed)
   this->tets->GetPointData()->AddArray(weights_array(bad, this->rig.handles));
   this->fails_with("vertex 5");
 
-  // Rows off one: a warning with the number, and a result.
+  // Rows that do not sum to one give a warning with the number, and a result.
   this->tets->GetPointData()->AddArray(
     weights_array(Weights(0.5 * this->rig.weights), this->rig.handles));
   this->listener->errors.clear();
@@ -394,7 +394,7 @@ TEST_F(ReducedARAPFilter, WhatDoesNotFitIsNamed)
   EXPECT_THAT(this->listener->warnings[0], HasSubstr("0.5"));
   EXPECT_NEAR(this->report("row_sum_error"), 0.5, 1e-12);
 
-  // A failure upstream is repeated, and mended by mending it.
+  // A failure upstream is passed on, and repairing the upstream filter repairs this filter.
   this->pose->SetPoseJSON(R"({"handles": {"elbow": {}}})");
   vtkNew<test::Listener> quiet;
   quiet->listen(this->pose);
@@ -498,7 +498,8 @@ TEST_F(ReducedARAPFilter, ReflectionsAndCollapsedScalesAreNamedAndDestroyNothing
   {
     algorithm->SetInputData(0, this->tets);
     quiet->listen(algorithm);
-    // A reflection, the same through a negative scale, a flat one, and nothing at all.
+    // A reflection, a reflection by a negative scale, a scale to a plane, a scale to a point, and a
+    // valid scale.
     for (const Vec3& scale :
       { Vec3(1, 1, -1), Vec3(-2, -2, -2), Vec3(1, 0, 1), Vec3(0, 0, 0), Vec3(2, 1, 0.5) })
     {

@@ -1,13 +1,17 @@
-// What is inside, beside VTK's own vtkSelectEnclosedPoints: the same surfaces and points, and a
-// truth that needs neither. Inside must be right at every point. Of VTK's filter only what does not
-// hang on its random rays is asserted; how often it is wrong is printed.
+// Comparison of inside tests with VTK's vtkSelectEnclosedPoints: the same surfaces and points, and
+// a ground truth that is independent of both. Bindpose must be right at every point. For VTK's
+// filter only the results that do not depend on its random rays are asserted; the number of its
+// errors is printed.
 //
-// Measured with VTK 9.1, default tolerance: right on spheres, cubes, rings and single thin plates,
-// near the surface too, and on a sphere with a small hole once it is told not to check; wrong at 46
-// and 5762 of 20000 points among 200 closed plates of 2e-3 and 2e-4, where 52 of 10000 answers
-// depend on which other points are asked; wrong at all points that two components share; open
-// surfaces are refused with CheckSurface. With PyVista's tolerance of 1e-3 it is wrong at 3 of
-// 23822 points around closed real surfaces (compare PyVista's issues 4240, 8133 and 2973).
+// Measured with VTK 9.1 and the default tolerance, vtkSelectEnclosedPoints gives these results:
+// - It is right on spheres, cubes, rings and single thin plates, also near the surface, and on a
+//   sphere with a small hole if CheckSurface is off.
+// - It is wrong at 46 and 5762 of 20000 points among 200 closed plates of thickness 2e-3 and 2e-4.
+//   There, 52 of 10000 answers depend on the other points of the query.
+// - It is wrong at all points that are inside two components.
+// - It refuses open surfaces if CheckSurface is on.
+// With PyVista's tolerance of 1e-3 it is wrong at 3 of 23822 points around closed real surfaces
+// (compare PyVista's issues 4240, 8133 and 2973).
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -43,10 +47,10 @@ enum Truth
 {
   outside,
   inside,
-  unknown ///< too near the surface to say
+  unknown ///< too near to the surface for a ground truth
 };
 
-/// Points that both filters are asked about.
+/// Return the query points of both filters.
 vtkSmartPointer<vtkPolyData> data_of(const Points& points)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
@@ -54,7 +58,7 @@ vtkSmartPointer<vtkPolyData> data_of(const Points& points)
   return data;
 }
 
-/// 1 or 0 a point.
+/// Return 1 (inside) or 0 for each point.
 vtkSmartPointer<vtkDataArray> inside_by_bindpose(
   const TriangleMesh& mesh, const Points& points, bool orient = false)
 {
@@ -68,7 +72,8 @@ vtkSmartPointer<vtkDataArray> inside_by_bindpose(
   return vtkDataSet::SafeDownCast(field->GetOutput())->GetPointData()->GetArray("Inside");
 }
 
-/// The same; null when it refuses. The tolerance is in diagonals; VTK's default, PyVista's is 1e-3.
+/// Return 1 (inside) or 0 for each point, or null if VTK's filter refuses the surface. The
+/// tolerance is in bounding-box diagonals; the default is VTK's, PyVista's is 1e-3.
 vtkSmartPointer<vtkDataArray> inside_by_vtk(
   const TriangleMesh& mesh, const Points& points, bool check_surface, double tolerance = 1e-4)
 {
@@ -89,7 +94,7 @@ struct Wrong
   Index bindpose = 0, vtk = 0, points = 0;
 };
 
-/// Both against the truth.
+/// Compare both filters with the ground truth.
 Wrong compare(const std::string& name, const TriangleMesh& mesh, const Points& points,
   const std::function<Truth(const Vec3&)>& truth, bool orient = false, double tolerance = 1e-4)
 {
@@ -111,7 +116,7 @@ Wrong compare(const std::string& name, const TriangleMesh& mesh, const Points& p
   return wrong;
 }
 
-/// n^3 points of a lattice on [lower, upper]^3.
+/// Return n^3 points of a lattice on [lower, upper]^3.
 Points lattice(Index n, double lower, double upper)
 {
   Points points(n * n * n, 3);
@@ -135,7 +140,7 @@ Points anywhere(Index count, double size)
   return points;
 }
 
-/// Of a convex surface: inside is behind all planes.
+/// Return the ground truth for a convex surface: a point is inside if it is behind all planes.
 std::function<Truth(const Vec3&)> behind_all_planes(const TriangleMesh& mesh)
 {
   return [mesh](const Vec3& p)
@@ -158,7 +163,7 @@ Truth in_ball(const Vec3& p, const Vec3& center, double radius, double unsure)
   return std::abs(height) < unsure ? unknown : height < 0.0 ? inside : outside;
 }
 
-/// Closed ones of 2 x 2 x thickness, evenly from z = -1 to 1.
+/// Number of closed plates of 2 x 2 x thickness, distributed evenly from z = -1 to 1.
 constexpr int plates = 200;
 TriangleMesh stack_of_plates(double thickness)
 {
@@ -180,7 +185,7 @@ Truth in_plates(double thickness, const Vec3& p)
   return std::abs(height) < 1e-6 ? unknown : height < 0.0 ? inside : outside;
 }
 
-/// Without the triangles around a direction.
+/// Remove the triangles around a direction.
 TriangleMesh with_hole(TriangleMesh mesh, const Vec3& direction, double cosine)
 {
   Index kept = 0;
@@ -205,7 +210,7 @@ TEST(SelectEnclosedPoints, ClosedManifoldSurfaces)
   EXPECT_EQ(compare("sphere, random points", ball, anywhere(30000, 1.2), in_sphere).bindpose, 0);
   EXPECT_EQ(compare("sphere, lattice", ball, lattice(33, -1.2, 1.2), in_sphere).bindpose, 0);
 
-  // Rays of a cube made of small squares meet many edges and vertices.
+  // Rays through a cube of small squares meet many edges and vertices.
   TriangleMesh box;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -231,7 +236,7 @@ TEST(SelectEnclosedPoints, ClosedManifoldSurfaces)
   EXPECT_EQ(compare("cube, random points", box, anywhere(60000, 1.2), in_box).bindpose, 0);
   EXPECT_EQ(compare("cube, lattice", box, lattice(41, -1.2, 1.2), in_box).bindpose, 0);
 
-  // The polygons of the ring lie within 1 - cos(pi / n) of its circles.
+  // The polygons of the ring deviate from its circles by at most 1 - cos(pi / n).
   const TriangleMesh ring = test::torus(120, 60, 1.0, 0.4);
   const auto in_ring = [](const Vec3& p)
   {
@@ -244,8 +249,7 @@ TEST(SelectEnclosedPoints, ClosedManifoldSurfaces)
 
 TEST(SelectEnclosedPoints, StacksOfPlates)
 {
-  // Rays cross hundreds of sides that are nearly as near to each other as the tolerance of VTK's
-  // filter.
+  // Rays cross hundreds of sides whose distances are close to the tolerance of VTK's filter.
   for (const double thickness : { 2e-3, 2e-4 })
   {
     std::ostringstream name;
@@ -259,8 +263,8 @@ TEST(SelectEnclosedPoints, StacksOfPlates)
 
 TEST(SelectEnclosedPoints, ScannedAndModelledSurfaces)
 {
-  // Closed manifold ones. The truth is the plain sum over all triangles; what is nearer than a
-  // thousandth of the diagonal does not count.
+  // Closed manifold surfaces. The ground truth is the direct sum over all triangles; points within
+  // a thousandth of the diagonal do not count.
   for (const char* name : { "cow.off", "femur.off", "anchor.off" })
   {
     const TriangleMesh mesh = test::demo_mesh(name);
@@ -295,7 +299,7 @@ TEST(SelectEnclosedPoints, ScannedAndModelledSurfaces)
 
 TEST(SelectEnclosedPoints, PointsNearTheSurface)
 {
-  // From 1e-2 down to 1e-9 above and below the faces of a convex surface.
+  // Points at distances from 1e-2 down to 1e-9 above and below the faces of a convex surface.
   const TriangleMesh ball = test::sphere(3);
   for (const double height : { 1e-2, 1e-4, 1e-6, 1e-9 })
   {
@@ -309,7 +313,7 @@ TEST(SelectEnclosedPoints, PointsNearTheSurface)
       points.row(2 * t) = ((a + b + c) / 3.0 + up).transpose();
       points.row(2 * t + 1) = ((a + b + c) / 3.0 - up).transpose();
     }
-    Index asked = 0; // above and below take turns
+    Index asked = 0; // points above and below alternate
     const auto truth = [&](const Vec3&) { return asked++ % 2 == 0 ? outside : inside; };
     std::ostringstream name;
     name << "sphere, " << height << " off its faces";
@@ -319,7 +323,7 @@ TEST(SelectEnclosedPoints, PointsNearTheSurface)
 
 TEST(SelectEnclosedPoints, ThinPlate)
 {
-  // 2 x 2 x 2e-5: its two sides are nearer to each other than the tolerance of VTK's filter.
+  // A plate of 2 x 2 x 2e-5: the distance of its two sides is below the tolerance of VTK's filter.
   TriangleMesh plate = test::cube();
   plate.points.col(2) *= 1e-5;
   Points points = anywhere(20000, 1.2);
@@ -338,7 +342,8 @@ TEST(SelectEnclosedPoints, ThinPlate)
 
 TEST(SelectEnclosedPoints, OverlappingComponents)
 {
-  // Where two balls overlap, a ray out of both crosses twice: for VTK's filter that is outside.
+  // A ray that starts inside both overlapping balls crosses two sides, which VTK's filter counts as
+  // outside.
   const Vec3 aside(0.5, 0.0, 0.0);
   const TriangleMesh ball = test::sphere(4);
   const TriangleMesh both =
@@ -358,7 +363,7 @@ TEST(SelectEnclosedPoints, OverlappingComponents)
   EXPECT_EQ(overlap.bindpose, 0);
   EXPECT_GT(2 * overlap.vtk, overlap.points);
 
-  // A cavity is a component turned over: outside for both.
+  // A cavity is a component of opposite orientation: both filters report it as outside.
   const TriangleMesh hollow = test::join(ball, test::flipped(test::sphere(4, 0.5)));
   const auto in_shell = [&](const Vec3& p)
   {
@@ -373,8 +378,8 @@ TEST(SelectEnclosedPoints, OverlappingComponents)
 
 TEST(SelectEnclosedPoints, FlippedSurfaces)
 {
-  // VTK's filter does not look at orientations; the winding number is -1 inside, which is not
-  // inside, unless patches are turned first.
+  // VTK's filter ignores orientations. The winding number inside a flipped surface is -1, which
+  // does not count as inside unless patches are oriented first.
   const TriangleMesh ball = test::sphere(3);
   const Points points = anywhere(20000, 1.2);
   const auto truth = behind_all_planes(ball);
@@ -385,7 +390,7 @@ TEST(SelectEnclosedPoints, FlippedSurfaces)
   {
     ASSERT_EQ(not_turned->GetTuple1(i), 0.0);
   }
-  // Every seventh triangle turned over: for VTK's filter it is the same surface still.
+  // Every seventh triangle is flipped, which does not change the surface for VTK's filter.
   TriangleMesh mixed = ball;
   for (Index t = 0; t < mixed.triangles.rows(); t += 7)
   {
@@ -396,7 +401,7 @@ TEST(SelectEnclosedPoints, FlippedSurfaces)
 
 TEST(SelectEnclosedPoints, OpenSurfaces)
 {
-  // A hole of a tenth of the radius; what is near it has no truth.
+  // A hole of a tenth of the radius; points near it have no ground truth.
   const Vec3 up(0.0, 0.0, 1.0);
   const TriangleMesh open = with_hole(test::sphere(4), up, 0.995);
   const auto truth = [&](const Vec3& p)
@@ -409,7 +414,8 @@ TEST(SelectEnclosedPoints, OpenSurfaces)
 
 TEST(SelectEnclosedPoints, AnotherBatch)
 {
-  // The same points among others: Bindpose's answer depends on the point alone.
+  // The same points in another query: Bindpose's result for a point does not depend on other
+  // points.
   const TriangleMesh stack = stack_of_plates(2e-3);
   const Points points = anywhere(20000, 1.1);
   const Points second = points.bottomRows(10000);

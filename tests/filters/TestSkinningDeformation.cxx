@@ -1,5 +1,5 @@
-// Skinning as a filter: identity, rigid motion and joints as the kernel promises, bind once, clear
-// errors.
+// Skinning as a filter: identity, rigid motion and joints as documented by the kernel, one bind,
+// clear errors.
 #include "vtkSkinningDeformation.h"
 
 #include "conversion.h"
@@ -27,7 +27,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Two bones along z that meet at the origin.
+/// Return two bones along z that meet at the origin.
 vtkSmartPointer<vtkPolyData> two_bones()
 {
   Handles handles(2);
@@ -42,7 +42,8 @@ vtkSmartPointer<vtkPolyData> two_bones()
   return to_polydata(handles);
 }
 
-/// Weights that go linearly from the lower to the upper bone within |z| < 1/2; half and half at 0.
+/// Return weights that change linearly from the lower to the upper bone within |z| < 1/2; both are
+/// 1/2 at 0.
 vtkSmartPointer<vtkDoubleArray> weights_of(PointsView points)
 {
   auto weights = vtkSmartPointer<vtkDoubleArray>::New();
@@ -57,7 +58,8 @@ vtkSmartPointer<vtkDoubleArray> weights_of(PointsView points)
   return weights;
 }
 
-/// A tube of radius 1 around z from -1 to 1, with a ring of points at z = 0, weights and normals.
+/// Return a tube of radius 1 around z from -1 to 1, with a ring of points at z = 0, weights and
+/// normals.
 vtkSmartPointer<vtkPolyData> tube()
 {
   TriangleMesh mesh = test::grid(24, 8, 2.0 * std::acos(-1.0), 2.0);
@@ -103,7 +105,8 @@ protected:
     this->filter->AddObserver(vtkCommand::WarningEvent, keep);
   }
 
-  /// Largest distance from the axis over the ring of points at z = 0, where both weights are 1/2.
+  /// Return the largest distance from the axis over the ring of points at z = 0, where both weights
+  /// are 1/2.
   double ring_radius()
   {
     double radius = 0.0;
@@ -219,7 +222,7 @@ TEST_F(SkinningDeformation, AHundredDragsBindOnce)
   double bounds[6];
   this->filter->GetOutput()->GetBounds(bounds);
   EXPECT_NEAR(bounds[1], 1.99, 1e-6);
-  // Other weights do.
+  // Other weights cause a bind.
   this->mesh->GetPointData()->GetArray("Weights")->Modified();
   this->mesh->Modified();
   this->filter->Update();
@@ -399,7 +402,7 @@ TEST_F(SkinningDeformation, CentersAreMadeOnceAndCanBeCancelled)
 
 TEST_F(SkinningDeformation, PseudoEdgesTurnPointsThatAreDragged)
 {
-  // Three points on a square that is turned by 90 degrees about the first.
+  // Three points on a square that is rotated by 90 degrees about the first.
   const TriangleMesh square = test::grid(4, 4);
   const auto flat = to_polydata(square.points, square.triangles);
   vtkNew<vtkDoubleArray> weights;
@@ -459,7 +462,7 @@ TEST_F(SkinningDeformation, PseudoEdgesTurnPointsThatAreDragged)
 
 TEST_F(SkinningDeformation, ReportsWhatIsInsideOutAndStretched)
 {
-  // The upper half goes down through the lower one.
+  // The upper half moves down through the lower half.
   const TetMesh box = test::tet_box(2, 2, 8, Vec3(-1, -1, -1), Vec3(1, 1, 1));
   const auto grid = to_unstructured_grid(box.points, box.tets);
   grid->GetPointData()->AddArray(weights_of(box.points));
@@ -475,7 +478,7 @@ TEST_F(SkinningDeformation, ReportsWhatIsInsideOutAndStretched)
   this->pose->SetPoseJSON(R"({"handles": {"upper": {"translate": [0, 0, -3]}}})");
   this->filter->StretchArrayOn();
   this->filter->Update();
-  // Between z = -1/2 and 1/2 z becomes z - 3 (z + 1/2): half of the tets, each -2 times as long.
+  // For z between -1/2 and 1/2, z becomes z - 3 (z + 1/2): half of the tets are scaled by -2.
   report = read_report(this->filter->GetOutput());
   EXPECT_EQ(report.number("counts.inverted_elements", 0), 96);
   EXPECT_EQ(report.number("counts.stretched_elements", -1), 0) << "not beyond twice";

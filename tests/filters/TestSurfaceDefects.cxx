@@ -28,7 +28,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// How often each value of `Defect` is there.
+/// Count the cells for each value of `Defect`.
 std::map<int, int> counts(vtkDataSet* data)
 {
   std::map<int, int> result;
@@ -52,7 +52,7 @@ Array* array_of(vtkDataSet* data, const char* name)
 
 TEST(SurfaceDefectsFilter, CellsAndArrays)
 {
-  // An open cube and, away from it, one inside out; a triangle twice; a point of no use.
+  // An open cube and, apart from it, a cube inside out; a duplicate triangle; an unused point.
   TriangleMesh mesh = join(open_cube(), translated(flipped(cube()), Vec3(5.0, 0.0, 0.0)));
   const Index t = mesh.triangles.rows();
   mesh.triangles.conservativeResize(t + 1, 3);
@@ -109,7 +109,7 @@ TEST(SurfaceDefectsFilter, CellsAndArrays)
 
 TEST(SurfaceDefectsFilter, CellIdsAreThoseOfPolygons)
 {
-  // A square twice: its two triangles are duplicates of cell 1.
+  // A square that occurs twice: its two triangles are duplicates of cell 1.
   vtkNew<vtkPolyData> squares;
   const TriangleMesh flat = grid(1, 1);
   squares->SetPoints(to_vtk_points(flat.points));

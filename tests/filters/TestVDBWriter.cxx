@@ -1,5 +1,5 @@
-// The writer's part is to hand image, array and options to the kernel: its files are the kernel's,
-// byte for byte. What is in them is tested there.
+// The writer passes image, array and options to the kernel: its files equal those of the kernel,
+// byte for byte. Their content is tested with the kernel.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -135,7 +135,7 @@ TEST_F(VDBWriter, TakesArraysOfAnyNumbers)
   for (const char* name : { "Floats", "Integers" })
   {
     VdbOptions options;
-    options.grid_name = name; // of the array, where it is not the winding number's
+    options.grid_name = name; // name of the array, unless it is the winding number
     this->Writer->SetArrayName(name);
     EXPECT_TRUE(this->Written() == this->Expected(options)) << name;
   }

@@ -1,5 +1,5 @@
-// Variational surfaces as a filter: handles and the arrays of the mesh, bound once, without
-// handles, errors named.
+// Variational surfaces as a filter: handles and arrays of the mesh, one bind, use without handles,
+// named errors.
 #include "vtkVariationalSurface.h"
 
 #include "TestFilter.h"
@@ -28,7 +28,7 @@ namespace
 {
 constexpr int squares = 12;
 
-/// A square with a band that stays and a region in its middle.
+/// A square with a fixed band and a region in its middle.
 class VariationalSurfaceFilter : public testing::Test
 {
 protected:
@@ -144,7 +144,7 @@ TEST_F(VariationalSurfaceFilter, DragsBindOnceAndBindParametersBindAgain)
 
 TEST_F(VariationalSurfaceFilter, WithoutHandlesAPatchIsMadeAnew)
 {
-  // A dent in a flat patch, on a flat domain.
+  // A dent in a flat patch, with a flat parameter domain.
   vtkNew<vtkDoubleArray> domain;
   domain->SetName("Parameterization");
   domain->SetNumberOfComponents(2);
@@ -159,7 +159,7 @@ TEST_F(VariationalSurfaceFilter, WithoutHandlesAPatchIsMadeAnew)
   this->filter->Update();
   ASSERT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::OK);
   EXPECT_NEAR(this->height(0.5, 0.5), 0.0, 1e-13);
-  // A load lifts it.
+  // A load lifts the patch.
   vtkNew<vtkDoubleArray> load;
   load->SetName("Load");
   load->SetNumberOfComponents(3);
@@ -172,7 +172,7 @@ TEST_F(VariationalSurfaceFilter, WithoutHandlesAPatchIsMadeAnew)
   this->surface->Modified();
   this->filter->Update();
   EXPECT_GT(this->height(0.5, 0.5), 1e-3);
-  // Displacements: without handles all stays.
+  // With displacements and without handles, nothing moves.
   this->surface->GetPointData()->RemoveArray("Load");
   this->filter->FairOff();
   this->filter->Update();

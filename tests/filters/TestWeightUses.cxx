@@ -1,5 +1,5 @@
-// Colours, depth and cuts as filters: arrays, reports, names in errors, and limbs that change their
-// order with their layers.
+// Colors, depth and cuts as filters: arrays, reports, names in errors, and limbs whose order
+// follows their layers.
 #include "TestFilter.h"
 
 #include "vtkBoundedBiharmonicWeights.h"
@@ -47,7 +47,8 @@ void set_cells(vtkPolyData* handles, const char* name, const std::vector<double>
   handles->GetCellData()->AddArray(array);
 }
 
-/// A U of unit squares, 8 cells each: two limbs, 0 < x < 1 and 2 < x < 3, on a base 0 < y < 1.
+/// Return a U of unit squares with 8 cells each: two limbs, 0 < x < 1 and 2 < x < 3, on a base 0 <
+/// y < 1.
 vtkSmartPointer<vtkPolyData> two_limbs()
 {
   const TriangleMesh all = test::grid(24, 24, 3.0, 3.0);
@@ -87,7 +88,8 @@ vtkSmartPointer<vtkPolyData> two_limbs()
   return to_polydata(points, triangles);
 }
 
-/// z of a rest limb's material at a place of the posed shape, or NaN: by looking at every triangle.
+/// Return the rest z of a limb's material at a position of the posed shape, or NaN. The function
+/// tests every triangle.
 double height_of(vtkPolyData* rest, vtkPolyData* posed, bool right_limb, double x, double y)
 {
   SurfaceInput surface;
@@ -144,7 +146,7 @@ protected:
     this->depth->SetInputData(1, this->handles);
   }
 
-  /// Turns both limbs inwards by 50 degrees, so that they cross.
+  /// Rotate both limbs inwards by 50 degrees, so that they cross.
   void cross_limbs()
   {
     vtkDataArray* transforms = this->handles->GetCellData()->GetArray("Transform");
@@ -161,12 +163,13 @@ protected:
     this->handles->Modified();
   }
 
-  /// Which limb is in front where they cross.
+  /// Return the limb that is in front where they cross.
   std::string owner()
   {
     this->depth->Update();
     EXPECT_EQ(this->depth->GetStatus(), vtkBindposeAlgorithm::OK);
-    // Vertices in the middle of the crossing: the mesh is the weights filter's, with its splits.
+    // Compare vertices in the middle of the crossing. The mesh is that of the weights filter, with
+    // its splits.
     auto* mesh = vtkPolyData::SafeDownCast(this->weights->GetOutput());
     auto* posed = vtkPolyData::SafeDownCast(this->depth->GetOutput());
     const double left = height_of(mesh, posed, false, 1.5, 2.3);
@@ -196,7 +199,7 @@ TEST_F(WeightUses, LayersDecideWhichLimbIsInFront)
   EXPECT_EQ(this->owner(), "left");
   EXPECT_EQ(this->weights->GetNumberOfBinds(), 1);
   EXPECT_EQ(this->skinning->GetNumberOfBinds(), 1);
-  // Equal layers: the later handle.
+  // With equal layers, the later handle is in front.
   set_cells(this->handles, "Layer", { 5, 5, 5 });
   EXPECT_EQ(this->owner(), "right");
   double range[2];
@@ -237,7 +240,7 @@ TEST_F(WeightUses, DepthDisplacesZAndNothingElse)
 
 TEST_F(WeightUses, AHandleWithoutAColourOfItsOwnKeepsItsCategory)
 {
-  // NaN in the array is as if it were absent there.
+  // A NaN in the array means that the handle has no color.
   const double none = std::numeric_limits<double>::quiet_NaN();
   this->colors->Update();
   const auto at_handle = [&](int handle)
@@ -290,7 +293,7 @@ TEST_F(WeightUses, ColoursOfHandlesBytesAndNumbersAlike)
     EXPECT_EQ(data->GetArray("OutOfGamut")->GetComponent(v, 0), 0.0);
   }
   EXPECT_EQ(read_report(this->colors->GetOutput()).number("counts.out_of_gamut", -1), 0);
-  // The same as bytes: 51 of 255 is 0.2.
+  // The same colors as bytes: 51 of 255 is 0.2.
   vtkNew<vtkUnsignedCharArray> same;
   same->SetName("Color");
   same->SetNumberOfComponents(3);
@@ -403,7 +406,8 @@ TEST(CutAlongBones, SidesAreRegionsThatWeightsTake)
   int sides[5] = { 0, 0, 0, 0, 0 };
   for (vtkIdType v = 0; v < labels->GetNumberOfTuples(); ++v)
   {
-    const int side = static_cast<int>(labels->GetComponent(v, 0)); // of the second handle: 3 and 4
+    // Sides 3 and 4 belong to the second handle.
+    const int side = static_cast<int>(labels->GetComponent(v, 0));
     ASSERT_TRUE(side == 0 || side == 3 || side == 4);
     sides[side] += 1;
     if (side > 0)

@@ -1,5 +1,5 @@
 // The weights filters: arrays and names, one bind for any number of pose edits, inserted handles,
-// regions, both kinds of meshes, cancel and again, clear errors.
+// regions, surfaces and tets, cancel and repeat, clear errors.
 #include "TestFilter.h"
 
 #include "vtkBoundedBiharmonicWeights.h"
@@ -50,7 +50,7 @@ vtkSmartPointer<vtkPolyData> square(int n)
   return to_polydata(mesh.points, mesh.triangles);
 }
 
-/// Two points and a bone within the unit cube, none on a vertex.
+/// Return two points and a bone within the unit cube, none of them on a vertex.
 vtkSmartPointer<vtkPolyData> three_handles()
 {
   return to_polydata({ test::point_handle("left", Vec3(0.13, 0.22, 0.31)),
@@ -92,7 +92,7 @@ void expect_rows_sum_to_one(vtkDoubleArray* weights)
   }
 }
 
-/// The point of the mesh at a place, or -1.
+/// Return the point of the mesh at a position, or -1.
 vtkIdType vertex_at(vtkPointSet* mesh, double x, double y, double z, double tolerance)
 {
   const vtkIdType v = mesh->FindPoint(x, y, z);
@@ -116,7 +116,7 @@ TEST(WeightsFilters, TetsGetNamedWeightsAndCertificates)
   EXPECT_STREQ(weights->GetComponentName(2), "middle");
   expect_rows_sum_to_one(weights);
 
-  // Original points first, new ones behind; no hole: the cells still fill the cube.
+  // Original points come first, then new ones. There is no hole: the cells still fill the cube.
   const vtkIdType n = mesh->GetNumberOfPoints();
   ASSERT_GT(run.output()->GetNumberOfPoints(), n);
   for (vtkIdType v = 0; v < n; ++v)
@@ -192,11 +192,11 @@ TEST(WeightsFilters, PoseEditsNeverBindAgain)
   EXPECT_EQ(run.output()->GetFieldData()->GetAbstractArray("WeightsRelativeGap"), gap);
   EXPECT_EQ(run.report().number("counts.handles", 0), 3) << "the bind's report stays whole";
   EXPECT_GT(run.report().number("seconds.factor", 0), 0.0);
-  // A second Update() without a change does nothing at all.
+  // A second Update() without a change does not execute.
   run.filter->Update();
   EXPECT_EQ(run.listener->starts, 101);
 
-  // What belongs to the bind does bind: a handle's rest place, the mesh, a parameter.
+  // Changes of bind-time data cause a bind: a handle's rest position, the mesh, a parameter.
   double p[3];
   handles->GetPoint(0, p);
   handles->GetPoints()->SetPoint(0, p[0] + 0.05, p[1], p[2]);
@@ -244,7 +244,7 @@ TEST(WeightsFilters, SurfacesOfAnyPolygonsWork)
   ASSERT_EQ(split.filter->GetStatus(), vtkBindposeAlgorithm::OK);
   EXPECT_EQ(split.output()->GetNumberOfPoints(), 169 + 2);
   EXPECT_EQ(split.report().number("counts.inserted_vertices", 0), 2);
-  // Cell arrays follow the cells: every triangle lies in the row that it says.
+  // Cell arrays follow the cells: every triangle is in the row that its array states.
   vtkDataArray* rows = split.output()->GetCellData()->GetArray("Row");
   for (vtkIdType cell = 0; cell < split.output()->GetNumberOfCells(); ++cell)
   {
@@ -525,7 +525,7 @@ TEST(WeightsFilters, OfASurfaceInALatticeComeWithTheLattice)
   EXPECT_EQ(lattice->GetCellData()->GetArray("InsideFraction")->GetNumberOfTuples(),
     lattice->GetNumberOfCells());
 
-  // Poses never bind again; another domain does.
+  // Poses never cause a bind; another domain does.
   weights.filter->Modified();
   weights.filter->Update();
   EXPECT_EQ(weights.filter->GetNumberOfBinds(), 1);
@@ -539,7 +539,7 @@ TEST(WeightsFilters, OfASurfaceInALatticeComeWithTheLattice)
 
 TEST(WeightsFilters, ExtremaComeAsPoints)
 {
-  // Known of the five points on a square: 5, 5, 4, 5, 4 extrema of biharmonic weights.
+  // The biharmonic weights of the five points on a square have 5, 5, 4, 5 and 4 extrema.
   Pipeline<vtkUnconstrainedWeights> weights(square(40),
     to_polydata({ test::point_handle("c", Vec3(0.5, 0.5, 0)),
       test::point_handle("a", Vec3(0.2, 0.2, 0)), test::point_handle("b", Vec3(0.8, 0.2, 0)),
@@ -655,7 +655,8 @@ TEST(WeightsFilters, TermsComeFromArraysAndBelongToTheBind)
   EXPECT_EQ(pipeline.filter->GetNumberOfBinds(), 3) << "a brush stroke binds again";
   EXPECT_EQ(pipeline.weights()->GetComponent(pinned, 0), 0.8);
 
-  // Not looked for, it counts for nothing; the methods without bounds take no terms.
+  // With an empty name, the array of pinned values has no effect. Methods without bounds ignore
+  // these terms.
   pipeline.filter->SetPinnedArrayName("");
   pipeline.filter->SetMaximumInfluences(1);
   pipeline.filter->Update();
@@ -683,7 +684,7 @@ TEST(WeightsFilters, HandlesHaveBoundsOfTheirOwn)
   bounds->SetNumberOfComponents(2);
   bounds->SetNumberOfTuples(4);
   bounds->Fill(std::nan(""));
-  bounds->SetTuple2(1, -10, 10); // never reached
+  bounds->SetTuple2(1, -10, 10); // too wide to have an effect
   handles->GetCellData()->AddArray(bounds);
   Pipeline<vtkBoundedBiharmonicWeights> pipeline(mesh, handles);
   pipeline.filter->SetTolerance(1e-9);
@@ -702,7 +703,7 @@ TEST(WeightsFilters, HandlesHaveBoundsOfTheirOwn)
   {
     EXPECT_NEAR(raw(pipeline)->GetComponent(v, 1), raw(free)->GetComponent(v, 1), 1e-6);
   }
-  // They belong to the bind.
+  // A change of bounds causes a bind.
   bounds->SetTuple2(1, 0, 1);
   bounds->Modified();
   handles->Modified();

@@ -1,4 +1,4 @@
-// The field on grids and at points, as the pipeline asks for it.
+// The field on grids and at points, for all requests of a pipeline.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -63,7 +63,7 @@ TEST(WindingNumberField, GridCoversThePaddedBounds)
   TriangleMesh mesh = test::cube();
   mesh.points.col(0) *= 2.0; // 4 x 2 x 2
   mesh.points.conservativeResize(9, 3);
-  mesh.points.row(8) << 100, 100, 100; // nobody uses it
+  mesh.points.row(8) << 100, 100, 100; // unused point
   field->SetInputData(data_of(mesh));
   field->SetResolution(41);
   field->Update();
@@ -134,7 +134,7 @@ TEST(WindingNumberField, DimensionsAndBoundsAsAskedFor)
   EXPECT_NEAR(array_of(image)->GetValue(0), 1.0, 1e-15);
   EXPECT_EQ(array_of(image)->GetValue(1), 0.5) << "on a face";
 
-  field->SetBounds(1, 0, 1, 0, 1, 0); // none: cubic voxels around the surface
+  field->SetBounds(1, 0, 1, 0, 1, 0); // no bounds: cubic voxels around the surface
   field->SetDimensions(11, 21, 11);
   field->Update();
   image = image_of(field);
@@ -154,10 +154,10 @@ TEST(WindingNumberField, DimensionsAndBoundsAsAskedFor)
 
 TEST(WindingNumberField, SubExtentsHaveTheSameBits)
 {
-  vtkNew<vtkSphereSource> sphere; // a real upstream pipeline
+  vtkNew<vtkSphereSource> sphere; // an upstream filter in the pipeline
   sphere->SetThetaResolution(24);
   sphere->SetPhiResolution(16);
-  sphere->SetEndTheta(300.0); // open
+  sphere->SetEndTheta(300.0); // open surface
   vtkNew<vtkWindingNumberField> field;
   field->SetInputConnection(sphere->GetOutputPort());
   field->SetResolution(20);
@@ -202,7 +202,7 @@ TEST(WindingNumberField, SubExtentsHaveTheSameBits)
     }
     EXPECT_EQ(read_report(image).find("winding_volume"), nullptr) << "only of the whole";
   }
-  // Pieces, as filters with unstructured output ask for them.
+  // Pieces, as requested by filters with unstructured output.
   vtkNew<vtkContourFilter> contour;
   contour->SetInputConnection(other->GetOutputPort());
   contour->SetValue(0, 0.5);
@@ -215,13 +215,13 @@ TEST(WindingNumberField, SubExtentsHaveTheSameBits)
     EXPECT_LT(image_of(other)->GetNumberOfPoints(), all->GetNumberOfPoints());
     points += image_of(other)->GetNumberOfPoints();
   }
-  EXPECT_GE(points, all->GetNumberOfPoints()); // pieces share a plane of points
+  EXPECT_GE(points, all->GetNumberOfPoints()); // pieces share a layer of points
 }
 
 TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
 {
-  vtkNew<vtkSphereSource> sphere; // makes pieces
-  sphere->SetEndTheta(300.0); // open
+  vtkNew<vtkSphereSource> sphere; // can produce pieces
+  sphere->SetEndTheta(300.0); // open surface
   vtkNew<vtkWindingNumberField> field;
   field->SetInputConnection(sphere->GetOutputPort());
   field->SetResolution(12);
@@ -231,7 +231,8 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
   const vtkIdType edges = field->GetBoundaryOutput()->GetNumberOfCells();
   EXPECT_GT(edges, 0);
 
-  // A renderer, say, has asked for its part of the sphere, which has other bounds.
+  // Another consumer, such as a renderer, has requested a piece of the sphere, which has other
+  // bounds.
   vtkNew<vtkWindingNumberField> again;
   again->SetInputConnection(sphere->GetOutputPort());
   again->SetResolution(12);
@@ -256,8 +257,8 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
     }
   }
 
-  // The boundary is nobody's part: the first piece has it. Asked for it with ghost levels, as
-  // ParaView does, the filter executes once more, but hands on the field that somebody still has.
+  // The boundary is not split: the first piece contains all of it. If it is requested with ghost
+  // levels, as ParaView does, the filter executes once more but outputs the existing field array.
   for (int piece = 0; piece < 2; ++piece)
   {
     again->UpdatePiece(piece, 2, 0);
@@ -274,7 +275,7 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
     EXPECT_EQ(array_of(image_of(again)), array_of(kept));
     EXPECT_EQ(read_report(image_of(again)).number("counts.queries", 0), kept->GetNumberOfPoints());
     vtkDataArray* const before = array_of(kept);
-    again->SetWindingThreshold(0.6 + piece); // a parameter of the field
+    again->SetWindingThreshold(0.6 + piece); // a parameter that changes the field
     again->UpdatePiece(piece, 2, 0);
     EXPECT_NE(array_of(image_of(again)), before);
   }
@@ -311,7 +312,7 @@ TEST(WindingNumberField, PointsOfAnyDataset)
   EXPECT_EQ(read_report(result).find("winding_volume"), nullptr);
   EXPECT_EQ(tets->GetPointData()->GetArray("WindingNumber"), nullptr) << "input untouched";
 
-  // An image as points: its extents are honoured, too.
+  // An image as points: its extents are respected, too.
   vtkNew<vtkImageData> image;
   image->SetExtent(2, 6, 0, 4, -3, 3);
   image->SetOrigin(-1.0, -0.7, 0.1);
@@ -329,7 +330,7 @@ TEST(WindingNumberField, PointsOfAnyDataset)
       winding_number_direct(mesh.points, mesh.triangles, Vec3(image->GetPoint(i))), 1e-12);
   }
 
-  // And back to a grid.
+  // The filter returns to a grid.
   field->SetInputConnection(1, nullptr);
   field->SetResolution(8);
   field->Update();
@@ -359,7 +360,7 @@ TEST(WindingNumberField, PointsThatAreNotFiniteAreCounted)
 
 TEST(WindingNumberField, QuadsStripsAndOtherCells)
 {
-  // A cube of six quads, one of them upside down, and a line that is ignored.
+  // A cube of six quads, one of them flipped, and a line that is ignored.
   const TriangleMesh mesh = test::cube();
   vtkNew<vtkPolyData> data;
   data->SetPoints(to_vtk_points(mesh.points));
@@ -405,7 +406,7 @@ TEST(WindingNumberField, ExecutesOnlyWhenSomethingChanged)
   field->UpdateInformation();
   field->Update();
   EXPECT_EQ(listener->starts, 1);
-  field->SetResolution(8); // the same
+  field->SetResolution(8); // unchanged value
   field->SetNumberOfThreads(1);
   field->Update();
   EXPECT_EQ(listener->starts, 1);
@@ -413,7 +414,7 @@ TEST(WindingNumberField, ExecutesOnlyWhenSomethingChanged)
   field->Update();
   EXPECT_EQ(listener->starts, 2);
   EXPECT_EQ(upstream->starts, 1);
-  // The surface grows: so does the grid.
+  // The surface grows, and so does the grid.
   const double before = image_of(field)->GetLength();
   sphere->SetRadius(2.0 * sphere->GetRadius());
   field->Update();
@@ -424,7 +425,7 @@ TEST(WindingNumberField, ExecutesOnlyWhenSomethingChanged)
 
 TEST(WindingNumberField, FastKeepsItsToleranceAndSaysSo)
 {
-  TriangleMesh mesh = test::sphere(4); // 5120 triangles, every third left out
+  TriangleMesh mesh = test::sphere(4); // 5120 triangles, every third removed
   Index kept = 0;
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
   {
@@ -496,7 +497,7 @@ TEST(WindingNumberField, ASurfaceIsBuiltOnce)
   field->Update();
   EXPECT_EQ(field->GetNumberOfBuilds(), 5);
   EXPECT_EQ(array_of(image_of(field))->GetValue(0), 1.0) << "of the new radius";
-  // After a failure the old build must not come back.
+  // After a failure the old build must not be used again.
   field->SetInputData(vtkNew<vtkPolyData>());
   vtkNew<Listener> listener;
   listener->listen(field);
@@ -562,7 +563,7 @@ TEST(WindingNumberField, GradientInsideAndOnSurfaceAsKnown)
   EXPECT_EQ(data->GetArray("Inside")->GetTuple1(0), 1);
   EXPECT_EQ(data->GetArray("Inside")->GetTuple1(1), 0) << "about 0.45 on the floor";
   EXPECT_EQ(data->GetArray("Inside")->GetTuple1(2), 0);
-  // Differences of the field itself.
+  // Compare with finite differences of the field.
   const Vec3 inside(0.3, 0.2, 0.4);
   for (int k = 0; k < 3; ++k)
   {
@@ -573,7 +574,7 @@ TEST(WindingNumberField, GradientInsideAndOnSurfaceAsKnown)
       (2.0 * h);
     EXPECT_NEAR(data->GetArray("WindingNumberGradient")->GetComponent(0, k), difference, 1e-8);
   }
-  // Seen from above, the hole's loop has the field of a current loop: along z only.
+  // On the axis above the hole, the gradient is that of a current loop: along z only.
   EXPECT_NEAR(data->GetArray("WindingNumberGradient")->GetComponent(2, 0), 0.0, 1e-14);
   EXPECT_LT(std::abs(data->GetArray("WindingNumberGradient")->GetComponent(2, 2)), 1.0);
   EXPECT_NE(data->GetArray("WindingNumberGradient")->GetComponent(2, 2), 0.0);
@@ -605,7 +606,7 @@ TEST(WindingNumberField, CellCentersOfAnyDataset)
       values->GetTuple1(t), winding_number_direct(mesh.points, mesh.triangles, center), 1e-12);
   }
 
-  // Grids whose points are not evenly spaced.
+  // Grids with uneven spacing.
   vtkNew<vtkRectilinearGrid> rectilinear;
   vtkNew<vtkDoubleArray> places;
   for (const double x : { -1.5, -0.7, 0.1, 0.2, 1.3 })
@@ -681,7 +682,7 @@ TEST(WindingNumberField, SpacingAndTargetCount)
       EXPECT_GT(count, 0.85 * static_cast<double>(target)) << "the finest such grid";
     }
   }
-  field->SetDimensions(3, 4, 5); // goes before all others
+  field->SetDimensions(3, 4, 5); // has priority over all others
   field->SetSpacing(1, 1, 1);
   field->Update();
   EXPECT_EQ(image_of(field)->GetNumberOfPoints(), 60);
@@ -695,14 +696,14 @@ TEST(WindingNumberField, SpacingAndTargetCount)
   field->SetSpacing(1e-300, 1, 1);
   field->Update();
   EXPECT_THAT(field->GetStatusMessage(), HasSubstr("samples"));
-  // A grid that can be named, but not held: 8 TB.
+  // A grid that can be described, but does not fit in memory: 8 TB.
   field->SetSpacing(0, 0, 0);
   field->SetTargetNumberOfSamples(1000000000000);
   field->Update();
   EXPECT_THAT(field->GetStatusMessage(), HasSubstr("GiB"));
   EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
   EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
-  // Part of it can be had.
+  // A part of it can be computed.
   field->UpdateInformation();
   int part[6] = { 100, 103, 2000, 2003, 300, 301 };
   field->UpdateExtent(part);
@@ -747,7 +748,7 @@ TEST(WindingNumberField, BoundaryAndTableOfComponents)
 
 TEST(WindingNumberField, PatchesAreTurnedOnDemand)
 {
-  // One side of a cube looks inwards, and all of another cube.
+  // One side of a cube is flipped, and the whole of another cube.
   TriangleMesh mesh =
     test::join(test::cube(), test::translated(test::flipped(test::cube()), Vec3(10, 0, 0)));
   mesh.triangles.row(4).reverseInPlace();
@@ -777,8 +778,8 @@ TEST(WindingNumberField, PatchesAreTurnedOnDemand)
 
 TEST(WindingNumberField, LinesAreACurveInTheirPlane)
 {
-  // A square in each of the three planes, as one closed polyline, counter-clockwise seen from the
-  // tip of the axis across.
+  // A square in each of the three coordinate planes, as one closed polyline. It is
+  // counter-clockwise seen from the tip of the perpendicular axis.
   for (int across = 0; across < 3; ++across)
   {
     SCOPED_TRACE(across);
@@ -816,14 +817,15 @@ TEST(WindingNumberField, LinesAreACurveInTheirPlane)
     EXPECT_EQ(field->GetBoundaryOutput()->GetNumberOfCells(), 0);
     EXPECT_NEAR(read_report(image).number("area", 0), 4.0, 1e-12);
 
-    // Without its last side: what is missing is the angle of that side.
+    // Without the last side, the winding number lacks the angle of that side.
     const vtkIdType open[4] = { 0, 1, 2, 3 };
     vtkNew<vtkCellArray> three_sides;
     three_sides->InsertNextCell(4, open);
     square->SetLines(three_sides);
     vtkNew<vtkPolyData> where;
     vtkNew<vtkPoints> at;
-    for (const double away : { 0.0, 7.0 }) // along the axis across, which must not matter
+    // Offset along the perpendicular axis, which must have no effect.
+    for (const double away : { 0.0, 7.0 })
     {
       Vec3 p = Vec3::Constant(away);
       p[u] = p[v] = 0.0;
@@ -848,7 +850,7 @@ TEST(WindingNumberField, LinesAreACurveInTheirPlane)
       EXPECT_EQ(gradient->GetComponent(i, across), 0.0);
     }
   }
-  // Lines in space are no curve in a plane.
+  // Lines in space are not a curve in a plane.
   vtkNew<vtkPolyData> bent;
   vtkNew<vtkPoints> points;
   points->InsertNextPoint(0, 0, 0);
@@ -869,7 +871,7 @@ TEST(WindingNumberField, LinesAreACurveInTheirPlane)
 
 TEST(WindingNumberField, PointsWithNormalsAreSamplesOfASurface)
 {
-  // The sphere's triangle centers with their areas, and the same without.
+  // The centers of the sphere's triangles, with and without their areas.
   const TriangleMesh sphere = test::sphere(4);
   vtkNew<vtkPoints> points;
   vtkNew<vtkDoubleArray> normals;
@@ -931,7 +933,7 @@ TEST(WindingNumberField, PointsWithNormalsAreSamplesOfASurface)
     ASSERT_TRUE(gradient.allFinite());
     if (std::abs(at.norm() - 1.0) > 0.2)
     {
-      EXPECT_LE(gradient.norm(), 0.1) << at.transpose(); // even inside, and outside
+      EXPECT_LE(gradient.norm(), 0.1) << at.transpose(); // nearly constant inside and outside
     }
   }
 }
@@ -980,7 +982,7 @@ TEST(WindingNumberField, BadSurfacesFailCleanlyForTheWholeChain)
 {
   const TriangleMesh cube = test::cube();
   vtkNew<vtkPolyData> empty;
-  vtkNew<vtkPolyData> no_triangles; // points and a line
+  vtkNew<vtkPolyData> no_triangles; // points and a line only
   no_triangles->SetPoints(to_vtk_points(cube.points));
   vtkNew<vtkCellArray> lines;
   const vtkIdType ends[2] = { 0, 7 };
@@ -1029,7 +1031,7 @@ TEST(WindingNumberField, BadSurfacesFailCleanlyForTheWholeChain)
       EXPECT_EQ(next->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
       EXPECT_EQ(next->GetStatusMessage(), field->GetStatusMessage());
       EXPECT_EQ(downstream->errors.size(), 1u);
-      // Filters of others must survive, and not keep what they had.
+      // VTK's own filters must not crash and must not keep their old output.
       contour->Update();
       EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
 
@@ -1074,7 +1076,7 @@ TEST(WindingNumberField, FlatAndTinySurfacesHaveAGrid)
   EXPECT_GT(image_of(field)->GetDimensions()[2], 1);
 
   TriangleMesh point = test::cube();
-  point.points.setConstant(3.0); // all in one place
+  point.points.setConstant(3.0); // all points at one position
   vtkNew<Listener> listener;
   listener->listen(field);
   field->SetInputData(data_of(point));
@@ -1113,7 +1115,7 @@ TEST(WindingNumberField, BlocksOfACompositeInput)
         EXPECT_NEAR(read_report(image).number("volume", 0), std::pow(2.0 + 2.0 * b, 3), 1e-9);
       }
     }
-    // The same filter on a plain surface again.
+    // The same filter works on a plain surface again.
     vtkNew<vtkSphereSource> sphere;
     sphere->SetRadius(5.0);
     field->SetInputConnection(sphere->GetOutputPort());

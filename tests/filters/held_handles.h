@@ -12,7 +12,8 @@
 namespace bindpose::test
 {
 
-/// Handles at rest in mode full: methods that find rotations hold all of each.
+/// Return handles at rest in mode full: methods that find rotations constrain their whole
+/// transforms.
 inline vtkSmartPointer<vtkPolyData> to_held_polydata(const Handles& handles)
 {
   const vtkSmartPointer<vtkPolyData> data = to_polydata(handles);

@@ -1,7 +1,8 @@
-"""What tests/paraview.sh asks of the runs in ParaView, outside of it: check.py BUILD MESH FOLDER.
+"""Checks of tests/paraview.sh that run outside of ParaView: check.py BUILD MESH FOLDER.
 
-FOLDER/1 and FOLDER/2 are what in_paraview.py left on one and on two ranks, FOLDER/N.log what ParaView said. The
-fields of both have the same bits, and those of `bindpose winding`, which is built with another VTK.
+FOLDER/1 and FOLDER/2 contain the results of in_paraview.py on one and on two ranks, and FOLDER/N.log the log of
+ParaView. The fields of both runs have the same bits. They also equal those of `bindpose winding`, which is built with
+another VTK.
 """
 
 import json
@@ -15,10 +16,10 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 
-# What an object says of its run, not of its parameters.
+# Lines of PrintSelf that describe the last run and are not parameters.
 NO_PARAMETER = {"Status", "StatusMessage", "Report"}
-# Where a proxy differs from its class on purpose: the file dialog has asked before, and a person at a panel wants
-# weights of any surface, while a C++ pipeline solves on the mesh that it is given.
+# Defaults of proxies that differ from their class on purpose. The file dialog has already asked about overwriting. A
+# user of a panel wants weights of any surface, while a C++ pipeline solves on the given mesh.
 OTHER_DEFAULTS = {("vtkMeshFileWriter", "Overwrite"), ("vtkVDBWriter", "Overwrite"),
                   ("vtkGLTFSkinWriter", "Overwrite"), ("vtkBoundedBiharmonicWeights", "Domain"),
                   ("vtkMonotoneWeights", "Domain"), ("vtkUnconstrainedWeights", "Domain")}
@@ -29,7 +30,7 @@ def shape_of(extent):
 
 
 def load(folder, name, ranks):
-    """The parts of a field, one a rank: (what is known of it, its values)."""
+    """Return the parts of a field, one per rank, as pairs of metadata and values."""
     parts = []
     for rank in range(ranks):
         about = json.loads((folder / f"{name}.{rank}.json").read_text())
@@ -41,12 +42,13 @@ def load(folder, name, ranks):
 
 
 def place(whole, extent):
-    """Where an extent lies in the array of the whole."""
+    """Return the slices of an extent in the array of the whole extent."""
     return tuple(slice(extent[2 * k] - whole[2 * k], extent[2 * k + 1] - whole[2 * k] + 1) for k in (2, 1, 0))
 
 
 def compare_ranks(folder, name):
-    """Two ranks have different halves, which share a plane, and all their samples are those of one rank."""
+    """Check that two ranks computed different halves that share one plane, and that all their samples equal those of
+    one rank."""
     ((alone, all_values),) = load(folder / "1", name, 1)
     assert alone["extent"] == alone["whole"]
     seen = np.zeros(all_values.shape, int)
@@ -62,7 +64,7 @@ def compare_ranks(folder, name):
 
 
 def compare_builds(build, folder, name, surface, alone, values, *options):
-    """What the program says of the same surface and grid."""
+    """Check that the command-line program computes the same values on the same surface and grid."""
     output = folder / f"{name}.vti"
     subprocess.run([build / "bin" / "bindpose", "winding", surface, *options, "-o", output, "--overwrite"],
                    check=True, stdout=subprocess.DEVNULL)
@@ -75,14 +77,14 @@ def compare_builds(build, folder, name, surface, alone, values, *options):
 
 
 def parameters(printed):
-    """The lines `Name: value` of our own classes: they follow those of VTK's."""
+    """Return the `Name: value` lines of Bindpose's own classes, which follow those of VTK's classes."""
     own = printed[printed.index("NumberOfThreads:"):]
     found = dict(re.findall(r"^ *(\w+): *(.*?) *$", own, re.MULTILINE))
     return {name: "" if value == "(none)" else value for name, value in found.items() if name not in NO_PARAMETER}
 
 
 def compare_panels(panels):
-    """Every parameter of a class is a property of its proxy, with the same default."""
+    """Check that every parameter of a class is a property of its proxy, with the same default."""
     compared = 0
     for name, panel in panels.items():
         instance = getattr(bindpose.BindposeFilters, name)()
@@ -100,7 +102,7 @@ def compare_panels(panels):
 
 
 def compare_log(log, sentences):
-    """ParaView was told each of the sentences and no other error."""
+    """Check that the log contains each of the sentences and no other error."""
     errors = [line for line in log.read_text().splitlines() if "ERR|" in line]
     for name, sentence in sentences.items():
         assert any(sentence in line for line in errors), f"{name}: '{sentence}' is not in the log"

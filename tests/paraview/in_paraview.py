@@ -1,8 +1,9 @@
-"""What tests/paraview.sh runs inside of ParaView: pvbatch in_paraview.py PLUGIN MESH FOLDER, on any number of ranks.
+"""Tests of tests/paraview.sh that run inside of ParaView: pvbatch in_paraview.py PLUGIN MESH FOLDER, on any number of
+ranks.
 
-Makes winding number fields, each rank its own part, and leaves in FOLDER what each rank computed; then uses every
-other proxy of the plugin. Facts are asserted here when they are ParaView's alone, and by check.py when they are
-about several runs. FOLDER/run.json, written last, says that all went well.
+Each rank computes its part of winding number fields and writes it to FOLDER. Then all other proxies of the plugin are
+used. Facts about one run are asserted here, and facts about several runs in check.py. FOLDER/run.json is written last;
+it exists only if all assertions hold.
 """
 
 import json
@@ -22,7 +23,8 @@ FILTERS = (
 SOURCES = "BindposeMeshReader BindposeHandleReader".split()
 WRITERS = "BindposeMeshWriter BindposeVDBWriter".split()
 
-# Runs on every rank: which piece was asked for, what came, how many samples the filter says it computed.
+# This script runs on every rank. It writes the requested piece, the received data, and the number of samples that the
+# filter reports as computed.
 WRITE_PARTS = """
 import json
 import numpy as np
@@ -49,7 +51,7 @@ with open(f"{folder}/{name}.{rank}.json", "w") as file:
 
 
 def fetch(proxy, port=0):
-    """An output as it is, gathered from all ranks."""
+    """Return an unchanged output, gathered from all ranks."""
     proxy.UpdatePipeline()
     return servermanager.Fetch(proxy, idx=port)
 
@@ -65,7 +67,7 @@ def write_parts(name, field, folder):
 
 
 def spheres():
-    """One sphere with an opening, and one that crosses it; looked at before, as in the window."""
+    """Return an open sphere and a closed one that crosses it. Both are updated first, as the window does."""
     open_sphere = Sphere(ThetaResolution=24, PhiResolution=16, EndTheta=300.0)
     other = Sphere(ThetaResolution=17, PhiResolution=13, Center=[0.4, 0.1, -0.05])
     for sphere in (open_sphere, other):
@@ -75,11 +77,12 @@ def spheres():
 
 def fields(mesh, folder):
     both = spheres()
-    both.UpdatePipeline()  # every rank has its piece of it now, not all
+    both.UpdatePipeline()  # each rank now has only its piece of the data
     field = WindingNumberField(Input=both, Resolution=40)
     write_parts("spheres", field, folder)
     surface = fetch(field, 1)
-    assert surface.GetNumberOfCells() == 16 - 1 + 16 - 1, surface.GetNumberOfCells()  # its two meridians
+    # The edges of the two meridians at the opening.
+    assert surface.GetNumberOfCells() == 16 - 1 + 16 - 1, surface.GetNumberOfCells()
     values = vtk_to_numpy(fetch(Contour(Input=field, ContourBy=["POINTS", "WindingNumber"], Isosurfaces=[0.5]))
                           .GetPointData().GetArray("WindingNumber"))
     assert len(values) > 1000 and np.all(np.abs(values - 0.5) < 1e-6), values
@@ -89,19 +92,19 @@ def fields(mesh, folder):
     write_parts("mesh", WindingNumberField(Input=reader, Resolution=48), folder)
     write_parts("exact", WindingNumberField(Input=reader, Resolution=24, Method="Exact"), folder)
 
-    # At points of another dataset, of which each rank has its part.
+    # Winding numbers at the points of another dataset, of which each rank has a part.
     wavelet = Wavelet(WholeExtent=[-6, 6, -6, 6, -6, 6])
     inside = WindingNumberField(Input=Sphere(Radius=5.0, ThetaResolution=60, PhiResolution=60), Points=wavelet,
                                 ComputeInside=1, ComputeGradient=1)
     write_parts("points", inside, folder)
-    image = fetch(inside)  # of an image in parts only the first
+    image = fetch(inside)  # Fetch returns only the first part of a distributed image
     radii = np.array([np.linalg.norm(image.GetPoint(i)) for i in range(image.GetNumberOfPoints())])
     flags = vtk_to_numpy(image.GetPointData().GetArray("Inside"))
     clear = np.abs(radii - 5.0) > 0.1
     assert np.array_equal(flags[clear] == 1, radii[clear] < 5.0)
     assert image.GetPointData().GetArray("WindingNumberGradient").GetNumberOfComponents() == 3
     assert image.GetPointData().GetArray("RTData")
-    # Without them the grid is back.
+    # Without the points, the filter samples a grid again.
     inside.Points = None
     inside.Resolution = 10
     inside.UpdatePipeline()
@@ -109,7 +112,7 @@ def fields(mesh, folder):
 
 
 def deformation():
-    """From a surface to a posed one; what several processes make is what one makes."""
+    """Run the pipeline from a surface to a posed one. Several ranks compute the same result as one."""
     numbers = {}
     surface = Sphere(ThetaResolution=20, PhiResolution=14, EndTheta=320.0)
     surface.UpdatePipeline()
@@ -121,7 +124,8 @@ def deformation():
     assert numbers["tets"] > 100
     assert {data.GetCellType(i) for i in range(numbers["tets"])} == {10}
     numbers["volume"] = data.GetFieldData().GetArray("Report.volume").GetTuple1(0)
-    assert 0.3 < numbers["volume"] < 0.53, numbers["volume"]  # the ball without and with its slice: 0.465, 0.524
+    # The volumes of the ball without and with its slice are 0.465 and 0.524.
+    assert 0.3 < numbers["volume"] < 0.53, numbers["volume"]
     assert fetch(TetrahedralizeSurface(Input=surface, Method="Remesh", Resolution=10)).GetNumberOfCells() > 100
 
     handles = FarthestPointHandles(Input=tets, NumberOfHandles=5)
@@ -164,12 +168,12 @@ def deformation():
     assert vtk_to_numpy(colours.GetArray("Color")).shape == (len(rest), 3) and colours.GetArray("OutOfGamut").GetRange() == (0, 0)
     assert fetch(DepthOrder(Input=bound, Handles=handles)).GetPointData().GetArray("Depth").GetRange() == (0, 0)
     moved = np.linalg.norm(points_of(fetch(posed["SkinningDeformation"])) - rest, axis=1)
-    assert abs(moved.max() - 0.1) < 1e-12 and moved.min() < 0.05  # the handle itself, and a far one
+    assert abs(moved.max() - 0.1) < 1e-12 and moved.min() < 0.05  # the handle itself, and a distant point
     return numbers, bound, posed_handles
 
 
 def files(folder, bound):
-    """Readers and writers, on one process: what was written is what is read."""
+    """Check readers and writers on one process: read data equals the written data."""
     data = fetch(bound)
     SaveData(str(folder / "bound.mesh"), proxy=bound)
     back = fetch(BindposeMeshReader(FileName=str(folder / "bound.mesh")))
@@ -193,7 +197,8 @@ def files(folder, bound):
 
 
 def bad_input(folder, bound, posed_handles):
-    """Each is one sentence in the log and an empty output. Returns the sentences, to be looked for."""
+    """Check that each bad input gives one sentence in the log and an empty output. Return the sentences, which check.py
+    looks up in the log."""
     (folder / "broken.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
     (folder / "plain.vtp").unlink(missing_ok=True)
     lines = Line()
@@ -217,7 +222,7 @@ def bad_input(folder, bound, posed_handles):
         assert arrays.GetAbstractArray("Report.status").GetValue(0) == "invalid_input", name
         sentences[name] = arrays.GetAbstractArray("Report.message").GetValue(0)
         assert len(sentences[name]) > 10, name
-    # A failed source fails what hangs on it, and all is well again when it is.
+    # A failed source makes its consumers fail. They work again after the source is repaired.
     reader = cases["missing.off"]
     (folder / "missing.off").write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
     reader.FileName = str(folder / "broken.off")
@@ -229,8 +234,8 @@ def bad_input(folder, bound, posed_handles):
 
 
 def panels():
-    """Of each proxy: its properties, all documented and with their C++ names in Python, too, and how its object
-    prints itself after ParaView has set the defaults of the XML."""
+    """Return the properties of each proxy and the printed state of its object after ParaView has set the defaults of
+    the XML. Check that all properties are documented and have their C++ names in Python."""
     found = {}
     for group, names in (("filters", FILTERS), ("sources", SOURCES), ("writers", WRITERS)):
         for name in names:
@@ -275,7 +280,8 @@ def main():
 
 
 if __name__ == "__main__":
-    # Scripts of programmable filters run in __main__ and put other functions in place of max, sum, abs there.
+    # Programmable filters execute their scripts in __main__ and replace max, sum and abs there, so run in another
+    # module.
     sys.path.insert(0, str(pathlib.Path(__file__).parent))
     import in_paraview
 

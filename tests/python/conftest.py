@@ -1,4 +1,4 @@
-"""The meshes of the program's tests serve here, too."""
+"""Make the test meshes of the command-line program importable."""
 
 import pathlib
 import sys

@@ -1,4 +1,4 @@
-"""Smooth patches between what is fixed, on arrays and datasets, and exceptions."""
+"""Smooth patches between fixed vertices, on arrays and datasets, and exceptions."""
 
 import warnings
 
@@ -45,7 +45,7 @@ def test_tangents_of_an_array_tilt_the_edge():
     up = np.where((DEPTH == 2)[:, None], [0, 0, 1.0], 0)
     made = np.asarray(bindpose.fair((FLAT, TRIANGLES), FIXED, boundary="tangent", tangents=up))
     free = ~FIXED
-    assert made[free, 2].max() < 0  # up outwards is down inwards
+    assert made[free, 2].max() < 0  # the patch leaves the edge in the direction opposite to the given outward tangent
     assert np.array_equal(made[FIXED], FLAT[FIXED])
 
 
@@ -71,7 +71,8 @@ def test_as_a_way_to_deform():
 
 
 def test_whatever_is_asked_of_any_mesh_is_finite_or_refused():
-    """Random meshes, what is fixed, conditions: a result that holds what is fixed, or a sentence."""
+    """Fair random meshes with random fixed vertices and conditions. The result keeps the fixed vertices, or the input
+    is refused with a sentence."""
     random = np.random.default_rng(3)
     good = 0
     for _ in range(120):

@@ -1,4 +1,4 @@
-"""Handles from arrays are those from files."""
+"""Handles from arrays equal those from files."""
 
 import bindpose
 import numpy as np

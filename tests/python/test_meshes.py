@@ -1,4 +1,4 @@
-"""Arrays to datasets and back."""
+"""Conversion of arrays to datasets and back."""
 
 import bindpose
 import numpy as np

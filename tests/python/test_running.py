@@ -1,4 +1,4 @@
-"""A filter's status as exception, warning or report; progress, cancel, Ctrl-C."""
+"""Status of a filter as exception, warning or report; progress, cancel and Ctrl-C."""
 
 import os
 import signal
@@ -39,10 +39,10 @@ def test_seconds_are_in_the_report_and_not_in_the_data(tmp_path):
     assert bindpose.report(filter_) == bindpose.report(data) == report
     bindpose.write(data, tmp_path / "w.vti")
     assert b"econds" not in (tmp_path / "w.vti").read_bytes()
-    # What a function returns remembers its run, in copies of the package as well.
+    # The report of a returned dataset includes its run, also in copies that the package makes.
     grid = bindpose.winding_number(shapes.cube(), 8)
     assert bindpose.report(grid)["seconds"]["evaluate"] > 0
-    # Data that changed since then tells of itself alone.
+    # After an update by the filter itself, the report describes the new data and contains no times.
     filter_.SetResolution(12)
     filter_.Update()
     again = bindpose.report(filter_.GetOutput())
@@ -55,7 +55,7 @@ def test_progress_cancels():
         bindpose.run(filter_, lambda fraction, phase: False)
     assert caught.value.status == "cancelled"
     filter_.SetResolution(8)
-    assert bindpose.run(filter_)["status"] == "ok"  # and again
+    assert bindpose.run(filter_)["status"] == "ok"  # the filter works again after the cancel
 
 
 def test_an_error_in_the_callback_is_raised():

@@ -1,4 +1,4 @@
-"""Data smoothed with extrema by list or by persistence, on arrays and datasets, and exceptions."""
+"""Smoothing of data with a list of extrema or by persistence, on arrays and datasets, and exceptions."""
 
 import bindpose
 import numpy as np
@@ -18,7 +18,7 @@ def edges():
 
 
 def extrema(values):
-    """Vertices without a higher neighbour, and without a lower one."""
+    """Return the vertices without a higher neighbor, and those without a lower one."""
     above, below = np.zeros(len(values), bool), np.zeros(len(values), bool)
     for a, b in edges():
         low, high = (a, b) if values[a] <= values[b] else (b, a)

@@ -1,4 +1,4 @@
-"""Colours, depth and cuts on arrays and datasets: the formulas, and exceptions."""
+"""Colors, depth order and cuts on arrays and datasets: formulas and exceptions."""
 
 import bindpose
 import numpy as np
@@ -36,14 +36,14 @@ def test_colours_are_the_weights_sum():
     assert point_array(painted, "Color").dtype == np.uint8
     assert np.abs(point_array(painted, "Color") - 255 * values).max() <= 0.5 + 1e-9
     assert painted.GetPointData().GetScalars().GetName() == "Color"
-    assert point_array(mesh, "Color") is None  # the caller's stays as it is
+    assert point_array(mesh, "Color") is None  # the caller's dataset is unchanged
 
 
 def test_colours_in_light_or_bytes_or_none():
     handles = bindpose.handles(bones=BONES)
     half = np.full((len(X), 2), 0.5)
     grey = bindpose.weighted_colors(BAR, handles, np.array([[0] * 3, [255] * 3], dtype=np.uint8), weights=half)
-    assert np.array_equal(np.rint(255 * grey), np.full((len(X), 3), 188))  # half the light, by the standard
+    assert np.array_equal(np.rint(255 * grey), np.full((len(X), 3), 188))  # half of the light as an sRGB value
     palette = bindpose.weighted_colors(BAR, handles, weights=LINEAR)
     assert bindpose.report(palette)["colors"] == "categorical"
 
@@ -77,7 +77,7 @@ def test_depth_is_the_weights_sum_and_moves_points():
 
 
 def square(n=8):
-    """n x n squares on the unit square."""
+    """Return n x n squares on the unit square."""
     at = np.linspace(0, 1, n + 1)
     x, y = np.meshgrid(at, at)
     first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
@@ -96,7 +96,7 @@ def test_a_curve_has_two_colours():
     assert (labels == 1).sum() == 3 and (labels == 2).sum() == 3
     assert values[labels == 1] == pytest.approx(np.array([[1, 0, 0]] * 3), abs=1e-12)
     assert values[labels == 2] == pytest.approx(np.array([[0, 0, 1]] * 3), abs=1e-12)
-    # Above is nearer to the left side, below to the right one: no leak through the curve.
+    # The upper part is nearer to the left side, the lower part to the right one: no color leaks through the curve.
     centres = points_of(painted)[triangles_of(painted)].mean(axis=1)
     red = values[triangles_of(painted)][:, :, 0].mean(axis=1)
     near = (np.abs(centres[:, 1] - 0.5) < 0.1) & (np.abs(centres[:, 0] - 0.5) < 0.15)
@@ -111,7 +111,7 @@ def test_bones_of_one_curve_share_their_sides():
     mesh, sides = bindpose.cut_along_bones(square(), ring, inside, outside, curves=[0, 0, 0, 0])
     assert sides.GetNumberOfCells() == 2 and mesh.GetNumberOfPoints() == 81 + 16
     painted = bindpose.weighted_colors(bindpose.weights(mesh, sides, domain="surface"), sides)
-    # Closed curves fill what they enclose with their colour.
+    # A closed curve fills its inside with its color.
     values, places = point_array(painted, "ColorValues"), points_of(painted)
     enclosed = (np.abs(places[:, :2] - 0.5) < 0.25 - 1e-9).all(axis=1)
     assert enclosed.sum() == 9
@@ -142,7 +142,7 @@ def test_what_is_wrong_is_one_sentence(call, words):
 def test_moving_least_squares_needs_no_weights():
     handles = bindpose.handles(points=[[0, 0, 0], [6, 0, 0], [3, 1, 1]])
     turn = {"rotate": {"axis": [0, 0, 1], "degrees": 90}}
-    # Each about itself, so the others have to move where the first takes them.
+    # Each handle rotates around itself, so the others must also move to where the first one would take them.
     pose = {"handles": {"p1": turn, "p2": {**turn, "translate": [-6, 6, 0]}, "p3": {**turn, "translate": [-4, 2, 0]}}}
     posed = bindpose.deform(BAR, handles, pose, method="mls")
     rest = np.array(BAR[0])

@@ -1,4 +1,4 @@
-"""The widgets from Python: handles posed in numbers and edited, without a window."""
+"""The widgets in Python: handles are posed by numbers and edited, without a window."""
 
 import bindpose
 import numpy as np

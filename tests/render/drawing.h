@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_render_drawing_h
 #define bindpose_tests_render_drawing_h
 
-// A picture and questions to it.
+// A picture and functions that examine it.
 
 #include "render/harness.h"
 #include "scene/colours.h"
@@ -19,7 +19,8 @@ struct Drawing
 
   Pixel at(const Vec3& point, std::size_t tile = 0) const;
   long long count(const std::function<bool(const Pixel&)>& which) const;
-  /// The smallest rectangle, in pixels from the lower left corner, that holds them.
+  /// Return the smallest rectangle, in pixels from the lower left corner, that contains the
+  /// selected pixels.
   Eigen::AlignedBox2d extent(const std::function<bool(const Pixel&)>& which) const;
 };
 
@@ -27,7 +28,7 @@ Drawing draw(const std::vector<Tile>& tiles, const PictureOptions& options);
 
 bool is_paper(const Pixel& p);
 double lightness(const Pixel& p);
-/// Largest difference of a channel, 0 to 255.
+/// Return the largest difference of a channel, 0 to 255.
 double distance(const Pixel& p, const Rgb& colour);
 
 } // namespace bindpose::test

@@ -1,5 +1,6 @@
-// The program of all render tests. usage: bindpose_render_tests NAME [--differing-pixels N]
-// [--bless] Runs the one test Render.NAME; the environment variable BINDPOSE_BLESS=NAME blesses as
+// The program of all render tests.
+// usage: bindpose_render_tests NAME [--differing-pixels N] [--bless]
+// It runs the test Render.NAME. The environment variable BINDPOSE_BLESS=NAME has the effect of
 // --bless.
 #include "render/harness.h"
 
@@ -32,7 +33,7 @@ const unsigned char* pixel_pointer(vtkImageData* image, int x, int y)
   return static_cast<const unsigned char*>(image->GetScalarPointer(x, y, 0));
 }
 
-// Grey where pixels are equal, the redder the more they differ.
+// Color equal pixels gray, pixels with a tolerated difference pink, and other differing pixels red.
 vtkSmartPointer<vtkImageData> difference_image(vtkImageData* a, vtkImageData* b)
 {
   int size[3];

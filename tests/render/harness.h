@@ -1,8 +1,9 @@
 #ifndef bindpose_tests_render_harness_h
 #define bindpose_tests_render_harness_h
 
-// Compares pictures with baselines, strictly: no shift, no averaging, a count of pixels. (The
-// defaults of vtkImageDifference call pictures equal that differ by 15 degrees of camera.)
+// Strict comparison of pictures with baselines. It shifts and averages nothing and counts the
+// differing pixels. The defaults of vtkImageDifference are too tolerant: they accept a camera that
+// is rotated by 15 degrees.
 
 #include "vtkSmartPointer.h"
 
@@ -13,31 +14,33 @@ class vtkImageData;
 namespace bindpose::test
 {
 
-/// Two pixels differ when one of their channels differs by more than this many of 255 levels.
-/// Other processors and driver versions round differently by one or two.
+/// Two pixels differ if one of their channels differs by more than this number of the 255 levels.
+/// Other processors and driver versions round differently by one or two levels.
 constexpr int pixel_level = 8;
 
 struct Difference
 {
-  bool same_size = false; ///< width, height and channels
-  long long pixels = 0; ///< that differ by more than pixel_level
-  int largest = 0; ///< difference of any channel
+  bool same_size = false; ///< width, height and channels are equal
+  long long pixels = 0; ///< number of pixels that differ by more than pixel_level
+  int largest = 0; ///< largest difference of any channel
 };
 Difference compare(vtkImageData* a, vtkImageData* b);
 
-/// Pixels that may differ in the running test: the option DIFFERING_PIXELS of add_render_test.
+/// Return the number of pixels that may differ in the running test (DIFFERING_PIXELS of
+/// add_render_test).
 long long allowed_pixels();
 
-/// Whether the harness would let the second picture pass for the first.
+/// Report whether the difference is within the tolerance of the running test.
 bool passes(const Difference& difference);
 
-/// Compares with baselines/NAME.png, NAME being the running test's. On failure writes
-/// NAME.actual.png, NAME.baseline.png and NAME.difference.png into the build folder and says
-/// where. Blessed (see tests/README.md), it makes the picture the baseline, unless an assertion
-/// before it has failed.
+/// Compare a picture with baselines/NAME.png, where NAME is the running test. On failure, write
+/// NAME.actual.png, NAME.baseline.png and NAME.difference.png into the build folder and print their
+/// path. With --bless (see tests/README.md), write the picture as the new baseline, unless an
+/// earlier assertion has failed.
 void expect_baseline(vtkImageData* actual);
 
-/// Red, green, blue (0 to 255) at a place in pixels from the lower left corner.
+/// A color with channels from 0 to 255. pixel_at() takes a position in pixels from the lower left
+/// corner.
 struct Pixel
 {
   int r = 0, g = 0, b = 0, a = 255;

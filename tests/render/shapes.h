@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_render_shapes_h
 #define bindpose_tests_render_shapes_h
 
-// Datasets for pictures, all with closed forms.
+// Datasets for pictures, all given by closed-form expressions.
 
 #include "scene/picture.h"
 
@@ -14,28 +14,32 @@ class vtkUnstructuredGrid;
 namespace bindpose::test
 {
 
-/// A sphere of radius 1 beside a cube of side 1.6: smooth and sharp.
+/// Return a smooth and a sharp shape: a sphere of radius 1 next to a cube of side 1.6.
 vtkSmartPointer<vtkPolyData> sphere_and_cube();
-/// A bent finger along x, [-2, 2], with Weights of two handles: "left" 1 - s, "right" s, where
-/// s = (x + 2) / 4.
+/// Return a bent finger along x in [-2, 2] with the weights of two handles: "left" 1 - s and
+/// "right" s, where s = (x + 2) / 4.
 vtkSmartPointer<vtkPolyData> finger();
 double right_weight(const Vec3& p);
-/// 60 x 40 x 40 samples of the winding number of three spheres: two that overlap, one inside out.
+/// Return 60 x 40 x 40 samples of the winding number of three spheres. Two overlap, and one is
+/// inside out.
 vtkSmartPointer<vtkImageData> three_spheres();
-/// Centres: +1, +1 (2 in the overlap), -1.
+/// Centers of the spheres with winding numbers +1, +1 (2 in the overlap) and -1.
 extern const Vec3 sphere_centers[3];
 extern const double sphere_radius;
-/// 49 x 49 x 49 samples over [-1.6, 1.6] of 1.5 - |p|: the level w is a sphere of radius 1.5 - w.
+/// Return 49 x 49 x 49 samples over [-1.6, 1.6] of 1.5 - |p|. The level set of w is a sphere of
+/// radius 1.5 - w.
 vtkSmartPointer<vtkImageData> cone_field();
-/// Two circles of radius 1 around the y axis, each one line: at y = -0.5 with Multiplicity -1, at
-/// y = 0.5 with 2.
+/// Return two circles of radius 1 around the y axis, one polyline each: at y = -0.5 with
+/// Multiplicity -1, and at y = 0.5 with Multiplicity 2.
 vtkSmartPointer<vtkPolyData> two_circles();
-/// A wavy box of 8 x 5 x 6 cells of 6 tets each, 1.6 x 1.0 x 1.2, Weights linear along x.
+/// Return a wavy box of 8 x 5 x 6 cells of 6 tets each, 1.6 x 1.0 x 1.2, with Weights linear along
+/// x.
 vtkSmartPointer<vtkUnstructuredGrid> tet_brick();
-/// Points "a" full, "b" position, "c" free in a row along x, and a bone above them.
+/// Return the points "a" (full), "b" (position) and "c" (free) in a row along x, and a bone above
+/// them.
 vtkSmartPointer<vtkPolyData> handle_row();
 
-/// 400 x 300, no title, no legend.
+/// Return options for a picture of 400 x 300 pixels without title and legend.
 PictureOptions small_picture();
 
 } // namespace bindpose::test

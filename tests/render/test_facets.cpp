@@ -1,5 +1,5 @@
-// Weights that were solved on a coarse lattice bend a surface as smoothly as weights of tets that
-// keep it: no tet of the lattice is seen in the shading. Facts about light, no baseline.
+// Weights solved on a coarse lattice bend a surface as smoothly as weights solved on conforming
+// tets: the shading shows no tets of the lattice. This test measures lightness and has no baseline.
 #include "render/drawing.h"
 #include "render/harness.h"
 #include "render/shapes.h"
@@ -26,7 +26,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// A spindle from z = -1 to 1 whose triangles are much smaller than the lattice's cubes.
+/// Return a spindle from z = -1 to 1 whose triangles are much smaller than the lattice's cubes.
 TriangleMesh spindle()
 {
   TriangleMesh mesh = sphere(5);
@@ -46,7 +46,7 @@ Handles three_along()
   return handles;
 }
 
-/// Linear blend skinning: the ends turn by 40 degrees each, in a bow, about the middle.
+/// Bend by linear blend skinning: each end turns by 40 degrees along an arc around the middle.
 Points bent(const Points& rest, const Weights& weights)
 {
   Points posed(rest.rows(), 3);
@@ -72,9 +72,9 @@ Drawing draw_bent(const TriangleMesh& mesh, const Weights& weights)
   return draw({ { to_polydata(posed, mesh.triangles), nullptr, "" } }, options);
 }
 
-/// How abruptly the light changes: the root of the mean square of second differences over 8 pixels,
-/// in levels of 255, away from the outline. Smooth shading has almost none, the border of a facet
-/// has much.
+/// Return the roughness of the shading: the root mean square of second differences of the lightness
+/// over 8 pixels, in levels of 255, away from the silhouette. It is near zero for smooth shading
+/// and large at the borders of facets.
 double roughness(const Drawing& drawing)
 {
   int size[3];
@@ -129,7 +129,7 @@ TEST(Render, no_facets_of_the_embedding)
   SurfaceWeights embedded;
   solve(WeightsDomain::volume, conforming);
   solve(WeightsDomain::embedding, embedded);
-  // What the lattice says without more ado, linear in each tet: it has facets.
+  // Weights interpolated linearly in each tet of the lattice show its facets.
   Weights linear;
   ExecutionContext context;
   TransferCounts counts;
@@ -142,7 +142,8 @@ TEST(Render, no_facets_of_the_embedding)
   RecordProperty("conforming", std::to_string(smooth));
   RecordProperty("embedded", std::to_string(shown));
   RecordProperty("linear", std::to_string(faceted));
-  // 0.778, 0.782 and 1.172 levels. Without its smoothing along the surface the embedding has 0.834.
+  // Measured: 0.778, 0.782 and 1.172 levels. The embedding without smoothing along the surface has
+  // 0.834.
   EXPECT_LT(shown, 1.03 * smooth) << "facets are seen";
   EXPECT_GT(faceted, 1.3 * smooth) << "what is looked for is not there to be found";
 }

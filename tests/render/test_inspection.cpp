@@ -1,4 +1,4 @@
-// Inspection of weights, each picture with numbers that must hold in it whatever its baseline says.
+// Inspection of weights. Each test also asserts numbers that do not depend on the baseline.
 #include "render/drawing.h"
 #include "render/harness.h"
 #include "render/shapes.h"
@@ -52,7 +52,7 @@ void add_array(vtkDataSet* data, const char* name, const std::vector<Column>& co
   data->GetPointData()->AddArray(array);
 }
 
-/// The unit square of 24 x 24 cells in the plane z = 0.
+/// Return the unit square of 24 x 24 cells in the plane z = 0.
 vtkSmartPointer<vtkPolyData> square()
 {
   constexpr Index n = 24;
@@ -77,7 +77,8 @@ vtkSmartPointer<vtkPolyData> square()
   return to_polydata(points, triangles);
 }
 
-/// Five maxima (corners and centre) and four minima (middles of the sides) on the square.
+/// Return a function on the square with five maxima (corners and center) and four minima (middles
+/// of the sides).
 double waves(const Vec3& p)
 {
   return std::cos(2.0 * pi * p[0]) * std::cos(2.0 * pi * p[1]);
@@ -93,7 +94,7 @@ std::vector<Vec3> minima(double z)
   return { { 0.5, 0, z }, { 0, 0.5, z }, { 1, 0.5, z }, { 0.5, 1, z } };
 }
 
-/// Draws and hands on the report.
+/// Draw the tile, and return the report in the last argument.
 Drawing draw(const Tile& tile, const PictureOptions& options, Report& report)
 {
   Drawing drawing;
@@ -117,7 +118,7 @@ TEST(Render, handles_of_surface)
   PictureOptions options = small_picture();
   options.colour_by = ColourBy::handle;
   const Drawing drawing = draw({ { finger(), nullptr, "" } }, options);
-  // Left of the middle the one, right of it the other.
+  // The left half has the color of the first handle, the right half that of the second one.
   const std::vector<Category> handles = handle_categories({ "left", "right" });
   for (const double x : { -1.7, -0.9, -0.2, 0.2, 0.9, 1.7 })
   {
@@ -131,7 +132,7 @@ TEST(Render, handles_of_surface)
 
 TEST(Render, handles_of_tets)
 {
-  // Three handles along x, the middle one the strongest between 0.4 and 1.2.
+  // Three handles along x. The middle one is the strongest between 0.4 and 1.2.
   const auto brick = tet_brick();
   add_array(brick, "Weights",
     { [](const Vec3& p) { return std::max(0.0, 1.0 - p[0] / 0.8); },
@@ -142,11 +143,11 @@ TEST(Render, handles_of_tets)
   Report report;
   const Drawing drawing = draw({ brick, nullptr, "" }, options, report);
   const std::vector<Category> handles = handle_categories({ "a", "b", "c" });
-  // On the laid-open side, which is the one that faces the camera.
+  // Points on the cut face, which faces the camera.
   const double places[] = { 0.2, 0.8, 1.4 };
   for (int k = 0; k < 3; ++k)
   {
-    // Edges are drawn: most of a neighbourhood has the colour.
+    // Edges are drawn over the face, so only most of the neighborhood has the color.
     int close = 0;
     for (int dx = -3; dx <= 3; ++dx)
     {
@@ -166,7 +167,7 @@ TEST(Render, handles_of_tets)
 
 TEST(Render, tets_slice)
 {
-  // Linear along x, a wave along y: known at every point that the plane shows.
+  // The first weight is linear along x, so its value is known at every point of the plane.
   const TetMesh mesh = tet_box(20, 12, 12, Vec3::Zero(), Vec3(2, 1, 1));
   const auto box = to_unstructured_grid(mesh.points, mesh.tets);
   const Column left = [](const Vec3& p) { return 1.0 - 0.5 * p[0]; };
@@ -175,7 +176,7 @@ TEST(Render, tets_slice)
   options.array = "Weights";
   options.component = "0";
   options.slice = true;
-  // Oblique: it goes through tets, along none of their sides.
+  // The oblique plane passes through tets and is parallel to none of their facets.
   const Plane plane{ Vec3(1.0, 0.5, 0.52), Vec3(0.13, 0.31, 1.0) };
   options.section_plane = plane;
   options.view.azimuth = 25.0;
@@ -196,14 +197,15 @@ TEST(Render, tets_slice)
   {
     for (int band = 0; band < 10; ++band)
     {
-      // The colours of the legend, whatever the light, one of them from border to border.
+      // Inside a band the slice has exactly one color of the legend, independent of the lighting.
       for (const double within : { 0.2, 0.5, 0.8 })
       {
         const double x = 0.2 * (band + within);
         EXPECT_LE(distance(drawing.at(on_plane(x, y)), colour_of(map, left(Vec3(x, y, 0)))), 2.0)
           << x << " " << y;
       }
-      // A dark line between two bands; the first ones are as dark as lines.
+      // A dark line separates two bands. The first bands are skipped because they are as dark as
+      // the lines.
       const double x = 0.2 * band;
       if (band > 2)
       {
@@ -213,10 +215,11 @@ TEST(Render, tets_slice)
       }
     }
   }
-  // What lies before the plane is gone: its lower edge shows paper, that of the plane does not.
+  // The tets in front of the plane are removed: their lower edge shows paper, that of the plane
+  // does not.
   EXPECT_TRUE(is_paper(drawing.at(Vec3(1.0, 0.02, 0.98))));
   EXPECT_FALSE(is_paper(drawing.at(on_plane(1.0, 0.02))));
-  // As many tets as have corners on both sides.
+  // The slice contains exactly the tets with vertices on both sides of the plane.
   Index met = 0;
   for (Index t = 0; t < mesh.tets.rows(); ++t)
   {
@@ -239,7 +242,7 @@ TEST(Render, tets_slice)
 
 TEST(Render, tets_slice_by_handle)
 {
-  // A number of each tet: every tet's part of the plane in the colour of its strongest handle.
+  // Values per tet: the slice shows every tet in the color of its strongest handle.
   const auto brick = tet_brick();
   PictureOptions options = small_picture();
   options.colour_by = ColourBy::handle;
@@ -257,7 +260,7 @@ TEST(Render, tets_slice_by_handle)
 
 TEST(Render, extrema)
 {
-  // The vertex in the middle is a handle: its maximum is wanted.
+  // The vertex in the middle is a handle, so its maximum is not spurious.
   const auto surface = square();
   add_array(surface, "Weights", { [](const Vec3& p) {
     return (p - Vec3(0.5, 0.5, 0)).norm() < 1e-9 ? 1.0 : 0.5 + 0.49 * waves(p);
@@ -282,7 +285,7 @@ TEST(Render, extrema)
   {
     EXPECT_LT(hue_distance(drawing.at(place), kinds[0].colour), 0.06) << place;
   }
-  // Of a function with 1 at every maximum, Weights tell the handle.
+  // The function "Waves" is 1 at all its maxima, so the array "Weights" identifies the handle.
   options.array = "Waves";
   draw({ surface, nullptr, "" }, options, report);
   EXPECT_EQ(counts(report, "maxima"), Counts{ 4 });
@@ -295,7 +298,7 @@ TEST(Render, extrema)
 
 TEST(Render, extrema_of_tets)
 {
-  // The waves grow towards the camera: all extrema lie on the side that faces it.
+  // The waves grow toward the camera, so all extrema are on the side that faces it.
   const TetMesh mesh = tet_box(16, 16, 8, Vec3::Zero(), Vec3(1, 1, 0.5));
   const auto grid = to_unstructured_grid(mesh.points, mesh.tets);
   add_array(grid, "Waves", { [](const Vec3& p) { return waves(p) * (1.0 + p[2]); } });
@@ -312,7 +315,7 @@ TEST(Render, extrema_of_tets)
   {
     EXPECT_LT(hue_distance(drawing.at(place), extremum_categories()[1].colour), 0.08) << place;
   }
-  // The cut takes that side away.
+  // The cut removes this side.
   options.cut = true;
   draw({ grid, nullptr, "" }, options, report);
   EXPECT_EQ(counts(report, "maxima"), Counts{ 5 });
@@ -322,7 +325,7 @@ TEST(Render, extrema_of_tets)
 
 TEST(Render, row_sum)
 {
-  // From 0.8 on the left to 1.2 on the right.
+  // The row sum grows from 0.8 on the left to 1.2 on the right.
   const auto surface = finger();
   add_array(surface, "RawWeights",
     { [](const Vec3&) { return 0.5; }, [](const Vec3& p) { return 0.5 + 0.1 * p[0]; } });
@@ -343,7 +346,7 @@ TEST(Render, row_sum)
 
 TEST(Render, difference)
 {
-  // The right weight without the left one: 1 - (x + 2) / 2.
+  // Two linear functions of x with the difference -0.25 x.
   const auto other = vtkSmartPointer<vtkPolyData>::New();
   const auto surface = finger();
   other->DeepCopy(surface);
@@ -361,14 +364,15 @@ TEST(Render, difference)
   }
   EXPECT_NEAR(report.number("picture.difference.largest", 0), 0.5, 1e-12);
   EXPECT_NEAR(report.number("picture.difference.rms", 0), std::sqrt(squares), 1e-12);
-  // Above 0 on the left, where less is subtracted from less.
+  // The difference is positive on the left, because both values are negative there and the
+  // subtracted one is larger in magnitude.
   for (const double x : { -1.6, 0.0, 1.6 })
   {
     const double round = std::sqrt(1.0 - x * x / 4.0);
     const Vec3 ridge(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968);
     EXPECT_LT(hue_distance(drawing.at(ridge), diverging_colour(-x / 2.0)), 0.06) << x;
   }
-  // Of a thing and itself nothing is left.
+  // The difference of a dataset and itself is zero.
   options.minus = surface;
   const Drawing nothing = draw({ surface, nullptr, "" }, options, report);
   EXPECT_EQ(report.number("picture.difference.largest", -1), 0.0);
@@ -378,7 +382,7 @@ TEST(Render, difference)
 
 TEST(Render, handle_names)
 {
-  // A legend of more handles than it has room for, in their order from above.
+  // The legend has more handles than fit into it; it shows them from top to bottom in their order.
   const auto surface = finger();
   std::vector<Column> columns;
   constexpr int many = 40;
@@ -393,7 +397,7 @@ TEST(Render, handle_names)
   options.legend = true;
   const Drawing drawing = draw({ { surface, nullptr, "" } }, options);
   const std::vector<Category> handles = handle_categories({ "a", "b", "c" });
-  // The pixels of the bar, whose colours nothing lights.
+  // The pixels of the legend, which is drawn without lighting.
   const int right = drawing.geometry.tiles[0].x + drawing.geometry.tiles[0].width;
   int above = 300;
   for (const Category& handle : handles)

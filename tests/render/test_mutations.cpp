@@ -1,4 +1,4 @@
-// The harness itself: equal pictures pass, and the smallest changes that matter do not.
+// Tests of the harness: equal pictures pass, and the smallest relevant changes fail.
 #include "render/harness.h"
 #include "render/shapes.h"
 
@@ -40,7 +40,7 @@ TEST(Render, mutations)
     std::printf(
       "%s: %lld pixels differ, %lld allowed\n", what, difference.pixels, allowed_pixels());
     EXPECT_FALSE(passes(difference)) << what;
-    // Not by a hair: the tolerance may be made ten times as large.
+    // The change must be detected even with a ten times larger tolerance.
     EXPECT_GT(difference.pixels, 10 * allowed_pixels()) << what;
   };
   PictureOptions turned = options;

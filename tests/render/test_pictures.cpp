@@ -1,4 +1,5 @@
-// Each picture with numbers that must hold in it whatever its baseline says.
+// Surfaces, weights, slices, handles, tiles and legends. Each test also asserts numbers that do not
+// depend on the baseline.
 #include "render/drawing.h"
 #include "render/harness.h"
 #include "render/shapes.h"
@@ -23,7 +24,7 @@ TEST(Render, surface)
 {
   const auto surface = sphere_and_cube();
   const Drawing drawing = draw({ { surface, nullptr, "" } }, small_picture());
-  // The painted rectangle is that of the projected vertices, and it fills the picture up to the
+  // The painted rectangle equals that of the projected vertices. It fills the picture up to the
   // margin in one direction.
   Eigen::AlignedBox2d expected;
   for (vtkIdType v = 0; v < surface->GetNumberOfPoints(); ++v)
@@ -35,13 +36,13 @@ TEST(Render, surface)
   EXPECT_LT((painted.max() - expected.max()).cwiseAbs().maxCoeff(), 1.5);
   EXPECT_NEAR(expected.min().x(), 0.04 * 400, 0.01);
   EXPECT_NEAR(expected.max().x(), 0.96 * 400, 0.01);
-  // A side of the cube is flat: one shade.
+  // A side of the cube is flat, so it has a single shade.
   const Pixel side = drawing.at(Vec3(1.0, 0.3, 0.8));
   for (const Vec3& p : { Vec3(0.7, -0.4, 0.8), Vec3(1.6, 0.5, 0.8) })
   {
     EXPECT_NEAR(lightness(drawing.at(p)), lightness(side), 12.0);
   }
-  // Its top is lighter than its front: the key light comes from above.
+  // The top is lighter than the front because the key light is above.
   EXPECT_GT(lightness(drawing.at(Vec3(1.2, 0.8, 0.0))), lightness(side) + 5.0);
   expect_baseline(drawing.image);
 }
@@ -53,7 +54,7 @@ TEST(Render, weights)
   options.array = "Weights";
   options.component = "right";
   const Drawing drawing = draw({ { surface, nullptr, "" } }, options);
-  // Along the ridge that faces the camera, band after band gets darker.
+  // Along the ridge that faces the camera, each band is darker than the one before.
   std::vector<double> bands;
   for (int band = 0; band < 10; ++band)
   {
@@ -66,12 +67,12 @@ TEST(Render, weights)
   {
     EXPECT_LT(bands[band + 1], bands[band]) << "band " << band + 1;
   }
-  // The other column is the mirror image in colours: light where this one is dark.
+  // The other component has mirrored colors: it is light where this one is dark.
   options.component = "0";
   const Drawing other = draw({ { surface, nullptr, "" } }, options);
   const Vec3 right_end(1.8, 0.1, 0.25);
   EXPECT_GT(lightness(other.at(right_end)), lightness(drawing.at(right_end)) + 60.0);
-  // Isolines are dark and there are nine of them, each a closed curve: some hundred pixels.
+  // The nine isolines are dark closed curves of some hundred pixels each.
   options.component = "right";
   options.isolines = false;
   const Drawing plain = draw({ { surface, nullptr, "" } }, options);
@@ -93,14 +94,14 @@ TEST(Render, winding_slice)
 {
   PictureOptions options = small_picture();
   const Drawing drawing = draw({ { three_spheres(), nullptr, "" } }, options);
-  // The slice lies half a sample off z = 0; where nothing stands before it, its colours are the
-  // map's own.
+  // The slice is half a sample away from z = 0. Where nothing covers it, it has exactly the colors
+  // of the color map.
   EXPECT_LT(distance(drawing.at(Vec3(-1.8, 1.2, 0.0)), winding_colour(0.0)), 3.0);
   const Vec3 overlap = 0.5 * (sphere_centers[0] + sphere_centers[1]);
   const Pixel one = drawing.at(sphere_centers[0] - Vec3(0.25, 0, 0));
   const Pixel two = drawing.at(overlap);
   const Pixel negative = drawing.at(sphere_centers[2]);
-  EXPECT_LT(distance(one, winding_colour(1.0)), 60.0); // behind glass
+  EXPECT_LT(distance(one, winding_colour(1.0)), 60.0); // behind the translucent isosurface
   EXPECT_GT(one.r, one.b + 50) << "inside is orange";
   EXPECT_LT(lightness(two), lightness(one) - 60.0) << "twice inside is darker";
   EXPECT_LT(lightness(negative), lightness(one) - 60.0) << "inside out is dark";
@@ -113,7 +114,7 @@ TEST(Render, tets_cut)
   PictureOptions options = small_picture();
   const Drawing cut = draw({ { tet_brick(), nullptr, "" } }, options);
   const auto is_cut = [](const Pixel& p) { return p.b > p.r + 20; };
-  // The laid-open side is as large as the brick's front: about 1.6 x 1.0 projected.
+  // The area of the cut face equals that of the brick's front: about 1.6 x 1.0, projected.
   const Eigen::Vector2d a = cut.geometry.project(0, Vec3(0, 0, 0.6));
   const Eigen::Vector2d b = cut.geometry.project(0, Vec3(1.6, 0, 0.6));
   const Eigen::Vector2d c = cut.geometry.project(0, Vec3(0, 1, 0.6));
@@ -129,7 +130,7 @@ TEST(Render, tets_cut)
 
 TEST(Render, handles)
 {
-  // Inside a sphere, and yet seen.
+  // The handles are inside a sphere and must be visible.
   PictureOptions options = small_picture();
   const TriangleMesh ball = sphere(4, 1.8);
   const Drawing drawing =
@@ -154,7 +155,7 @@ TEST(Render, tiles)
   const Drawing drawing = draw({ { surface, nullptr, "" }, { other, nullptr, "" },
                                  { other, nullptr, "" }, { surface, nullptr, "" } },
     options);
-  // Equal datasets look equal wherever they stand: one camera for all.
+  // Equal datasets look equal in all tiles, because all tiles share one camera.
   long long differing = 0;
   for (int y = 0; y < 150; ++y)
   {
@@ -182,10 +183,11 @@ TEST(Render, transparent)
   const auto solid = drawing.count([](const Pixel& p) { return p.a == 255; });
   EXPECT_EQ(pixel_at(drawing.image, 0, 0).a, 0);
   EXPECT_EQ(drawing.at(Vec3(0, 0.5, 0.7)).a, 255);
-  // What is neither is the silhouette: a line.
+  // The remaining pixels are partly transparent: the silhouette, a thin line.
   EXPECT_GT(400 * 300 - clear - solid, 200);
   EXPECT_LT(400 * 300 - clear - solid, 2500);
-  // On white it is the picture on white: colours are not darkened at the edge.
+  // Composited on white, the picture equals the one drawn on white: colors are not darkened at the
+  // edge.
   options.background = Background::white;
   const Drawing white = draw({ { finger(), nullptr, "" } }, options);
   long long differing = 0;
@@ -211,14 +213,14 @@ TEST(Render, legend)
   options.title = "Bounded biharmonic weights";
   const Drawing drawing =
     draw({ { finger(), nullptr, "rest" }, { finger(), nullptr, "posed" } }, options);
-  // All ten colours of the bar are there, as they are: nothing lights it.
+  // All ten colors of the legend occur unchanged, because it is drawn without lighting.
   for (int band = 0; band < 10; ++band)
   {
     const Rgb colour = sequential_colour(band / 9.0);
     EXPECT_GT(drawing.count([&](const Pixel& p) { return distance(p, colour) <= 2.0; }), 60)
       << "band " << band;
   }
-  // Title: dark pixels in the top lines, none at their ends.
+  // The title: the top lines contain dark pixels, but not at their ends.
   EXPECT_TRUE(is_paper(pixel_at(drawing.image, 2, 297)));
   EXPECT_TRUE(is_paper(pixel_at(drawing.image, 397, 297)));
   long long dark = 0;

@@ -1,4 +1,4 @@
-// Tets and defects, each picture with numbers that must hold in it whatever its baseline says.
+// Tets and defects. Each test also asserts numbers that do not depend on the baseline.
 #include "render/drawing.h"
 #include "render/harness.h"
 #include "render/shapes.h"
@@ -25,8 +25,8 @@ using namespace bindpose::test;
 
 namespace
 {
-/// How far a lit colour is from what it was mixed from: the largest difference of the shares of
-/// red, green and blue. Light changes the sum, hardly the shares.
+/// Return the distance in hue of a lit pixel from a color: the largest difference of the fractions
+/// of red, green and blue. Lighting changes the sum of the channels, but hardly their fractions.
 double hue_distance(const Pixel& p, const Rgb& colour)
 {
   const double its = std::max(1, p.r + p.g + p.b);
@@ -48,7 +48,7 @@ TEST(Render, tets_shrunk)
   const Drawing whole = draw({ { tet_brick(), nullptr, "" } }, options);
   options.shrink = 0.5;
   const Drawing drawing = draw({ { tet_brick(), nullptr, "" } }, options);
-  // Nothing sticks out, and paper is seen between what was one piece.
+  // Nothing is drawn outside of the unshrunk picture, and gaps show paper.
   long long gaps = 0;
   for (int y = 0; y < 300; ++y)
   {
@@ -61,12 +61,12 @@ TEST(Render, tets_shrunk)
     }
   }
   EXPECT_GT(gaps, painted(whole) / 50);
-  // The smaller, the less is left; size 1 leaves no gap.
+  // A smaller size leaves less; size 1 leaves no gap.
   options.shrink = 0.25;
   EXPECT_LT(painted(draw({ { tet_brick(), nullptr, "" } }, options)), 3 * painted(drawing) / 4);
   options.shrink = 1.0;
   EXPECT_EQ(painted(draw({ { tet_brick(), nullptr, "" } }, options)), painted(whole));
-  // The half towards the camera is gone, wherever the normal points.
+  // The half toward the camera is removed, whichever way the normal points.
   options.section_plane->normal *= -1.0;
   EXPECT_EQ(painted(draw({ { tet_brick(), nullptr, "" } }, options)), painted(whole));
   expect_baseline(drawing.image);
@@ -74,7 +74,7 @@ TEST(Render, tets_shrunk)
 
 TEST(Render, tets_labels)
 {
-  // Four blocks side by side, one a label.
+  // Four blocks side by side, one per label.
   TetMesh mesh = tet_box(8, 4, 4, Vec3::Zero(), Vec3(2, 1, 1));
   const auto grid = to_unstructured_grid(mesh.points, mesh.tets);
   vtkNew<vtkIntArray> labels;
@@ -103,7 +103,7 @@ TEST(Render, tets_labels)
 
 TEST(Render, tets_quality)
 {
-  // All tets of the subdivided cube have 45 degrees.
+  // The smallest dihedral angle of every tet of the subdivided cube is 45 degrees.
   const TetMesh mesh = tet_box(4, 4, 4);
   PictureOptions options = small_picture();
   options.colour_by = ColourBy::quality;
@@ -133,7 +133,7 @@ TEST(Render, defects)
   // The border of the opening, and the two triangles of the lid that the sphere crosses.
   EXPECT_LT(hue_distance(drawing.at(Vec3(0.3, -1.0, 1.0)), kinds[2].colour), 0.08);
   EXPECT_LT(hue_distance(drawing.at(Vec3(0.85, 1.0, 0.7)), kinds[7].colour), 0.08);
-  // What is clean is see-through grey.
+  // Clean parts are translucent gray.
   const Pixel grey = drawing.at(Vec3(1.0, 0.0, 0.0));
   EXPECT_LT(std::max({ grey.r, grey.g, grey.b }) - std::min({ grey.r, grey.g, grey.b }), 30);
   expect_baseline(drawing.image);

@@ -1,4 +1,5 @@
-// Isosurfaces, clouds and boundary curves: each picture with numbers that must hold in it.
+// Isosurfaces, clouds and boundary curves. Each test also asserts numbers that do not depend on the
+// baseline.
 #include "render/drawing.h"
 #include "render/shapes.h"
 
@@ -17,7 +18,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// Where a sphere around the origin appears.
+/// Return the rectangle in which a sphere around the origin appears.
 Eigen::AlignedBox2d sphere_on_paper(const Drawing& drawing, double radius)
 {
   const TriangleMesh ball = sphere(5, radius);
@@ -45,12 +46,13 @@ TEST(Render, isosurface)
   PictureOptions options = small_picture();
   options.isosurfaces = { 0.75 };
   const Drawing drawing = draw({ { cone_field(), nullptr, "" } }, options);
-  // As large as the analytic sphere, to a pixel.
+  // The isosurface has the size of the analytic sphere, within one pixel.
   const Eigen::AlignedBox2d expected = sphere_on_paper(drawing, 0.75);
   const Eigen::AlignedBox2d found = drawing.extent(painted);
   EXPECT_LT((found.min() - expected.min()).cwiseAbs().maxCoeff(), 1.0);
   EXPECT_LT((found.max() - expected.max()).cwiseAbs().maxCoeff(), 1.0);
-  // Lit: the upper side is lighter. Smooth: along its middle no step from pixel to pixel.
+  // It is lit: the upper side is lighter. It is smooth: neighboring pixels along the middle differ
+  // little.
   EXPECT_GT(lightness(drawing.at(Vec3(0, 0.65, 0.3))), lightness(drawing.at(Vec3(0, -0.65, 0.3))));
   const int row = static_cast<int>(expected.center().y());
   for (int x = static_cast<int>(expected.min().x()) + 12; x < expected.max().x() - 12; ++x)
@@ -59,10 +61,10 @@ TEST(Render, isosurface)
       lightness(pixel_at(drawing.image, x + 1, row)), 6.0)
       << x;
   }
-  // In the hue of its level: orange.
+  // It has the hue of its level: orange.
   const Pixel middle = drawing.at(Vec3(0, 0, 0.75));
   EXPECT_GT(middle.r, middle.b + 30);
-  // Another level is another picture, though the camera frames it as tightly.
+  // Another level gives another picture, although the camera frames it as tightly.
   options.isosurfaces = { 0.25 };
   const Drawing other = draw({ { cone_field(), nullptr, "" } }, options);
   const Pixel blue = other.at(Vec3(0, 0, 1.25));
@@ -77,7 +79,7 @@ TEST(Render, isosurfaces_nested)
   options.isosurfaces = { 0.75, 0.25, 0.25, 0.9 };
   options.legend = true;
   const Drawing drawing = draw({ { cone_field(), nullptr, "" } }, options);
-  // The legend has a field in the colour of each level, in their order.
+  // The legend has a field in the color of each level, in the order of the levels.
   const ColourMap map = winding_map();
   double below = 0.0;
   for (const double level : { 0.25, 0.75, 0.9 })
@@ -88,14 +90,14 @@ TEST(Render, isosurfaces_nested)
     EXPECT_GT(height, below) << level;
     below = height;
   }
-  // The inner ones are seen through the outer ones, and the innermost is solid: what shines
-  // through at its middle does not depend on what lies behind it.
+  // The inner isosurfaces are visible through the outer ones. The innermost one is opaque, so the
+  // color at its middle does not depend on anything behind it.
   const auto rim = [&](double radius)
   { return lightness(drawing.at(radius * Vec3(-0.88, 0.0, 0.47).normalized())); };
   EXPECT_LT(rim(0.7), rim(1.2)) << "the inner sphere lies under glass, the outer on paper";
   const Pixel middle = drawing.at(Vec3(0, 0, 0.6));
   EXPECT_GT(middle.r, middle.b + 20);
-  // Mutation: one level by 0.03.
+  // Mutation: one level changes by 0.03.
   options.isosurfaces = { 0.75, 0.25, 0.87 };
   const Difference moved =
     compare(drawing.image, draw({ { cone_field(), nullptr, "" } }, options).image);
@@ -109,7 +111,8 @@ TEST(Render, winding_cloud)
   options.volume = true;
   const auto volume = three_spheres();
   const Drawing drawing = draw({ { volume, nullptr, "" } }, options);
-  // Clear where it is 0: between the spheres and outside of their outlines.
+  // The cloud is transparent where the winding number is 0: between the spheres and outside of
+  // their outlines.
   EXPECT_TRUE(is_paper(drawing.at(Vec3(1.0, 0.9, 0.0))));
   EXPECT_TRUE(is_paper(drawing.at(Vec3(-0.3, 1.1, 0.0))));
   const double radius = (drawing.geometry.project(0, Vec3(-0.8, sphere_radius, 0)) -
@@ -119,7 +122,7 @@ TEST(Render, winding_cloud)
   const auto covered = static_cast<double>(drawing.count(painted));
   EXPECT_LT(covered, 1.25 * lens_and_discs);
   EXPECT_GT(covered, 0.75 * lens_and_discs);
-  // Once inside: pale orange. Twice: deep. Inside out: violet.
+  // Winding number 1 is pale orange, 2 is deep orange, and -1 is violet.
   const Pixel one = drawing.at(sphere_centers[0] - Vec3(0.3, 0, 0));
   const Pixel two = drawing.at(0.5 * (sphere_centers[0] + sphere_centers[1]));
   const Pixel negative = drawing.at(sphere_centers[2]);
@@ -128,7 +131,7 @@ TEST(Render, winding_cloud)
   EXPECT_LT(lightness(two), lightness(one) - 60.0);
   EXPECT_GT(two.r, two.b + 20);
   EXPECT_GT(negative.b, negative.r + 20);
-  // Mutation: the camera by one degree.
+  // Mutation: the camera turns by one degree.
   options.view.azimuth = 1.0;
   const Difference turned =
     compare(drawing.image, draw({ { volume, nullptr, "" } }, options).image);
@@ -144,7 +147,8 @@ TEST(Render, boundary_curves)
   Tile tile{ cone_field(), nullptr, "" };
   tile.context = { to_polydata(ball.points, ball.triangles), two_circles() };
   const Drawing drawing = draw({ tile }, options);
-  // The curves lie where they are projected: whole in front, faint where the isosurface hides them.
+  // The curves are drawn at their projections: opaque in front, faint where the isosurface covers
+  // them.
   Tile without = tile;
   without.context.pop_back();
   const Drawing bare = draw({ without }, options);
@@ -163,7 +167,7 @@ TEST(Render, boundary_curves)
       }
     }
   }
-  // What counts twice is half as wide again.
+  // A curve of multiplicity 2 is drawn wider than one of multiplicity 1.
   const auto width = [&](double y)
   {
     const Eigen::Vector2d at = drawing.geometry.project(0, Vec3(0, y, 1));
@@ -176,7 +180,7 @@ TEST(Render, boundary_curves)
   };
   EXPECT_GE(width(-0.5), 2);
   EXPECT_GT(width(0.5), width(-0.5));
-  // The surface is see-through: the isosurface's orange shows.
+  // The surface is translucent: the isosurface's orange is visible.
   const Pixel middle = drawing.at(Vec3(0, 0, 1.1));
   EXPECT_GT(middle.r, middle.b + 20);
   expect_baseline(drawing.image);

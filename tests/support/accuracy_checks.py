@@ -1,4 +1,4 @@
-"""The numerical part of weights_accuracy.py: handles, quality of tets, weights carried to points, differences."""
+"""Numerical part of weights_accuracy.py: handles, quality of tets, weights interpolated at points, differences."""
 
 import numpy as np
 import vtk
@@ -8,15 +8,15 @@ from result_checks import (read_obj, read_tets, read_weights, smallest_dihedral_
                            write_tets)
 from separate_parts import farthest_points, largest_leak, poly_data, weld
 
-NEAR = 0.01  # of the diagonal: vertices farther from the reference tets are not compared
+NEAR = 0.01  # in bounding-box diagonals: vertices farther from the reference tets are not compared
 MOST_VERTICES = 20_000
 SEED = 7
-PLACES = 8  # in a tet, where it may be outside of the model
+PLACES = 8  # random points per tet that are tested for being outside of the model
 FACETS = [(1, 2, 3), (0, 2, 3), (0, 1, 3), (0, 1, 2)]
 
 
 def write_handles(model, path, count):
-    """Write the handles of `--handles auto:N` as .tgf. Returns false if the model has too few vertices."""
+    """Write the handles of `--handles auto:N` as .tgf. Return False if the model has too few vertices."""
     points, triangles = read_obj(model)
     if len(triangles) == 0 or len(np.unique(points[np.unique(triangles)], axis=0)) < count:
         return False
@@ -27,7 +27,7 @@ def write_handles(model, path, count):
 
 
 def chosen_vertices(points, triangles):
-    """Ids of the vertices that are compared: all of them, or a seeded sample."""
+    """Return the ids of the vertices to compare: all of them, or a seeded sample."""
     used = np.unique(triangles)
     if len(used) <= MOST_VERTICES:
         return used
@@ -35,7 +35,7 @@ def chosen_vertices(points, triangles):
 
 
 def closest_in(grid, queries):
-    """The cell of the grid that is nearest to each query, the nearest point of it, and the distance."""
+    """Return for each query the nearest cell of the grid, the nearest point on this cell, and the distance."""
     locator = vtk.vtkStaticCellLocator()
     locator.SetDataSet(grid)
     locator.BuildLocator()
@@ -55,23 +55,23 @@ def read_grid(path):
 
 
 def write_without_doubles(model, path):
-    """Write an .obj model as .vtp without triangles that occur twice: sheets of those that face each other enclose
-    nothing, but their winding numbers would cancel."""
+    """Write an .obj model as .vtp without triangles that occur twice. Two coincident sheets that face each other
+    enclose nothing, but their winding numbers would cancel."""
     points, triangles, _ = weld(*read_obj(model))
     _, first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)
     write_poly_data(path, poly_data(points, triangles[np.sort(first)]))
 
 
 def are_inner(tets):
-    """True for tets that share all four facets with others."""
+    """Return True for each tet that shares all four facets with other tets."""
     facets = np.sort(np.concatenate([tets[:, [a, b, c]] for a, b, c in FACETS]), axis=1)
     _, ids, count = np.unique(facets, axis=0, return_inverse=True, return_counts=True)
     return (count[ids.ravel()].reshape(len(FACETS), -1) == 2).all(axis=0)
 
 
 def open_gaps(program, model, path):
-    """Take out of a .vtu file the tets that bridge gaps: their center, or any place in an inner tet, is outside of the
-    model."""
+    """Remove from a .vtu file the tets that bridge gaps. A tet bridges a gap if its center is outside of the model, or
+    if all its facets are shared and a sampled point in it is outside."""
     single = path.parent / "single.vtp"
     write_without_doubles(model, single)
     points, tets = read_tets(path)
@@ -92,7 +92,8 @@ def connected_parts(grid):
 
 
 def tets_quality(model, path):
-    """Smallest dihedral angle, numbers of tets and connected parts, fraction of the vertices that are near the tets."""
+    """Return the smallest dihedral angle, the numbers of tets and connected parts, and the fraction of the vertices
+    near the tets."""
     points, tets = read_tets(path)
     surface, triangles = read_obj(model)
     queries = surface[chosen_vertices(surface, triangles)]
@@ -104,7 +105,7 @@ def tets_quality(model, path):
 
 
 def barycentric(points, tets, places):
-    """Barycentric coordinates of one place per tet (#T x 4)."""
+    """Return the barycentric coordinates of one point per tet (#T x 4)."""
     origin = points[tets[:, 0]]
     edges = np.stack([points[tets[:, k]] - origin for k in (1, 2, 3)], axis=2)
     rest = np.linalg.solve(edges, (places - origin)[:, :, None])[:, :, 0]
@@ -112,7 +113,8 @@ def barycentric(points, tets, places):
 
 
 def carried(path, queries):
-    """Weights of a .vtu file at the queries, linear in each tet, and the distances of the queries from the tets."""
+    """Interpolate the weights of a .vtu file linearly at the queries. Also return the distances of the queries from the
+    tets."""
     grid = read_grid(path)
     points, tets = read_tets(path)
     weights = vtk_to_numpy(grid.GetPointData().GetArray("Weights")).astype(float)
@@ -126,8 +128,8 @@ def rms(gap):
 
 
 def difference(surface, reference, coarse):
-    """How far the weights of a .vtp file are from those of the reference, a .vtu file, and these from those of the
-    coarse reference."""
+    """Compare the weights of a .vtp file with those of the reference (a .vtu file), and the reference with the coarse
+    reference."""
     points, triangles, weights = read_weights(surface)
     chosen = chosen_vertices(points, triangles)
     expected, distances = carried(reference, points[chosen])

@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""Every surface of the Debian package libcgal-demo and every horror of horrors.py through `bindpose tetrahedralize`.
+"""Run `bindpose tetrahedralize` on every surface of the Debian package libcgal-demo and on every horror of horrors.py.
 
-Prints a table and summary lines for each method asked for, as markdown too when wanted, and fails where
-a promise is broken: the program crashes or hangs, takes more than 120 s for up to 100,000 triangles, writes
-tets that are flat, turned over, there twice or not closed, misses the volume without the warning that says so,
-refuses a surface that encloses something, or does not hold a point of the surface (embed). remesh alone may say that
-what is enclosed is too thin for its tets.
+Prints a table and summary lines for each requested method, and writes them as markdown if requested. Fails if a result
+is wrong:
+- the program crashes or hangs, or takes more than 120 s for up to 100,000 triangles;
+- a tet is flat, inverted or duplicated, or the boundary is not closed;
+- the volume is wrong and no warning reports it;
+- the program refuses a surface that encloses a volume;
+- a point of the surface is outside of the tets (embed).
+Only remesh may refuse a surface because the enclosed volume is too thin for its tets.
 
-The tets are read back and checked here, by code of its own; that a refused surface encloses nothing is
-asked of `bindpose winding` at four million points.
+This script reads the tets back and checks them with its own code. To check a refusal, it evaluates `bindpose winding`
+at four million points.
 """
 
 import argparse
@@ -31,8 +34,8 @@ import horrors
 
 ARCHIVE = pathlib.Path("/usr/share/doc/libcgal-dev/data.tar.gz")
 SECONDS = 120
-TRIANGLES = 100_000  # of surfaces that SECONDS are promised for
-SPECK = 1e-6  # of the box: a volume that need not be found
+TRIANGLES = 100_000  # the time limit SECONDS applies to surfaces with at most this many triangles
+SPECK = 1e-6  # fraction of the bounding box: a smaller volume may be missed
 DEFECTS = ["duplicate_vertices", "degenerate_triangles", "duplicate_triangles", "boundary_edges", "nonmanifold_edges",
            "misoriented_edges", "inward_components", "self_intersections", "triangulated_cells"]
 FACETS = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
@@ -42,23 +45,23 @@ FACETS = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
 class Surface:
     name: str
     path: pathlib.Path
-    horror: horrors.Horror = None  # None: a real surface
+    horror: horrors.Horror = None  # None for a real surface
 
 
 @dataclasses.dataclass
 class Row:
-    """What became of one surface by one method."""
+    """Result of one method on one surface."""
 
     surface: Surface
     seconds: float
     code: int
     sentence: str = ""
     report: dict = dataclasses.field(default_factory=dict)
-    broken: list = dataclasses.field(default_factory=list)  # promises
+    broken: list = dataclasses.field(default_factory=list)  # list of str: one sentence per failed check
 
     @property
     def tries(self):
-        """Rungs that were left before the one that answered."""
+        """Number of attempts that failed before the one that succeeded."""
         return sum(rung["outcome"] != "ok" and not rung["name"].startswith(("vertices inside", "graph cut"))
                    for rung in self.report.get("rungs", []))
 
@@ -68,7 +71,7 @@ class Row:
 
     @property
     def too_thin(self):
-        """A refusal of one method that says that another can."""
+        """True if one method refuses the surface as too thin, so that another method may succeed."""
         return self.code == 2 and "too thin" in self.sentence
 
     @property
@@ -122,7 +125,7 @@ def synthetic_surfaces(folder):
     return [Surface(name, folder / f"{name}.off", horror) for name, horror in horrors.write_all(folder).items()]
 
 
-# ---- Checks of its own -----------------------------------------------------------------------------
+# ---- Independent checks ----------------------------------------------------------------------------
 
 
 def read_tets(path):
@@ -140,7 +143,8 @@ def volumes_of(points, tets):
 
 
 def open_edges(tets):
-    """Edges at which the boundary's triangles do not meet in opposite directions."""
+    """Return 0 if the boundary's triangles meet in opposite directions at every edge, -1 if more than two tets share a
+    facet, and a positive number otherwise."""
     facets = tets[:, FACETS].reshape(-1, 3)
     _, first, count = np.unique(np.sort(facets, axis=1), axis=0, return_index=True, return_counts=True)
     if count.max() > 2:
@@ -156,7 +160,8 @@ def open_edges(tets):
 
 
 def read_off(mesh):
-    """Vertices, and triangles as fans of the faces; a vertex or face a line, colours and normals may follow."""
+    """Read vertices and faces, and split each face into a fan of triangles. Each vertex or face is one line, on which
+    colors and normals may follow."""
     lines = [words for words in (line.split("#")[0].split() for line in mesh.read_text(errors="replace").splitlines()) if words]
     head = lines[0][1:] or lines.pop(1)
     vertices, faces = int(head[0]), int(head[1])
@@ -174,7 +179,7 @@ def used_points(mesh):
 
 
 def outside(grid, points):
-    """How many of the points lie in no cell."""
+    """Count the points that no cell contains."""
     data = vtk.vtkPolyData()
     holder = vtk.vtkPoints()
     holder.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
@@ -216,7 +221,7 @@ def broken_volume(row):
     if (not 0.9 <= ratio <= 1.1 and not told) or not 0.5 <= ratio <= 2.0:
         return [f"volume {volume:g}, but the winding number encloses {winding:g}"]
     broken = []
-    # Polygons are triangulated in more than one way.
+    # The comparison is limited to clean triangle meshes, because polygons can be triangulated in more than one way.
     if row.rung == "cdt" and not any(report["counts"].get(defect) for defect in DEFECTS) and report["counts"]["components"] == 1:
         true = horrors.volume(read_off(row.surface.path))
         if abs(volume / true - 1) > 1e-10:
@@ -230,7 +235,7 @@ def broken_volume(row):
 
 
 def enclosed_share(program, mesh, folder):
-    """Share of the box that the winding number encloses, by four million points."""
+    """Return the fraction of the bounding box that the winding number encloses, from four million sample points."""
     points = used_points(mesh)
     lower, size = points.min(axis=0), np.ptp(points, axis=0)
     if not size.min() > 0:
@@ -246,7 +251,7 @@ def enclosed_share(program, mesh, folder):
     writer.SetInputData(data)
     writer.SetCompressorTypeToNone()
     writer.Write()
-    # Closed surfaces are never on the fence: 0.5 is between whole numbers.
+    # Winding numbers of closed surfaces are integers, so the threshold 0.5 is unambiguous.
     subprocess.run([program, "winding", mesh, "--points", folder / "samples.vtp", "--orient-patches", "-o",
                     folder / "w.vtp", "--overwrite", "--quiet"], check=True, timeout=600)
     reader = vtk.vtkXMLPolyDataReader()
@@ -288,7 +293,8 @@ def run(program, surface, method, folder):
 
 
 def broken_refusal(program, row, method, folder):
-    """cdt and remesh alone may fail; auto and embed may only say that nothing is there."""
+    """Check a refusal. cdt and remesh may fail (exit code 5), and remesh may report that the volume is too thin. Any
+    other refusal is right only if the surface encloses nothing; embed must never refuse."""
     broken = []
     if "\n" in row.sentence or not row.sentence or row.code not in (2, 5):
         broken.append(f"exit {row.code}: {row.sentence}")
@@ -313,7 +319,7 @@ def summary(method, rows, surfaces):
     answered = [row for row in rows if row.answered]
     thin = [row for row in rows if method == "remesh" and row.too_thin]
     refused = [row for row in rows if row.code == 2 and row not in thin]
-    worth = [row for row in rows if row not in refused]  # others are known to enclose something
+    worth = [row for row in rows if row not in refused]  # refused surfaces enclose nothing and are not counted
     slowest = max(rows, key=lambda row: row.seconds)
     angles = [row.report["min_dihedral_angle"] for row in answered]
     lines = [f"{len(rows)} surfaces ({surfaces}): {len(answered)} answered, {len(refused)} refused, "

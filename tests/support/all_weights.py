@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Weights of real surfaces by `bindpose weights`: does every column keep what is promised?
+"""Check the weights of real surfaces that `bindpose weights` computes: every column must meet its certificate.
 
-Twenty surfaces of the Debian package libcgal-demo, fifteen handles spread over each, bounded biharmonic and monotone
-weights in tets, default certificate and, for some, the tight one. Checked is what the report says (the certificate is
-computed from nothing but the problem's data) and what is in the file. Ends with 1 when a promise is broken.
+Twenty surfaces of the Debian package libcgal-demo, fifteen handles spread over each surface, bounded biharmonic and
+monotone weights in tets, the default certificate and, for some surfaces, the tight one. The script checks the report
+(its certificate is computed from the data of the problem alone) and the content of the file. Exits with 1 if a check
+fails.
 """
 
 import argparse
@@ -16,7 +17,8 @@ import tempfile
 from all_surfaces import real_surfaces
 
 HANDLES = 15
-# Small enough for an hour, of all kinds: closed, open, with edges, with handles of their own, several parts.
+# Surfaces small enough for one hour in total, of all types: closed, open, with sharp edges, of higher genus, of several
+# parts.
 SURFACES = ["anchor.off", "armadillo.off", "bear.off", "cactus.off", "couplingdown.off", "cow.off", "cross.off", "dragknob.off",
             "elephant.off", "elephant-with-holes.off", "hand.off", "handle.off", "helmet.off", "homer.off", "joint.off",
             "knot1.off", "knot2.off", "man.off", "mushroom.off", "pig.off", "pinion.off", "pipe.off", "rotor.off", "sphere.off",
@@ -33,7 +35,7 @@ def weights(program, surface, method, certificate, out):
 
 
 def rows_of(path):
-    """Rows of a .dmat file, which is "columns rows" and then column after column."""
+    """Return the rows of a .dmat file, which contains "columns rows" and then the values column by column."""
     words = path.read_text(encoding="ascii").split()
     columns, rows = int(words[0]), int(words[1])
     values = [float(word) for word in words[2:]]
@@ -41,7 +43,7 @@ def rows_of(path):
 
 
 def broken_promises(code, report, error, method, bound, rows):
-    """What is wrong, in words."""
+    """Return one sentence per failed check."""
     if code != 0:
         return [f"exit code {code}: {error}"]
     wrong = [f"{key} {report[key]:.1e}" for key in ("relative_gap", "kkt_residual") if not report[key] <= bound]

@@ -9,7 +9,7 @@
 namespace bindpose::test
 {
 
-/// A person who asks a running work to stop, a while after it has begun.
+/// Requests a cancel from another thread, a given time after construction.
 class CancelLater
 {
 public:
@@ -33,7 +33,8 @@ public:
   CancelLater(const CancelLater&) = delete;
   CancelLater& operator=(const CancelLater&) = delete;
 
-  /// Seconds from the request until now, when the work is over; below 0: it was over before.
+  /// Return the seconds from the request until now, called when the work has ended. The result is
+  /// negative if the work ended before the request.
   double waited()
   {
     const auto now = Clock::now();
@@ -44,7 +45,7 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  Clock::time_point asked_; // before the thread, which writes it
+  Clock::time_point asked_; // declared before the thread that writes it
   std::thread user_;
 };
 

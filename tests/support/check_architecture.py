@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""The arrows of the house, read from the includes: fails where one points upwards.
+"""Check that the includes of the project respect its layers, and fail for an include in the wrong direction.
 
-core names no VTK header; inside core base <- winding <- (surface <- embedding, helper, planar) <- inside <- weights <-
-(automatic, pose), io on base only (inside may use it); filters do not know the viewer; nothing outside the tests
-includes a test's header. The ParaView plugin has no sources of its own, and a proxy for every filter that can be made.
+core includes no VTK header. Inside core the layers are base <- winding <- (surface <- embedding, helper, planar) <-
+inside <- weights <- (automatic, pose); io includes base only (inside may include io). Filters include nothing of the
+viewer. Nothing outside of the tests includes a header of the tests. The ParaView plugin has no sources, and has a proxy
+for every filter that can be instantiated.
 """
 
 import pathlib
@@ -13,7 +14,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
-# Which folders of core a folder of core may include from.
+# The folders of core from which each folder of core may include.
 CORE_ARROWS = {
     "base": {"base"},
     "io": {"base", "io"},
@@ -22,7 +23,7 @@ CORE_ARROWS = {
     "helper": {"base", "winding", "helper"},
     "planar": {"base", "winding", "helper", "planar"},
     "embedding": {"base", "winding", "surface", "embedding"},
-    # inside talks to fTetWild through files.
+    # inside exchanges files with fTetWild.
     "inside": {"base", "io", "winding", "surface", "helper", "embedding", "inside"},
     "weights": {"base", "winding", "surface", "planar", "embedding", "inside", "weights"},
     "automatic": {"base", "winding", "surface", "helper", "inside", "weights", "automatic"},
@@ -35,7 +36,7 @@ PLUGIN = "filters/paraview"
 
 
 def without_proxy():
-    """Filters that the plugin's XML does not name, and names there that are no filters."""
+    """Return the filters that the plugin's XML does not name, and the names in the XML that are not filters."""
     filters = {path.stem for path in (ROOT / "filters").glob("vtk*.h") if f"static {path.stem}* New()" in path.read_text()}
     proxies = re.compile(r'<(?:SourceProxy|WriterProxy)\b[^>]*\bclass="(\w+)"')
     # Base proxies name abstract classes.

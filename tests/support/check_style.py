@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Format and names: clang-format on every source, clang-tidy's naming rules on core.
+"""Check the format of every source with clang-format, and the names in core with clang-tidy.
 
---tidy changed   the core files of the last commit (default; none outside a git checkout)
---tidy all       all of core
+--tidy changed   the core files of the last commit (default; none outside of a git checkout)
+--tidy all       all files of core
 --tidy none      format only
 """
 
@@ -17,11 +17,11 @@ FOLDERS = ("filters", "viewer", "python", "tests", "examples")
 
 
 def changed_files():
-    """Names of files that differ from the commit before the last one. A shallow clone has no parent
-    and a copy of the sources no git at all: then there is no change to look at."""
+    """Return the names of the files that the last commit changed or that have uncommitted changes. A shallow clone has
+    no parent commit, so only its uncommitted changes count. A copy of the sources without git gives an empty set."""
     names = set()
     for revisions in (["HEAD~1", "HEAD"], ["HEAD"]):
-        # The checkout may belong to another user (containers): that is no reason to refuse.
+        # In containers the checkout may belong to another user, which git must accept here.
         git = subprocess.run(["git", "-c", "safe.directory=*", "-C", ROOT, "diff", "--name-only", *revisions],
                              capture_output=True, text=True, check=False)
         names |= set(git.stdout.split())

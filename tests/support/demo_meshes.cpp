@@ -17,7 +17,7 @@ namespace
 {
 constexpr const char* archive = "/usr/share/doc/libcgal-dev/data.tar.gz";
 
-/// Unpacks under a name of this process's own, then renames: tests run side by side.
+/// Unpacks into a folder named after this process, then renames it, because tests run in parallel.
 bool unpack(const std::filesystem::path& folder)
 {
   namespace fs = std::filesystem;
@@ -34,7 +34,7 @@ bool unpack(const std::filesystem::path& folder)
   const std::string command =
     "tar xzf " + std::string(archive) + " -C '" + scratch.string() + "' data/meshes";
   const bool unpacked = std::system(command.c_str()) == 0;
-  std::error_code ignored; // another process may have been first
+  std::error_code ignored; // another process may have finished first
   if (unpacked)
   {
     fs::rename(scratch, folder, ignored);

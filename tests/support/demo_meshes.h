@@ -8,13 +8,13 @@
 namespace bindpose::test
 {
 
-/// A real surface of the Debian package libcgal-demo (data of others: installed, never committed),
-/// such as "elephant-with-holes.off"; polygons are fanned. Unpacked into the build folder on first
-/// use. Without the package the test that asks fails with a message that names it, and the mesh is
-/// empty.
+/// Load a surface of the Debian package libcgal-demo, such as "elephant-with-holes.off", and split
+/// its polygons into triangle fans. The data has other authors, so it is installed but never
+/// committed. The first call unpacks it into the build folder. If the package is missing, the test
+/// fails with a message that names it, and the mesh is empty.
 TriangleMesh demo_mesh(const std::string& name);
 
-/// Path of the unpacked file, empty when the package is missing.
+/// Return the path of the unpacked file, or an empty string if the package is missing.
 std::string demo_mesh_path(const std::string& name);
 
 } // namespace bindpose::test

@@ -8,7 +8,7 @@
 namespace bindpose::test
 {
 
-/// Sets an environment variable, or unsets it, for the life of a test.
+/// Sets or unsets an environment variable for the lifetime of the object.
 class Environment
 {
 public:

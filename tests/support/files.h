@@ -12,7 +12,7 @@
 namespace bindpose::test
 {
 
-/// A folder of its own for one test, removed at its end.
+/// A temporary folder for one test, removed by the destructor.
 class Folder
 {
 public:
@@ -31,7 +31,7 @@ public:
   std::string operator/(const std::string& name) const { return this->path_ + "/" + name; }
   std::string path() const { return this->path_; }
 
-  /// Writes a text and gives its path.
+  /// Write a text to a file and return its path.
   std::string write(const std::string& name, const std::string& text) const
   {
     std::ofstream(*this / name, std::ios::binary) << text;

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Furniture of our own making, as unclean as real models are, and hostile models that are worse.
+"""Write synthetic furniture with the defects of real models, and hostile models with worse defects.
 
-`furniture.py FOLDER [--hostile]` writes them as .obj files, the same ones every time. They stand in for the package
-sweethome3d-furniture where that is too large: see real_meshes.py, --set made and --set hostile.
+`furniture.py FOLDER [--hostile]` writes them as .obj files, always the same ones. They replace the package
+sweethome3d-furniture if that is too large: see real_meshes.py, --set made and --set hostile.
 
-A part is a pair: points (#V x 3) and faces, lists of three or more point ids.
+A part is a pair: points (#V x 3) and faces, which are lists of three or more point ids.
 """
 
 import argparse
@@ -17,7 +17,7 @@ import horrors
 
 # ---- Parts -----------------------------------------------------------------------------------------
 
-BOX = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]]  # quads, outwards
+BOX = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]]  # quads, oriented outwards
 
 
 def box(lower, upper):
@@ -26,12 +26,12 @@ def box(lower, upper):
 
 
 def triangles(part):
-    """A part of horrors.py, whose faces are an array."""
+    """Convert a part of horrors.py, whose faces are an array."""
     return part[0], part[1].tolist()
 
 
 def sheet(n, origin, along, up):
-    """n x n quads that span a parallelogram."""
+    """Return n x n quads that span a parallelogram."""
     steps = np.linspace(0, 1, n + 1)
     points = [np.add(origin, s * np.array(along) + t * np.array(up)) for t in steps for s in steps]
     ids = [j * (n + 1) + i for j in range(n) for i in range(n)]
@@ -39,7 +39,7 @@ def sheet(n, origin, along, up):
 
 
 def lathe(profile, around=24):
-    """A surface of revolution about the z axis; a profile holds pairs of radius and height."""
+    """Return a surface of revolution about the z axis. The profile is a list of pairs (radius, height)."""
     def place(s, t):
         radius, height = profile[round(s * (len(profile) - 1))]
         return radius * math.cos(2 * math.pi * t), radius * math.sin(2 * math.pi * t), height
@@ -47,7 +47,7 @@ def lathe(profile, around=24):
 
 
 def tube(start, end, radius, around=10, along=6):
-    """An open cylinder from a point to another one."""
+    """Return an open cylinder from one point to another."""
     start, end = np.array(start, float), np.array(end, float)
     axis = end - start
     side = np.cross(axis, [0.31, 0.17, 0.93])
@@ -70,7 +70,7 @@ def join(*parts):
 
 
 def doubled(part, reverse=False):
-    """Each face is there twice, on the same points; the second one reversed if asked for."""
+    """Repeat each face on the same points, optionally reversed."""
     return part[0], part[1] + [face[::-1] if reverse else list(face) for face in part[1]]
 
 
@@ -79,14 +79,14 @@ def reversed_part(part):
 
 
 def unwelded(part):
-    """Each face has points of its own."""
+    """Give each face its own points."""
     points = np.vstack([part[0][face] for face in part[1]])
     ends = np.cumsum([len(face) for face in part[1]])
     return points, [list(range(end - len(face), end)) for face, end in zip(part[1], ends)]
 
 
 def welded(part):
-    """Points with the same coordinates become one."""
+    """Merge points with the same coordinates."""
     points, ids = np.unique(np.round(part[0], 12), axis=0, return_inverse=True)
     ids = ids.reshape(-1)
     return points, [[int(ids[v]) for v in face] for face in part[1]]
@@ -96,7 +96,7 @@ def welded(part):
 
 
 def table():
-    """Boxes with doubled faces; legs end inside the top, aprons share planes with the legs."""
+    """Return boxes with doubled faces. The legs end inside the top, and the aprons share planes with the legs."""
     legs = [box((x, y, 0), (x + 0.08, y + 0.08, 0.74)) for x in (0, 1.52) for y in (0, 0.82)]
     aprons = [box((0, y, 0.6), (1.6, y + 0.03, 0.72)) for y in (0, 0.87)]
     top = doubled(box((-0.05, -0.05, 0.72), (1.65, 0.95, 0.76)), reverse=True)
@@ -104,21 +104,21 @@ def table():
 
 
 def open_shelf():
-    """Sheets without thickness that meet in non-manifold edges."""
+    """Return sheets without thickness that meet in non-manifold edges."""
     uprights = [sheet(5, (x, 0, 0), (0, 0.3, 0), (0, 0, 2)) for x in (0, 0.5, 1)]
     boards = [sheet(5, (x, 0, z), (0.5, 0, 0), (0, 0.3, 0)) for x in (0, 0.5) for z in np.linspace(0, 2, 6)]
     return welded(join(*uprights, *boards, sheet(5, (0, 0.3, 0), (1, 0, 0), (0, 0, 2))))
 
 
 def lathe_lamp():
-    """Foot, stem and shade of one profile, with disks inside that make every edge around them non-manifold."""
+    """Return foot, stem and shade of one profile, with disks inside that make all edges on their rims non-manifold."""
     profile = [(0, 0), (0.15, 0), (0.16, 0.02), (0.03, 0.05), (0.02, 0.4), (0.02, 0.5), (0.18, 0.45), (0.1, 0.75)]
     disks = [lathe([(0.0, height), (radius, height)]) for radius, height in ((0.02, 0.4), (0.02, 0.5), (0.15, 0.0))]
     return welded(join(lathe(profile), *disks))
 
 
 def tube_chair():
-    """Open tubes that cross each other, and a seat that the tubes pierce."""
+    """Return open tubes that cross each other, and a seat that the tubes pierce."""
     feet = [(x, y) for x in (-0.25, 0.25) for y in (-0.25, 0.25)]
     legs = [tube((x, y, 0), (0.9 * x, 0.9 * y, 0.5 if y < 0 else 1.0), 0.02) for x, y in feet]
     bars = [tube((-0.25, y, z), (0.25, y, z), 0.015) for y, z in ((-0.24, 0.2), (0.24, 0.2), (0.23, 0.8), (0.23, 0.95))]
@@ -127,7 +127,7 @@ def tube_chair():
 
 
 def leaf_plant():
-    """A pot and 300 loose leaves of two quads each, every third of them doubled back to back."""
+    """Return a pot and 300 loose leaves of two quads each. Every third leaf is doubled back to back."""
     draw = np.random.RandomState(21)
     leaves = []
     for k in range(300):
@@ -142,7 +142,7 @@ def leaf_plant():
 
 
 def keys():
-    """Twelve plates, a fiftieth as thick as wide, and small ones on them, around a ring that passes through."""
+    """Return twelve plates, 50 times as wide as thick, with small plates on them, around a ring that passes through."""
     ring = horrors.torus(24, 8, 0.3, 0.015)
     plates = []
     for k in range(12):
@@ -156,7 +156,7 @@ def keys():
 
 
 def car_body():
-    """An open sheet with holes and slivers, in panels with a gap of 1e-4 between them."""
+    """Return an open sheet with holes and slivers, in panels with a gap of 1e-4 between them."""
     n, m = 30, 12
 
     def height(s, t):
@@ -166,14 +166,14 @@ def car_body():
              for j in range(m) for i in range(n) if not (j in (2, 9) and 12 <= i < 20)]
     hood = [face for face in quads if points[face[0]][0] < 1.2]
     body = np.array(points, float), [face for face in quads if face not in hood]
-    # The sill is a fan of 200 slivers: their common vertex is 1e-3 away from the line of the others.
+    # The sill is a fan of 200 slivers. Their common vertex is 1e-3 away from the line of the other vertices.
     line = np.linspace([0, 0.8, 0.45], [4, 0.8, 0.45], 201)
     sill = np.vstack([line, [[2, 0.801, 0.45]]]), [[k, k + 1, 201] for k in range(200)]
     return join(body, (np.array(points, float) - (1e-4, 0, 0), hood), sill)
 
 
 def coincident_sheets():
-    """Curtains: four sheets on the same surface, two of them cut into other faces, one reversed."""
+    """Return curtains: four sheets on the same surface. Two of them have another tessellation, and one is reversed."""
     def curtain(n, reverse=False):
         part = sheet(n, (0, 0, 0), (1, 0, 0), (0, 0, 1.5))
         part[0][:, 1] = 0.05 * np.abs(12 * part[0][:, 0] % 2 - 1)
@@ -183,7 +183,7 @@ def coincident_sheets():
 
 
 def bed():
-    """Unwelded boxes that overlap, with faces without area, unused points and a quad that is not flat."""
+    """Return unwelded boxes that overlap, with faces without area, unused points and a non-planar quad."""
     parts = [box((0, 0, 0), (2, 1.4, 0.3)), box((0.02, 0.02, 0.25), (1.98, 1.38, 0.5)),
              box((-0.05, 0, 0), (0, 1.4, 0.9)), box((0.1, 0.1, 0.5), (0.5, 0.6, 0.6)),
              box((0.1, 0.8, 0.5), (0.5, 1.3, 0.6))]
@@ -196,7 +196,8 @@ def bed():
 
 
 def cabinet():
-    """Walls as an outer and a reversed inner box, open at the front; doors inside out, with handles on them."""
+    """Return a cabinet. Its walls are an outer and a reversed inner box, open at the front; its doors are inside out
+    and have handles."""
     outer, inner = box((0, 0, 0), (1, 0.5, 1.8)), reversed_part(box((0.02, 0.0, 0.02), (0.98, 0.48, 1.78)))
     without_front = [(part[0], [face for k, face in enumerate(part[1]) if k != 2]) for part in (outer, inner)]
     doors = [reversed_part(box((x, -0.02, 0.01), (x + 0.48, 0, 1.79))) for x in (0.01, 0.51)]
@@ -205,12 +206,12 @@ def cabinet():
 
 
 def rug():
-    """One flat sheet: it encloses nothing, and weights are solved on the sheet itself."""
+    """Return one flat sheet. It encloses nothing, so its weights are solved on the sheet itself."""
     return sheet(16, (0, 0, 0), (2, 0, 0), (0, 1.2, 0))
 
 
 def needles_only():
-    """Forty faces, none of which has an area: there is nothing to bind or to fill."""
+    """Return forty faces without area, on which nothing can be bound and in which nothing can be filled."""
     points = np.array([[k, 2 * k, -k] for k in range(42)], float)
     return points, [[k, k + 1, k + 2] for k in range(40)]
 
@@ -229,7 +230,7 @@ def hundred_thousand_loose_triangles():
 
 
 def ten_thousand_components():
-    """Small tets in random places; a few of them overlap."""
+    """Return small tets at random positions; a few of them overlap."""
     draw = np.random.RandomState(32)
     corner = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
     faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
@@ -238,7 +239,7 @@ def ten_thousand_components():
 
 
 def doubled_three_times():
-    """Every face of a sphere and a torus that cross is there eight times."""
+    """Return a sphere and a torus that cross, with every face repeated eight times."""
     part = join(triangles(horrors.sphere(3)), triangles(horrors.moved(horrors.torus(), 0.9, 0, 0.1)))
     return doubled(doubled(doubled(part)))
 
@@ -248,7 +249,7 @@ def sheets_a_billionth_apart():
 
 
 def a_millionth_of_the_size():
-    """A sphere beside one that is a million times smaller."""
+    """Return a sphere next to one that is a million times smaller."""
     return join(triangles(horrors.sphere(3)), triangles(horrors.sphere(2, 1e-6, (1.5, 0, 0))))
 
 
@@ -260,7 +261,7 @@ HOSTILE = [hundred_thousand_loose_triangles, ten_thousand_components, doubled_th
 
 
 def normals(points, faces):
-    """Unit normals of the faces, (0, 0, 1) where one has no area."""
+    """Return the unit normals of the faces, (0, 0, 1) for a face without area."""
     found = []
     for face in faces:
         corners = points[face]
@@ -271,7 +272,7 @@ def normals(points, faces):
 
 
 def write_obj(path, points, faces):
-    """Write points, normals and faces, each corner with the normal of its face, as modelers do."""
+    """Write points, normals and faces. As in files of modeling programs, each corner has the normal of its face."""
     with open(path, "w", encoding="ascii") as file:
         file.write(f"# {path.stem}\no {path.stem}\n")
         file.writelines("v %r %r %r\n" % tuple(point) for point in points.tolist())

@@ -1,13 +1,12 @@
 #ifndef bindpose_tests_support_fuzz_h
 #define bindpose_tests_support_fuzz_h
 
-// Tests that try many random cases. A round's case depends on its seed alone, so that a failure can
-// be repeated by itself:
-//   BINDPOSE_FUZZ_FACTOR=8   makes 8 times as many rounds (nightly);
-//   BINDPOSE_FUZZ_NIGHT=3    takes other seeds, those after three such runs (nightly: by the date);
-//   BINDPOSE_FUZZ_SEED=7     runs the round of this seed alone;
-//   BINDPOSE_FUZZ_TRACE=1    prints each seed before its round, for a crash takes the trace with
-//   it.
+// Support for tests that try many random cases. A round's case depends only on its seed, so that a
+// failure can be repeated alone:
+// BINDPOSE_FUZZ_FACTOR=8   runs 8 times as many rounds (nightly)
+// BINDPOSE_FUZZ_NIGHT=3    uses the seeds that follow those of three such runs (nightly: the date)
+// BINDPOSE_FUZZ_SEED=7     runs only the round with this seed
+// BINDPOSE_FUZZ_TRACE=1    prints each seed before its round, because a crash prints no seed
 
 #include "base/status.h"
 #include "support/meshes.h"
@@ -27,7 +26,7 @@
 namespace bindpose::test
 {
 
-/// The whole number from 1 that an environment variable holds, else the fallback.
+/// Return the positive integer in an environment variable, or the fallback.
 inline Index whole_number_of(const char* variable, Index fallback)
 {
   const char* text = std::getenv(variable);
@@ -35,15 +34,15 @@ inline Index whole_number_of(const char* variable, Index fallback)
   return value >= 1 ? value : fallback;
 }
 
-/// base times BINDPOSE_FUZZ_FACTOR.
+/// Return base times BINDPOSE_FUZZ_FACTOR.
 inline Index fuzz_rounds(Index base)
 {
   return base * whole_number_of("BINDPOSE_FUZZ_FACTOR", 1);
 }
 
-/// Calls body(random) for as many seeds as asked, until one fails, and prints how many it were.
-/// An exception that escapes is a failure; so is a round of a minute, of some more with sanitizers:
-/// what hangs is named.
+/// Call body(random) for the requested number of seeds until one fails, and print the number of
+/// rounds. A round also fails if an exception escapes, or if it takes more than 120 s (400 s with
+/// sanitizers).
 template <typename Body>
 void fuzz(const char* what, Index base, const Body& body)
 {
@@ -78,13 +77,14 @@ void fuzz(const char* what, Index base, const Body& body)
   std::cout << "[ fuzz ] " << seed - first << " " << what << "\n";
 }
 
-/// True in `share` of all cases.
+/// Return true in a fraction `share` of all calls.
 inline bool chance(Random& random, double share)
 {
   return random.uniform() < share;
 }
 
-/// Text that can stand in one line of a log or a window: something, no control characters, UTF-8.
+/// Expect a text that fits into one line of a log or a window: not empty, no control characters,
+/// UTF-8.
 inline void expect_sentence(const std::string& text)
 {
   EXPECT_FALSE(text.empty());
@@ -106,7 +106,7 @@ inline void expect_sentence(const std::string& text)
   }
 }
 
-/// A failure is one sentence of a documented code; whatever was found, warnings are sentences.
+/// Expect that a failure has a message of one line, and that all warnings are single lines.
 inline void expect_spoken(const Status& status)
 {
   if (status.code != StatusCode::ok)
@@ -119,8 +119,9 @@ inline void expect_spoken(const Status& status)
   }
 }
 
-/// While it lives, memory that a small input cannot need is refused: what asks for it throws
-/// bad_alloc. Sanitizers reserve terabytes of address space, so there it does nothing.
+/// Limits the memory of this process during the lifetime of the object, so that an allocation that
+/// a small input cannot need throws bad_alloc. It has no effect with sanitizers, which reserve
+/// terabytes of address space.
 class MemoryLimit
 {
 public:

@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_support_handles_h
 #define bindpose_tests_support_handles_h
 
-// Handles for tests, one kind a function.
+// Handles for tests, one function per handle type.
 
 #include "weights/handles.h"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Surfaces made to break a mesher, each with what is known about its inside.
+"""Surfaces that are hard for a mesher, each with known facts about its inside.
 
-`horrors.py FOLDER` writes them all as .off files. The same ones every time: random parts have fixed seeds.
+`horrors.py FOLDER` writes all of them as .off files. Random parts have fixed seeds, so the files are always the same.
 Used by all_surfaces.py and by tests of the program.
 """
 
@@ -15,20 +15,21 @@ import numpy as np
 
 @dataclasses.dataclass
 class Horror:
-    """A surface and the facts about it."""
+    """A surface and known facts about it."""
 
     vertices: np.ndarray  # #V x 3
     triangles: np.ndarray  # #F x 3 ids
-    volume: float = None  # of the inside, None: not known by a formula
-    tolerance: float = 1e-9  # of the volume, relative
-    encloses: bool = True  # False: nothing, to be refused with a sentence; None: not known
+    volume: float = None  # volume of the inside, None if no formula gives it
+    tolerance: float = 1e-9  # relative tolerance of the volume
+    encloses: bool = True  # False: encloses nothing and must be refused with a sentence; None: unknown
 
 
 # ---- Clean parts -----------------------------------------------------------------------------------
 
 
 def cube(lower=(-1.0, -1.0, -1.0), upper=(1.0, 1.0, 1.0)):
-    """12 triangles outwards, side k's are 2k and 2k + 1 in the order -x +x -y +y -z +z."""
+    """Return 12 triangles, oriented outwards. The triangles of side k are 2k and 2k + 1 in the order -x +x -y +y -z
+    +z."""
     corners = np.array([[(upper if v >> k & 1 else lower)[k] for k in range(3)] for v in range(8)], float)
     faces = [[0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5], [0, 1, 5], [0, 5, 4],
              [2, 6, 7], [2, 7, 3], [0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6]]
@@ -36,8 +37,11 @@ def cube(lower=(-1.0, -1.0, -1.0), upper=(1.0, 1.0, 1.0)):
 
 
 def wrapped_grid(rows, columns, place, close_rows=True, reverse_from=None):
-    """Squares of two triangles between rows x columns points place(s, t), s and t in [0, 1), closed along the
-    columns; the last row meets the first, in reverse from a column when that is given."""
+    """Return squares of two triangles each between the rows x columns points place(s, t), with s and t in [0, 1).
+
+    The grid is closed along the columns. If `close_rows` is true, the last row is joined to the first one; with
+    `reverse_from`, it is joined in reverse order, starting from that column.
+    """
     points = [place(i / rows if close_rows else i / (rows - 1), j / columns) for i in range(rows) for j in range(columns)]
     faces = []
     for i in range(rows if close_rows else rows - 1):
@@ -61,7 +65,7 @@ def torus(around=48, across=24, radius=1.0, tube=0.4):
 
 
 def sphere(levels=3, radius=1.0, center=(0.0, 0.0, 0.0)):
-    """Subdivided icosahedron, 20 * 4^levels triangles outwards."""
+    """Return a subdivided icosahedron of 20 * 4^levels triangles, oriented outwards."""
     g = (1 + math.sqrt(5)) / 2
     points = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g),
               (0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
@@ -88,7 +92,7 @@ def sphere(levels=3, radius=1.0, center=(0.0, 0.0, 0.0)):
 
 
 def sheet(n=8, lower=(0.0, 0.0), upper=(1.0, 1.0), height=0.0):
-    """n x n squares in the plane z = height, upwards."""
+    """Return n x n squares in the plane z = height, oriented upwards."""
     points = [[lower[0] + (upper[0] - lower[0]) * i / n, lower[1] + (upper[1] - lower[1]) * j / n, height]
               for j in range(n + 1) for i in range(n + 1)]
     faces = []
@@ -99,7 +103,7 @@ def sheet(n=8, lower=(0.0, 0.0), upper=(1.0, 1.0), height=0.0):
     return np.array(points, float), np.array(faces)
 
 
-# ---- What is done to them --------------------------------------------------------------------------
+# ---- Modifications ---------------------------------------------------------------------------------
 
 
 def join(*meshes):
@@ -120,12 +124,12 @@ def flipped(mesh):
 
 
 def unwelded(mesh):
-    """Every triangle has vertices of its own."""
+    """Give each triangle its own vertices."""
     return mesh[0][mesh[1].ravel()], np.arange(mesh[1].size).reshape(-1, 3)
 
 
 def chosen(mesh, share, seed):
-    """A mask of about `share` of the triangles."""
+    """Return a mask of about the fraction `share` of the triangles."""
     return np.random.RandomState(seed).uniform(size=len(mesh[1])) < share
 
 
@@ -139,7 +143,7 @@ def volume(mesh):
 
 
 def solid(mesh, of=None, tolerance=1e-9):
-    """A horror whose inside has the volume of the clean mesh `of`, its own by default."""
+    """Return a horror whose inside has the volume of the clean mesh `of` (default: the mesh itself)."""
     return Horror(*mesh, volume(of or mesh), tolerance)
 
 
@@ -210,7 +214,7 @@ def unwelded_soup():
 
 
 def unwelded_and_jittered():
-    """Loose triangles whose corners no longer meet."""
+    """Return loose triangles whose corners do not meet."""
     mesh = torus()
     return Horror(*jittered(unwelded(mesh), 1e-3, 7), volume(mesh), 0.03)
 
@@ -246,18 +250,18 @@ def nearly_coincident_copy():
 
 
 def copies_a_thousandth_apart():
-    """Three walls of nearly the same sphere, crossing all over."""
+    """Return three copies of nearly the same sphere, which cross each other everywhere."""
     return Horror(*join(*(jittered(sphere(), 1e-3, seed) for seed in range(3))), volume(sphere()), 0.01)
 
 
 def quantised():
-    """Rounded to a coarse grid: vertices meet, triangles lose their area."""
+    """Return a sphere rounded to a coarse grid, so that vertices coincide and triangles lose their area."""
     points, faces = sphere(4)
     return Horror(np.round(points * 12) / 12, faces)
 
 
 def needle():
-    """A bipyramid of 40 sides, a thousand times as long as wide."""
+    """Return a bipyramid of 40 sides, a thousand times as long as wide."""
     around = [[math.cos(math.pi * k / 20), math.sin(math.pi * k / 20), 0] for k in range(40)]
     points = np.array(around + [[0, 0, 1000], [0, 0, -1000]])
     faces = [[k, (k + 1) % 40, 40] for k in range(40)] + [[(k + 1) % 40, k, 41] for k in range(40)]
@@ -265,19 +269,19 @@ def needle():
 
 
 def plate():
-    """A box a hundred-thousandth as high as wide."""
+    """Return a box a hundred-thousandth as high as wide."""
     return Horror(*cube((0, 0, 0), (1, 1, 1e-5)), 1e-5)
 
 
 def fan():
-    """A thousand triangles around one edge, as pages of a book: nothing is enclosed."""
+    """Return a thousand triangles around one edge, like the pages of a book. They enclose nothing."""
     points = [[0, 0, 0], [0, 0, 1]] + [[math.cos(2 * math.pi * k / 1000), math.sin(2 * math.pi * k / 1000), 0.5]
                                      for k in range(1000)]
     return Horror(np.array(points), np.array([[0, 1, k + 2] for k in range(1000)]), encloses=False)
 
 
 def wedges_around_an_edge():
-    """Every second of 200 tets around one edge."""
+    """Return every second one of 200 tets around one edge."""
     ring = [[math.cos(math.pi * k / 100), math.sin(math.pi * k / 100), 0.5] for k in range(200)]
     faces = []
     for k in range(0, 200, 2):
@@ -298,26 +302,26 @@ def cones_tip_to_tip():
 
 
 def checkerboard():
-    """Every second cube of 4 x 4 x 4: they touch in edges and vertices."""
+    """Return every second cube of 4 x 4 x 4. The cubes touch at edges and vertices."""
     cubes = [cube((x, y, z), (x + 1, y + 1, z + 1)) for x in range(4) for y in range(4) for z in range(4)
              if (x + y + z) % 2 == 0]
     return Horror(*join(*cubes), 32.0)
 
 
 def cubes_side_by_side():
-    """3 x 3 x 3 cubes with all the walls between them, twice."""
+    """Return 3 x 3 x 3 cubes with all walls between them, each wall twice."""
     cubes = [cube((x, y, z), (x + 1, y + 1, z + 1)) for x in range(3) for y in range(3) for z in range(3)]
     return Horror(*join(*cubes), 27.0)
 
 
 def hanging_vertices():
-    """A cube whose sides are cut differently: vertices in the middle of edges."""
+    """Return a cube with one side tessellated differently, so that vertices lie in the middle of edges."""
     parts = [unwelded((cube()[0], cube()[1][:10])), sheet(7, (-1.0, -1.0), (1.0, 1.0), 1.0)]
     return Horror(*join(*parts), 8.0)
 
 
 def klein_bottle():
-    """A tube that goes through its own wall; no side of it is the outer one."""
+    """Return a tube that passes through its own wall. Neither of its sides is the outer one."""
     def place(s, t):
         u, v = 2 * math.pi * s, 2 * math.pi * t
         r = 4 * (1 - math.cos(u) / 2)
@@ -352,7 +356,8 @@ def moebius_strip():
 
 
 def roman_surface():
-    """Steiner's: three lines at which it crosses itself meet in a triple point; one-sided."""
+    """Return Steiner's Roman surface. It is one-sided, and its three lines of self-intersection meet in a triple
+    point."""
     def place(s, t):
         u, v = math.pi * s, 2 * math.pi * t
         x, y, z = math.sin(u) * math.cos(v), math.sin(u) * math.sin(v), math.cos(u)
@@ -361,7 +366,7 @@ def roman_surface():
 
 
 def knot():
-    """A trefoil whose tube is thick enough to cross itself."""
+    """Return a trefoil whose tube is thick enough to cross itself."""
     def place(s, t):
         def curve(a):
             return np.array([math.sin(a) + 2 * math.sin(2 * a), math.cos(a) - 2 * math.cos(2 * a), -math.sin(3 * a)])
@@ -375,21 +380,22 @@ def knot():
 
 
 def spiky_ball():
-    """Every vertex somewhere else along its ray or beside it: crosses itself hundreds of times."""
+    """Return a sphere whose vertices are moved at random along and across their rays. It crosses itself hundreds of
+    times."""
     points, faces = sphere(3)
     random = np.random.RandomState(9)
     return Horror(points * random.uniform(0.3, 1.2, (len(points), 1)) + random.uniform(-0.15, 0.15, points.shape), faces)
 
 
 def heap_of_triangles():
-    """300 triangles that have nothing to do with each other, around a cube."""
+    """Return 300 unrelated triangles around a cube."""
     random = np.random.RandomState(10)
     loose = random.uniform(-1.5, 1.5, (300, 1, 3)) + random.uniform(-0.3, 0.3, (300, 3, 3))
     return Horror(*join(cube(), (loose.reshape(-1, 3), np.arange(900).reshape(-1, 3))), encloses=None)
 
 
 def heap_of_cubes():
-    """40 cubes of any size and direction, some inside out."""
+    """Return 40 cubes of different size and orientation, some of them inside out."""
     random = np.random.RandomState(11)
     parts = []
     for k in range(40):
@@ -402,7 +408,7 @@ def heap_of_cubes():
 
 
 def pipe():
-    """A long tube, open at both ends."""
+    """Return a long tube, open at both ends."""
     def place(s, t):
         return 6 * (s - 0.5), math.cos(2 * math.pi * t), math.sin(2 * math.pi * t)
     mesh = wrapped_grid(31, 32, place, close_rows=False)
@@ -410,13 +416,13 @@ def pipe():
 
 
 def bowl():
-    """The lower half of a sphere."""
+    """Return the lower half of a sphere."""
     points, faces = sphere(4)
     return Horror(points, faces[points[faces][:, :, 2].mean(axis=1) < 0])
 
 
 def house():
-    """Walls and roof without thickness, no floor, a doorway and windows."""
+    """Return walls and a roof without thickness, without floor, with a doorway and windows."""
     points, faces = [], []
     walls = join(sheet(8, (-1.0, -1.0), (1.0, 1.0), 1.0))
     for turn in range(4):
@@ -435,7 +441,7 @@ def house():
 
 
 def thousand_degenerate():
-    """A sphere and triangles without area: needles between its vertices, single points."""
+    """Return a sphere and triangles without area: needles between its vertices, and single points."""
     points, faces = sphere()
     random = np.random.RandomState(12)
     flat = random.randint(0, len(points), (1000, 3))
@@ -445,7 +451,7 @@ def thousand_degenerate():
 
 
 def collinear_slivers():
-    """A cube, one side of which is 200 slivers between points on a line and a far corner."""
+    """Return a cube with one side made of 200 slivers between points on a line and a far corner."""
     points, faces = cube()
     line = np.linspace([-1, 1, 1], [-1, -1, 1], 201)[1:-1]
     ids = [6, *range(8, 8 + len(line)), 4]
@@ -469,7 +475,7 @@ def far_away():
 
 
 def two_scales():
-    """A solid and one a hundred-thousandth of its size, crossing its wall."""
+    """Return a solid and a small solid of a hundred-thousandth of its size that crosses its wall."""
     return Horror(*join(sphere(), sphere(2, 1e-5, (1.0, 0, 0))), volume(sphere()))
 
 
@@ -488,7 +494,7 @@ def wavy_sheet():
 
 
 def there_and_back():
-    """Every triangle and its reverse: winding number 0 everywhere."""
+    """Return every triangle together with its reverse, so that the winding number is 0 everywhere."""
     return Horror(*join(sphere(), flipped(sphere())), encloses=False)
 
 
@@ -510,7 +516,7 @@ def write_off(path, vertices, triangles):
 
 
 def write_all(folder):
-    """Writes NAME.off for every horror. Returns the horrors by name."""
+    """Write NAME.off for every horror. Return the horrors by name."""
     horrors = {make.__name__: make() for make in HORRORS}
     for name, horror in horrors.items():
         write_off(pathlib.Path(folder) / f"{name}.off", horror.vertices, horror.triangles)

@@ -1,4 +1,4 @@
-"""Commands that run in process groups of their own, with a time limit, and are measured."""
+"""Run commands in separate process groups, with a time limit, and measure them."""
 
 import contextlib
 import dataclasses
@@ -9,25 +9,25 @@ import subprocess
 import threading
 import time
 
-GRACE = 5  # seconds between asking a process to end and killing it
-running = set()  # process groups
-closed = threading.Event()  # no process is started any more
+GRACE = 5  # seconds between the request to end a process and killing it
+running = set()  # ids of the process groups that are running
+closed = threading.Event()  # set if no further process may start
 
 
 @dataclasses.dataclass
 class Finished:
-    """How a process ended."""
+    """Result of a process."""
 
-    exit_code: int  # negative: ended by this signal
+    exit_code: int  # negative: the signal that ended the process
     seconds: float
     user_seconds: float
-    peak_bytes: int  # of the process or its largest helper
+    peak_bytes: int  # peak memory of the process or of its largest helper
     over_limit: bool
-    message: str  # what it wrote to the standard error
+    message: str  # standard error of the process
 
 
 def stop(group, over_limit, ended):
-    """Ask a process group to end, which lets the program write its report, then kill it."""
+    """Ask a process group to end, which allows the program to write its report, then kill it."""
     over_limit.set()
     with contextlib.suppress(ProcessLookupError):
         os.killpg(group, signal.SIGTERM)
@@ -36,7 +36,7 @@ def stop(group, over_limit, ended):
 
 
 def end_all():
-    """Kill all processes and start no others: the benchmark was interrupted."""
+    """Kill all processes and prevent new ones. Called when the benchmark is interrupted."""
     closed.set()
     for group in list(running):
         with contextlib.suppress(ProcessLookupError):
@@ -44,7 +44,7 @@ def end_all():
 
 
 def run_limited(words, limit, log):
-    """Run a command in a process group of its own, for at most `limit` seconds."""
+    """Run a command in a separate process group for at most `limit` seconds."""
     if closed.is_set():
         raise InterruptedError("no process is started any more")
     over_limit, ended = threading.Event(), threading.Event()
@@ -61,7 +61,7 @@ def run_limited(words, limit, log):
     timer.cancel()
     process.returncode = os.waitstatus_to_exitcode(status)
     with contextlib.suppress(ProcessLookupError):
-        os.killpg(process.pid, signal.SIGKILL)  # helpers that were left behind
+        os.killpg(process.pid, signal.SIGKILL)  # helper processes may still be running
     running.discard(process.pid)
     message = pathlib.Path(log).read_text(encoding="utf-8", errors="replace").strip()
     return Finished(process.returncode, seconds, usage.ru_utime, 1024 * usage.ru_maxrss, over_limit.is_set(), message)

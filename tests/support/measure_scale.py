@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Seconds and memory of `bindpose` on surfaces of one and of four million triangles, closed and open.
+"""Measure seconds and memory of `bindpose` on surfaces of one and of four million triangles, closed and open.
 
-The surfaces are those of scale_surfaces.py. Each verb runs in a process of its own, on a terminal whose progress is
-read as a person sees it. The table tells seconds by the clock, peak memory of the process or its largest helper, and
-the longest time in which neither the percentage nor the name of the phase changed. --cancel N also interrupts each
-verb but view N times, spread over its run, and tells the longest time from an interrupt to the end. Fails if a verb
-fails or takes more than 12 GiB.
+The surfaces are those of scale_surfaces.py. Each verb runs in a separate process on a terminal, from which its progress
+is read. The table reports the elapsed seconds, the peak memory of the process or of its largest helper, and the longest
+time during which neither the percentage nor the name of the phase changed. --cancel N also interrupts each verb except
+view N times, spread over its run, and reports the longest time from an interrupt to the end. Fails if a verb fails or
+takes more than 12 GiB.
 
     measure_scale.py --build build                           four surfaces
-    measure_scale.py --build build --millions 1 --cancel 4   how soon the work on a million triangles can be cancelled
+    measure_scale.py --build build --millions 1 --cancel 4   how fast work on a million triangles can be canceled
 """
 
 import argparse
@@ -30,7 +30,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 SHAPES = ("closed", "open")
 VERBS = ("info", "winding", "tetrahedralize", "weights", "deform", "view")
 LIMIT = 1800.0  # seconds
-GRACE = 60.0  # seconds between an interrupt and the end by force
+GRACE = 60.0  # seconds between an interrupt and killing the process
 MOST_MEMORY = 12 << 30
 CANCELLED = 4  # exit code
 PROGRESS = re.compile(rb"([0-9]+) %  ([a-z][^\x1b\r\n]*)")
@@ -41,13 +41,13 @@ POSE = {"handles": {"p1": {"translate": [0.1, 0.0, 0.0]}}}
 
 @dataclasses.dataclass
 class Run:
-    """One process and what could be seen of it."""
+    """Measurements of one process."""
 
     exit_code: int
     seconds: float
     peak_bytes: int
-    silence: float = 0.0  # longest time without a change of the progress
-    silent: str = ""  # the phase in which that was
+    silence: float = 0.0  # longest time in seconds without a change of the progress
+    silent: str = ""  # phase of the longest silence
     interrupted: float = 0.0  # seconds from the interrupt to the end
     text: str = ""
 
@@ -63,7 +63,7 @@ class Screen:
 
     def look(self, chunk):
         self.text = (self.text + chunk)[-4000:]
-        found = PROGRESS.findall(self.text)  # a line may come in two pieces
+        found = PROGRESS.findall(self.text)  # a line may arrive in two reads
         if found and found[-1] != self.shown:
             self.change(found[-1])
 
@@ -75,7 +75,7 @@ class Screen:
 
 
 def run(words, interrupt_after=LIMIT):
-    """Run a command on a terminal; interrupt it after a time."""
+    """Run a command on a terminal, and interrupt it after a time."""
     terminal, its_end = pty.openpty()
     start = time.monotonic()
     process = subprocess.Popen(words, stdin=its_end, stdout=its_end, stderr=its_end, start_new_session=True)
@@ -86,7 +86,7 @@ def run(words, interrupt_after=LIMIT):
         if ready:
             try:
                 chunk = os.read(terminal, 65536)
-            except OSError:  # nobody writes any more
+            except OSError:  # the process has closed the terminal
                 break
             screen.look(chunk)
         now = time.monotonic()
@@ -107,7 +107,7 @@ def run(words, interrupt_after=LIMIT):
 
 
 def commands(program, surface, folder):
-    """The command of each verb."""
+    """Return the command line of each verb."""
     (folder / "tour.json").write_text(json.dumps(TOUR), encoding="utf-8")
     (folder / "pose.json").write_text(json.dumps(POSE), encoding="utf-8")
     words = {
@@ -123,7 +123,7 @@ def commands(program, surface, folder):
 
 
 def counts_of(program, surface, folder):
-    """Triangles; also writes the handles that deform moves."""
+    """Return the number of triangles. Also write the handles that deform moves."""
     done = subprocess.run([program, "info", surface, "--report", "-", "--quiet"], capture_output=True, text=True, check=True)
     subprocess.run([program, "handles", surface, "--points", "8", "-o", folder / "handles.vtp", "--overwrite", "--quiet"],
                    check=True)
@@ -131,7 +131,7 @@ def counts_of(program, surface, folder):
 
 
 def measure(options, name, surface, folder):
-    """Rows of the table for one surface."""
+    """Return the rows of the table for one surface."""
     triangles = counts_of(options.program, surface, folder)
     rows = []
     (folder / "weights.vtp").unlink(missing_ok=True)
@@ -143,7 +143,7 @@ def measure(options, name, surface, folder):
         row = {"surface": name, "triangles": triangles, "verb": verb, "s": f"{done.seconds:.1f}",
                "MiB": done.peak_bytes >> 20, "longest silence, s": f"{done.silence:.1f} ({done.silent})",
                "failed": done.exit_code != 0 or done.peak_bytes > MOST_MEMORY}
-        if options.cancel and verb != "view":  # the window does not listen to interrupts
+        if options.cancel and verb != "view":  # the window does not handle interrupts
             runs = [run(words, done.seconds * (k + 0.5) / options.cancel) for k in range(options.cancel)]
             row["longest after an interrupt, s"] = f"{max(each.interrupted for each in runs):.2f}"
             row["failed"] |= any(each.exit_code not in (0, CANCELLED) for each in runs)
@@ -177,7 +177,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         for millions in options.millions:
             folder = pathlib.Path(scratch) / str(millions)
-            # In a process of its own: the peak memory of a child includes what its parent occupied.
+            # A separate process, because the peak memory of a child includes the memory of its parent.
             subprocess.run([sys.executable, HERE / "scale_surfaces.py", folder, str(millions)], check=True)
             for shape in options.shape:
                 rows += measure(options, f"{shape}, {millions} M", folder / f"{shape}.ply", folder)

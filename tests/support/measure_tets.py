@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""How long `bindpose tetrahedralize` takes, beside TetGen alone (plain_tetgen.cpp, compiled here) in the same run.
+"""Compare the time of `bindpose tetrahedralize` with TetGen alone (plain_tetgen.cpp, compiled here).
 
-Three tables: clean closed surfaces against TetGen with the same switches, the volume against the divergence
-theorem's; unclean surfaces of about 50,000 triangles; embeddings of about 100,000; two surfaces of a million triangles. Fails where the
-program does. Seconds of Bindpose
-are of the work, as the report tells them (diagnosis, winding numbers, meshing, checks), without reading and writing;
-TetGen's are of its call. Runs of both take turns, so that a busy machine hurts both; medians are compared.
+Four tables: clean closed surfaces against TetGen with the same switches, with the volume against that of the divergence
+theorem; unclean surfaces of about 50,000 triangles; embeddings of surfaces of about 100,000 triangles; and two surfaces
+of a million triangles. Fails if the program fails.
+
+Seconds of Bindpose are those of its report (diagnosis, winding numbers, meshing, checks), without reading and writing.
+Seconds of TetGen are those of its call. Runs of the two programs alternate, so that other load on the machine affects
+them equally, and medians are compared.
 """
 
 import argparse
@@ -44,7 +46,7 @@ def bindpose(program, surface, folder, *words):
 
 
 def repeated(options, surface, folder, *words):
-    """Seconds and reports of all runs."""
+    """Return the seconds and the reports of all runs."""
     return zip(*(bindpose(options.program, surface, folder, *words) for _ in range(options.runs)))
 
 
@@ -53,7 +55,7 @@ def spread(seconds):
 
 
 def volume_bound(mesh):
-    """What interior_edge = 0.04 allows a tet: see CdtTets::volume_bound."""
+    """Return the largest volume of a tet that interior_edge = 0.04 allows; see CdtTets::volume_bound."""
     points, faces = mesh
     edges = [((points[faces[:, k]] - points[faces[:, (k + 1) % 3]])**2).sum(axis=1)**0.5 for k in range(3)]
     diagonal = ((points.max(axis=0) - points.min(axis=0))**2).sum()**0.5

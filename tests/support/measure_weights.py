@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""How long `bindpose weights` takes on surfaces: in the volume, in the embedding, and as a preview, and how far they are apart.
+"""Compare the volume, the embedding and the preview of `bindpose weights` by time and by their weights.
 
-Seconds are of the whole work as the report tells them, tets included. Differences are of the weights at the surface's
-own points, all handles, root mean square and largest. Runs of one surface take turns, so that a busy machine hurts all.
+Seconds are those of the whole work as reported, tets included. Differences are root mean square and largest, over the
+weights of all handles at the points of the surface. Runs on one surface alternate between the three, so that other load
+on the machine affects them equally.
 """
 
 import argparse
@@ -17,7 +18,7 @@ from all_surfaces import real_surfaces
 from all_weights import rows_of
 
 SURFACES = [("hand.off", 20), ("elephant.off", 8), ("elephant.off", 24), ("armadillo.off", 10), ("refined_elephant.off", 10)]
-LARGEST = 100_000_000  # bytes of a file
+LARGEST = 100_000_000  # bytes of a file; larger files are skipped
 WAYS = {"volume": ["--domain", "volume"], "embedding": ["--domain", "embedding"],
         "preview": ["--domain", "embedding", "--stage", "preview"]}
 

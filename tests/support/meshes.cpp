@@ -203,7 +203,8 @@ TetMesh tet_box(int nx, int ny, int nz, const Vec3& lower, const Vec3& upper)
         {
           continue;
         }
-        // One tet for each of the six orders in which x, y, z can be walked from corner to corner.
+        // One tet for each of the six orders of the axes along which a path leads from corner to
+        // corner.
         constexpr int orders[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 0, 2, 1 },
           { 2, 1, 0 }, { 1, 0, 2 } };
         for (int o = 0; o < 6; ++o)

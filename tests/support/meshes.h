@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_support_meshes_h
 #define bindpose_tests_support_meshes_h
 
-// Meshes whose winding numbers, volumes and weights are known, so that tests can state facts.
+// Meshes with known winding numbers, volumes and weights, on which tests can assert facts.
 
 #include "base/mesh.h"
 
@@ -10,35 +10,38 @@
 namespace bindpose::test
 {
 
-/// [lower, upper]^3, 12 triangles outwards, side k's triangles are 2k, 2k+1 in the order
-/// -x +x -y +y -z +z.
+/// Return [lower, upper]^3 as 12 triangles, oriented outwards. The triangles of side k are 2k and
+/// 2k + 1, in the order -x +x -y +y -z +z.
 TriangleMesh cube(double lower = -1.0, double upper = 1.0);
-/// An axis-aligned box of 12 triangles.
+/// Return an axis-aligned box of 12 triangles.
 TriangleMesh box(const Vec3& lower, const Vec3& upper);
-/// The cube without its +z side.
+/// Return the cube without its +z side.
 TriangleMesh open_cube(double lower = -1.0, double upper = 1.0);
-/// Subdivided icosahedron: 20 * 4^levels triangles on the unit sphere, outwards.
+/// Return a subdivided icosahedron of 20 * 4^levels triangles on a sphere, oriented outwards.
 TriangleMesh sphere(int levels, double radius = 1.0, const Vec3& center = Vec3::Zero());
-/// around * across * 2 triangles, axis z.
+/// Return a torus of around * across * 2 triangles around the z axis.
 TriangleMesh torus(int around, int across, double radius, double tube);
-/// nx * ny squares on [0, sx] x [0, sy], z = 0, each cut along the same diagonal, upwards.
+/// Return nx * ny squares on [0, sx] x [0, sy], z = 0, oriented upwards, all cut along the same
+/// diagonal.
 TriangleMesh grid(int nx, int ny, double sx = 1.0, double sy = 1.0);
-/// Both meshes side by side, the second's ids shifted.
+/// Combine two meshes; the vertex ids of the second one are shifted.
 TriangleMesh join(const TriangleMesh& a, const TriangleMesh& b);
 TriangleMesh translated(TriangleMesh mesh, const Vec3& by);
-/// All triangles turned inside out.
+/// Reverse the orientation of all triangles.
 TriangleMesh flipped(TriangleMesh mesh);
-/// Every triangle with corners of its own, as in an STL file.
+/// Give each triangle its own corners, as in an STL file.
 TriangleMesh unwelded(const TriangleMesh& mesh);
 
-/// A box of nx * ny * nz cells of six tets each (Kuhn's subdivision), all positive.
+/// Return a box of nx * ny * nz cells of six tets each (Kuhn's subdivision), all of positive
+/// volume.
 TetMesh tet_box(
   int nx, int ny, int nz, const Vec3& lower = Vec3::Zero(), const Vec3& upper = Vec3::Ones());
 
-/// Vertices - edges + facets - tets: 1 for a ball, 0 for a solid torus, 2 for a shell.
+/// Return vertices - edges + facets - tets: 1 for a ball, 0 for a solid torus, 2 for a shell.
 Index euler_characteristic(const TetMesh& mesh);
 
-/// Deterministic numbers in [0, 1): the same on every machine, unlike std's distributions.
+/// Deterministic random numbers in [0, 1). They are the same on every machine, unlike those of the
+/// distributions in std.
 class Random
 {
 public:

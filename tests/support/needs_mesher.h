@@ -8,7 +8,7 @@
 namespace bindpose::test
 {
 
-/// Tests of what the helper executable does: skipped where it is not built.
+/// Fixture of tests that run the helper executable. They are skipped if it is not built.
 class NeedsMesher : public testing::Test
 {
 protected:

@@ -1,5 +1,5 @@
-// TetGen and nothing else, for measure_tets.py: plain_tetgen SURFACE.off SWITCHES prints the
-// seconds of the call, the number of tets and their volume. Built by the script, not by CMake.
+// TetGen alone, for measure_tets.py. `plain_tetgen SURFACE.off SWITCHES` prints the seconds of the
+// call, the number of tets and their volume. The script builds this program, not CMake.
 #include <tetgen.h>
 
 #include <chrono>
@@ -54,5 +54,5 @@ int main(int argc, char* argv[])
   }
   std::printf("seconds %.6f tets %d volume %.17g\n", taken.count(), out.numberoftetrahedra, volume);
   std::fflush(stdout);
-  std::_Exit(0); // TetGen's destructors are not to be relied on
+  std::_Exit(0); // TetGen's destructors are not reliable
 }

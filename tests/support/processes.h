@@ -21,8 +21,8 @@ inline std::size_t open_descriptors()
   return static_cast<std::size_t>(std::distance(begin(files), end(files)));
 }
 
-/// Nothing of it runs any more: there is no such process, or it is dead and not yet reaped by the
-/// one that it was handed to.
+/// Report whether a process has ended: it does not exist, or it is dead and its parent has not
+/// reaped it yet.
 inline bool gone(pid_t process)
 {
   if (::kill(process, 0) != 0)
@@ -35,7 +35,7 @@ inline bool gone(pid_t process)
   return state.empty() || state == "Z" || state == "X";
 }
 
-/// Waits until it holds, 5 s at most.
+/// Wait until the condition holds, for at most 5 s. Return whether it holds.
 inline bool soon(const std::function<bool()>& holds)
 {
   for (int i = 0; i < 500 && !holds(); ++i)

@@ -1,7 +1,7 @@
-"""Independent checks of what `bindpose weights` and `bindpose tetrahedralize` write for an .obj model.
+"""Independent checks of the results of `bindpose weights` and `bindpose tetrahedralize` for an .obj model.
 
-Nothing here uses Bindpose's own code: files are read by VTK or by a parser of ours, and computed on with numpy.
-Each check returns a dict of measured numbers whose entry "wrong" lists what is broken, in words.
+No check uses code of Bindpose: VTK or a parser of this file reads the results, and numpy computes with them. Each check
+returns a dict of measured numbers. Its entry "wrong" lists the failures as sentences.
 """
 
 import math
@@ -14,20 +14,20 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 
 from separate_parts import largest_leak, weld
 
-CERTIFICATE = 1e-6  # relative gap and residual that make a column certified
+CERTIFICATE = 1e-6  # a column is certified if its relative gap and residual are at most this large
 ROW_SUM = 1e-9
-SAMPLES = 1_000_000  # points at which a refusal's winding number is sampled
-LOOKED_AT = 2000  # of the samples inside
-SPECK = 1e-5  # of the bounding box: a volume this small need not be found
+SAMPLES = 1_000_000  # sample points at which the winding number of a refused model is evaluated
+LOOKED_AT = 2000  # number of samples inside that are examined more closely
+SPECK = 1e-5  # fraction of the bounding box: a smaller volume may be missed
 EDGES = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
-THIN = 5.0  # degrees
+THIN = 5.0  # degrees: a dihedral angle below this is thin
 
 
 # ---- Models ----------------------------------------------------------------------------------------
 
 
 def read_obj(path):
-    """Points (#V x 3) and triangles (#F x 3, fans of the faces) of an .obj file."""
+    """Return the points (#V x 3) and triangles (#F x 3, fans of the faces) of an .obj file."""
     points, triangles = [], []
     with open(path, encoding="utf-8", errors="replace") as file:
         for line in file:
@@ -47,13 +47,13 @@ def areas(points, triangles):
 
 
 def is_flat(points):
-    """True if all points lie in one plane, within 1e-12 of their size."""
+    """Return True if all points lie in one plane, within 1e-12 of their extent."""
     spread = np.linalg.svd(points - points.mean(axis=0), full_matrices=False, compute_uv=False)
     return spread[-1] <= 1e-12 * spread[0]
 
 
 def model_facts(path, handles):
-    """Why nothing can be bound to the model, or filled: one entry each, empty if it can."""
+    """Return facts about the model that justify a refusal to bind or to fill it."""
     points, triangles = read_obj(path)
     used = np.unique(points[np.unique(triangles)], axis=0) if len(triangles) else np.empty((0, 3))
     has_area = len(triangles) > 0 and areas(points, triangles).max() > 0
@@ -65,7 +65,7 @@ def model_facts(path, handles):
 
 
 def read_weights(path):
-    """Points (#V x 3), triangles (#F x 3) and weights (#V x #H) of a .vtp file."""
+    """Return the points (#V x 3), triangles (#F x 3) and weights (#V x #H) of a .vtp file."""
     reader, to_triangles = vtk.vtkXMLPolyDataReader(), vtk.vtkTriangleFilter()
     reader.SetFileName(str(path))
     to_triangles.SetInputConnection(reader.GetOutputPort())
@@ -114,7 +114,7 @@ def check_weights(path, report, handles):
 
 
 def read_tets(path):
-    """Points and tets of a .vtu file."""
+    """Return the points and tets of a .vtu file."""
     reader = vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(path))
     reader.Update()
@@ -126,7 +126,7 @@ def read_tets(path):
 
 
 def write_tets(path, points, tets):
-    """Write a .vtu file of tets and their points."""
+    """Write tets and the points that they use to a .vtu file."""
     used, ids = np.unique(np.asarray(tets, np.int64), return_inverse=True)
     grid, holder, cells = vtk.vtkUnstructuredGrid(), vtk.vtkPoints(), vtk.vtkCellArray()
     holder.SetData(numpy_to_vtk(np.ascontiguousarray(points[used]), deep=True))
@@ -146,7 +146,7 @@ def volumes(points, tets):
 
 
 def smallest_dihedral_angles(points, tets):
-    """Degrees, one per tet."""
+    """Return the smallest dihedral angle of each tet in degrees."""
     corners = points[tets]
     smallest = np.full(len(tets), 180.0)
     for a, b in EDGES:
@@ -179,7 +179,7 @@ def check_tets(path, report):
 
 
 def sample_points(points, count):
-    """A low-discrepancy sequence that fills the bounding box of the points."""
+    """Return a low-discrepancy sequence that fills the bounding box of the points."""
     lower, size = points.min(axis=0), np.ptp(points, axis=0)
     step = np.array([0.8191725133961645, 0.6710436067037893, 0.5497004779019703])
     return lower + size * np.modf(0.31 + np.arange(1, count + 1)[:, None] * step)[0]
@@ -201,10 +201,11 @@ def write_points(path, points):
 
 
 def enclosed_fraction(program, model, folder):
-    """Fraction of the bounding box where the winding number is 0.5 or more, either way.
+    """Return the fraction of the bounding box where the winding number is at least 0.5, or at most -0.5 if that is
+    more.
 
-    0 of loose triangles (9 of 10 edges are of one triangle only) that enclose specks alone: not even half of the places
-    in them that are looked at have such places on all sides, 1/1000 of the diagonal away.
+    The result is 0 for loose triangles (nine of ten edges belong to one triangle only) that enclose only specks: fewer
+    than half of the examined points inside have such points on all sides, 1/1000 of the diagonal away.
     """
     points, triangles = read_obj(model)
     surface = points[np.unique(triangles)]
@@ -222,7 +223,7 @@ def enclosed_fraction(program, model, folder):
 
 
 def are_loose(points, triangles):
-    """True if nine of ten edges are those of one triangle only."""
+    """Return True if at least nine of ten edges belong to one triangle only."""
     _, joined, _ = weld(points, triangles)
     edges = np.sort(np.vstack([joined[:, [0, 1]], joined[:, [1, 2]], joined[:, [2, 0]]]), axis=1)
     _, count = np.unique(edges, axis=0, return_counts=True)
@@ -230,7 +231,7 @@ def are_loose(points, triangles):
 
 
 def winding_at(program, model, places, folder):
-    """Winding numbers of a model, its patches turned to agree, at some places."""
+    """Return the winding numbers of a model at some points, after its patches are oriented consistently."""
     write_points(folder / "samples.vtp", places)
     subprocess.run([program, "winding", model, "--points", folder / "samples.vtp", "--orient-patches",
                     "-o", folder / "winding.vtp", "--overwrite", "--quiet"], check=True, timeout=600)
@@ -241,7 +242,7 @@ def winding_at(program, model, places, folder):
 
 
 def check_refusal(verb, program, model, message, handles):
-    """Whether a refusal is true: is there really nothing to bind, or to fill?"""
+    """Check that a refusal is justified: the model has nothing to bind or to fill."""
     if not message or "\n" in message:
         return {"wrong": ["a refusal must be one line"]}
     facts = model_facts(model, handles)

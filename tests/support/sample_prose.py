@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Draw comments, messages and identifiers of the project at random, for a reader who has not seen the code and counts
-what needs a second reading.
+"""Draw comments, messages and identifiers of the project at random. A reader who has not seen the code counts the
+samples that need a second reading.
 
-The same seed draws the same samples from the same sources. A comment sample is a whole comment, since a single line of
-one cannot be judged. Use three seeds.
+The same seed draws the same samples from the same sources. A sample is always a whole comment, because a single line of
+a comment cannot be judged. Use three seeds.
 
 usage: sample_prose.py [--seed N] [--comments 100] [--messages 20] [--identifiers 20]
 """
@@ -16,7 +16,7 @@ import re
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("filters", "viewer", "python", "tests", "examples")
 CPP = {".h", ".cpp", ".cxx"}
-LONGEST = 12  # lines of a comment that is shown whole
+LONGEST = 12  # lines: a longer comment is shortened
 WORD = re.compile(r"[A-Za-z]{2,}")
 STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 DECLARED = re.compile(r"\b(?:class|struct|enum class|enum)\s+([A-Za-z_]\w+)|"
@@ -30,7 +30,7 @@ def sources():
 
 
 def comments_of(path, lines):
-    """Yield each comment that says something: its first line number and its text."""
+    """Yield the line number and the text of each comment."""
     mark = r"\s*#(?!!)" if path.suffix == ".py" else r"\s*///?<?"
     block, start = [], 0
     for number, line in enumerate([*lines, ""], 1):
@@ -52,7 +52,7 @@ def is_prose(text):
 
 
 def messages_of(path, text):
-    """Yield string literals that are sentences, neighbors joined, outside of tests."""
+    """Yield string literals that are sentences, outside of tests. Adjacent literals are joined."""
     if path.parts[len(ROOT.parts)] == "tests":
         return
     joined = re.sub(r'"\s*\n\s*"', "", text)

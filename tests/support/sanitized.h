@@ -4,7 +4,7 @@
 namespace bindpose::test
 {
 
-/// True in a build with sanitizers, where everything takes several times longer.
+/// True in a build with sanitizers, which slow everything down several times.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool sanitized = true;
 #else

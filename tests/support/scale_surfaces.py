@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Surfaces of one and of four million triangles, closed and open.
+"""Write surfaces of one and of four million triangles, closed and open.
 
-`scale_surfaces.py FOLDER MILLIONS` writes closed.ply and open.ply: a camel of the Debian package libcgal-demo, thinned
-to 15,625 triangles, then subdivided (Loop) three times for one million, four times for four. The open one lacks the
-triangles in forty balls. Used by measure_scale.py.
+`scale_surfaces.py FOLDER MILLIONS` writes closed.ply and open.ply: a camel of the Debian package libcgal-demo,
+decimated to 15,625 triangles, then subdivided (Loop) three times for one million triangles or four times for four
+million. The open surface lacks the triangles inside forty balls. Used by measure_scale.py.
 """
 
 import pathlib
@@ -18,9 +18,9 @@ from all_surfaces import ARCHIVE, read_off
 
 SOURCE = "camel.off"
 BASE = 15_625  # triangles
-LEVELS = {1: 3, 4: 4}  # subdivisions, by millions of triangles
+LEVELS = {1: 3, 4: 4}  # number of subdivisions by millions of triangles
 BALLS = 40
-BALL_RADIUS = 0.012  # of the diagonal
+BALL_RADIUS = 0.012  # in bounding-box diagonals
 SEED = 27
 
 
@@ -46,7 +46,7 @@ def through(data, step):
 
 
 def camel(folder, levels):
-    """A closed camel of BASE * 4^levels triangles."""
+    """Return a closed camel of BASE * 4^levels triangles."""
     with tarfile.open(ARCHIVE) as archive:
         member = next(name for name in archive.getnames() if name.endswith("/" + SOURCE))
         (folder / SOURCE).write_bytes(archive.extractfile(member).read())
@@ -59,7 +59,7 @@ def camel(folder, levels):
 
 
 def with_holes(points, triangles):
-    """Without the triangles whose centers lie in one of BALLS balls around points of the surface."""
+    """Remove the triangles whose centers lie in one of BALLS balls around points of the surface."""
     radius = BALL_RADIUS * np.linalg.norm(points.max(axis=0) - points.min(axis=0))
     centers = points[triangles].mean(axis=1)
     keep = np.ones(len(triangles), bool)

@@ -1,9 +1,9 @@
-"""Parts of a surface that are separate from each other, and how far weights of one part leak into another.
+"""Find the separate parts of a surface, and measure how much the weights of one part leak into another.
 
-Components that share no vertex still belong together if they touch, cross, or lie inside each other. Components count
-as touching if points of them share a cube of a grid: surely if they are nearer than 1/500 of the bounding-box
-diagonal, and not if they are farther apart than 1/144 of it. Open components also belong together if the inside leads
-from one to the other, as from a bottle's open neck into its cap: if all of a straight line between them is inside.
+Components that share no vertex still belong together if they touch, cross, or contain each other. Two components touch
+if points of them share a cube of a grid. They do if they are nearer than 1/500 of the bounding-box diagonal, and they
+do not if they are farther apart than 1/144 of it. Open components also belong together if the inside connects them,
+such as a bottle's open neck and its cap: a straight line between them is completely inside.
 """
 
 import numpy as np
@@ -12,9 +12,9 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 
 from weights_accuracy import LEAK
 
-NEAR = 1 / 500  # of the diagonal: spacing of the points on the surface, half an edge of the cubes
+NEAR = 1 / 500  # in bounding-box diagonals: spacing of the sample points on the surface, half an edge of the cubes
 MOST_SAMPLES = 2_000_000
-LINES = 300  # straight lines that are tried from one part to another
+LINES = 300  # straight lines that are tested from one part to another
 SEED = 11
 
 
@@ -22,7 +22,8 @@ SEED = 11
 
 
 def weld(points, triangles):
-    """Give points of equal coordinates one id. Returns points, triangles with an area, and the new id of each point."""
+    """Merge points of equal coordinates. Return the points, the triangles with an area, and the new id of each
+    point."""
     welded, ids = np.unique(points, axis=0, return_inverse=True)
     ids = ids.reshape(-1)
     joined = ids[triangles].reshape(-1, 3)
@@ -41,7 +42,7 @@ def poly_data(points, triangles):
 
 
 def components(points, triangles):
-    """The component of each triangle, by shared vertices: 0, 1, …"""
+    """Return the component (0, 1, …) of each triangle; triangles with a common vertex are in one component."""
     connectivity = vtk.vtkConnectivityFilter()
     connectivity.SetInputData(poly_data(points, triangles))
     connectivity.SetExtractionModeToAllRegions()
@@ -51,7 +52,7 @@ def components(points, triangles):
 
 
 class Groups:
-    """Sets of components that are joined one by one."""
+    """Disjoint sets of components (union-find)."""
 
     def __init__(self, count):
         self.parent = list(range(count))
@@ -69,11 +70,12 @@ class Groups:
         return np.array([self.find(k) for k in range(len(self.parent))])
 
 
-# ---- Which components touch ------------------------------------------------------------------------
+# ---- Components in contact -------------------------------------------------------------------------
 
 
 def turned(corners):
-    """The same triangles, with the longest edge first. Also the lengths of these edges and the heights above them."""
+    """Rotate the corners of each triangle so that its longest edge is the first one. Also return the lengths of these
+    edges and the heights above them."""
     edges = np.stack([corners[:, (k + 1) % 3] - corners[:, k] for k in range(3)], axis=1)
     lengths = np.linalg.norm(edges, axis=2)
     first = lengths.argmax(axis=1)
@@ -85,8 +87,8 @@ def turned(corners):
 
 
 def sample_triangles(points, triangles, spacing):
-    """Points on the triangles, their corners among them, not farther than `spacing` from each other, and the triangle
-    of each point."""
+    """Sample the triangles, corners included, with points at most `spacing` apart. Also return the triangle of each
+    point."""
     corners, longest, height = turned(points[triangles])
     along, up = np.ceil(longest / spacing).astype(int) + 1, np.ceil(height / spacing).astype(int) + 1
     found, owners = [], []
@@ -101,7 +103,7 @@ def sample_triangles(points, triangles, spacing):
 
 
 def spacing_of(points, triangles):
-    """NEAR of the diagonal, more where that would be too many points."""
+    """Return NEAR times the diagonal, or a larger spacing if that gives too many points."""
     size = np.linalg.norm(np.ptp(points, axis=0))
     _, longest, height = turned(points[triangles])
     spacing = NEAR * size
@@ -111,7 +113,7 @@ def spacing_of(points, triangles):
 
 
 def touching_pairs(points, triangles, component):
-    """Pairs of components that have points in the same cube of one of eight shifted grids."""
+    """Return the pairs of components that have points in the same cube of one of eight shifted grids."""
     spacing = spacing_of(points, triangles)
     places, owners = sample_triangles(points, triangles, spacing)
     owner = component[owners]
@@ -131,7 +133,7 @@ def touching_pairs(points, triangles, component):
 
 
 def winding_numbers(queries, points, triangles):
-    """Of all triangles around each query."""
+    """Return the winding number of all triangles around each query."""
     corners = [points[triangles[:, k]] for k in range(3)]
     found = np.empty(len(queries))
     for number, query in enumerate(queries):
@@ -145,7 +147,7 @@ def winding_numbers(queries, points, triangles):
 
 
 def inside_pairs(points, triangles, component, groups):
-    """Pairs of components, the first of which has a vertex inside the second; only of groups that are still apart."""
+    """Return the pairs of components in different groups of which the first has a vertex inside the second."""
     order = np.argsort(component, kind="stable")
     parts = np.split(triangles[order], np.cumsum(np.bincount(component))[:-1])
     lower = np.array([points[part.ravel()].min(axis=0) for part in parts])
@@ -160,10 +162,10 @@ def inside_pairs(points, triangles, component, groups):
 
 
 def inside_leads(first, second, points, triangles):
-    """True if all of some straight line between two sets of points is inside.
+    """Return True if a straight line between two sets of points is completely inside.
 
-    Half of the lines lead to the nearest point, half to any. A line is looked at in steps that are too short to miss
-    the gap between the sets.
+    Half of the lines end at the nearest point of the second set, the other half at a random one. The steps along a line
+    are short enough to detect the gap between the sets.
     """
     random = np.random.RandomState(SEED)
     starts, ends = (side[random.randint(len(side), size=LINES)] for side in (first, second))
@@ -182,8 +184,8 @@ def inside_leads(first, second, points, triangles):
 
 
 def separate_parts(points, triangles):
-    """The part of each point, -1 for points without a triangle: components that touch, cross or lie inside each other
-    are one part."""
+    """Return the part of each point, -1 for points without a triangle. Components that touch, cross or contain each
+    other are one part."""
     welded, joined, ids = weld(points, triangles)
     if len(joined) == 0:
         return np.full(len(points), -1)
@@ -203,11 +205,12 @@ def separate_parts(points, triangles):
 
 
 def farthest_points(points, triangles, count):
-    """Ids of vertices spread as `--handles auto:N` spreads them: the one farthest from the mean, then each time the one
-    farthest from all before it."""
+    """Return the ids of vertices in the order of `--handles auto:N`: the vertex farthest from the mean, then repeatedly
+    the vertex farthest from all previous ones."""
     used = np.unique(triangles)
     vertices = points[used]
-    mean = np.cumsum(vertices / len(vertices), axis=0)[-1]  # summed in this order: of equal distances the same is first
+    # This order of summation makes ties between distances deterministic.
+    mean = np.cumsum(vertices / len(vertices), axis=0)[-1]
     chosen = [int(((vertices - mean) ** 2).sum(axis=1).argmax())]
     distance = np.full(len(vertices), np.inf)
     while len(chosen) < count:
@@ -217,9 +220,9 @@ def farthest_points(points, triangles, count):
 
 
 def largest_leak(points, triangles, weights):
-    """The largest weight, on one part, of a handle that lies on another, over parts with handles of their own.
+    """Return the largest weight on one part of a handle on another part, over all parts that have handles.
 
-    None if fewer than two parts have handles, or if handles are not where they are expected.
+    None if fewer than two parts have handles, or if the handles are not at the expected vertices.
     """
     handles = farthest_points(points, triangles, weights.shape[1])
     if not all(weights[vertex, k] > 0.99 for k, vertex in enumerate(handles)):

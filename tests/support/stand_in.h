@@ -11,7 +11,8 @@
 namespace bindpose::test
 {
 
-/// For the life of a test, a shell script is the program that an environment variable names.
+/// Replaces the program that an environment variable names by a shell script, for the lifetime of
+/// the object.
 class StandIn
 {
 public:
@@ -22,7 +23,7 @@ public:
     ::chmod(this->path_.c_str(), 0755);
   }
 
-  /// The script lies in it, and may write there.
+  /// The folder of the script. The script may write into it.
   const Folder& folder() const { return this->folder_; }
 
 private:

@@ -16,7 +16,8 @@
 namespace bindpose::test
 {
 
-/// A stand-in that at its end sees that nothing of those who ran it is left behind.
+/// A stand-in whose destructor expects that its callers have left no open descriptor and no
+/// temporary file.
 class WatchedStandIn : public StandIn
 {
 public:
@@ -31,9 +32,9 @@ public:
     EXPECT_EQ(this->temporary_.number_of_files(), 0u) << "a temporary file was left";
   }
 
-  /// The process id that the script wrote into the file "pid" beside it.
+  /// Return the process id that the script wrote into the file "pid" in its folder.
   pid_t process() const { return std::atoi(this->folder().read("pid").c_str()); }
-  /// Where temporary files are made.
+  /// The folder for temporary files.
   const Folder& temporary() const { return this->temporary_; }
 
 private:

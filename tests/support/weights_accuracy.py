@@ -1,13 +1,15 @@
-"""How far the default weights of real models are from weights solved on well-shaped tets that conform to the surface.
+"""Compare the default weights of real models with weights solved on well-shaped tets that conform to the surface.
 
-The reference: tets by `bindpose tetrahedralize --method remesh`, weights solved on them for the same handles, carried
-to the surface's vertices by code of our own. It is compared with a coarse reference, from whose tets those that bridge
-gaps are taken out: what differs there is not known well enough to measure anything by it. Models are drawn in a seeded
-order until enough are measured. A model is left out if its reference tets have angles below GOOD_ANGLE, if they leave
-out a part of the surface (remesh has no tets for open sheets), if they have fewer connected parts than those of the
-default, or if the two references differ by more than AGREE.
+The reference weights are solved for the same handles on tets of `bindpose tetrahedralize --method remesh`, and
+interpolated at the surface's vertices by this script's own code. The reference is also compared with a coarse
+reference, from whose tets those that bridge gaps are removed. Where the two references differ, they are not accurate
+enough to measure with. Models are drawn in a seeded order until enough are measured. A model is skipped
+- if its reference tets have angles below GOOD_ANGLE;
+- if they miss a part of the surface (remesh has no tets for open sheets);
+- if they and the default tets have different numbers of connected parts;
+- if the two references differ by more than AGREE.
 
-Part of real_meshes.py, which runs these functions. VTK and numpy are used in accuracy_checks.py only.
+Part of real_meshes.py, which calls these functions. Only accuracy_checks.py uses VTK and numpy.
 """
 
 import concurrent.futures
@@ -20,19 +22,19 @@ from limited_process import run_limited
 
 SEED = 15
 GOOD_ANGLE = 10.0  # degrees: smallest dihedral angle of a reference; remesh aims at 12
-CUBES = 40  # along the longest side, for the reference
+CUBES = 40  # along the longest side of the bounding box, for the reference
 COARSE_CUBES = 27
-AGREE = 0.01  # rms
-COVERED = 0.99  # of the vertices must be near the tets
+AGREE = 0.01  # largest rms difference between the two references
+COVERED = 0.99  # fraction of the vertices that must be near the reference tets
 RMS = 0.015
 LEAK = 0.01  # a larger weight on a separate part is a leak
 COLUMNS = ["triangles", "domain", "tets", "angle", "reference tets", "references", "rms", "largest", "warned", "leak",
            "s", "reference s"]
-WARNING = "are not resolved"  # that two lattices differ
+WARNING = "are not resolved"  # part of the warning that the weights of two lattices differ
 
 
 def run(options, verb, words, folder):
-    """Run a verb with a report. Returns the report, or a sentence."""
+    """Run a verb. Return its report, or a sentence if it failed."""
     report = folder / "accuracy.json"
     report.unlink(missing_ok=True)
     done = run_limited([options.program, verb, *words, "--report", report, "--overwrite", "--quiet",
@@ -50,7 +52,8 @@ def remesh(options, path, folder, name, cubes):
 
 
 def prepare(options, check, path, folder, handles):
-    """Write handles and reference tets of one model. Returns their quality, or a sentence that says why not."""
+    """Write the handles and reference tets of one model. Return the quality of the tets, or the reason to skip the
+    model."""
     if not check("write_handles", path, folder / "handles.tgf", handles):
         return "fewer vertices than handles"
     report = remesh(options, path, folder, "reference", CUBES)
@@ -65,7 +68,8 @@ def prepare(options, check, path, folder, handles):
 
 
 def compare(options, check, path, folder, quality):
-    """Both weights of one model, and their difference. Returns columns of the table, or a sentence."""
+    """Solve the default and the reference weights of one model and compare them. Return columns of the table, or a
+    sentence."""
     handles = ["--handles", folder / "handles.tgf"]
     ours = run(options, "weights", [path, *handles, "-o", folder / "default.vtp"], folder)
     if isinstance(ours, str):
@@ -93,7 +97,7 @@ def compare(options, check, path, folder, quality):
 
 
 def measure(options, check, model, handles):
-    """The row of one model; "skipped" says why it is left out, or is empty."""
+    """Return the table row of one model. "skipped" is the reason to skip it, or empty."""
     with tempfile.TemporaryDirectory(prefix="weights_accuracy_") as folder:
         folder = pathlib.Path(folder)
         path = model.copy_to(folder)
@@ -110,7 +114,8 @@ def differences(row):
 
 
 def accuracy(options, check, models, handles):
-    """Rows of models in a seeded order, until as many are measured as wanted; the same for any number of jobs."""
+    """Return rows of models in a seeded order until enough are measured. The result is the same for any number of
+    jobs."""
     order = random.Random(SEED).sample(models, len(models))
     rows, measured = [], 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as threads:
@@ -126,7 +131,7 @@ def accuracy(options, check, models, handles):
 
 
 def numbers(rows):
-    """Numbers of the summary, by the names that --check knows."""
+    """Return the numbers of the summary under the names that --check uses."""
     measured = [row for row in rows if not row["skipped"]]
     rms = sorted(row["rms"] for row in measured)
     unwarned = [row["rms"] for row in measured if not row["warned"]]

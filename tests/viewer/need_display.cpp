@@ -1,4 +1,5 @@
-// Tests that draw fail without a display: they do not skip, and VTK must not end the process.
+// Tests that draw fail without a display instead of being skipped, and VTK must not terminate the
+// process.
 #include "scene/display.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_core_automatic_blocks_h
 #define bindpose_tests_core_automatic_blocks_h
 
-// Shapes with known limbs: unit cubes put together, their outer sides as a clean surface.
+// Shapes with known limbs: the outer boundary of a union of unit cubes, as a clean surface.
 
 #include "base/mesh.h"
 
@@ -15,8 +15,9 @@ namespace bindpose::test
 
 using Block = std::array<int, 3>;
 
-/// The boundary of the cubes [i, i+1] x [j, j+1] x [k, k+1], 2 triangles a side, outwards. Clean
-/// when cubes that meet in an edge share a neighbour.
+/// Return the boundary of the cubes [i, i+1] x [j, j+1] x [k, k+1], with two triangles per side,
+/// oriented outwards. The surface is clean if any two cubes that share only an edge have a common
+/// neighbor.
 inline TriangleMesh blocks(const std::set<Block>& cubes)
 {
   std::map<Block, Index> ids;
@@ -66,7 +67,7 @@ inline TriangleMesh blocks(const std::set<Block>& cubes)
   return mesh;
 }
 
-/// Arms of `length` cubes along the given directions from the cube at the origin.
+/// Return arms of `length` cubes from the cube at the origin along the given directions.
 inline TriangleMesh star(const std::vector<Block>& directions, int length)
 {
   std::set<Block> cubes{ { 0, 0, 0 } };

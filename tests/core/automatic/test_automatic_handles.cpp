@@ -1,4 +1,4 @@
-// From a shape to handles that weights take.
+// Automatic handles of a shape, ready for binding.
 #include "automatic/automatic_handles.h"
 
 #include "core/automatic/blocks.h"
@@ -34,7 +34,7 @@ double number(const Status& status, const char* key)
   return status.report.number(key, -1.0);
 }
 
-/// The same surface, stored in another order.
+/// Return the same surface with its vertices and triangles in another order.
 TriangleMesh shuffled(const TriangleMesh& mesh)
 {
   test::Random random(11);
@@ -105,7 +105,7 @@ TEST_F(AutomaticHandles, JunctionsHaveTheDegreeOfTheShape)
     EXPECT_EQ(number(status, "counts.joints_outside"), 0.0);
     for (const Handle& bone : handles)
     {
-      // All begin in the cube in the middle, and end near the arms' ends.
+      // All bones begin in the cube in the middle and end near the ends of the arms.
       EXPECT_LT((bone.head - Vec3(0.5, 0.5, 0.5)).norm(), 0.5) << bone.name;
       EXPECT_EQ(bone.parent, &bone == &handles[0] ? -1 : 0);
       EXPECT_NEAR((bone.tail - Vec3(0.5, 0.5, 0.5)).norm(), 4.0, 0.3) << bone.name;

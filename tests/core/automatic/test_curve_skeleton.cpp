@@ -1,4 +1,4 @@
-// Curve skeletons by the helper: in the middle of shapes whose middle is known.
+// Curve skeletons computed by the helper program, on shapes with known medial axes.
 #include "automatic/curve_skeleton.h"
 
 #include "core/automatic/blocks.h"
@@ -59,7 +59,7 @@ TriangleMesh bar(int length)
   return test::star({ { 1, 0, 0 } }, length - 1);
 }
 
-/// Segments - points + components.
+/// Return the number of independent cycles: segments - points + components.
 Index cycles(const CurveSkeleton& skeleton)
 {
   return skeleton.segments.rows() - skeleton.points.rows() +
@@ -71,8 +71,8 @@ TEST_F(CurveSkeletonTest, OfABarIsItsAxis)
 {
   const CurveSkeleton skeleton = run(bar(8));
   const std::vector<Index> degree = degrees(skeleton);
-  // One path. In a build with sanitizers round-off leaves spurs of a segment, which lie on the
-  // axis, too.
+  // The skeleton is a single path. In a build with sanitizers, round-off leaves short branches of
+  // one segment, which are also on the axis.
   const auto inner = std::count(degree.begin(), degree.end(), 2);
   const std::ptrdiff_t spurs = test::sanitized ? 2 : 0;
   EXPECT_GE(inner, static_cast<std::ptrdiff_t>(degree.size()) - 2 - 2 * spurs);
@@ -88,7 +88,7 @@ TEST_F(CurveSkeletonTest, OfABarIsItsAxis)
     EXPECT_NEAR(skeleton.points(v, 2), 0.5, 0.03);
     EXPECT_NEAR(skeleton.radii[v], 0.5, 0.05);
   }
-  // To about half a thickness of the ends.
+  // The skeleton ends about half a thickness before the ends of the bar.
   EXPECT_LT(skeleton.points.col(0).minCoeff(), 0.7);
   EXPECT_GT(skeleton.points.col(0).maxCoeff(), 7.3);
   ASSERT_EQ(skeleton.centroids.size(), 1u);
@@ -111,9 +111,9 @@ TEST_F(CurveSkeletonTest, OfCrossingBarsIsThatOfTheirUnion)
   TriangleMesh second = bar(9);
   second.points = second.points.rowwise() - Eigen::RowVector3d(4.0, 0.0, 0.0);
   second.points.col(0).swap(second.points.col(1));
-  second.triangles.col(0).swap(second.triangles.col(1)); // a mirror image turns them inside out
+  second.triangles.col(0).swap(second.triangles.col(1)); // mirroring reverses the orientation
   second.points.col(0).array() += 4.07;
-  second.points.col(2).array() += 0.03; // nothing coplanar
+  second.points.col(2).array() += 0.03; // avoids coplanar triangles
   const CurveSkeleton skeleton = run(test::join(bar(9), second), "lattice");
   EXPECT_EQ(skeleton.centroids.size(), 1u);
   EXPECT_EQ(cycles(skeleton), 0);
@@ -123,7 +123,7 @@ TEST_F(CurveSkeletonTest, OfCrossingBarsIsThatOfTheirUnion)
 
 TEST_F(CurveSkeletonTest, OfAnOpenBarIsNearItsAxis)
 {
-  // Without one of its ends.
+  // One end of the bar is removed.
   TriangleMesh open = bar(8);
   Triangles kept(0, 3);
   for (Index f = 0; f < open.triangles.rows(); ++f)
@@ -150,12 +150,12 @@ TEST_F(CurveSkeletonTest, OfAnOpenBarIsNearItsAxis)
 
 TEST_F(CurveSkeletonTest, OfAFlatSheetIsItsMedialAxis)
 {
-  // A strip of 8 x 1 without any thickness.
+  // A strip of 8 x 1 without thickness.
   const CurveSkeleton skeleton = run(test::grid(32, 4, 8.0, 1.0), "lattice");
   EXPECT_EQ(cycles(skeleton), 0);
   for (Index v = 0; v < skeleton.points.rows(); ++v)
   {
-    // At the ends it forks into the corners.
+    // At the ends the skeleton branches toward the corners.
     if (std::abs(skeleton.points(v, 0) - 4.0) < 3.0)
     {
       EXPECT_NEAR(skeleton.points(v, 1), 0.5, 0.05);
@@ -168,7 +168,7 @@ TEST_F(CurveSkeletonTest, OfAFlatSheetIsItsMedialAxis)
 
 TEST_F(CurveSkeletonTest, OfBoxesThatTouchIsOne)
 {
-  // Two bars end to end, each closed, as the parts of furniture are.
+  // Two closed bars end to end, like the parts of furniture.
   const TriangleMesh row = test::join(bar(4), test::translated(bar(4), Vec3(4.0, 0.0, 0.0)));
   const CurveSkeleton skeleton = run(row, "lattice");
   EXPECT_EQ(skeleton.centroids.size(), 1u);

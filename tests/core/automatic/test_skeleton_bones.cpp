@@ -1,4 +1,4 @@
-// Curves of known shape become the bones that can be told beforehand.
+// Curves of known shape become bones that are known in advance.
 #include "automatic/skeleton_bones.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Draws curves and notes what they are in.
+/// Builds curves and stores the radii and centroids of the shape around them.
 struct Drawing
 {
   std::vector<Vec3> points;
@@ -29,7 +29,7 @@ struct Drawing
     this->parts.push_back(static_cast<Index>(this->centroids.size()) - 1);
     return static_cast<Index>(this->points.size()) - 1;
   }
-  /// From a point that is there to p in pieces. @return the last point.
+  /// Draw a line of `pieces` segments from an existing point to p. @return The last point.
   Index line(Index from, const Vec3& p, int pieces = 10)
   {
     const Vec3 head = this->points[from];
@@ -71,8 +71,8 @@ SkeletonBones run(const Drawing& drawing, const SkeletonBonesOptions& options = 
   return bones;
 }
 
-/// A bone's parent ends where it begins and comes before it; those without begin at a root.
-/// Exactly one handle has no parent. A bone begins at the tail of its parent or at a root.
+/// Expect that the bones form a tree: exactly one handle has no parent, a parent precedes its
+/// children, and each bone begins at the tail of its parent or at a root.
 void expect_tree(const SkeletonBones& bones)
 {
   EXPECT_TRUE(check_handles(bones.handles).ok());
@@ -135,7 +135,7 @@ Drawing half_circle()
   return drawing;
 }
 
-/// Arms from the origin in the plane.
+/// Return arms in the plane that begin at the origin.
 Drawing arms(const std::vector<Vec3>& ends, double radius = 0.05)
 {
   Drawing drawing;
@@ -157,7 +157,7 @@ TEST(SkeletonBones, AStraightCurveIsOneBone)
   const SkeletonBones bones = run(drawing);
   ASSERT_EQ(bones.handles.size(), 1u);
   EXPECT_EQ(bones.handles[0].name, "b1");
-  EXPECT_EQ(bones.handles[0].head, Vec3(0.0, 0.0, 0.0)); // nearer to the centroid
+  EXPECT_EQ(bones.handles[0].head, Vec3(0.0, 0.0, 0.0)); // this end is nearer to the centroid
   EXPECT_EQ(bones.handles[0].tail, Vec3(1.0, 0.0, 0.0));
   EXPECT_EQ(bones.handles[0].parent, -1);
   EXPECT_EQ(bones.junctions, 0);
@@ -187,7 +187,7 @@ TEST(SkeletonBones, AnElbowIsAJoint)
   drawing.line(drawing.line(drawing.point(Vec3::Zero()), Vec3(0.5, 0.0, 0.0)), Vec3(0.5, 0.5, 0.0));
   const SkeletonBones bones = run(drawing);
   ASSERT_EQ(bones.handles.size(), 2u);
-  // Both begin at the elbow, the root.
+  // Both bones begin at the elbow, which is the root.
   EXPECT_EQ(bones.handles[0].head, Vec3(0.5, 0.0, 0.0));
   EXPECT_EQ(bones.handles[1].head, Vec3(0.5, 0.0, 0.0));
   EXPECT_EQ(bones.handles[0].parent, -1);
@@ -217,7 +217,7 @@ TEST(SkeletonBones, AreWithinTheToleranceOfTheCurve)
 
 TEST(SkeletonBones, StayWithinTheShape)
 {
-  // A knee of 0.1, less than the tolerance, in a shape that follows it closely.
+  // A knee of height 0.1, below the tolerance, in a shape that follows it closely.
   Drawing drawing;
   drawing.centroids = { Vec3::Zero() };
   drawing.line(drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.1, 0.0)), Vec3(2.0, 0.0, 0.0));
@@ -235,7 +235,7 @@ TEST(SkeletonBones, StayWithinTheShape)
 
 TEST(SkeletonBones, PutJointsWhereTheCurveIsInside)
 {
-  // A hook whose corner and tip are outside.
+  // A hook whose corner and tip are outside of the shape.
   Drawing drawing;
   drawing.centroids = { Vec3::Zero() };
   drawing.line(
@@ -261,7 +261,7 @@ TEST(SkeletonBones, AreAtMostAsManyAsAskedFor)
     options.maximum_bones = most;
     EXPECT_EQ(run(half_circle(), options).handles.size(), static_cast<std::size_t>(most));
   }
-  // The shortest limbs go first.
+  // The shortest limbs are removed first.
   const Drawing drawing =
     arms({ { 1, 0, 0 }, { 0, 0.9, 0 }, { -0.8, 0, 0 }, { 0, -0.3, 0 }, { 0, 0, 0.2 } });
   options.maximum_bones = 3;
@@ -288,7 +288,7 @@ TEST(SkeletonBones, ACrossHasOneJunction)
 
 TEST(SkeletonBones, TheBoneWithTheLargestVolumeIsTheRoot)
 {
-  // A thick trunk upwards and two thin limbs; one limb has a second bone.
+  // A thick vertical trunk and two thin limbs. One limb has a second bone.
   Drawing drawing;
   drawing.centroids = { Vec3::Zero() };
   const Index centre = drawing.point(Vec3::Zero(), 0.1);
@@ -331,7 +331,7 @@ TEST(SkeletonBones, JunctionsWithinTheThicknessAreOne)
     EXPECT_LT(bone.head.norm(), 1e-15);
   }
   SkeletonBonesOptions options;
-  options.prune = 0.3; // 0.04 is beyond 0.3 * 0.1
+  options.prune = 0.3; // the branch points are 0.04 apart, more than 0.3 * 0.1
   EXPECT_EQ(run(drawing, options).junctions, 2);
 }
 
@@ -366,9 +366,10 @@ TEST(SkeletonBones, ARingIsCutOnceOppositeItsRoot)
   ASSERT_EQ(bones.roots.size(), 1u);
   EXPECT_EQ(Vec3(bones.joints.row(bones.roots[0])), Vec3(1.0, 0.0, 0.0));
   expect_tree(bones);
-  EXPECT_EQ(bones.joints.rows(), static_cast<Index>(bones.handles.size()) + 1); // a tree
+  // The bones form a tree.
+  EXPECT_EQ(bones.joints.rows(), static_cast<Index>(bones.handles.size()) + 1);
   EXPECT_EQ(bones.junctions, 0);
-  // Two ends, a segment apart at (-1, 0, 0).
+  // The cut loop has two ends at (-1, 0, 0), one segment apart.
   int ends = 0;
   for (const Handle& bone : bones.handles)
   {
@@ -406,7 +407,8 @@ TEST(SkeletonBones, BallsArePointsAndComponentsHaveRootsOfTheirOwn)
   drawing.centroids = { Vec3(0.0, 0.0, 5.0) };
   drawing.point(Vec3(0.0, 0.0, 5.0), 1.0);
   drawing.centroids.emplace_back(0.0, 0.0, -5.0);
-  drawing.line(drawing.point(Vec3(0.0, 0.0, -5.0), 1.0), Vec3(0.4, 0.0, -5.0)); // short
+  // Short, so it becomes a point handle.
+  drawing.line(drawing.point(Vec3(0.0, 0.0, -5.0), 1.0), Vec3(0.4, 0.0, -5.0));
   drawing.centroids.emplace_back(Vec3::Zero());
   drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.0, 0.0));
   drawing.centroids.emplace_back(0.0, 3.0, 0.0);
@@ -424,7 +426,7 @@ TEST(SkeletonBones, BallsArePointsAndComponentsHaveRootsOfTheirOwn)
   EXPECT_EQ(bones.handles[3].name, "b2");
   EXPECT_EQ(bones.roots.size(), 2u);
   expect_tree(bones);
-  // The point above and the one below are both nearest to the bone between them.
+  // The points above and below are both nearest to the bone between them.
   EXPECT_EQ(bones.handles[0].parent, 2);
   EXPECT_EQ(bones.handles[1].parent, 2);
   EXPECT_EQ(bones.handles[2].parent, -1);

@@ -1,4 +1,4 @@
-// Points that are spread: as far as can be, in every component, in the middle of the shape.
+// Spread points: far apart, on every component, in the middle of the shape.
 #include "automatic/spread_points.h"
 
 #include "support/meshes.h"
@@ -45,7 +45,7 @@ SpreadPointsOptions on_surface(Index count, PointDistance distance)
   return options;
 }
 
-/// Distances along edges from a vertex, by relaxing all edges until nothing changes.
+/// Return the distances along edges from a vertex, by relaxing all edges until nothing changes.
 std::vector<double> along_edges(const TriangleMesh& mesh, Index from)
 {
   std::vector<double> distance(static_cast<std::size_t>(mesh.points.rows()), infinite);
@@ -79,14 +79,14 @@ std::vector<double> straight(const TriangleMesh& mesh, Index from)
   return distance;
 }
 
-/// A unit square of two sheets, `thickness` apart, with a rim.
+/// Return a unit square of two sheets at distance `thickness`, with a rim.
 TriangleMesh plate(double thickness)
 {
   const TetMesh box = test::tet_box(10, 10, 1, Vec3::Zero(), Vec3(1.0, 1.0, thickness));
   return { box.points, boundary_triangles(box.tets) };
 }
 
-/// [0, 8] x [0, 1] x [0, 1].
+/// Return the surface of [0, 8] x [0, 1] x [0, 1].
 TriangleMesh bar()
 {
   const TetMesh box = test::tet_box(32, 4, 4, Vec3::Zero(), Vec3(8.0, 1.0, 1.0));
@@ -122,7 +122,7 @@ TEST(SpreadPoints, AreFartherFromEachOtherThanAnyVertexIsFromThem)
     }
     const double covering = *std::max_element(nearest.begin(), nearest.end());
     EXPECT_GE(closest_pair * (1.0 + 1e-12), covering);
-    EXPECT_LT(covering, 1.3); // the outer half circle is 4.1
+    EXPECT_LT(covering, 1.3); // the outer half circle has the length 4.1
   }
 }
 
@@ -141,8 +141,9 @@ TEST(SpreadPoints, FewerAreTheFirstOfMore)
 
 TEST(SpreadPoints, EveryComponentHasItsShare)
 {
-  // Areas 4 : 4 : 1, in one and the same place, and a crumb.
-  TriangleMesh mesh = test::join(test::sphere(2), test::sphere(3, 1.001)); // no vertex is shared
+  // Two concentric spheres and a smaller one, with areas 4 : 4 : 1, and a tiny sphere that gets no
+  // point.
+  TriangleMesh mesh = test::join(test::sphere(2), test::sphere(3, 1.001)); // no vertices coincide
   mesh = test::join(mesh, test::sphere(2, 0.5, Vec3(9.0, 0.0, 0.0)));
   const Index crumb = mesh.points.rows();
   mesh = test::join(mesh, test::sphere(1, 0.01, Vec3(0.0, 9.0, 0.0)));
@@ -167,7 +168,7 @@ TEST(SpreadPoints, EveryComponentHasItsShare)
 
 TEST(SpreadPoints, WeldEqualVertices)
 {
-  // Loose triangles are a surface: distances go across their edges.
+  // Distances are also measured across the edges of unwelded triangles.
   const TriangleMesh mesh = test::sphere(2);
   const TriangleMesh loose = test::unwelded(mesh);
   const SpreadPoints a = run(mesh, on_surface(12, PointDistance::along_edges));
@@ -192,20 +193,20 @@ TEST(SpreadPoints, LieInTheMiddleOfTheShape)
   double least = infinite, most = -infinite;
   for (Index i = 0; i < 6; ++i)
   {
-    // On the axis, but for the last step.
+    // The points are on the axis, up to the length of the last step.
     EXPECT_NEAR(points.places(i, 1), 0.5, 0.15) << i;
     EXPECT_NEAR(points.places(i, 2), 0.5, 0.15) << i;
     least = std::min(least, points.places(i, 0));
     most = std::max(most, points.places(i, 0));
   }
-  // Within half the thickness of the ends.
+  // The outermost points are within half a thickness of the ends.
   EXPECT_LT(least, 0.7);
   EXPECT_GT(most, 7.3);
 }
 
 TEST(SpreadPoints, StayInTheTips)
 {
-  // The tip of a long ellipsoid, whose normal is its axis.
+  // The normal at the tip of a long ellipsoid is its axis.
   TriangleMesh mesh = test::sphere(4);
   mesh.points.col(0) *= 5.0;
   SpreadPointsOptions options;
@@ -238,7 +239,7 @@ TEST(SpreadPoints, AreInsideWhicheverWayTrianglesTurn)
   SpreadPointsOptions options;
   options.count = 5;
   const SpreadPoints right = run(mesh, options);
-  // Half open: the winding number is still above a half in most of it.
+  // One end is open: the winding number still exceeds 0.5 in most of the inside.
   TriangleMesh open = mesh;
   open.triangles.conservativeResize(mesh.triangles.rows() - 8, 3);
   const SpreadPoints points = run(open, options);
@@ -248,7 +249,7 @@ TEST(SpreadPoints, AreInsideWhicheverWayTrianglesTurn)
   {
     EXPECT_GE(winding_number_direct(mesh.points, mesh.triangles, right.places.row(i)), 0.5);
   }
-  // Flat: no inside, points stay where they are.
+  // A flat surface has no inside, so its points are not moved.
   const SpreadPoints flat = run(test::grid(5, 5), options);
   EXPECT_EQ(flat.inside, 0);
   EXPECT_EQ(flat.vertices.size(), 5u);

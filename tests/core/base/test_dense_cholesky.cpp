@@ -1,4 +1,5 @@
-// What a factor promises: L L^T is the matrix, X L^-T undoes L^T, the condition is a condition.
+// The factor satisfies L L^T = A, the columns of L^-T are orthonormal in A, and the reciprocal
+// condition number of a diagonal matrix is exact.
 #include "base/dense_cholesky.h"
 
 #include "support/meshes.h"

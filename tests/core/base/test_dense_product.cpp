@@ -1,4 +1,4 @@
-// The product is Eigen's, whatever the sizes and strides.
+// Products equal those of Eigen for all sizes and strides.
 #include "base/dense_product.h"
 
 #include <gtest/gtest.h>
@@ -36,13 +36,13 @@ TEST(DenseProduct, IsEigensAtAllSizes)
 
 TEST(DenseProduct, TakesTransposedAndWholeNumbersExactly)
 {
-  // Sums of whole numbers have no round-off.
+  // Sums of integers have no round-off.
   Weights a = (noise(300, 37, 4) * 10.0).array().round();
   Weights b = (noise(300, 41, 5) * 10.0).array().round();
   Weights c = Weights::Zero(37, 50);
   add_product({ a.data(), 37, 300, 1, 37 }, { b.data(), 300, 41, 41, 1 }, c.data(), 50);
   EXPECT_EQ(Weights(c.leftCols(41)), Weights(a.transpose() * b));
-  EXPECT_TRUE(c.rightCols(9).isZero(0.0)); // what lies between the rows stays
+  EXPECT_TRUE(c.rightCols(9).isZero(0.0)); // values between the rows are unchanged
 }
 
 TEST(DenseProduct, LowerHasTheLowerTriangle)
@@ -57,7 +57,7 @@ TEST(DenseProduct, LowerHasTheLowerTriangle)
 
 TEST(DenseProduct, OfMatricesIsTheSumOfProductsAtOddSizes)
 {
-  // Of columns that lie one after the other, in matrices of their own and inside of larger ones.
+  // Operands are whole column-major matrices, and blocks of larger matrices.
   for (const Index rows : { 1, 5, 7, 13, 97 })
   {
     for (const Index cols : { 1, 3, 9, 17 })

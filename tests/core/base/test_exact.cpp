@@ -32,8 +32,9 @@ TEST(Exact, OrientationSeesTheLastBit)
 {
   EXPECT_EQ(orientation_2d(0, 0, 1, 0, 0, 1), 1);
   EXPECT_EQ(orientation_2d(0, 0, 0, 1, 1, 0), -1);
-  // Points next to a diagonal in steps of the last bit: the textbook's failing case. Scaled by
-  // 2^53 the coordinates are whole numbers, whose determinant 128-bit integers hold.
+  // Points next to a diagonal, in steps of the last bit: the textbook example of a failure in
+  // floating point. Multiplied by 2^53, the coordinates are integers, whose determinant fits into
+  // 128-bit integers.
   for (int i = 0; i < 32; ++i)
   {
     for (int j = 0; j < 32; ++j)

@@ -11,7 +11,8 @@ TEST(ExecutionContext, ProgressNeverGoesBack)
   std::vector<double> told;
   ExecutionContext context(
     [&](double fraction, const std::string&) { told.push_back(fraction); }, [] { return false; });
-  for (const double begin : { 0.0, 0.4, 0.1, 0.0, 0.7 }) // phases always tell where they begin
+  // Every phase reports the fraction at its start.
+  for (const double begin : { 0.0, 0.4, 0.1, 0.0, 0.7 })
   {
     const Phase phase(context, "again", begin, 0.9);
   }
@@ -45,7 +46,7 @@ TEST(Execution, PhasesNestAndProgressNeverGoesBack)
   EXPECT_EQ(fractions.front(), 0.0);
   EXPECT_LE(fractions.back(), 1.0);
   EXPECT_EQ(names.front(), "build");
-  // The start of each phase is always told: iterate begins at 0.25 + 0.75 * 0.5.
+  // The start of each phase is always reported: iterate begins at 0.25 + 0.75 * 0.5.
   const auto at = std::find(names.begin(), names.end(), "iterate") - names.begin();
   EXPECT_DOUBLE_EQ(fractions.at(static_cast<std::size_t>(at)), 0.625);
 }

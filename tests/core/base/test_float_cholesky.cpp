@@ -1,5 +1,5 @@
-// The factorisation in single precision against a dense one and against the double one, pivots that
-// fail, and the same bits on clones and threads.
+// The single-precision factorization against a dense and a double-precision one, failing pivots,
+// and equal bits on clones and on any number of threads.
 #include "base/float_cholesky.h"
 
 #include "support/meshes.h"
@@ -15,7 +15,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Biharmonic matrix of a box of tets, shifted to be definite; its lower triangle.
+/// Return the lower triangle of the biharmonic matrix of a box of tets, shifted to be positive
+/// definite.
 SparseMatrix definite_matrix(int n, double shift)
 {
   const TetMesh box = test::tet_box(n, n, n);
@@ -42,7 +43,8 @@ protected:
     }
   }
 
-  /// Analysed, with the double factorisation at hand in solver.
+  /// Analyze the matrix with both solvers. The double-precision factorization remains available in
+  /// `solver`.
   FloatCholesky analysed(const SparseMatrix& matrix, SparseSolver& solver)
   {
     FloatCholesky single;
@@ -77,7 +79,7 @@ TEST_F(FloatCholeskyTest, SolvesAsADenseFactorisationDoes)
       Eigen::VectorXd one;
       single.solve(Eigen::VectorXd(rhs.col(1)), one);
       EXPECT_LT((one - expected.col(1)).norm(), 1e-4 * expected.col(1).norm());
-      // Shifted by its own diagonal.
+      // The matrix plus 0.5 times its own diagonal.
       ASSERT_TRUE(single.factor(a, 0.5, context_).ok());
       single.solve(rhs, x);
       Eigen::MatrixXd shifted = dense;
@@ -124,7 +126,7 @@ TEST_F(FloatCholeskyTest, ResidualsAreThoseOfSinglePrecisionAtAnyScale)
   solver.solve(rhs, expected);
   for (const double scale : { 1.0, 1e-60, 1e60 })
   {
-    // Rows and columns of very different sizes, too: far outside of what a float can hold.
+    // Rows and columns also have very different scales, far outside of the range of float.
     Eigen::VectorXd rows(a.rows());
     for (Index i = 0; i < rows.size(); ++i)
     {

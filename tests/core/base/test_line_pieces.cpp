@@ -17,7 +17,7 @@ int nearest(double lengths)
 TEST(LinePieces, AreEqualWhereTheLengthIs)
 {
   const std::vector<double> cuts = line_cuts(
-    0.2, 0.8, [](double) { return 0.11; }, nearest); // 5.45 fit
+    0.2, 0.8, [](double) { return 0.11; }, nearest); // 5.45 pieces fit
   ASSERT_EQ(cuts.size(), 4u);
   for (std::size_t i = 0; i < cuts.size(); ++i)
   {
@@ -27,7 +27,7 @@ TEST(LinePieces, AreEqualWhereTheLengthIs)
 
 TEST(LinePieces, AreTwiceAsLongWhereTheLengthIs)
 {
-  // 8 lengths of 1/16, then 4 of 1/8.
+  // Eight pieces of length 1/16, then four of length 1/8.
   const std::vector<double> cuts = line_cuts(
     0.0, 1.0, [](double t) { return t < 0.5 ? 0.0625 : 0.125; }, nearest);
   ASSERT_EQ(cuts.size(), 11u);

@@ -1,4 +1,4 @@
-// What is available against what Linux tells otherwise, and sentences with numbers.
+// Memory measurements against those of Linux, and sentences with numbers.
 #include "base/memory.h"
 
 #include "support/sanitized.h"
@@ -38,7 +38,7 @@ TEST(Memory, WhatIsTakenIsHeld)
     EXPECT_NEAR(resident_memory() - before, 64 * mebibyte, 8 * mebibyte);
     EXPECT_EQ(taken.back(), 1);
   }
-  if (!test::sanitized) // sanitizers hold on to what is freed
+  if (!test::sanitized) // sanitizers delay the release of freed memory
   {
     EXPECT_NEAR(resident_memory() - before, 0.0, 8 * mebibyte);
   }

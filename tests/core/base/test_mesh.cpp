@@ -47,7 +47,7 @@ TEST(Mesh, EdgeCountsTellOpenFlippedAndNonManifold)
   turned.triangles.row(0).reverseInPlace();
   EXPECT_EQ(count_edges(turned.triangles).misoriented, 3);
 
-  TriangleMesh wall = closed; // an inner wall through four corners
+  TriangleMesh wall = closed; // plus an inner wall through four corners
   wall.triangles.conservativeResize(14, 3);
   wall.triangles.row(12) << 0, 3, 7;
   wall.triangles.row(13) << 0, 7, 4;

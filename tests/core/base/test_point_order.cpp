@@ -1,4 +1,4 @@
-// Every point once, and neighbours one after the other.
+// The order contains every point once and places neighbors next to each other.
 #include "base/point_order.h"
 
 #include "support/meshes.h"

@@ -1,5 +1,5 @@
-// Solutions with a factor in single precision against a dense factorisation in double, and the
-// residual that is told against the one that is there.
+// Solutions with a single-precision factor against a dense double-precision factorization, and the
+// reported residual against the actual one.
 #include "base/refined_solve.h"
 
 #include "support/meshes.h"
@@ -80,7 +80,8 @@ protected:
 
 TEST_F(RefinedSolve, IsAsGoodAsADenseFactorisation)
 {
-  this->rhs.col(3) *= 1e-100; // squares of what is larger are infinite
+  // Without this scale per column, squares of the other columns would overflow.
+  this->rhs.col(3) *= 1e-100;
   Eigen::MatrixXd x;
   EXPECT_LE(this->solve({}, x), 1e-14);
   const Eigen::MatrixXd dense = Eigen::MatrixXd(this->a).ldlt().solve(this->rhs);

@@ -1,5 +1,5 @@
-// Both backends against a dense factorisation, the same bits from concurrent clones, one analysis
-// for many factorisations, and failures that name the pivot.
+// Both backends against a dense factorization, equal bits from concurrent clones, one analysis for
+// many factorizations, and failures that name the pivot.
 #include "base/sparse_solver.h"
 
 #include "support/meshes.h"
@@ -16,7 +16,7 @@ using namespace bindpose;
 
 namespace bindpose
 {
-/// For the tests' names.
+/// Print a backend in the names of tests.
 void PrintTo(const SparseSolver::Backend& backend, std::ostream* out)
 {
   *out << (backend == SparseSolver::Backend::eigen ? "eigen" : "cholmod");
@@ -25,7 +25,7 @@ void PrintTo(const SparseSolver::Backend& backend, std::ostream* out)
 
 namespace
 {
-/// Biharmonic matrix of a box of tets, shifted to be definite.
+/// Return the biharmonic matrix of a box of tets, shifted to be positive definite.
 SparseMatrix definite_matrix(int n, double shift)
 {
   const TetMesh box = test::tet_box(n, n, n);
@@ -161,14 +161,15 @@ TEST_P(SparseSolverTest, NamesThePivotThatIsNotPositive)
   SparseMatrix a = definite_matrix(3, 0.1);
   SparseSolver solver({ GetParam(), SparseSolver::Ordering::automatic });
   ASSERT_TRUE(solver.analyse(a).ok());
-  // A large negative diagonal entry makes its own pivot fail, wherever it is in the order.
+  // A large negative diagonal entry makes its own pivot fail, at any position of the elimination
+  // order.
   a.coeffRef(17, 17) = -1e6;
   const Status status = solver.factor(a);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_NE(status.message.find("unknown 17 "), std::string::npos) << status.message;
   a.coeffRef(17, 17) = std::nan("");
   EXPECT_FALSE(solver.factor(a).ok());
-  // The solver is still good for another matrix of the pattern.
+  // The solver still factors another matrix with the same pattern.
   EXPECT_TRUE(solver.factor(definite_matrix(3, 1.0)).ok());
 }
 

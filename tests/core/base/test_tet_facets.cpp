@@ -12,7 +12,7 @@ using namespace bindpose;
 TEST(TetFacets, EveryFacetOfEveryTetIsThereInOrder)
 {
   const TetMesh box = test::tet_box(3, 4, 5);
-  // Twin: facets gathered in a map of sorted vertices.
+  // Reference: facets collected in a map with their sorted vertices as the key.
   std::map<std::array<Index, 3>, std::vector<Index>> expected;
   for (Index t = 0; t < box.tets.rows(); ++t)
   {

@@ -1,4 +1,4 @@
-// Products with three columns, beside the library's.
+// Products with three columns against those of Eigen.
 #include "base/thin_product.h"
 
 #include "support/meshes.h"
@@ -21,7 +21,7 @@ TEST(ThinProduct, IsTheProduct)
       {
         for (double& entry : m.reshaped())
         {
-          entry = static_cast<double>(random.below(17)) - 8.0; // whole: sums are exact
+          entry = static_cast<double>(random.below(17)) - 8.0; // sums of integers are exact
         }
       }
       EXPECT_EQ(thin_product(a, x), Coordinates(a * x));

@@ -44,7 +44,7 @@ TEST(DisphenoidLattice, EveryPlaceIsInItsTet)
     Vec3 place = random.in_box(Vec3::Constant(2.0), Vec3::Constant(5.0));
     if (round % 4 == 0)
     {
-      // Nodes, edges, facets.
+      // Round the point to a node, an edge or a facet.
       place = (4.0 * place).array().round() / 4.0;
     }
     const auto at = DisphenoidLattice::locate(place);

@@ -36,7 +36,7 @@ EmbeddingTets embedded(const TriangleMesh& mesh, Index resolution = 0, int threa
   return result;
 }
 
-/// Vertices of the tets that hold the points for which chosen(point) is true.
+/// Return the vertices of the tets that contain the points for which chosen(point) is true.
 template <typename Chosen>
 std::set<Index> vertices_of(const EmbeddingTets& result, const Points& points, const Chosen& chosen)
 {
@@ -52,7 +52,7 @@ std::set<Index> vertices_of(const EmbeddingTets& result, const Points& points, c
   return vertices;
 }
 
-/// Shortest way along edges from one set of vertices to each vertex.
+/// Return the length of the shortest path along edges from a set of vertices to each vertex.
 std::vector<double> distances(const TetMesh& mesh, const std::set<Index>& from)
 {
   std::vector<std::vector<Index>> neighbors(static_cast<std::size_t>(mesh.points.rows()));
@@ -91,13 +91,13 @@ std::vector<double> distances(const TetMesh& mesh, const std::set<Index>& from)
   return distance;
 }
 
-/// What every embedding promises. `far`: coordinates are large against the surface's size.
+/// Expect the invariants of every embedding.
 void expect_valid(const TriangleMesh& surface, const EmbeddingTets& result)
 {
   const TetMesh& mesh = result.mesh;
   ASSERT_GT(mesh.tets.rows(), 0);
   ASSERT_TRUE(check_mesh(mesh.points, mesh.tets).ok());
-  constexpr bool may_branch = true; // where parts meet
+  constexpr bool may_branch = true; // boundaries may be non-manifold where parts meet
   const Status status = check_tets(mesh.points, mesh.tets, may_branch);
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_NEAR(measure_tets(mesh.points, mesh.tets).min_dihedral_angle, 60.0, 1e-6);
@@ -107,7 +107,7 @@ void expect_valid(const TriangleMesh& surface, const EmbeddingTets& result)
   ASSERT_EQ(result.inside_fractions.size(), mesh.tets.rows());
   EXPECT_GE(result.inside_fractions.minCoeff(), 0.0);
   EXPECT_LE(result.inside_fractions.maxCoeff(), 1.0);
-  // All points that are used are bound, exactly.
+  // All points that triangles use are bound, and their barycentric coordinates reproduce them.
   const PointBinding& binding = result.binding;
   ASSERT_EQ(static_cast<Index>(binding.tets.size()), surface.points.rows());
   ASSERT_EQ(binding.coordinates.rows(), surface.points.rows());
@@ -127,7 +127,7 @@ void expect_valid(const TriangleMesh& surface, const EmbeddingTets& result)
     ASSERT_LE(rest.norm(), 1e-12 * std::max(diagonal, result.spacing)) << v;
     ASSERT_NEAR(binding.coordinates.row(v).sum(), 1.0, 1e-14);
   }
-  // Triangles hold together: their corners are bound to one component.
+  // The corners of a triangle are bound to one component.
   for (Index f = 0; f < surface.triangles.rows(); ++f)
   {
     const auto component = [&](int k)
@@ -136,7 +136,7 @@ void expect_valid(const TriangleMesh& surface, const EmbeddingTets& result)
   }
 }
 
-/// Brute force: the tets of a component that hold a point.
+/// Report whether a tet of a component contains a point, by brute force.
 bool is_held(const EmbeddingTets& result, const Components& components, Index component,
   const Vec3& p, double tolerance)
 {
@@ -182,8 +182,8 @@ void expect_held(const TriangleMesh& surface, const EmbeddingTets& result, int s
   }
 }
 
-/// A palm with four fingers, cut from a grid of cells: a closed surface. Fingers are 0.2 wide and
-/// `gap` apart, of length 2 from y = 0; the palm is below.
+/// Return a palm with four fingers, cut from a grid of cells as a closed surface. The fingers are
+/// 0.2 wide, `gap` apart and 2 long from y = 0; the palm is below.
 TriangleMesh fork(double gap)
 {
   std::vector<double> xs;
@@ -274,7 +274,7 @@ TEST(EmbeddingTets, AnyConvexBodyHasNoCopies)
   for (int round = 0; round < 6; ++round)
   {
     TriangleMesh body = round % 2 == 0 ? test::cube() : test::sphere(2);
-    // Flat and long ones: a part of a cube thick.
+    // Scale the body to a flat or long one that may be much thinner than a lattice cube.
     const Vec3 scale = random.in_box(Vec3::Constant(0.02), Vec3::Ones());
     const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(random.uniform(0.0, 3.0), Vec3(1.0, 2.0, 3.0).normalized())
@@ -293,7 +293,7 @@ TEST(EmbeddingTets, TopologyIsTheSurfaces)
   EXPECT_EQ(test::euler_characteristic(embedded(torus).mesh), 0);
   const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(3, 0.5)));
   EXPECT_EQ(test::euler_characteristic(embedded(shell).mesh), 2) << "a ball with a cavity";
-  // A ring closed in space but not in the surface: a cut narrower than anything else.
+  // A thinner ring has the same topology.
   TriangleMesh ring = test::torus(48, 24, 1.0, 0.2);
   const EmbeddingTets whole = embedded(ring, 20);
   EXPECT_EQ(test::euler_characteristic(whole.mesh), 0);
@@ -301,7 +301,7 @@ TEST(EmbeddingTets, TopologyIsTheSurfaces)
 
 TEST(EmbeddingTets, BarsThatAreNearShareNoVertex)
 {
-  for (const double gap : { 0.3, 0.01, 1e-6 }) // in cubes
+  for (const double gap : { 0.3, 0.01, 1e-6 }) // gap in lattice cubes
   {
     constexpr Index resolution = 16;
     const double cube = 4.0 / 16.0;
@@ -319,7 +319,7 @@ TEST(EmbeddingTets, BarsThatAreNearShareNoVertex)
     {
       EXPECT_EQ(of_lower.count(v), 0u);
     }
-    // As if each were alone on that lattice.
+    // The volume equals that of two separate embeddings on the same lattice.
     const Eigen::VectorXd volumes = tet_volumes(result.mesh.points, result.mesh.tets);
     EXPECT_NEAR(volumes.dot(result.inside_fractions), 2.0 * 4.0 * 0.4 * 0.5, 0.03 * 1.6);
   }
@@ -343,7 +343,7 @@ TEST(EmbeddingTets, FingersAreConnectedThroughThePalmOnly)
     ASSERT_TRUE(count_edges(hand.triangles).closed);
     const double volume = 0.3 * (4 * 0.2 * 2.0 + (0.8 + 3 * gap) * 0.6);
     ASSERT_NEAR(signed_volume(hand.points, hand.triangles), volume, 1e-12);
-    const EmbeddingTets result = embedded(hand, 20); // a cube is 0.13
+    const EmbeddingTets result = embedded(hand, 20); // a lattice cube has the size 0.13
     expect_valid(hand, result);
     expect_held(hand, result, 100);
     EXPECT_EQ(result.components, 1);
@@ -387,7 +387,7 @@ TEST(EmbeddingTets, InsideFractionsGiveTheVolume)
     EXPECT_LT(error(16), 0.04);
     EXPECT_LT(error(24), 0.01);
   }
-  // Open: the inside ends in the opening, where the winding number is a half.
+  // Open: the inside ends at the opening, where the winding number is 0.5.
   const TriangleMesh open = test::open_cube();
   const EmbeddingTets result = embedded(open, 16);
   expect_valid(open, result);
@@ -422,7 +422,7 @@ TEST(EmbeddingTets, WhatEnclosesNothingIsHeldToo)
 
 TEST(EmbeddingTets, SheetsThatAreNearAreApart)
 {
-  // They face each other: winding numbers are -1 between them and 0 elsewhere.
+  // The sheets face each other: the winding number is -1 between them and 0 elsewhere.
   const TriangleMesh sheets = test::join(
     test::grid(4, 4), test::flipped(test::translated(test::grid(4, 4), Vec3(0.0, 0.0, 1e-4))));
   const EmbeddingTets result = embedded(sheets, 10);
@@ -446,7 +446,7 @@ TEST(EmbeddingTets, TheNumberOfTetsIsChosen)
 
 TEST(EmbeddingTets, UncleanSurfaces)
 {
-  TriangleMesh soup = test::sphere(3); // every triangle its own corners
+  TriangleMesh soup = test::sphere(3); // each triangle has its own corners
   {
     Points points(3 * soup.triangles.rows(), 3);
     for (Index i = 0; i < points.rows(); ++i)
@@ -459,7 +459,7 @@ TEST(EmbeddingTets, UncleanSurfaces)
   TriangleMesh doubled = test::cube();
   doubled.triangles.resize(24, 3);
   doubled.triangles << test::cube().triangles, test::cube().triangles;
-  TriangleMesh wall = test::cube(); // three triangles at an edge
+  TriangleMesh wall = test::cube(); // three triangles share an edge
   wall.triangles.conservativeResize(14, 3);
   wall.triangles.row(12) << 0, 3, 7;
   wall.triangles.row(13) << 0, 7, 4;
@@ -470,7 +470,7 @@ TEST(EmbeddingTets, UncleanSurfaces)
     std::swap(flipped.triangles(f, 1), flipped.triangles(f, 2));
     holes.triangles.row(f) << 0, 0, 0; // degenerate
   }
-  TriangleMesh stray = test::sphere(2); // points that nothing uses
+  TriangleMesh stray = test::sphere(2); // has unused points
   stray.points.conservativeResize(stray.points.rows() + 3, 3);
   stray.points.bottomRows(3) << 0.1, 0.0, 0.0, 1e9, 0.0, 0.0,
     std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0;
@@ -530,7 +530,7 @@ TEST(EmbeddingTets, HostilePlaces)
       continue;
     }
     const double size = bounding_box(mesh.points, mesh.triangles).size().maxCoeff();
-    if (size > 1e-90 && size < 1e90) // so that volumes are doubles
+    if (size > 1e-90 && size < 1e90) // the volumes are in the range of double
     {
       expect_valid(mesh, embedded(mesh, 6));
       continue;
@@ -638,7 +638,7 @@ TEST(EmbeddingTets, CancelEndsSoon)
   const WindingNumber winding(mesh.points, mesh.triangles);
   for (const int after : { 0, 1, 5, 20, 60 })
   {
-    // Cancelled at the n-th sign of progress.
+    // Cancel at the n-th progress report.
     std::atomic<bool> stop{ after == 0 };
     std::atomic<int> signs{ 0 };
     ExecutionContext context([&](double, const std::string&) { stop = stop || ++signs >= after; },
@@ -656,8 +656,8 @@ TEST(EmbeddingTets, CancelEndsSoon)
 
 TEST(EmbeddingTets, ALinkConnectsWhatIsAtItsEnds)
 {
-  // Two boxes 3 apart, linked from the middle of a side to a corner of the other; and two that lie
-  // in the same tets, linked at one place.
+  // Two boxes at a distance of 3, linked from the middle of a side to a corner of the other box,
+  // and two boxes in the same tets, linked at one point.
   const TriangleMesh apart =
     test::join(box(Vec3(0, 0, 0), Vec3(1, 1, 1)), box(Vec3(4, 0, 0), Vec3(5, 1, 1)));
   const TriangleMesh near =
@@ -699,7 +699,7 @@ TEST(EmbeddingTets, ALinkConnectsWhatIsAtItsEnds)
       ASSERT_TRUE(status.ok()) << status.message;
       EXPECT_EQ(result.components, 1);
       expect_valid(mesh, result);
-      // The way from one to the other leads along the link.
+      // The shortest path between the boxes follows the link.
       const std::vector<double> distance = distances(result.mesh,
         vertices_of(
           result, mesh.points, [](const Vec3& p) { return (p - Vec3(0, 0, 0)).norm() < 1e-9; }));

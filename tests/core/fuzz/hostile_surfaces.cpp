@@ -15,7 +15,7 @@ Vec3 in_cube(Random& random, double size = 1.0)
   return random.in_box(Vec3::Constant(-size), Vec3::Constant(size));
 }
 
-/// 10^x, x evenly in between.
+/// Return 10^x with x uniformly distributed in [lower, upper].
 double magnitude(Random& random, double lower, double upper)
 {
   return std::pow(10.0, random.uniform(lower, upper));
@@ -27,7 +27,7 @@ Vec3 on_lattice(Random& random, Index size)
   return Vec3(whole(), whole(), whole()) / static_cast<double>(size);
 }
 
-/// Vertices as given, triangles between any of them, some doubled or turned over.
+/// Return triangles between random vertices. Some triangles are repeated or reversed.
 template <typename Place>
 TriangleMesh heap(Random& random, Index triangles, Index vertices, const Place& place)
 {
@@ -54,7 +54,7 @@ TriangleMesh heap(Random& random, Index triangles, Index vertices, const Place& 
   return mesh;
 }
 
-/// Triangles of their own: needles, slivers, flat ones, of sizes from 1 down to 1e-6.
+/// Return separate triangles of sizes from 1 to 1e-6: needles, slivers and degenerate ones.
 TriangleMesh splinters(Random& random, Index triangles)
 {
   TriangleMesh mesh{ Points(3 * triangles, 3), Triangles(triangles, 3) };
@@ -73,7 +73,7 @@ TriangleMesh splinters(Random& random, Index triangles)
   return mesh;
 }
 
-/// Sheets above each other, from 1e-1 down to 1e-15 apart, aligned with the axes or not.
+/// Return sheets above each other, at distances from 1e-1 to 1e-15, axis-aligned or not.
 TriangleMesh layers(Random& random, Index most)
 {
   const int n = 1 + static_cast<int>(random.below(6));
@@ -97,7 +97,7 @@ TriangleMesh layers(Random& random, Index most)
   return mesh;
 }
 
-/// Many triangles at one vertex, and at a second one when closed.
+/// Return many triangles around one vertex, and around a second one if closed.
 TriangleMesh fan(Random& random, Index triangles, bool closed)
 {
   const Index around = std::max<Index>(3, closed ? triangles / 2 : triangles);
@@ -120,7 +120,7 @@ TriangleMesh fan(Random& random, Index triangles, bool closed)
   return mesh;
 }
 
-/// Surface of some cubes of a lattice: they touch in edges and vertices.
+/// Return the surface of random cubes of a lattice, which touch at edges and vertices.
 TriangleMesh cubes(Random& random, Index n)
 {
   std::vector<char> filled(static_cast<std::size_t>((n + 2) * (n + 2) * (n + 2)), 0);
@@ -186,7 +186,7 @@ TriangleMesh cubes(Random& random, Index n)
   return mesh;
 }
 
-/// Sides of tets between vertices as given, either way round.
+/// Return the facets of tets between given vertices, in either orientation.
 template <typename Place>
 TriangleMesh tets(Random& random, Index count, Index vertices, const Place& place)
 {
@@ -207,7 +207,7 @@ TriangleMesh tets(Random& random, Index count, Index vertices, const Place& plac
   return mesh;
 }
 
-/// A sphere or ring, bumpy so that it crosses itself, or flattened.
+/// Return a sphere or a ring that is flattened, or so bumpy that it crosses itself.
 TriangleMesh blob(Random& random, Index most)
 {
   int levels = 0;
@@ -231,7 +231,7 @@ TriangleMesh blob(Random& random, Index most)
   {
     mesh.points.col(random.below(3)) *= magnitude(random, -12.0, 0.0);
   }
-  if (chance(random, 0.25)) // one side far finer than the other
+  if (chance(random, 0.25)) // one side is much finer than the other
   {
     for (Index v = 0; v < mesh.points.rows(); ++v)
     {
@@ -242,7 +242,7 @@ TriangleMesh blob(Random& random, Index most)
   return mesh;
 }
 
-/// What careless work does to a surface: holes, flipped and doubled triangles, seams.
+/// Add typical defects to a surface: holes, reversed and repeated triangles, seams.
 void spoil(Random& random, TriangleMesh& mesh)
 {
   const double share = random.uniform(0.0, 0.3);
@@ -264,7 +264,7 @@ void spoil(Random& random, TriangleMesh& mesh)
     {
       kept.push_back(ids);
     }
-    if (what == 3) // a corner of its own, at the same place or nearly
+    if (what == 3) // a separate vertex for a corner, at or near its position
     {
       Vec3 corner = mesh.points.row(ids[0]);
       if (chance(random, 0.5))
@@ -318,10 +318,10 @@ Vec3 any_point(Random& random, const TriangleMesh& mesh)
       return a + s * u;
     case 2:
       return on_face;
-    case 3: // in its plane
+    case 3: // in the plane of the triangle
       return a + random.uniform(-2.0, 3.0) * u + random.uniform(-2.0, 3.0) * v;
     case 4:
-    case 5: // along an axis from a vertex
+    case 5: // on an axis-parallel line through a vertex
     {
       Vec3 p = any_vertex();
       const Vec3 other = any_vertex();
@@ -330,22 +330,22 @@ Vec3 any_point(Random& random, const TriangleMesh& mesh)
         chance(random, 0.5) ? other[axis] : box.center()[axis] + size * random.uniform(-1.5, 1.5);
       return p;
     }
-    case 6: // coordinates of three vertices
+    case 6: // coordinates of three different vertices
       return Vec3(any_vertex().x(), any_vertex().y(), any_vertex().z());
     case 7:
-    case 8: // nearly on a face, edge or vertex
+    case 8: // near a face, edge or vertex
     {
       const Vec3 foot = chance(random, 0.4) ? on_face : chance(random, 0.5) ? Vec3(a + s * u) : a;
       return foot + size * magnitude(random, -16.5, -3.0) * in_cube(random);
     }
-    case 9: // right above a face, about as far as touching reaches
+    case 9: // above a face, at about the tolerance of touching
     {
       const Vec3 normal = u.cross(v).stableNormalized();
       const double largest =
         std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
       return on_face + std::ldexp(largest, -49) * random.uniform(-2.0, 2.0) * normal;
     }
-    case 10: // seen edge on, or along an edge
+    case 10: // on the line of an edge
       return a +
         (chance(random, 0.5) ? magnitude(random, 0.0, 12.0) : -magnitude(random, -12.0, 3.0)) * u;
     case 11: // far away
@@ -437,7 +437,7 @@ TriangleMesh placed(Random& random, TriangleMesh mesh)
     case 1:
       mesh.points *= magnitude(random, -30.0, 30.0);
       break;
-    case 2: // to the ends of what doubles hold
+    case 2: // near the limits of the range of double
     {
       const int top = 1023 - std::ilogb(mesh.points.cwiseAbs().maxCoeff() + 1.0);
       mesh.points *= chance(random, 0.5)
@@ -465,7 +465,7 @@ Vec3 hostile_point(Random& random, const TriangleMesh& mesh)
   for (;;)
   {
     const Vec3 p = any_point(random, mesh);
-    if (p.allFinite()) // not beyond the largest double
+    if (p.allFinite()) // inside of the range of double
     {
       return p;
     }

@@ -1,29 +1,30 @@
 #ifndef bindpose_tests_core_fuzz_hostile_surfaces_h
 #define bindpose_tests_core_fuzz_hostile_surfaces_h
 
-// Surfaces and points made to hurt whoever decides sides, crossings and touching.
+// Surfaces and points that are hard for algorithms that decide sides, crossings and contacts.
 
 #include "support/meshes.h"
 
 namespace bindpose::test
 {
 
-/// Up to about `most` triangles of a random kind, of size about 1 near the origin: heaps on a
-/// lattice or anywhere, needles, slivers, layers, fans, closed surfaces, those with holes, flipped
-/// or doubled triangles, parts of very different sizes; one triangle, two triangles.
+/// Return up to about `most` triangles of a random type, of size about 1 near the origin. The types
+/// are heaps on a lattice or anywhere, needles, slivers, layers, fans, closed surfaces, surfaces
+/// with holes, reversed or repeated triangles, parts of very different sizes, and one or two
+/// triangles.
 TriangleMesh hostile_surface(Random& random, Index most);
 
-/// Closed: all directions of edges cancel. Spheres that cross themselves, rings thinner than a
-/// hair, spheres in spheres down to 1e-5, cubes on a lattice that touch in edges and vertices,
-/// heaps of tets, bipyramids of many needles.
+/// Return a closed surface: the directions of its triangles cancel at every edge. The types are
+/// self-crossing spheres, very thin rings, nested spheres at distances down to 1e-5, cubes of a
+/// lattice that touch at edges and vertices, heaps of tets, and bipyramids of many needles.
 TriangleMesh hostile_closed_surface(Random& random, Index most);
 
-/// The same surface elsewhere: tiny, huge, as far from the origin as doubles can bear, or left
-/// alone.
+/// Return the same surface after a random scaling and translation: tiny, huge, as far from the
+/// origin as the range of double permits, or unchanged.
 TriangleMesh placed(Random& random, TriangleMesh mesh);
 
-/// A point with a meaning for the surface: on a vertex, edge or face or a hair's breadth off, in
-/// the plane of a face, on a line along an axis through a vertex, anywhere in its box, far away.
+/// Return a random point in a special position: on or near a vertex, edge or face, in the plane of
+/// a face, on an axis-parallel line through a vertex, anywhere in the bounding box, or far away.
 Vec3 hostile_point(Random& random, const TriangleMesh& mesh);
 
 } // namespace bindpose::test

@@ -1,6 +1,6 @@
-// Sequences of poses that no animator would draw: collapsed, mirrored, enormous, with weights that
-// are doubled, empty or of both signs. Finite in is finite out, rest is rest, and nothing depends
-// on luck.
+// Sequences of extreme poses: collapsed, mirrored or huge, with repeated, empty or negative
+// weights. Finite input gives finite output, the rest pose gives the rest shape, and results are
+// deterministic.
 #include "pose/full_arap.h"
 #include "pose/reduced_arap.h"
 #include "pose/skinning.h"
@@ -18,7 +18,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// 10^x with |x| <= exponent, one in three cases exactly 1.
+/// Return 10^x with |x| <= exponent, and exactly 1 in one of three cases.
 double magnitude(Random& random, double exponent)
 {
   return chance(random, 0.33) ? 1.0 : std::pow(10.0, random.uniform(-exponent, exponent));
@@ -42,25 +42,25 @@ Affine transform(Random& random, double exponent)
     case 0:
       t.leftCols<3>() *= magnitude(random, exponent);
       break;
-    case 1: // uneven, mirrored, flat or a line
+    case 1: // non-uniform scaling, mirrored, or collapsed to a plane or line
       for (int k = 0; k < 3; ++k)
       {
         t.col(k) *= chance(random, 0.3) ? 0.0 : random.uniform(-2.0, 2.0);
       }
       break;
-    case 2: // a shear
+    case 2: // shear
       t.col(random.below(3)) += random.uniform(-3.0, 3.0) * t.col(random.below(3));
       break;
     case 3:
       t.leftCols<3>() *= chance(random, 0.5) ? -1.0 : 0.0;
       break;
-    default: // rigid
+    default: // rigid motion
       break;
   }
   return t;
 }
 
-/// Some handles become bones, whose tails may be anywhere: in the shape, beside it, at one place.
+/// Turn some handles into bones. Their tails may be inside or outside of the shape, or coincide.
 void make_bones(Random& random, const TetMesh& mesh, Handles& handles)
 {
   const Box box = bounding_box(mesh.points);
@@ -80,7 +80,7 @@ void make_bones(Random& random, const TetMesh& mesh, Handles& handles)
       case 1:
         handle.tail = mesh.points.row(random.below(mesh.points.rows()));
         break;
-      case 2: // short
+      case 2: // short bone
         handle.tail = handle.head + 1e-4 * random.in_box(-Vec3::Ones(), Vec3::Ones());
         break;
       default:
@@ -91,12 +91,13 @@ void make_bones(Random& random, const TetMesh& mesh, Handles& handles)
       [&](const Handle& other) { return other.head == handle.tail && other.tail == handle.head; });
     if (twice)
     {
-      handle.tail += Vec3(0.1, 0.2, 0.3); // no length, or another bone the other way round
+      handle.tail += Vec3(0.1, 0.2, 0.3); // zero length, or the reverse of another bone
     }
   }
 }
 
-/// Any mode that the handle can have, any transform, and for bones any stretch and twist.
+/// Set a random mode that the handle supports, a random transform, and for bones a random stretch
+/// and twist.
 void pose_anyhow(Random& random, double exponent, const Handle& handle, HandlePose& pose)
 {
   const bool bone = handle.kind == HandleKind::bone;
@@ -113,7 +114,7 @@ void pose_anyhow(Random& random, double exponent, const Handle& handle, HandlePo
   }
 }
 
-/// How much larger than rest a pose can make things.
+/// Return the scale of a pose relative to rest, at least 1.
 double size_of(const Pose& pose)
 {
   double size = 1.0;
@@ -125,22 +126,22 @@ double size_of(const Pose& pose)
   return size;
 }
 
-/// What people feed it: good weights, and worse.
+/// Return valid or spoiled weights.
 Weights spoilt(Random& random, const Weights& good)
 {
   Weights weights = good;
   const Index m = weights.cols(), a = random.below(m), b = random.below(m);
   switch (random.below(6))
   {
-    case 0: // a duplicated column, rows still sum to one
+    case 0: // a repeated column; rows still sum to 1
       weights.col(a) = 0.5 * (good.col(a) + good.col(b));
       weights.col(b) = weights.col(a);
       break;
     case 1:
       weights.col(a).setZero();
       break;
-    case 2: // random rows that sum to one
-    case 3: // of both signs, to anything
+    case 2: // random nonnegative rows that sum to 1
+    case 3: // random rows of both signs with any sum
     {
       const bool signs = chance(random, 0.5);
       for (Index v = 0; v < weights.rows(); ++v)
@@ -187,7 +188,7 @@ TEST(FuzzPoses, Skinning)
       }
       if (chance(random, 0.1) && !holds_tail(pose[0].mode))
       {
-        pose.assign(pose.size(), pose[0]); // all alike
+        pose.assign(pose.size(), pose[0]); // the same pose for all handles
       }
       std::vector<Affine> transforms;
       expect_spoken(skinning_transforms(shape.handles, pose, transforms));
@@ -210,7 +211,7 @@ TEST(FuzzPoses, Skinning)
       EXPECT_EQ(blended, again);
       for (Index v = 0; v < rest.rows(); ++v)
       {
-        // The definition, point by point.
+        // The definition of linear blend skinning for one point.
         const Vec3 p = rest.row(v);
         Vec3 expected = p;
         for (Index j = 0; j < weights.cols(); ++j)
@@ -234,7 +235,7 @@ TEST(FuzzPoses, Skinning)
         }
         else if (weights.row(v).maxCoeff(&j) == 1.0 && weights.row(v).cwiseAbs().sum() == 1.0)
         {
-          // One handle alone: its transform, whatever that is.
+          // A point with a single handle moves by its transform, even if it is not rigid.
           const Vec3 expected = transforms[j] * rest.row(v).transpose().homogeneous();
           const double near = 1e-12 * std::max(1.0, transforms[j].cwiseAbs().maxCoeff());
           ASSERT_LE((quaternions.row(v).transpose() - expected).cwiseAbs().maxCoeff(), near);
@@ -273,11 +274,11 @@ TEST(FuzzPoses, Skinning)
 
 namespace
 {
-/// One reduced ARAP of random options over random weights.
+/// A reduced ARAP solver with random options and random weights.
 struct Case
 {
   Rig shape;
-  Triangles surface; ///< when it is bound as a surface
+  Triangles surface; ///< used if the case is bound as a surface
   ReducedArapOptions options;
 
   explicit Case(Random& random) : shape(rig(random.below(2)))
@@ -359,7 +360,8 @@ TEST(FuzzPoses, ReducedArap)
           ASSERT_LT((r.transpose() * r - Eigen::Matrix3d::Identity()).norm(), 1e-9);
           ASSERT_GT(r.determinant(), 0.0);
         }
-        // Round-off is that of the largest terms, which grow with the square of the pose's size.
+        // Round-off is proportional to the largest terms, which grow with the square of the pose's
+        // size.
         const double size = size_of(pose);
         const double share = options.mixed_precision ? 1e-6 : 1e-12;
         const double unit = share * arap.rest_energy() * size * size;
@@ -374,7 +376,7 @@ TEST(FuzzPoses, ReducedArap)
         ASSERT_EQ(result, again);
         ASSERT_EQ(arap.energies(), twin.energies());
       }
-      // Home again, whatever the modes are.
+      // The rest pose gives the rest shape in all modes.
       for (HandlePose& handle : pose)
       {
         handle.transform = identity_affine();
@@ -393,14 +395,15 @@ TEST(FuzzPoses, ReducedArap)
 
 namespace
 {
-/// Full ARAP of one of the shapes, held by points anywhere in and around it and by regions.
+/// A full ARAP solver on one of the shapes, with point handles inside and around it and with
+/// regions.
 struct FullCase
 {
   const TetMesh& mesh;
-  Triangles surface; ///< when it is bound as a surface
+  Triangles surface; ///< used if the case is bound as a surface
   Handles handles;
   FullArapOptions options;
-  bool vertices_alone = true; ///< no other point of the mesh is held
+  bool vertices_alone = true; ///< only vertices are constrained, no other points of the mesh
 
   explicit FullCase(Random& random) : mesh(rig(random.below(2)).mesh)
   {
@@ -469,7 +472,8 @@ TEST(FuzzPoses, FullArap)
       ASSERT_EQ(shape.bind(many, twin).code, bound.code);
       if (!bound.usable())
       {
-        // Two handles at one place, a region whose vertices another one took, …
+        // For example two handles at one position, or a region whose vertices are already
+        // constrained.
         ASSERT_EQ(bound.code, StatusCode::invalid_input);
         return;
       }
@@ -497,10 +501,10 @@ TEST(FuzzPoses, FullArap)
           ASSERT_LT((r.transpose() * r - Eigen::Matrix3d::Identity()).norm(), 1e-9);
           ASSERT_GT(r.determinant(), 0.0);
         }
-        // As above where vertices are held. Points inside of elements are held by constraints: of
-        // some that lie close to each other and are dragged apart the system has a condition of
-        // 1e8, and an energy is as exact as its constraints are met, so only the whole way is
-        // looked at.
+        // The energy increases in no iteration if only vertices are constrained. Points inside of
+        // elements add linear constraints. If such points are close together and are dragged apart,
+        // the condition number reaches 1e8, and the energy is only as accurate as the constraints.
+        // So for them only the total decrease is checked.
         const double size = size_of(pose);
         const double unit = 1e-12 * arap.rest_energy() * size * size;
         for (std::size_t i = 1; shape.vertices_alone && i < arap.energies().size(); ++i)
@@ -515,7 +519,7 @@ TEST(FuzzPoses, FullArap)
         ASSERT_EQ(arap.posed(), twin.posed());
         ASSERT_EQ(arap.energies(), twin.energies());
       }
-      // Home again, whatever the modes are.
+      // The rest pose gives the rest shape in all modes.
       for (HandlePose& handle : pose)
       {
         handle.transform = identity_affine();

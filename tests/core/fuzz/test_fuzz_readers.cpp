@@ -1,5 +1,5 @@
-// Valid files of every format that core reads, spoilt in the ways in which files get spoilt: bits,
-// lines, numbers, ends. A reader gives something that can be used or one sentence.
+// Valid files of every format that core reads, with typical damage: bits, lines, numbers,
+// truncation. A reader returns usable data or one sentence.
 #include "io/dmat.h"
 #include "io/gltf_skin.h"
 #include "io/medit.h"
@@ -41,7 +41,7 @@ std::string bytes(test::Random& random, Index most)
   return result;
 }
 
-/// Begins of the lines, and the end of the text.
+/// Return the positions of the line starts, and the end of the text.
 std::vector<std::size_t> line_begins(const std::string& text)
 {
   std::vector<std::size_t> begins{ 0 };
@@ -56,7 +56,7 @@ std::vector<std::size_t> line_begins(const std::string& text)
   return begins;
 }
 
-/// A number of the text becomes one that is none, too large, negative, or just another one.
+/// Replace a number of the text by an invalid, too large, negative or other one.
 void replace_number(test::Random& random, std::string& text)
 {
   static const char* const others[] = { "nan", "inf", "-inf", "-1", "0", "1", "2", "-0", "1e400",
@@ -74,7 +74,7 @@ void replace_number(test::Random& random, std::string& text)
   text.replace(begin, end - begin, others[random.below(std::size(others))]);
 }
 
-/// The same in the raw numbers of a binary file.
+/// Replace a raw number of a binary file in the same way.
 void replace_raw(test::Random& random, std::string& text)
 {
   const double reals[] = { std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300, -1.0, 0.0, 1e-310 };
@@ -116,7 +116,7 @@ void spoil_lines(test::Random& random, std::string& text)
   }
 }
 
-/// One to four things happen to a file.
+/// Apply one to four random changes to a file.
 std::string spoilt(test::Random& random, std::string text)
 {
   const Index count = 1 + random.below(4);
@@ -183,7 +183,7 @@ void expect_consistent(const Status& status, const PolygonMesh& mesh)
   EXPECT_TRUE(check_mesh(mesh.points, fan_triangles(mesh)).ok());
 }
 
-/// Runs a reader over spoilt copies of valid texts.
+/// Run a reader on damaged copies of valid texts.
 template <typename Read>
 void fuzz_texts(const char* what, Index rounds, const std::vector<std::string>& valid, Read read)
 {
@@ -224,7 +224,7 @@ void fuzz_polygons(
     });
 }
 
-/// A cube and what a writer makes of it.
+/// Return a cube in the format of a writer.
 std::string written(Status (*write)(const std::string&, const PolygonMesh&))
 {
   const test::Folder folder;
@@ -245,7 +245,8 @@ void append_raw(std::string& text, T value, bool swap)
   text.append(raw, sizeof(T));
 }
 
-/// A square with what a scanner adds: colours, quality, lists that nobody asked for.
+/// Return a square with typical extra data of a scanner: colors, quality, and lists that the reader
+/// ignores.
 std::string binary_ply(bool big_endian)
 {
   std::string text = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
@@ -373,7 +374,7 @@ TEST(FuzzReaders, Dmat)
         expect_refused(status);
         EXPECT_EQ(back.size(), 0);
       }
-      // An empty matrix may have a side, but one that somebody can walk along.
+      // An empty matrix may have a nonzero side, but not a huge one.
       EXPECT_LE(std::max(back.rows(), back.cols()), Index(1) << 20);
       EXPECT_LE(back.size(), static_cast<Index>(std::filesystem::file_size(path)));
     });
@@ -381,7 +382,7 @@ TEST(FuzzReaders, Dmat)
 
 namespace
 {
-/// A rig with an animation of joints, or of shapes, as a file.
+/// Return the file of a rig with an animation of joints or of shapes.
 std::string gltf(bool binary, GltfAnimation animation)
 {
   const test::Folder folder;
@@ -458,7 +459,7 @@ TEST(FuzzReaders, Gltf)
         ASSERT_EQ(static_cast<Index>(frame.posed.size()), joints);
       }
       EXPECT_GT(skin.frames_per_second, 0.0);
-      // What was read can be written, unless numbers are beyond floats.
+      // A skin that was read can be written, unless its numbers exceed the range of float.
       const Status again = write_gltf_skin(path + ".glb", skin);
       test::expect_spoken(again);
     });
@@ -500,7 +501,7 @@ Handles named_handles()
   return handles;
 }
 
-/// The largest number that an edit names: products of huge ones may leave the range of doubles.
+/// Return the largest number in an edit. Products of huge numbers may exceed the range of double.
 double largest_number(const HandleEdit& edit)
 {
   double largest = std::max(std::abs(edit.scale.value_or(0)), edit.stretch.value_or(0));
@@ -559,7 +560,7 @@ TEST(FuzzReaders, Poses)
           EXPECT_TRUE(!moderate || (handle.transform.allFinite() && handle.stretch > 0.0));
         }
       }
-      // What was read can be written and read again.
+      // Poses that were read can be written and read again.
       std::string again;
       const Status formatted = format_pose_file(poses, sequence.frames_per_second, handles, again);
       test::expect_spoken(formatted);
@@ -595,7 +596,7 @@ TEST(FuzzReaders, NamesInPoseFiles)
       const Status status = parse_pose_file(text, handles, back);
       ASSERT_TRUE(status.ok()) << status.message;
       EXPECT_EQ(back.frames[0].handles.size(), 3u);
-      // Names of others are refused in one sentence.
+      // Unknown handle names are refused with one sentence.
       test::expect_spoken(parse_pose_file(text, named_handles(), back));
     });
 }

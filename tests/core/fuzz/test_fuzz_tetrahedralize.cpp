@@ -1,4 +1,4 @@
-// Small surfaces, abused: whatever comes back holds what every result promises, or is one sentence.
+// Small damaged surfaces: each run gives a valid result or one sentence.
 #include "inside/tetrahedralize.h"
 
 #include "inside/tet_quality.h"
@@ -32,7 +32,7 @@ TriangleMesh shape(test::Random& random)
   }
 }
 
-/// Keeps the triangles of the ids, in their order.
+/// Keep the triangles with the given ids, in this order.
 void select(TriangleMesh& mesh, const std::vector<Index>& ids)
 {
   Triangles kept(static_cast<Index>(ids.size()), 3);
@@ -90,7 +90,7 @@ void jitter(test::Random& random, TriangleMesh& mesh, double size)
   }
 }
 
-/// Triangles between random vertices of the surface: crossing, degenerate, whatever.
+/// Add triangles between random vertices of the surface, which may cross others or be degenerate.
 void add_loose(test::Random& random, TriangleMesh& mesh)
 {
   const Index count = 1 + random.below(4), before = mesh.triangles.rows();
@@ -123,7 +123,7 @@ TriangleMesh abused(test::Random& random)
         jitter(random, mesh, std::pow(10.0, random.uniform(-12.0, -0.7)));
         break;
       case 4:
-        // A copy that crosses, touches or nearly coincides.
+        // Add a copy that crosses, touches or nearly coincides with the surface.
         mesh = test::join(mesh,
           test::translated(shape(random),
             std::pow(10.0, random.uniform(-9.0, 0.0)) *
@@ -151,7 +151,8 @@ TriangleMesh abused(test::Random& random)
   return mesh;
 }
 
-/// {winding number >= threshold} in the surface's box, by the plain sum at random points.
+/// Estimate the volume of {winding number >= threshold} in the surface's bounding box with the
+/// plain sum at random points.
 double sampled_volume(
   test::Random& random, const TriangleMesh& mesh, double threshold, Index samples)
 {
@@ -165,7 +166,7 @@ double sampled_volume(
   return box.size().prod() * static_cast<double>(hits) / static_cast<double>(samples);
 }
 
-/// Names of the rungs that were tried, with their outcomes.
+/// Return the names of the attempted methods with their outcomes.
 std::vector<std::pair<std::string, std::string>> rungs(const Status& status)
 {
   std::vector<std::pair<std::string, std::string>> list;
@@ -183,8 +184,8 @@ std::vector<std::pair<std::string, std::string>> rungs(const Status& status)
   return list;
 }
 
-/// How far input vertices may have gone, as a fraction of the diagonal: they are rounded where that
-/// helps, and moved where nothing else does, which the rung that answered says in its name.
+/// Return the largest permitted displacement of input vertices as a fraction of the diagonal. Some
+/// attempts round the vertices or move them by a fixed amount; the name of the attempt states this.
 double allowed_move(const Status& status)
 {
   double allowed = 1e-12;
@@ -232,7 +233,7 @@ void expect_valid(
   const Status tets = check_tets(mesh.points, mesh.tets, !result.binding.tets.empty());
   EXPECT_TRUE(tets.ok()) << tets.message;
   EXPECT_GT(tet_volumes(mesh.points, mesh.tets).minCoeff(), 0.0);
-  // An embedding may branch: several tets at one side of a facet.
+  // The boundary of an embedding may be non-manifold, with several tets on one side of a facet.
   EXPECT_TRUE(!result.binding.tets.empty() || count_edges(boundary_triangles(mesh.tets)).closed);
   const Components components = connected_components(mesh.points.rows(), mesh.tets);
   EXPECT_EQ(std::count(components.of_vertex.begin(), components.of_vertex.end(), -1), 0);
@@ -241,7 +242,7 @@ void expect_valid(
   expect_kept_vertices(surface, result, status);
 }
 
-/// Every point that a triangle uses lies in the tet that it is bound to.
+/// Expect that every point used by a triangle is inside of the tet that it is bound to.
 void expect_bound(const TriangleMesh& surface, const TetrahedralizeResult& result)
 {
   const PointBinding& binding = result.binding;
@@ -264,7 +265,7 @@ void expect_bound(const TriangleMesh& surface, const TetrahedralizeResult& resul
   }
 }
 
-/// Tets, or one sentence.
+/// Tetrahedralize a surface. Expect valid tets, or one sentence.
 Status fill(const TriangleMesh& surface, const TetrahedralizeOptions& options,
   TetrahedralizeResult& result, int threads = 0)
 {
@@ -275,7 +276,7 @@ Status fill(const TriangleMesh& surface, const TetrahedralizeOptions& options,
   return status;
 }
 
-/// Embedding has no excuse: there is a triangle with an area, or one sentence.
+/// Expect an embedding of every surface that has a triangle with an area.
 void expect_embedding(const TriangleMesh& surface, Index resolution)
 {
   TetrahedralizeOptions options;
@@ -296,13 +297,14 @@ void expect_embedding(const TriangleMesh& surface, Index resolution)
   }
 }
 
-/// The same bits again, whatever the number of threads; unless a clock decided.
+/// Expect the same bits in a second run with another number of threads, unless a time limit changed
+/// the result.
 void expect_repeatable(const TriangleMesh& surface, const TetrahedralizeOptions& options,
   const TetrahedralizeResult& result, const Status& status)
 {
   if (test::sanitized)
   {
-    return; // takes long enough once
+    return; // a second run takes too long
   }
   const auto clock_decided = [](const Status& run)
   {
@@ -343,7 +345,7 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
     const bool told = std::any_of(status.warnings.begin(), status.warnings.end(),
       [](const std::string& text)
       { return text.find("but the winding number encloses") != std::string::npos; });
-    // Sampled with 20,000 points inside, or fewer where that takes long.
+    // The volume is sampled with 20,000 points inside, or with fewer if that takes too long.
     EXPECT_TRUE(told || std::abs(volume / winding - 1.0) < 0.15)
       << volume << " instead of " << winding << ", and no word of it";
   }
@@ -351,7 +353,7 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
     [](const std::string& text) { return text.find("turned") != std::string::npos; });
   if (!turned)
   {
-    // Six standard deviations of both samplings.
+    // The tolerance is six standard deviations of both samplings.
     constexpr Index samples = 2000;
     const double expected = sampled_volume(random, surface, options.winding_threshold, samples);
     EXPECT_NEAR(winding, expected, 0.1 * box);
@@ -408,7 +410,8 @@ TEST(FuzzTetrahedralize, AbusedSurfaces)
   std::cout << "[ fuzz ] " << filled << " of them were filled\n";
 }
 
-/// No helper is there, as in a build without it: many more cases of what surrounds it.
+/// Runs without the helper program, as in a build without it, and covers many more cases of the
+/// surrounding code.
 TEST(FuzzTetrahedralize, LatticesOfAbusedSurfaces)
 {
   const test::Environment no_helper("BINDPOSE_MESHER", "/nowhere");
@@ -440,7 +443,7 @@ TEST(FuzzTetrahedralize, LatticesOfAbusedSurfaces)
   std::cout << "[ fuzz ] " << filled << " of them were filled\n";
 }
 
-/// A wrap is there for everything that has an area.
+/// Every surface that has an area can be wrapped.
 TEST_F(FuzzWrap, AbusedSurfaces)
 {
   test::fuzz("wraps", 24,
@@ -467,7 +470,8 @@ TEST_F(FuzzWrap, AbusedSurfaces)
     });
 }
 
-/// Heaps, needles, layers and the like of any size and anywhere: most enclose next to nothing.
+/// Heaps, needles, layers and similar surfaces of any size at any position. Most of them enclose
+/// almost nothing.
 TEST(FuzzTetrahedralize, HostileSurfaces)
 {
   const bool helper = !find_mesher().empty();

@@ -1,5 +1,5 @@
-// Handles anywhere: on, in and off the mesh, touching each other. Weights are what they promise to
-// be or there is one sentence.
+// Handles at random positions: on, in and outside of the mesh, and touching each other. The weights
+// satisfy their definition, or the problem is refused with one sentence.
 #include "weights/baseline_weights.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
@@ -20,7 +20,7 @@ Vec3 in_cube(Random& random, double size)
   return random.in_box(Vec3::Constant(-size), Vec3::Constant(size));
 }
 
-/// A small domain, seldom regular.
+/// Return a small random domain, which is rarely regular.
 Domain shape(Random& random)
 {
   Domain domain;
@@ -54,8 +54,8 @@ Domain shape(Random& random)
   return domain;
 }
 
-/// A place with a meaning: a vertex, nearly one, on an edge, in an element, outside, at another
-/// handle or nearly.
+/// Return a random point in a special position: at or near a vertex, on an edge, in an element,
+/// outside, or at or near another handle.
 Vec3 place(Random& random, const Domain& domain, const Handles& others)
 {
   const Box box = bounding_box(domain.points);
@@ -128,8 +128,8 @@ double measure(const Domain& domain)
                             : surface_area(domain.points, domain.triangles);
 }
 
-/// Smallest height of an element in units of the mesh's size: handles that nearly touch make it
-/// tiny.
+/// Return the smallest height of an element in bounding-box diagonals. It is tiny if handles nearly
+/// touch.
 double smallest_height(const Domain& domain)
 {
   const double size = bounding_box(domain.points).diagonal();
@@ -152,7 +152,7 @@ double smallest_height(const Domain& domain)
   return smallest;
 }
 
-/// Inserting handles splits elements and changes nothing else.
+/// Expect that the insertion of handles only splits elements.
 void expect_same_shape(const Domain& before, const HandleInsertion& after)
 {
   const Domain& domain = after.domain;
@@ -217,7 +217,7 @@ void expect_weights(
   for (Index v = 0; v < problem.vertex_count(); ++v)
   {
     const bool empty = problem.constraints.roles[v] == VertexRole::unreferenced;
-    // Without bounds, large weights of both signs leave their round-off.
+    // Without bounds, large weights of both signs increase the round-off of the sum.
     const double size = std::max(1.0, result.weights.row(v).cwiseAbs().sum());
     ASSERT_NEAR(result.weights.row(v).sum(), empty ? 0.0 : 1.0, 1e-12 * size) << v;
   }
@@ -273,7 +273,8 @@ TEST(FuzzWeights, HandlesAnywhere)
       expect_spoken(status);
       if (!status.usable())
       {
-        // Second differences over such lengths leave the range of doubles: the only excuse.
+        // Only tiny elements may fail, because second differences over their lengths exceed the
+        // range of double.
         EXPECT_EQ(status.code, StatusCode::invalid_input);
         EXPECT_LT(smallest_height(problem.mesh.domain), 1e-4) << status.message;
         ++unsolvable;

@@ -1,9 +1,9 @@
-// Winding numbers of surfaces, curves and clouds made to hurt: all methods against the plain sums,
-// at points on, near and far from them.
+// Winding numbers of hostile surfaces, curves and point clouds. All methods are compared with plain
+// sums, at points on, near and far from the input.
 //
-// Tolerances are those of the documentation: exact methods keep 1e-14 and what the sum of unsigned
-// shares makes of round-off, whole numbers are whole, the fast methods keep their tolerance, flags
-// agree everywhere, and rows of grids and batches give the bits of single points.
+// Tolerances are those of the documentation. Exact methods have an error of 1e-14 plus the
+// round-off of the sum of unsigned contributions, and integers are exact. Fast methods keep their
+// tolerance. Flags always agree. Rows of grids and batches have the same bits as single points.
 #include "winding/curve_winding_number.h"
 #include "winding/exact_frame.h"
 #include "winding/point_cloud_winding_number.h"
@@ -59,7 +59,8 @@ WindingNumber make(Random& random, const TriangleMesh& mesh, const Way& way)
   return winding;
 }
 
-/// A triangle begins to touch here: rounding decides, and differently for the same triangle turned.
+/// Report whether the point is at about the tolerance of touching a triangle. There the result
+/// depends on rounding, and on the order of the triangle's corners.
 bool is_borderline(const TriangleMesh& mesh, const Vec3& point)
 {
   const ExactFrame frame(bounding_box(mesh.points, mesh.triangles));
@@ -77,7 +78,7 @@ bool is_borderline(const TriangleMesh& mesh, const Vec3& point)
   return false;
 }
 
-/// Points and what the plain sum says there.
+/// Points and the values of the plain sum at them.
 struct Truth
 {
   Points points;
@@ -101,7 +102,7 @@ struct Truth
   }
 };
 
-/// A grid whose samples share coordinates with vertices.
+/// Return a grid whose samples share coordinates with vertices.
 SampleGrid hostile_grid(Random& random, const TriangleMesh& mesh)
 {
   const auto vertex = [&]
@@ -125,14 +126,14 @@ SampleGrid hostile_grid(Random& random, const TriangleMesh& mesh)
   return grid;
 }
 
-/// What has been seen in all rounds.
+/// Statistics of all rounds.
 struct Tally
 {
   Index queries = 0;
   Index touching = 0;
-  Index borderline = 0; ///< nothing is known of these
-  double exact_error = 0.0; ///< largest
-  double fast_error = 0.0; ///< largest, in tolerances
+  Index borderline = 0; ///< number of borderline queries, which are not compared
+  double exact_error = 0.0; ///< largest absolute error
+  double fast_error = 0.0; ///< largest error in tolerances
 
   void add(const WindingNumber& winding, const Way& way, bool closed, const Truth& truth, Index i,
     double value, bool touches)
@@ -152,7 +153,7 @@ struct Tally
       return;
     }
     this->touching += touches;
-    if (!truth.points.row(i).allFinite()) // a grid that goes on beyond the largest double
+    if (!truth.points.row(i).allFinite()) // a grid may extend beyond the range of double
     {
       EXPECT_TRUE(std::isnan(value) && std::isnan(truth.values[i]) && !touches) << where();
       return;
@@ -184,7 +185,7 @@ struct Tally
   }
 };
 
-/// One way of computing against the truth: all points at once, one by one, and on the grid.
+/// Compare one method with the truth: all points in one call, one by one, and on the grid.
 void compare(Random& random, const TriangleMesh& mesh, const Way& way, const Truth& points,
   const SampleGrid& grid, const Truth& samples, Tally& tally)
 {
@@ -253,7 +254,8 @@ TEST(FuzzWinding, AllMethodsOnSurfacesOfAllKinds)
 
 namespace
 {
-/// Copies of a surface about a box far larger than it, for several levels of cells.
+/// Scatter copies of a surface in a box far larger than the surface, so that cells have several
+/// levels.
 TriangleMesh scattered(Random& random, const TriangleMesh& part, Index most)
 {
   TriangleMesh mesh = part;
@@ -268,8 +270,8 @@ TriangleMesh scattered(Random& random, const TriangleMesh& part, Index most)
 }
 } // namespace
 
-// Whole numbers by cells, on grids and at points: against the tree of boxes, which shares nothing
-// with them, and now and then the plain sum.
+// Integer winding numbers of method `crossings`, on grids and at points. They are compared with
+// method `hierarchical`, which shares no code with it, and sometimes with the plain sum.
 TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
 {
   Index queries = 0, compared = 0, touching = 0, plain = 0, largest = 0;
@@ -294,7 +296,7 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
         ASSERT_TRUE(touches || value == std::round(value)) << p.transpose() << ": " << value;
         if (!chance(random, 1500.0 / static_cast<double>(mesh.triangles.rows())))
         {
-          return; // a heap's tree is slow
+          return; // the tree is slow for a heap of triangles
         }
         bool expected_touch = false;
         const double expected = tree.evaluate_at(p, &expected_touch);
@@ -345,7 +347,7 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
             << largest << " triangles\n";
 }
 
-// Cubes on a lattice: in the middle of each is known what there is, without any surface.
+// Cubes of a lattice: the winding number in the middle of each lattice cube is known.
 TEST(FuzzWinding, CubesHoldTheirMiddles)
 {
   Index queries = 0;
@@ -365,7 +367,7 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
         return Vec3(static_cast<double>(i % n), static_cast<double>(i / n % n),
           static_cast<double>(i / n / n));
       };
-      // Whole cubes side by side: walls between them are doubled, in opposite directions.
+      // Adjacent cubes have doubled walls between them, in opposite orientations.
       const TriangleMesh one = cube(0.0, 1.0);
       const auto count = static_cast<Index>(std::count(filled.begin(), filled.end(), 1));
       mesh.points.resize(8 * count, 3);
@@ -397,7 +399,7 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
       };
       for (Index i = 0; i < grid.count(); ++i)
       {
-        // A sample in the middle of a cube, wall, edge or corner is shared by 1, 2, 4 or 8 cubes.
+        // A sample in the middle of a cube, wall, edge or corner belongs to 1, 2, 4 or 8 cubes.
         const std::array<Index, 3> place{ i % grid.size(0), i / grid.size(0) % grid.size(1),
           i / grid.size(0) / grid.size(1) };
         double expected = 0.0;
@@ -406,7 +408,7 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
           std::array<Index, 3> cell;
           for (int axis = 0; axis < 3; ++axis)
           {
-            const Index halves = place[axis] - 3; // from the lattice's corner
+            const Index halves = place[axis] - 3; // in half cubes from the lattice's corner
             cell[axis] = halves % 2 == 0 ? halves / 2 - 1 + (k >> axis & 1) : (halves - 1) / 2;
           }
           expected += 0.125 * is_filled(cell[0], cell[1], cell[2]);
@@ -448,12 +450,13 @@ TEST(FuzzWinding, GradientIsThatOfThePlainSum)
       for (int q = 0; q < 12; ++q)
       {
         const Vec3 p = hostile_point(random, mesh);
-        double off = 1e300; // from the surface
+        double off = 1e300; // distance from the surface
         for (Index t = 0; t < mesh.triangles.rows(); ++t)
         {
           const auto corner = [&](int k) { return Vec3(mesh.points.row(mesh.triangles(t, k))); };
           off = std::min(off, (closest_point(p, corner(0), corner(1), corner(2)) - p).norm());
-          for (int k = 0; k < 3; ++k) // flat ones have no other side
+          // Degenerate triangles have no normal, so also measure their edges.
+          for (int k = 0; k < 3; ++k)
           {
             off = std::min(off, distance_from_segment(p, corner(k), corner((k + 1) % 3)));
           }
@@ -462,7 +465,8 @@ TEST(FuzzWinding, GradientIsThatOfThePlainSum)
         {
           continue;
         }
-        // Distance of the rim, and what it can make of round-off and of finite differences.
+        // The distance of the boundary curve, and the sum of multiplicities, which scales the
+        // round-off and the error of the finite differences.
         double rim = 1e300, weights = 0.0;
         for (const SurfaceBoundary::BoundaryEdge& edge : exact.boundary().edges)
         {
@@ -530,7 +534,7 @@ Curve hostile_curve(Random& random)
         lattice ? static_cast<double>(random.below(lattice)) : random.uniform(-1.0, 1.0);
     }
     curve.points(v, 1) *= flat;
-    if (v > 0 && chance(random, 0.1)) // nearly doubled
+    if (v > 0 && chance(random, 0.1)) // nearly coincides with another point
     {
       curve.points.row(v) = curve.points.row(random.below(v)).eval();
       curve.points(v, random.below(2)) += std::pow(10.0, random.uniform(-16.0, -6.0));
@@ -650,7 +654,7 @@ Cloud hostile_cloud(Random& random)
   const Vec3 ones = Vec3::Ones();
   const Index lattice = chance(random, 0.3) ? 2 + random.below(8) : 0;
   Vec3 shape = ones;
-  for (int k = 0; k < 3; ++k) // in a plane, on a line
+  for (int k = 0; k < 3; ++k) // flatten to a plane or a line
   {
     shape[k] = chance(random, 0.2) ? 0.0 : chance(random, 0.2) ? 1e-9 : 1.0;
   }
@@ -661,7 +665,7 @@ Cloud hostile_cloud(Random& random)
     {
       at = (0.5 * static_cast<double>(lattice) * (at + ones)).array().floor();
     }
-    else if (chance(random, 0.3)) // in a knot
+    else if (chance(random, 0.3)) // in a tight cluster
     {
       at = Vec3(0.3, 0.2, 0.1) + 1e-5 * at;
     }
@@ -687,7 +691,8 @@ Cloud hostile_cloud(Random& random)
   return cloud;
 }
 
-/// The formula, and the sum of unsigned shares; nothing of samples within the tolerance.
+/// Evaluate the formula and the sum of its unsigned contributions. Samples within the tolerance
+/// contribute nothing.
 void plain_sum(const Cloud& cloud, const Vec3& p, double tolerance, double& sum,
   double& unsigned_sum, bool& touches)
 {

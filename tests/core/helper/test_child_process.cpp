@@ -1,4 +1,4 @@
-// A program in a process of its own: how it ends, and that nothing of it is left.
+// Child processes: how they end, and that they leave nothing behind.
 #include "helper/child_process.h"
 
 #include "support/cancel_later.h"
@@ -81,7 +81,7 @@ TEST(ChildProcess, RunsInItsFolder)
 
 TEST(ChildProcess, MemoryIsLimitedFromOutside)
 {
-  // The limit may come a moment after the start.
+  // The limit may take effect shortly after the start.
   Shell shell("sleep 0.2; ulimit -v; ulimit -c");
   shell.request.memory_limit = 500;
   ASSERT_TRUE(shell.run().ok());

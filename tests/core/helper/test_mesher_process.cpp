@@ -1,4 +1,4 @@
-// The helper process: what it gives, and what is left of it when it fails.
+// The helper process: its results, and the cleanup after a failure.
 #include "helper/mesher_process.h"
 
 #include "inside/tet_quality.h"
@@ -29,7 +29,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// A shell script in the helper's place.
+/// Replaces the helper program by a shell script.
 class FakeHelper : public test::WatchedStandIn
 {
 public:
@@ -88,7 +88,7 @@ TEST(MesherProcess, MissingHelperNamesItsPackages)
 
 TEST(MesherProcess, CopiesThroughAnHonestHelper)
 {
-  // The record comes back as it went, exactly.
+  // The helper returns the record unchanged.
   FakeHelper helper("echo progress 0.5 >&2; echo report rounds 3 >&2; cat");
   const Status status = helper.run();
   ASSERT_TRUE(status.ok()) << status.message;
@@ -193,7 +193,7 @@ TEST(MesherProcess, CancelKillsTheHelperAtOnce)
   EXPECT_LT(waited, 0.2);
   ASSERT_GT(helper.process(), 0);
   EXPECT_NE(::kill(helper.process(), 0), 0) << "still running";
-  // Cancelled before it starts: it does not.
+  // A run that is canceled before it starts does not start the helper.
   EXPECT_EQ(helper.run(60.0, &context).code, StatusCode::cancelled);
 }
 
@@ -205,8 +205,7 @@ TEST(MesherProcess, ADetachedGrandchildDoesNotHang)
   EXPECT_LT(seconds_since(start), 2.5);
 }
 
-// ---- The real helper
-// -----------------------------------------------------------------------------
+// ---- The real helper program ------------------------------------------------------------------
 
 class RealHelper : public test::NeedsMesher
 {
@@ -227,7 +226,8 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
     const MesherData& refined = answer.data;
     EXPECT_GT(refined.triangles.rows(), mesh.triangles.rows());
     EXPECT_EQ(refined.points.topRows(mesh.points.rows()), mesh.points) << "vertices keep their ids";
-    // Twin: our own exact predicates find nothing that crosses, and as many pairs as CGAL before.
+    // Reference: exact predicates of Bindpose find no crossings afterwards, and as many pairs as
+    // CGAL before.
     ExecutionContext context;
     std::vector<std::pair<Index, Index>> pairs;
     ASSERT_TRUE(crossing_pairs(refined.points, refined.triangles, pairs, context));
@@ -239,7 +239,7 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
   }
   MesherAnswer answer;
   ASSERT_TRUE(run_real({ "refine" }, two, answer).ok());
-  // Nothing coplanar: every triangle is only cut.
+  // No triangles are coplanar, so refinement only cuts them.
   EXPECT_NEAR(surface_area(answer.data.points, answer.data.triangles),
     surface_area(two.points, two.triangles), 1e-12);
   EXPECT_NEAR(signed_volume(answer.data.points, answer.data.triangles),
@@ -248,7 +248,7 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
 
 TEST_F(RealHelper, AFewTrianglesMayFallIntoManyPieces)
 {
-  // 14 squares across each axis: each is cut into 15 x 15 by the others.
+  // 14 squares across each axis. The other squares cut each square into 15 x 15 parts.
   constexpr int count = 14;
   TriangleMesh mesh;
   for (int axis = 0; axis < 3; ++axis)
@@ -279,8 +279,8 @@ TEST_F(RealHelper, AFewTrianglesMayFallIntoManyPieces)
 
 TEST_F(RealHelper, SheetsThatNearlyCoincideAreRounded)
 {
-  // A sphere and the same turned there and back: some vertices are an ulp away, triangles cross at
-  // angles of rounding.
+  // A sphere and a copy that was rotated and rotated back. Some vertices differ by one ulp, and
+  // triangles cross at angles of the size of rounding errors.
   const TriangleMesh sphere = test::sphere(4);
   TriangleMesh twin = sphere;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).matrix();
@@ -323,12 +323,12 @@ TEST_F(RealHelper, FillsACube)
 
 TEST_F(RealHelper, WhatCrashesTetgenIsAStatus)
 {
-  // Two crossing triangles and nothing else, unrefined.
+  // Two crossing surfaces that were not refined.
   TriangleMesh mesh = test::join(test::sphere(2), test::sphere(2, 1.0, Vec3(0.7, 0.31, 0.17)));
   MesherAnswer answer;
   EXPECT_EQ(
     run_real({ "tetgen", "--switches", "pY" }, mesh, answer).code, StatusCode::internal_error);
-  // Open: no tets.
+  // An open surface has no tets.
   EXPECT_FALSE(run_real({ "tetgen", "--switches", "pY" }, test::open_cube(), answer).ok());
   EXPECT_FALSE(run_real({ "delaunay" }, test::grid(2, 2), answer).ok());
   EXPECT_THAT(run_real({ "dance" }, mesh, answer).message, HasSubstr("unknown job"));

@@ -1,5 +1,5 @@
-// The adapter to fTetWild: with a script in its place that takes the same arguments, and with the
-// program itself where it is installed.
+// The adapter to fTetWild, with a script that accepts the same arguments, and with the program
+// itself if it is installed.
 #include "inside/ftetwild_process.h"
 
 #include "helper/child_process.h"
@@ -36,7 +36,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// What the options stand for, as fTetWild's own parser has it.
+/// Parses the options in the same way as fTetWild.
 constexpr const char* parse_arguments = R"(
 here=$(dirname "$0")
 printf '%s\n' "$*" > "$here/arguments"
@@ -55,8 +55,8 @@ cp "$input" "$here/input.off"
 echo scratch > "${output}_sf.obj"
 )";
 
-/// The cube in the frame that fTetWild works in, as its MeshIO.cpp writes it, with a vertex that
-/// nothing uses.
+/// Return the tets of the cube in the normalized frame of fTetWild, in the format of its
+/// MeshIO.cpp, with an unused vertex.
 std::string the_cube()
 {
   const TetMesh box = test::tet_box(2, 2, 2, Vec3::Constant(-0.5), Vec3::Constant(0.5));
@@ -80,7 +80,7 @@ std::string the_cube()
   return text.str();
 }
 
-/// A script in fTetWild's place.
+/// Replaces fTetWild by a script.
 class FakeFtetwild : public test::WatchedStandIn
 {
 public:
@@ -119,7 +119,7 @@ TEST(Ftetwild, SurfacesGoAndTetsComeInTheirOwnPlace)
   EXPECT_NEAR(tet_volumes(fake.mesh.points, fake.mesh.tets).sum(), 8.0, 1e-12);
   EXPECT_EQ(bounding_box(fake.mesh.points).lower, Vec3(at - Vec3::Ones()));
   EXPECT_EQ(bounding_box(fake.mesh.points).upper, Vec3(at + Vec3::Ones()));
-  // What it was given: the same triangles around the origin.
+  // The input of the script is the same triangles around the origin.
   PolygonMesh given;
   ASSERT_TRUE(read_off(fake.file("input.off"), given).ok());
   EXPECT_EQ(given.points, test::cube(-0.5, 0.5).points);
@@ -156,7 +156,7 @@ TEST(Ftetwild, IsFoundOnThePath)
   ExecutionContext context;
   TetMesh mesh;
   const TriangleMesh cube = test::cube();
-  std::filesystem::create_directory(folder / "FloatTetwild_bin"); // no program
+  std::filesystem::create_directory(folder / "FloatTetwild_bin"); // a folder is not a program
   EXPECT_EQ(find_ftetwild(), "");
   const Status status = run_ftetwild(cube.points, cube.triangles, {}, mesh, context);
   EXPECT_EQ(status.code, StatusCode::unavailable);
@@ -186,7 +186,7 @@ TEST(Ftetwild, WhateverItDoesIsAStatusAndNothingIsLeft)
          Case{ "echo garbage > \"$output\"", "wrote no readable mesh" },
          Case{ "head -c 700 \"$here/tets.mesh\" > \"$output\"", "wrote no readable mesh" },
          Case{ "sed 's/-0.5/nan/' \"$here/tets.mesh\" > \"$output\"", "wrote no readable mesh" },
-         // Flat: all vertices in one plane.
+         // Degenerate: all vertices are in one plane.
          Case{ "sed -E 's/^(-?[0-9.]+ -?[0-9.]+) -?[0-9.]+ 0$/\\1 0 0/' \"$here/tets.mesh\" > "
                "\"$output\"",
            "has no positive volume" },
@@ -267,7 +267,7 @@ TEST(Ftetwild, BadInputIsOneSentence)
   EXPECT_THAT(message(test::cube(), { 1e-3, -1.0, 1.0, 0 }), HasSubstr("edge"));
   EXPECT_THAT(message(test::cube(), { 1e-3, 0.0, 0.0, 0 }), HasSubstr("time_limit"));
   EXPECT_THAT(message(test::cube(), { 1e-3, 0.0, 1.0, -5 }), HasSubstr("memory_limit"));
-  // No folder for temporary files.
+  // No folder for temporary files exists.
   const Environment nowhere("TMPDIR", "/nowhere/at/all");
   const Status status = fake.run(test::cube());
   EXPECT_EQ(status.code, StatusCode::internal_error);
@@ -278,7 +278,8 @@ TEST(Ftetwild, TheRealOneFillsASphere)
 {
   if (find_ftetwild().empty())
   {
-    // No package has it, and a test that is skipped is a failure where all packages are there.
+    // No package contains fTetWild, and a skipped test counts as a failure if all packages are
+    // installed.
     std::cout << "fTetWild is not installed: not tried\n";
     return;
   }

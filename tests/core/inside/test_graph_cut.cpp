@@ -20,7 +20,7 @@ CutEnergy random_energy(Index nodes, Index edges, Random& random)
   CutEnergy energy;
   for (Index i = 0; i < nodes; ++i)
   {
-    // Some nodes do not care, some are bound to one side.
+    // Some nodes are indifferent, and some strongly prefer one side.
     const Index kind = random.below(5);
     energy.inside_costs.push_back(kind == 0 ? 0.0 : kind == 1 ? 100.0 : random.uniform());
     energy.outside_costs.push_back(kind == 0 ? 0.0 : random.uniform());
@@ -28,13 +28,13 @@ CutEnergy random_energy(Index nodes, Index edges, Random& random)
   for (Index e = 0; e < edges; ++e)
   {
     const Index a = random.below(nodes);
-    const Index b = (a + 1 + random.below(nodes - 1)) % nodes; // any other, the same pair again too
+    const Index b = (a + 1 + random.below(nodes - 1)) % nodes; // any other node; pairs may repeat
     energy.edges.push_back({ a, b, random.below(4) == 0 ? 0.0 : random.uniform() });
   }
   return energy;
 }
 
-/// The least energy of all labels.
+/// Return the smallest energy of all labelings.
 double brute_force(const CutEnergy& energy)
 {
   const std::size_t nodes = energy.inside_costs.size();
@@ -57,7 +57,7 @@ Status minimized(const CutEnergy& energy, std::vector<char>& inside)
   return minimize(energy, inside, context);
 }
 
-/// A chain of nodes in a box of n^3 whose costs are noise: hard to decide.
+/// Return a grid of n^3 nodes with random costs, which are slow to minimize.
 CutEnergy noise(Index n)
 {
   Random random(7);
@@ -99,7 +99,7 @@ TEST(GraphCut, WithoutEdgesEveryNodeTakesItsCheaperSide)
   energy.outside_costs = { 1.0, 0.0, 0.5, 0.6 };
   std::vector<char> inside;
   ASSERT_TRUE(minimized(energy, inside).ok());
-  EXPECT_EQ(inside, (std::vector<char>{ 1, 0, 0, 1 })); // the one that does not care is outside
+  EXPECT_EQ(inside, (std::vector<char>{ 1, 0, 0, 1 })); // the indifferent node is outside
 }
 
 TEST(GraphCut, ScaleDoesNotMatter)
@@ -159,7 +159,7 @@ TEST(GraphCut, BadCostsAndNodesAreNamed)
 
 TEST(GraphCut, CancelStopsIt)
 {
-  const CutEnergy energy = noise(70); // seconds of work
+  const CutEnergy energy = noise(70); // takes seconds
   ExecutionContext context;
   test::CancelLater user(context, 500);
   std::vector<char> inside;
@@ -167,11 +167,11 @@ TEST(GraphCut, CancelStopsIt)
   const double waited = user.waited();
   if (status.code == StatusCode::cancelled)
   {
-    EXPECT_LT(waited, test::sanitized ? 10.0 : 1.0); // 200 ms when nothing else runs
+    EXPECT_LT(waited, test::sanitized ? 10.0 : 1.0); // about 200 ms on an idle machine
   }
   else
   {
-    EXPECT_TRUE(status.ok()) << status.message; // a fast machine was done before
+    EXPECT_TRUE(status.ok()) << status.message; // a fast machine may finish before the cancel
     EXPECT_LT(waited, 0.0);
   }
 }

@@ -32,7 +32,8 @@ TEST(HandlePlaces, ALineIsCutIntoPiecesOfTheLocalLength)
   {
     EXPECT_NEAR(even.points(3 + i, 0), 0.1 * static_cast<double>(i + 1), 1e-9);
   }
-  // Lengths that grow from one end: pieces do, too, and none is longer than what is asked there.
+  // If the lengths grow from one end, the pieces grow too, and no piece is longer than the length
+  // requested there.
   const auto growing = [](const Vec3& p) { return 0.05 + 0.3 * p.x(); };
   const HandleSamples graded = sample_places(places, growing);
   double last = 0.0;

@@ -1,4 +1,4 @@
-// Points inside of closed surfaces: where they are, how far apart, how many.
+// Points inside of closed surfaces: their positions, spacing and number.
 #include "inside/inner_points.h"
 
 #include "support/meshes.h"
@@ -31,7 +31,7 @@ Points points_in(const TriangleMesh& mesh, SizingField sizes, Index most, int th
   return inner;
 }
 
-/// The distance from point i to its nearest neighbor.
+/// Return the distance from point i to its nearest neighbor.
 double spacing(const Points& points, Index i)
 {
   double nearest = std::numeric_limits<double>::infinity();
@@ -51,10 +51,11 @@ TEST(InnerPoints, AreInsideAndAsFarApartAsTheSizesSay)
   for (Index i = 0; i < inner.rows(); ++i)
   {
     EXPECT_LE(inner.row(i).norm(), 1.0 - 0.5 * length + 1e-3);
-    EXPECT_GE(spacing(inner, i), 0.47 * length); // cells are halved: 0.55 … 1.1 of the length
+    // Cells are bisected, so their size is 0.55 to 1.1 of the length.
+    EXPECT_GE(spacing(inner, i), 0.47 * length);
     EXPECT_LE(spacing(inner, i), 1.1 * length);
   }
-  // Two points for each cell.
+  // A cell has two points.
   const double volume = 4.0 / 3.0 * pi * std::pow(1.0 - 0.5 * length, 3.0);
   EXPECT_GE(static_cast<double>(inner.rows()), 2.0 * volume / std::pow(1.1 * length, 3.0) * 0.9);
   EXPECT_LE(static_cast<double>(inner.rows()), 2.0 * volume / std::pow(0.55 * length, 3.0) * 1.1);
@@ -87,7 +88,7 @@ TEST(InnerPoints, AreNotManyMoreThanAskedFor)
 
 TEST(InnerPoints, EvenGridsGiveSomePointsAndNotTooMany)
 {
-  // All cells at the surface are cut at the same size, so that their number jumps.
+  // All cells at the surface are subdivided at the same size, so that their number jumps.
   for (const double height : { 1.0, 0.2, 0.05 })
   {
     const TetMesh box = test::tet_box(20, 20, 4, Vec3::Zero(), Vec3(1.0, 1.0, height));
@@ -113,7 +114,7 @@ TEST(InnerPoints, AHollowStaysEmpty)
   shell.points.bottomRows(vertices) = 0.5 * inner.points;
   shell.triangles.conservativeResize(2 * triangles, 3);
   shell.triangles.bottomRows(triangles) =
-    inner.triangles.rowwise().reverse().array() + vertices; // faces the other way
+    inner.triangles.rowwise().reverse().array() + vertices; // reversed orientation
   const Points points = points_in(shell, everywhere(0.1), 100000);
   ASSERT_GT(points.rows(), 1000);
   EXPECT_GT(points.rowwise().norm().minCoeff(), 0.5);

@@ -65,7 +65,8 @@ TEST(LatticeTets, StuffingBoundaryLiesOnTheSurface)
   const Triangles skin = boundary_triangles(mesh.tets);
   for (Index k = 0; k < skin.size(); ++k)
   {
-    // Bisection to 1/256 of an edge; the subdivided sphere itself is 1e-3 inside the round one.
+    // Bisection is accurate to 1/256 of an edge. The subdivided sphere itself is up to 1e-3 inside
+    // the round one.
     EXPECT_NEAR(mesh.points.row(skin.data()[k]).norm(), 1.0, cube / 256.0 + 3e-3);
   }
 }
@@ -95,7 +96,7 @@ TEST(LatticeTets, MovesAndScalesWithTheSurface)
 {
   const TriangleMesh surface = test::torus(24, 12, 1.0, 0.4);
   TriangleMesh large = surface;
-  large.points *= 1024.0; // a power of two: the same bits
+  large.points *= 1024.0; // a power of two, so the bits are the same
   const TetMesh a = stuffed(surface, 12), b = stuffed(large, 12);
   EXPECT_EQ(a.tets, b.tets);
   EXPECT_EQ(Points(1024.0 * a.points), b.points);

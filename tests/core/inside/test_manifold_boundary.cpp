@@ -11,7 +11,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Each cube of the list as tets that agree across common faces and share vertices.
+/// Return each cube of the list as six tets. Adjacent cubes share vertices, and their tets match
+/// across common faces.
 TetMesh cubes(const std::vector<std::array<int, 3>>& list)
 {
   std::map<std::array<int, 3>, Index> ids;
@@ -30,7 +31,7 @@ TetMesh cubes(const std::vector<std::array<int, 3>>& list)
       }
       return found->second;
     };
-    // Kuhn's six tets along the diagonal from corner 0 to corner 7.
+    // Kuhn's six tets share the diagonal from corner 0 to corner 7.
     for (const auto& [first, second] :
       { std::pair(1, 3), { 3, 2 }, { 2, 6 }, { 6, 4 }, { 4, 5 }, { 5, 1 } })
     {
@@ -51,8 +52,8 @@ TetMesh cubes(const std::vector<std::array<int, 3>>& list)
   return mesh;
 }
 
-/// Every edge has two triangles with opposite directions, and the triangles around a vertex are
-/// one ring.
+/// Expect that every edge has two triangles with opposite directions, and that the triangles around
+/// each vertex form one ring.
 void expect_closed_manifold(const TriangleMesh& mesh)
 {
   std::map<std::pair<Index, Index>, int> directed;
@@ -125,8 +126,8 @@ TEST(ManifoldBoundary, CubesThatShareAnEdgeArePartedThere)
 
 TEST(ManifoldBoundary, ARingOfCubesThatCloseAtAnEdgeIsOneSurface)
 {
-  // The first and the last cube meet at an edge only: around the edge they are apart, around the
-  // ring they are connected.
+  // The first and the last cube meet only at an edge. They are separate around this edge and
+  // connected along the ring.
   const TetMesh mesh = cubes({ { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 1, 1, 0 } });
   const TriangleMesh surface = manifold_boundary(mesh);
   expect_closed_manifold(surface);

@@ -58,7 +58,7 @@ Outcome run(const TriangleMesh& mesh, const RemeshOptions& options = {}, int thr
   return outcome;
 }
 
-/// At every vertex of a closed surface the triangles make one ring.
+/// Report whether the triangles form one ring around every vertex of a closed surface.
 bool manifold(const Triangles& skin)
 {
   for (const Edge& edge : mesh_edges(skin))
@@ -68,7 +68,8 @@ bool manifold(const Triangles& skin)
       return false;
     }
   }
-  std::map<Index, std::map<Index, Index>> next; // vertex -> neighbour -> next neighbour around it
+  // Vertex -> neighbor -> next neighbor around the vertex.
+  std::map<Index, std::map<Index, Index>> next;
   for (Index t = 0; t < skin.rows(); ++t)
   {
     for (int k = 0; k < 3; ++k)
@@ -93,7 +94,7 @@ bool manifold(const Triangles& skin)
   return true;
 }
 
-/// What every result promises.
+/// Expect the invariants of every result.
 void expect_valid(const Outcome& outcome, const TriangleMesh& surface, double angle = 8.0)
 {
   ASSERT_TRUE(outcome.status.ok()) << outcome.status.message;
@@ -116,7 +117,7 @@ void expect_valid(const Outcome& outcome, const TriangleMesh& surface, double an
   }
 }
 
-/// Mean edge length of the tets with a corner within `reach` of p.
+/// Return the mean edge length of the tets with a corner within `reach` of p.
 double edge_length_near(const TetMesh& mesh, const Vec3& p, double reach)
 {
   double sum = 0.0;
@@ -139,7 +140,7 @@ double edge_length_near(const TetMesh& mesh, const Vec3& p, double reach)
   return sum / count;
 }
 
-/// Every triangle with vertices of its own, moved by up to `by`: a soup that crosses.
+/// Give every triangle its own vertices and move them by up to `by`: a soup whose triangles cross.
 TriangleMesh shaken_soup(const TriangleMesh& mesh, double by)
 {
   test::Random random(5);
@@ -162,7 +163,7 @@ class Remesh : public test::NeedsMesher
 };
 } // namespace
 
-// ---- What comes out --------------------------------------------------------------------------
+// ---- Results ---------------------------------------------------------------------------------
 
 TEST_F(Remesh, ClosedSurfacesKeepVolumeVerticesAndShape)
 {
@@ -170,7 +171,7 @@ TEST_F(Remesh, ClosedSurfacesKeepVolumeVerticesAndShape)
   {
     const char* name;
     TriangleMesh mesh;
-    double share; ///< of the vertices that must stay
+    double share; ///< fraction of the vertices that must be kept
   };
   const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(2, 0.5)));
   for (const Case& c : { Case{ "cube", test::cube(), 1.0 }, Case{ "sphere", test::sphere(3), 0.99 },
@@ -195,11 +196,11 @@ TEST_F(Remesh, OpenCubeGetsALid)
   const TriangleMesh cube = test::open_cube();
   const Outcome outcome = run(cube);
   expect_valid(outcome, cube, 11.0);
-  // The box clips the region, whose winding number is above 1/2 all the way up to the rim.
+  // The bounding box clips the region, because the winding number exceeds 0.5 up to the rim.
   EXPECT_NEAR(outcome.volume(), 8.0, 0.01);
   EXPECT_EQ(outcome.kept(), 8);
   EXPECT_LT(outcome.status.report.number("distance_max", 100.0), 0.5) << "the lid does not count";
-  // A higher threshold pulls the lid inwards.
+  // A higher threshold moves the lid inwards.
   RemeshOptions high;
   high.winding_threshold = 0.9;
   const Outcome lower = run(cube, high);
@@ -215,7 +216,7 @@ TEST_F(Remesh, CrossingSolidsAreOne)
   expect_valid(outcome, spheres);
   const double balls = 8.0 / 3.0 * pi - pi * (4.0 + d) * (2.0 - d) * (2.0 - d) / 12.0;
   EXPECT_NEAR(outcome.volume(), balls, 0.01 * balls);
-  // Vertices of one sphere inside the other do not bound the inside.
+  // Vertices of one sphere inside of the other are not on the boundary.
   Index outside = 0;
   for (Index v = 0; v < spheres.points.rows(); ++v)
   {
@@ -238,7 +239,8 @@ TEST_F(Remesh, ASoupThatCrosses)
 
 TEST_F(Remesh, SquaresOfFourPointsOnACircleLeaveNoClusters)
 {
-  // Flat cells have circumcentres that rounding moves anywhere: refinement went on around them.
+  // Rounding can move the circumcenters of flat cells anywhere, which used to make refinement
+  // continue around them.
   const TriangleMesh torus = test::torus(48, 24, 1.0, 0.4);
   const TriangleMesh loose = test::unwelded(torus);
   TriangleMesh turned = torus;
@@ -282,7 +284,7 @@ TEST_F(Remesh, TetsAreSmallWhereTheSurfaceIsFine)
 TEST_F(Remesh, ThinPlatesAreKept)
 {
   TriangleMesh plate = test::cube(0.0, 1.0);
-  plate.points.col(2) *= 0.02; // its triangles' own edges are as long as it is wide
+  plate.points.col(2) *= 0.02; // the edges of its triangles are as long as the plate is wide
   RemeshOptions options;
   options.largest_edge = 0.1;
   const Outcome outcome = run(plate, options);
@@ -292,7 +294,7 @@ TEST_F(Remesh, ThinPlatesAreKept)
 
 TEST_F(Remesh, LengthsAreFractions)
 {
-  // Powers of two scale without rounding: the same tets.
+  // Powers of two scale without rounding, so the tets are the same.
   const TriangleMesh mesh = test::torus(24, 12, 1.0, 0.4);
   const Outcome one = run(mesh);
   for (const double scale : { 9.313225746154785e-10, 1073741824.0 })
@@ -332,7 +334,7 @@ TEST_F(Remesh, TetLimitHolds)
   EXPECT_LT(outcome.result.mesh.tets.rows(), 60000);
 }
 
-// ---- What may go wrong -----------------------------------------------------------------------
+// ---- Difficult input -------------------------------------------------------------------------
 
 TEST_F(Remesh, ASheetBesideASolidEnds)
 {
@@ -348,7 +350,7 @@ TEST_F(Remesh, ASheetBesideASolidEnds)
   {
     EXPECT_NEAR(outcome.volume(), 4.0 / 3.0 * pi, 0.05 * 4.0 / 3.0 * pi);
   }
-  // The ladder has an answer in any case.
+  // tetrahedralize() returns a result or a sentence in any case.
   ExecutionContext context;
   TetrahedralizeOptions ladder;
   ladder.method = TetMethod::remesh;

@@ -25,7 +25,7 @@ Segmentation segmented(
   return result;
 }
 
-/// The energy as the header states it, written down once more: over all pairs of tets.
+/// Evaluate the energy of the header directly, over all pairs of tets.
 double stated_energy(const TetMesh& mesh, const Eigen::VectorXd& w, const SegmentationOptions& o,
   const std::vector<char>& inside)
 {
@@ -88,12 +88,12 @@ TEST(Segmentation, EqualsBruteForce)
   Random random(3);
   for (int instance = 0; instance < 240; ++instance)
   {
-    // 6, 12 or 18 tets, of boxes that are not cubes.
+    // 6, 12 or 18 tets of boxes that are not cubes.
     TetMesh mesh = tet_box(1 + static_cast<int>(random.below(3)), 1, 1, Vec3::Zero(),
       random.in_box(Vec3::Constant(0.2), Vec3::Constant(3.0)));
     if (mesh.tets.rows() > 12 && instance % 4 != 0)
     {
-      mesh = tet_box(2, 1, 1); // 2^18 labels take a while
+      mesh = tet_box(2, 1, 1); // 2^18 labelings are slow, so this is rare
     }
     const Eigen::VectorXd w = noise(mesh.tets.rows(), random);
     SegmentationOptions options;
@@ -101,7 +101,7 @@ TEST(Segmentation, EqualsBruteForce)
     options.cut_smoothness = random.uniform(0.0, 2.0);
     options.cut_sigma = random.uniform(0.05, 1.0);
     const Segmentation found = segmented(mesh, w, options);
-    // Single labels and facets, so that all labels are quickly tried.
+    // Costs of single tets and of facets make all labelings fast to evaluate.
     CutEnergy energy;
     const auto nodes = static_cast<std::size_t>(mesh.tets.rows());
     std::vector<char> labels(nodes, 0);
@@ -112,7 +112,7 @@ TEST(Segmentation, EqualsBruteForce)
       energy.inside_costs.push_back(std::max(1.0 - shifted, 0.0));
       energy.outside_costs.push_back(std::max(shifted, 0.0));
     }
-    std::vector<double> alone; // cut around a single tet
+    std::vector<double> alone; // cost of the cut around a single tet
     for (std::size_t t = 0; t < nodes; ++t)
     {
       labels.assign(nodes, 0);
@@ -172,7 +172,7 @@ TEST(Segmentation, NoSmoothnessIsTheThreshold)
 
 TEST(Segmentation, FillsPitsAndDropsSpecks)
 {
-  // Left half inside, right half outside, but for a tet of each that noise takes for the other.
+  // The left half is inside, the right half outside, except for one noisy tet in each half.
   const TetMesh mesh = tet_box(8, 4, 4);
   Eigen::VectorXd w(mesh.tets.rows());
   Index pit = -1;

@@ -33,12 +33,13 @@ TEST(SurfaceDistance, OfBoxesIsKnown)
   EXPECT_NEAR(none.maximum, 0.0, 1e-12);
   EXPECT_NEAR(none.mean, 0.0, 1e-12);
   EXPECT_GT(none.samples, 12);
-  // Too low by 0.25: only the top is off, a sixth of the surface (and of the tets' box a bit more).
+  // The top is too low by 0.25: a sixth of the surface is wrong, and a slightly larger fraction of
+  // the tets' boundary.
   const SurfaceDistance low = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 0.75)), cube);
   EXPECT_NEAR(low.maximum, 0.25, 1e-12);
   EXPECT_GT(low.mean, 0.25 / 7.0);
   EXPECT_LT(low.mean, 0.25 / 3.0);
-  // Everywhere 0.1 too large: at the corners sqrt(3) of that.
+  // The box is too large by 0.1 on all sides, so the distance at its corners is 0.1 sqrt(3).
   const SurfaceDistance large = distance_of(box(Vec3(-1.1, -1.1, -1.1), Vec3(1.1, 1.1, 1.1)), cube);
   EXPECT_NEAR(large.maximum, 0.1 * std::sqrt(3.0), 1e-12);
   EXPECT_GT(large.mean, 0.1);
@@ -55,14 +56,14 @@ TEST(SurfaceDistance, MissingPartsCountFromTheSurface)
 
 TEST(SurfaceDistance, LidsDoNotCount)
 {
-  // The region of the open cube ends at the top of its box, where there is no triangle.
+  // The region of the open cube ends at the top of its bounding box, where no triangle is.
   const SurfaceDistance open = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), test::open_cube());
   EXPECT_NEAR(open.maximum, 0.0, 1e-9);
 }
 
 TEST(SurfaceDistance, InnerPartsDoNotCount)
 {
-  // A solid within a solid winds twice: its surface bounds nothing.
+  // The winding number inside of both solids is 2, so the inner surface does not bound the region.
   const TriangleMesh nested = test::join(test::cube(), test::cube(-0.4, 0.4));
   const SurfaceDistance distance = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), nested);
   EXPECT_NEAR(distance.maximum, 0.0, 1e-12);

@@ -15,7 +15,7 @@ using namespace bindpose;
 
 namespace
 {
-/// The box of n x n x n cells with its inner vertices moved by up to `by`.
+/// Return the box of n x n x n cells with its inner vertices moved by up to `by`.
 TetMesh shaken_box(double by, int n = 6)
 {
   TetMesh mesh = test::tet_box(n, n, n);
@@ -36,7 +36,7 @@ double angle(const TetMesh& mesh)
   return measure_tets(mesh.points, mesh.tets).min_dihedral_angle;
 }
 
-/// Puts a vertex on an edge: every tet at it becomes two. @return the new vertex.
+/// Insert a vertex on an edge and split all tets at the edge. @return The new vertex.
 Index split_edge(TetMesh& mesh, Index a, Index b, double where)
 {
   const Index fresh = mesh.points.rows();
@@ -122,7 +122,7 @@ TEST(TetImprovement, MakesTheFlattestBetterAndKeepsTheVolume)
 
 TEST(TetImprovement, HeldVerticesMoveOnlyWhenNothingElseHelps)
 {
-  TetMesh mesh = test::tet_box(4, 4, 4); // no angle below 45 degrees
+  TetMesh mesh = test::tet_box(4, 4, 4); // no dihedral angle is below 45 degrees
   const TetMesh before = mesh;
   Improvement done;
   ASSERT_TRUE(improve(mesh, std::vector<char>(mesh.points.rows(), 1), done));
@@ -137,7 +137,7 @@ TEST(TetImprovement, HeldVerticesMoveOnlyWhenNothingElseHelps)
 
 TEST(TetImprovement, AFlatTetOnTheBoundaryGoes)
 {
-  // A square of two triangles on a pyramid, and a nearly flat tet in front of it.
+  // A square of two triangles on a pyramid, with a nearly flat tet in front of it.
   TetMesh mesh;
   mesh.points.resize(5, 3);
   mesh.points << 0, 0, 0, 1, 0, -1e-4, 1, 1, 0, 0, 1, -1e-4, 0.5, 0.5, -0.8;
@@ -162,8 +162,8 @@ TEST(TetImprovement, AFlatTetOnTheBoundaryGoes)
 
 TEST(TetImprovement, OfTwoFlatTetsOnOneEdgeOnlyOneGoes)
 {
-  // Around the edge 0-1 stand two thick tets and, outside of them, two flat ones that lie opposite
-  // to each other: without both of them the boundary would touch itself along the edge.
+  // The edge 0-1 has two thick tets and, outside of them, two flat ones on opposite sides. Without
+  // the flat tets the boundary would touch itself along the edge.
   TetMesh mesh;
   mesh.points.resize(6, 3);
   constexpr double thin = 1e-4;
@@ -198,7 +198,7 @@ TEST(TetImprovement, CancelledAtOnceIsStillAMesh)
 
 TEST(TetImprovement, ThreadsMakeNoDifference)
 {
-  // Flat tets everywhere, also next to each other.
+  // Flat tets occur everywhere, also next to each other.
   const TetMesh shaken = shaken_box(0.02, 12);
   ASSERT_TRUE(check_tets(shaken.points, shaken.tets).ok());
   for (const bool keep_boundary : { false, true })
@@ -234,7 +234,7 @@ TEST(TetImprovement, ThreadsMakeNoDifference)
 
 TEST(TetImprovement, KeepsTheBoundaryWhenAsked)
 {
-  // Beside inner vertices, those of the sides move within their planes: there are flat tets there.
+  // Vertices of the sides also move within their planes, so the sides have flat tets.
   TetMesh mesh = shaken_box(0.05);
   test::Random random(5);
   for (Index v = 0; v < mesh.points.rows(); ++v)
@@ -317,7 +317,7 @@ TEST(TetImprovement, HeldVerticesNeverGo)
   const Index inside = vertex_at(mesh, Vec3(0.5, 0.5, 0.5));
   const Index fresh = split_edge(mesh, inside, vertex_at(mesh, Vec3(0.5, 0.5, 0.75)), 1e-6);
   ImproveOptions options;
-  options.least_angle = 0.0; // held vertices do not move
+  options.least_angle = 0.0; // fixed vertices do not move
   ExecutionContext context;
   Improvement done;
   for (const bool both : { true, false })
@@ -358,7 +358,7 @@ TEST(TetImprovement, BoundaryVerticesStayWhenTheBoundaryIsKept)
 
 TEST(TetImprovement, ContractionClosesNoHole)
 {
-  // A ring around a hole one cell wide, with vertices anywhere on its edges.
+  // A ring around a hole that is one cell wide, with extra vertices anywhere on its edges.
   const TetMesh box = test::tet_box(3, 3, 1, Vec3::Zero(), Vec3(3, 3, 1));
   int good = 0;
   for (int seed = 1; seed <= 20; ++seed)

@@ -1,4 +1,4 @@
-// New vertices of tets: where they come, and what stays as it is.
+// Insertion of vertices into tets: the new vertices, and the parts that do not change.
 #include "inside/tet_insertion.h"
 
 #include "inside/tet_quality.h"
@@ -30,7 +30,7 @@ double longest_boundary_edge(const TetMesh& mesh)
   return longest;
 }
 
-/// It is still a mesh of the unit cube.
+/// Expect that the mesh still fills the unit cube.
 void expect_cube(const TetMesh& mesh)
 {
   EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
@@ -64,7 +64,7 @@ TEST(TetInsertion, PlacesBecomeVertices)
 {
   TetMesh mesh = test::tet_box(1, 1, 1);
   Points places(4, 3);
-  // In general position, on the cube's diagonal, on the box's boundary, and outside.
+  // In general position, on the cube's diagonal, on the boundary, and outside.
   places << 0.3, 0.41, 0.2, 0.5, 0.5, 0.5, 0.0, 0.31, 0.4, 1.5, 0.5, 0.5;
   std::vector<Index> vertices;
   ExecutionContext context;
@@ -98,7 +98,8 @@ TEST(TetInsertion, ManyPlacesAreInserted)
 
 TEST(TetInsertion, PlacesAreFoundAgainWhenReplacedTetsAreDropped)
 {
-  // Each of them replaces about 20 tets, so that there are several times as many ids as tets.
+  // Each insertion replaces about 20 tets, so the number of ids becomes several times the number of
+  // tets.
   TetMesh mesh = test::tet_box(3, 3, 3);
   test::Random random(23);
   Points places(20000, 3);
@@ -119,8 +120,8 @@ TEST(TetInsertion, PlacesAreFoundAgainWhenReplacedTetsAreDropped)
 
 TEST(TetInsertion, ThreadsMakeNoDifference)
 {
-  // Ten times as many places as there are tets: most lie in tets that have been replaced, and many
-  // of those looked at together want the same ones.
+  // Ten times as many points as tets. Most points are in tets that have been replaced, and many
+  // points of one batch need the same tets.
   const TetMesh box = test::tet_box(3, 3, 3);
   test::Random random(17);
   Points places(10 * box.tets.rows(), 3);
@@ -179,7 +180,8 @@ TEST_F(Cdt, NumbersOfTetsGrowWithTheSurfaceNotWithTheVolume)
 
 TEST_F(Cdt, AnEllipsoidIsFilledWithoutSlivers)
 {
-  // Its vertices lie on one quadric: the tets that only they make are slivers through all of it.
+  // All vertices are on one quadric, so tets between these vertices alone are slivers through the
+  // whole shape.
   TriangleMesh spindle = test::sphere(5);
   spindle.points.leftCols(2) *= 0.45;
   const Outcome outcome = run(spindle, TetMethod::cdt);
@@ -203,7 +205,7 @@ TEST_F(Cdt, AFewTrianglesAreFilledWithManyTets)
 
 TEST_F(Cdt, TetsForcedByNeedlesAreCounted)
 {
-  // Boxes of 12 triangles. One of 100 x 1 x 1 has sides with corners of 0.57 degrees.
+  // Boxes of 12 triangles. The sides of the box of 100 x 1 x 1 have corners of 0.57 degrees.
   TetrahedralizeOptions bare;
   bare.method = TetMethod::cdt;
   bare.bare = true;

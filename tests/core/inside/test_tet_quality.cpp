@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// A triangle with apices above and below it: one tet for each.
+/// Return a triangle with apices above and below it: one tet per apex.
 TetMesh fan(const std::vector<Vec3>& apices)
 {
   TetMesh mesh;
@@ -44,7 +44,7 @@ TEST(TetQuality, TetsMeetAtMostInPairsOnOppositeSides)
   EXPECT_THAT(check_tets(three.points, three.tets).message, HasSubstr("no closed boundary"));
   EXPECT_TRUE(check_tets(three.points, three.tets, true).ok());
   TetMesh twice = three;
-  twice.tets.row(2) << 1, 2, 0, 3; // the first once more
+  twice.tets.row(2) << 1, 2, 0, 3; // repeats the first tet
   EXPECT_THAT(
     check_tets(twice.points, twice.tets, true).message, HasSubstr("tet 2 is there twice"));
   TetMesh turned = good;
@@ -57,7 +57,7 @@ TEST(TetQuality, AnglesOfVeryFlatTetsAreNotZero)
   for (const double height : { 1e-3, 1e-7, 1e-10, 1e-13 })
   {
     SCOPED_TRACE(height);
-    // The base's sides are at 0.3, 0.3 and 0.2 sqrt(2) from the foot of the apex.
+    // The base's edges are at distances of 0.3, 0.3 and 0.2 sqrt(2) from the foot of the apex.
     const double degrees = 57.295779513082320877;
     const double angle =
       min_dihedral_angle(Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0.3, 0.3, -height));
@@ -67,7 +67,7 @@ TEST(TetQuality, AnglesOfVeryFlatTetsAreNotZero)
 
 TEST(TetQuality, TheHistogramCountsEveryTetOnce)
 {
-  // A regular tet: all its dihedral angles are arccos(1/3), 70.53 degrees.
+  // All dihedral angles of a regular tet are arccos(1/3) = 70.53 degrees.
   TetMesh regular;
   regular.points.resize(4, 3);
   regular.points << 1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1;
@@ -80,7 +80,7 @@ TEST(TetQuality, TheHistogramCountsEveryTetOnce)
   const TetQuality best = measure_tets(regular.points, regular.tets);
   EXPECT_NEAR(best.min_dihedral_angle, 70.528779365509308, 1e-9);
   EXPECT_EQ(best.histogram.tets[14], 1);
-  // Kuhn's tets: 45 degrees.
+  // The smallest angle of Kuhn's tets is 45 degrees.
   const TetMesh box = test::tet_box(2, 3, 4, Vec3::Zero(), Vec3(2, 3, 4));
   const TetQuality quality = measure_tets(box.points, box.tets);
   const auto& bins = quality.histogram.tets;
@@ -90,13 +90,13 @@ TEST(TetQuality, TheHistogramCountsEveryTetOnce)
 
 TEST(TetQuality, CrumbsAndLoneTetsGo)
 {
-  // A large tet, a chain of two small ones, and a small one by itself.
+  // A large component, a component of two small tets, and a single small tet.
   TetMesh mesh = test::tet_box(1, 1, 1);
   const Index n = mesh.points.rows();
   const Index m = mesh.tets.rows();
   mesh.points.conservativeResize(n + 9, 3);
   mesh.tets.conservativeResize(m + 3, 4);
-  const double h = 0.02; // a tet of h^3 / 6 = 1.3e-6
+  const double h = 0.02; // the volume of a tet is h^3 / 6 = 1.3e-6
   mesh.points.bottomRows(9) << 5, 0, 0, 5 + h, 0, 0, 5, h, 0, 5, 0, h, 5, 0, -h, //
     7, 0, 0, 7 + h, 0, 0, 7, h, 0, 7, 0, h;
   mesh.tets.row(m) << n, n + 1, n + 2, n + 3;
@@ -114,9 +114,9 @@ TEST(TetQuality, CrumbsAndLoneTetsGo)
 
 TEST(TetQuality, TrianglesInFrontOfOthersForceFlatTets)
 {
-  // A plate of 6 x 6 cells. Its large triangles have inscribed circles of radius 0.0488: a tet on
-  // one whose angles are all at least 5 degrees is higher than 0.00427. The needles at the rim
-  // force the tets there only.
+  // A plate of 6 x 6 cells. The inscribed circles of its large triangles have the radius 0.0488. A
+  // tet on such a triangle whose dihedral angles are all at least 5 degrees is higher than 0.00427.
+  // The needles at the rim force only the tets next to them.
   for (const double height : { 0.004, 0.005 })
   {
     TetMesh plate = test::tet_box(6, 6, 1);

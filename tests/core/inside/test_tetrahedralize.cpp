@@ -1,4 +1,5 @@
-// The ladder: lattices where there is no helper, broken and slow helpers, cancel, bad input.
+// The sequence of methods: lattices without the helper program, broken and slow helpers, cancel,
+// and bad input.
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
@@ -74,7 +75,8 @@ TEST(Tetrahedralize, EmbedHoldsAnySurface)
 
 TEST(Tetrahedralize, EmbedBindsEveryPointOfAnUncleanSurface)
 {
-  // Two spheres a hair apart, one inside out, with doubled vertices and a triangle of no area.
+  // Two spheres at a tiny distance, one inside out, with unwelded vertices and a triangle without
+  // area.
   TriangleMesh mesh = test::unwelded(
     test::join(test::sphere(2), test::flipped(test::sphere(2, 1.0, Vec3(2.0001, 0.0, 0.0)))));
   mesh.triangles.row(0) << 0, 0, 1;
@@ -157,7 +159,7 @@ TEST(Tetrahedralize, CancelEndsAtOnce)
 
 TEST(Tetrahedralize, FtetwildIsJudgedLikeAnyOther)
 {
-  // In its place a script that gives the cube in its own frame, whatever it is asked.
+  // The script returns the cube in fTetWild's frame for every input.
   const test::StandIn program("BINDPOSE_FTETWILD",
     "while [ \"$1\" != --output ]; do shift; done\ncp \"$(dirname \"$0\")/tets.mesh\" \"$2\"\n");
   const TetMesh box = test::tet_box(2, 2, 2, Vec3::Constant(-0.5), Vec3::Constant(0.5));
@@ -170,7 +172,7 @@ TEST(Tetrahedralize, FtetwildIsJudgedLikeAnyOther)
   EXPECT_NEAR(right.number("distance_max"), 0.0, 1e-12);
   EXPECT_EQ(right.number("counts.kept_vertices"), 0.0);
   EXPECT_TRUE(right.status.warnings.empty());
-  // A box of 1.4 times the volume: taken with a warning, and as far off as it is.
+  // A box of 1.4 times the volume is accepted with a warning, and its distance is reported.
   TriangleMesh longer = test::cube();
   longer.points.col(0) *= 1.0 / 1.4;
   const Outcome off = run(longer, TetMethod::ftetwild);
@@ -178,13 +180,13 @@ TEST(Tetrahedralize, FtetwildIsJudgedLikeAnyOther)
   ASSERT_EQ(off.status.warnings.size(), 1u);
   EXPECT_THAT(off.status.warnings[0], HasSubstr("but the winding number encloses"));
   EXPECT_GT(off.number("distance_max"), 5.0);
-  // More than twice: no result.
+  // More than twice the volume: no result.
   TriangleMesh thin = test::cube();
   thin.points.col(0) *= 0.2;
   const Outcome wrong = run(thin, TetMethod::ftetwild);
   EXPECT_EQ(wrong.status.code, StatusCode::internal_error);
   EXPECT_EQ(wrong.result.mesh.tets.rows(), 0);
-  // It has its own idea of inside.
+  // fTetWild decides inside and outside by itself, so the threshold cannot be set.
   TetrahedralizeOptions options;
   options.method = TetMethod::ftetwild;
   options.winding_threshold = 0.7;
@@ -205,7 +207,7 @@ TEST(Tetrahedralize, BadInputIsOneSentence)
   triangle.triangles.conservativeResize(1, 3);
   TriangleMesh needle = triangle;
   needle.points.col(1).setZero();
-  TriangleMesh far_apart = triangle; // two that see little of each other
+  TriangleMesh far_apart = triangle; // two distant triangles
   far_apart = test::join(far_apart, test::translated(triangle, Vec3(0.1, 0.2, 9.0)));
   const TriangleMesh both_ways = test::join(test::grid(1, 1), test::flipped(test::grid(1, 1)));
   struct Case
@@ -229,7 +231,7 @@ TEST(Tetrahedralize, BadInputIsOneSentence)
 
 TEST(Tetrahedralize, TheBacksOfTrianglesAreLeftOut)
 {
-  // Every triangle once each way, the inner one first in one of the cases.
+  // Every triangle occurs once in each orientation. In one case the inner one is first.
   const TriangleMesh ball = test::sphere(3);
   for (const TriangleMesh& mesh :
     { test::join(ball, test::flipped(ball)), test::join(test::flipped(ball), ball),
@@ -267,7 +269,7 @@ TEST(Tetrahedralize, LooseTrianglesThatEncloseOnlySpecksAreNamed)
   EXPECT_THAT(
     outcome.status.message, HasSubstr("loose triangles (12000) that enclose only specks"));
   EXPECT_THAT(outcome.status.message, HasSubstr("--method embed"));
-  // A ball whose triangles do not quite meet is a ball.
+  // A sphere whose triangles do not quite meet still encloses a ball.
   TriangleMesh ball = test::unwelded(test::sphere(5));
   ASSERT_GT(ball.triangles.rows(), 10000);
   for (double& x : ball.points.reshaped())
@@ -283,7 +285,7 @@ TEST(Tetrahedralize, LooseTrianglesThatEncloseOnlySpecksAreNamed)
 
 TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
 {
-  // A cube winds once around its inside; asked for is more. No rung may try again and again.
+  // The winding number of a cube is 1, below the threshold. No method may retry.
   TetrahedralizeOptions options;
   options.winding_threshold = 1.5;
   for (const TetMethod method : { TetMethod::cdt, TetMethod::automatic, TetMethod::remesh })
@@ -291,7 +293,7 @@ TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
     SCOPED_TRACE(to_string(method));
     if (method == TetMethod::cdt && find_mesher().empty())
     {
-      continue; // method cdt is not there
+      continue; // method cdt is not available
     }
     options.method = method;
     const Outcome outcome = run(test::cube(), options);
@@ -308,7 +310,7 @@ TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
   {
     return;
   }
-  // Two cubes of side 2 that overlap do wind twice, in a cube of side 1.
+  // The winding number of two overlapping cubes of side 2 is 2 in a cube of side 1.
   const TriangleMesh two = test::join(test::cube(), test::translated(test::cube(), Vec3(1, 1, 1)));
   options.method = TetMethod::cdt;
   const Outcome overlap = run(two, options);
@@ -319,7 +321,7 @@ TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
 TEST(Tetrahedralize, WhatIsTooThinForRemeshIsSaid)
 {
   TriangleMesh needle = test::sphere(2);
-  needle.points.col(2) *= 1e4; // its volume is 52 % of its box's
+  needle.points.col(2) *= 1e4; // its volume is 52 % of its bounding box
   TetrahedralizeOptions options;
   options.method = TetMethod::remesh;
   const Outcome outcome = run(needle, options);

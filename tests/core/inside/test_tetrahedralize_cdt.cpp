@@ -1,4 +1,4 @@
-// Method cdt: closed surfaces are filled exactly, unclean ones hold what they enclose.
+// Method cdt fills closed surfaces exactly, and other surfaces up to the boundary of their inside.
 #include "inside/tetrahedralize.h"
 
 #include "inside/tet_quality.h"
@@ -24,13 +24,15 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Vertices - edges + triangles; half of it is the characteristic of what a closed surface bounds.
+/// Return vertices - edges + triangles, which is twice the Euler characteristic of the solid
+/// bounded by a closed surface.
 Index surface_characteristic(const TriangleMesh& mesh)
 {
   return mesh.points.rows() - count_edges(mesh.triangles).edges + mesh.triangles.rows();
 }
 
-/// Largest distance of the tets' boundary (vertices and middles of facets) from the surface.
+/// Return the largest distance of the tets' boundary (vertices and centers of facets) from the
+/// surface.
 double boundary_distance(const TetMesh& mesh, const TriangleMesh& surface)
 {
   const TriangleTree tree(surface.points, surface.triangles);
@@ -123,7 +125,7 @@ TEST_F(Cdt, VerticesInsideAreAdded)
     signed_volume(sphere.points, sphere.triangles), bounding_box(sphere.points).diagonal());
   EXPECT_GT(run(sphere, of_weights).result.mesh.points.rows(), 2 * sphere.points.rows());
   EXPECT_GT(full.number("min_dihedral_angle"), 4.0);
-  // No edge inside is much longer than asked for.
+  // Inner edges are not much longer than requested.
   TetrahedralizeOptions fine;
   fine.interior_edge = 0.02;
   EXPECT_GT(run(sphere, fine).result.mesh.tets.rows(), 3 * full.result.mesh.tets.rows());
@@ -131,7 +133,7 @@ TEST_F(Cdt, VerticesInsideAreAdded)
 
 TEST_F(Cdt, TheSurfaceIsLeftForAnAngleThatItDoesNotAllow)
 {
-  // Two walls that meet at an angle of 2.9 degrees.
+  // Two walls meet at an angle of 2.9 degrees.
   TriangleMesh wedge = test::cube(0.0, 1.0);
   for (Index v = 0; v < wedge.points.rows(); ++v)
   {
@@ -145,14 +147,14 @@ TEST_F(Cdt, TheSurfaceIsLeftForAnAngleThatItDoesNotAllow)
   EXPECT_THAT(kept.status.message, testing::HasSubstr("smallest dihedral angle"));
   EXPECT_LT(kept.number("min_dihedral_angle"), 3.0);
   options.method = TetMethod::automatic;
-  options.resolution = 200; // the wedge is thin
+  options.resolution = 200; // resolves the thin wedge
   const Outcome left = run(wedge, options);
   expect_valid(left, wedge);
   EXPECT_EQ(left.method(), "remesh");
   EXPECT_GE(left.number("min_dihedral_angle"), 10.0);
   ASSERT_FALSE(left.status.warnings.empty());
   EXPECT_THAT(left.status.warnings.back(), testing::HasSubstr("cdt was left"));
-  // Nothing of the tets that were left remains.
+  // The result contains no data of the rejected tets.
   options.handles = places_of({ Vec3(0.9, 0.5, 0.02) });
   const Outcome with_handle = run(wedge, options);
   EXPECT_EQ(with_handle.method(), "remesh");
@@ -160,7 +162,7 @@ TEST_F(Cdt, TheSurfaceIsLeftForAnAngleThatItDoesNotAllow)
   EXPECT_EQ(with_handle.number("counts.handle_vertices"), -1.0);
   EXPECT_EQ(with_handle.result.mesh.tets, left.result.mesh.tets);
   options.handles = HandlePlaces();
-  // A surface that allows it is kept.
+  // The result of cdt is kept if its angles are large enough.
   const Outcome cube = run(test::cube(), options);
   expect_valid(cube, test::cube());
   EXPECT_EQ(cube.method(), "cdt");
@@ -193,7 +195,7 @@ TEST_F(Cdt, SameBitsForAnyNumberOfThreads)
 
 TEST_F(Cdt, UncleanCubesHoldTheirVolume)
 {
-  TriangleMesh gap = test::cube(); // the top is loose, 1e-3 above
+  TriangleMesh gap = test::cube(); // the top is separate, 1e-3 above
   gap.points.conservativeResize(12, 3);
   for (int v = 0; v < 4; ++v)
   {
@@ -231,7 +233,8 @@ TEST_F(Cdt, UncleanCubesHoldTheirVolume)
     EXPECT_EQ(outcome.method(), "cdt");
     EXPECT_NEAR(outcome.volume(), c.volume, c.tolerance);
   }
-  // The turned top is found and turned back: without that, w = 0 next to it and 2/3 at the centre.
+  // The reversed top is detected and turned. Otherwise the winding number would be 0 next to it and
+  // 2/3 at the center.
   const Outcome outcome = run(flipped_top);
   EXPECT_EQ(outcome.number("counts.turned_triangles"), 2);
   ASSERT_EQ(outcome.status.warnings.size(), 1u);
@@ -241,8 +244,8 @@ TEST_F(Cdt, UncleanCubesHoldTheirVolume)
 
 TEST_F(Cdt, ManyPartsMostlyInsideOutOthersTouchOneIsOpen)
 {
-  // Every second cube of 4 x 4 x 4: they touch in edges and vertices. Below them 16 cubes apart
-  // from each other, most of them inside out, and beside them one without a top.
+  // Every second cube of 4 x 4 x 4, which touch at edges and vertices. Below them are 16 separate
+  // cubes, most of them inside out, and next to them a cube without a top.
   TriangleMesh mesh = test::translated(test::open_cube(), Vec3(8.0, 0.0, 0.0));
   Index turned = 0;
   for (int k = 0; k < 64; ++k)
@@ -279,15 +282,15 @@ TEST_F(Cdt, CrossingSurfacesKeepTheirVerticesAndTriangles)
   EXPECT_EQ(outcome.method(), "cdt");
   EXPECT_GT(outcome.number("counts.self_intersections"), 0);
   EXPECT_LT(boundary_distance(outcome.result.mesh, spheres), 1e-9);
-  // Two balls of radius 1 at distance d: 8/3 pi - pi (4 + d) (2 - d)^2 / 12; the subdivided spheres
-  // are a little smaller.
+  // The union of two balls of radius 1 at distance d has the volume 8/3 pi - pi (4 + d) (2 - d)^2 /
+  // 12. The subdivided spheres are a little smaller.
   const double d = Vec3(0.7, 0.31, 0.17).norm();
   const double pi = 3.14159265358979;
   const double balls = 8.0 / 3.0 * pi - pi * (4.0 + d) * (2.0 - d) * (2.0 - d) / 12.0;
   const double shrink = signed_volume(spheres.points, spheres.triangles) / (8.0 / 3.0 * pi);
   EXPECT_NEAR(outcome.volume(), balls * shrink, 0.003 * balls);
   EXPECT_EQ(test::euler_characteristic(outcome.result.mesh), 1);
-  // Inside twice: w = 2 there, and with a threshold of 1.5 only the lens is kept.
+  // The winding number is 2 in the overlap, so only the lens is kept with a threshold of 1.5.
   EXPECT_NEAR(outcome.result.winding_numbers.maxCoeff(), 2.0, 1e-9);
   TetrahedralizeOptions lens;
   lens.winding_threshold = 1.5;
@@ -353,7 +356,7 @@ TEST_F(Cdt, ElephantWithHoles)
   EXPECT_NEAR(outcome.volume() / outcome.number("winding_volume"), 1.0, 0.05);
   EXPECT_GT(outcome.number("counts.kept_vertices"), 0.97 * elephant.points.rows());
   EXPECT_GE(outcome.result.winding_numbers.minCoeff(), 0.3);
-  // The elephant it was made from.
+  // The elephant without holes.
   const TriangleMesh whole = test::demo_mesh("elephant.off");
   EXPECT_NEAR(
     outcome.volume(), signed_volume(whole.points, whole.triangles), 0.02 * outcome.volume());
@@ -361,7 +364,8 @@ TEST_F(Cdt, ElephantWithHoles)
 
 TEST_F(Cdt, TooManyCrossingsAreLeftAtOnce)
 {
-  // Bars that all cross each other: cut, they would fall into several hundred thousand triangles.
+  // Bars that all cross each other. Refinement would cut them into several hundred thousand
+  // triangles.
   constexpr int bars = 100;
   TriangleMesh mesh;
   for (int i = 0; i < 2 * bars; ++i)
@@ -414,7 +418,7 @@ TEST_F(Cdt, RealSurfacesThatCross)
 
 TEST_F(Cdt, RandomSoupsGiveTetsOrASentence)
 {
-  // Whatever it is: a valid mesh that holds what the winding number encloses, or one sentence.
+  // Each damaged surface gives a valid mesh of its inside, or one sentence.
   for (std::uint64_t seed = 1; seed <= 12; ++seed)
   {
     SCOPED_TRACE(seed);

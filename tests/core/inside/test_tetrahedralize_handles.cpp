@@ -21,7 +21,8 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Vertices on the segment between two points, ordered along it, as fractions.
+/// Return the positions of the vertices on the segment between two points, as sorted fractions of
+/// its length.
 std::vector<double> vertices_on(const Points& points, const Vec3& a, const Vec3& b)
 {
   std::vector<double> at;
@@ -44,7 +45,7 @@ TEST_F(Cdt, PointsOfHandlesBecomeVertices)
   const TriangleMesh ball = test::sphere(3);
   TetrahedralizeOptions options;
   options.method = TetMethod::cdt;
-  // Inside, at a vertex of the surface, outside, and on the middle of a triangle.
+  // Inside, at a vertex of the surface, outside, and at the center of a triangle.
   const Vec3 vertex = ball.points.row(7);
   const Vec3 middle =
     (ball.points.row(ball.triangles(5, 0)) + ball.points.row(ball.triangles(5, 1)) +
@@ -93,7 +94,7 @@ TEST_F(Cdt, BonesAndCagesGetVerticesAtTheLocalEdgeLength)
   {
     EXPECT_LT((on[i] - on[i - 1]) * (tail - head).norm(), 1.01 * largest);
   }
-  // On the cage's face: no point of it is far from a vertex on it.
+  // Every point of the cage's face is near a vertex on the face.
   std::vector<Vec3> face;
   const Vec3 normal = (b - a).cross(c - a).normalized();
   for (Index v = 0; v < mesh.points.rows(); ++v)

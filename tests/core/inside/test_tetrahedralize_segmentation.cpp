@@ -1,4 +1,5 @@
-// Method cdt: which tets of the hull are inside, by a graph cut or by the threshold.
+// Method cdt: segmentation of the hull's tets into inside and outside, by a graph cut or by the
+// threshold.
 #include "inside/tetrahedralize.h"
 
 #include "inside/tet_quality.h"
@@ -15,7 +16,7 @@ using Outcome = test::TetOutcome;
 
 namespace
 {
-/// Without every fifth triangle.
+/// Remove every fifth triangle.
 TriangleMesh ragged(TriangleMesh mesh)
 {
   Index kept = 0;
@@ -51,7 +52,7 @@ TEST_F(Cdt, AnOpenSurfaceIsCutWithLessEnergy)
   ASSERT_TRUE(plain.status.ok()) << plain.status.message;
   EXPECT_EQ(plain.status.report.text("segmentation"), "threshold");
   EXPECT_EQ(plain.status.report.find("energy"), nullptr);
-  // The cut's skin is smaller: no ragged border across the holes.
+  // The boundary of the cut is smaller because it is not ragged across the holes.
   const auto skin = [](const Outcome& outcome) {
     return surface_area(outcome.result.mesh.points, boundary_triangles(outcome.result.mesh.tets));
   };
@@ -60,7 +61,7 @@ TEST_F(Cdt, AnOpenSurfaceIsCutWithLessEnergy)
 
 TEST_F(Cdt, TheWholeHullCanBeKept)
 {
-  // Two boxes with a gap: a fifth of their hull is outside.
+  // Two boxes with a gap between them. A fifth of their hull is outside.
   const TriangleMesh closed =
     test::join(test::cube(0.0, 1.0), test::translated(test::cube(0.0, 1.0), Vec3(1.5, 0, 0)));
   TriangleMesh open = closed;
@@ -92,7 +93,7 @@ TEST_F(Cdt, TheWholeHullCanBeKept)
     EXPECT_NEAR(outcome.number("volume"), inside, 1e-12);
     EXPECT_EQ(outcome.number("counts.tets_inside"), count);
     EXPECT_EQ(outcome.number("counts.tets"), volumes.size());
-    // Of all corners of the boxes; no vertex is added.
+    // The points are the corners of the boxes; no vertex is added.
     EXPECT_EQ(result.mesh.points.rows(), mesh.points.rows());
   }
   TetrahedralizeOptions options;
@@ -109,7 +110,7 @@ TEST_F(Cdt, ACutThatLosesTheVolumeIsLeftForTheThreshold)
   const Outcome plain = run(mesh, options);
   ASSERT_TRUE(plain.status.ok()) << plain.status.message;
   options.segmentation = SegmentationMethod::graph_cut;
-  options.cut_smoothness = 1e6; // smoothness at any price: all of the hull or nothing
+  options.cut_smoothness = 1e6; // so much smoothness that all tets of the hull, or none, are inside
   options.cut_sigma = 10.0;
   const Outcome smooth = run(mesh, options);
   ASSERT_TRUE(smooth.status.ok()) << smooth.status.message;

@@ -1,4 +1,4 @@
-// Method wrap: tets that hold the surface, whatever it is.
+// Method wrap: tets that contain any surface.
 #include "inside/tetrahedralize.h"
 
 #include "surface/triangle_tree.h"
@@ -29,7 +29,8 @@ class Wrap : public test::NeedsMesher
 {
 };
 
-/// Every vertex and centre of the surface lies in a tet or on their boundary.
+/// Expect that every vertex and triangle center of the surface is in a tet or on the boundary of
+/// the tets.
 void expect_to_hold(const TetMesh& mesh, const TriangleMesh& surface)
 {
   ExecutionContext context;
@@ -63,8 +64,8 @@ TEST_F(Wrap, HoldsAnySurface)
     const char* name;
     TriangleMesh mesh;
     Index characteristic;
-    double enclosed; ///< by winding numbers of at least 0.5
-    const char* warning; ///< empty: none
+    double enclosed; ///< volume where the winding number is at least 0.5
+    const char* warning; ///< empty if no warning is expected
   };
   const TriangleMesh torus = test::torus(24, 12, 1.0, 0.4);
   const TriangleMesh far_apart =
@@ -92,8 +93,9 @@ TEST_F(Wrap, HoldsAnySurface)
     EXPECT_EQ(outcome.number("counts.kept_vertices"), 0.0);
     EXPECT_EQ(outcome.result.original_vertices.front(), -1);
     EXPECT_NEAR(outcome.number("winding_volume"), c.enclosed, 0.01 * c.enclosed);
-    // No nearer than the offset anywhere, and that near at least somewhere; concave corners are
-    // farther, by what the ball leaves in them.
+    // Every boundary point is at least the offset away from the surface, and some are exactly that
+    // far. In concave corners the distance is larger, because the ball of alpha does not reach into
+    // them.
     EXPECT_GE(outcome.number("distance_max"), 100.0 * options.wrap_offset * 0.99);
     EXPECT_LE(outcome.number("distance_max"), 100.0 * (options.wrap_alpha + options.wrap_offset));
     const auto& warnings = outcome.status.warnings;
@@ -118,8 +120,8 @@ TEST_F(Wrap, AnOpenSurfaceIsWarnedOfWithBothVolumes)
   const std::string& warning = outcome.status.warnings.back();
   EXPECT_THAT(warning, HasSubstr("4 boundary edges"));
   EXPECT_THAT(warning, HasSubstr("the winding number encloses 8"));
-  // Five sides of 4, two offsets thick, and in each of the eight inner edges of length 2 what the
-  // ball leaves, less than the square of its radius.
+  // Five sides of area 4, two offsets thick. At each of the eight inner edges of length 2, the ball
+  // of alpha leaves out a fillet whose cross section is smaller than the square of its radius.
   const double diagonal = std::sqrt(12.0);
   const double shell = 20.0 * 2.0 * options.wrap_offset * diagonal;
   const double fillets = 16.0 * std::pow((options.wrap_alpha + options.wrap_offset) * diagonal, 2);

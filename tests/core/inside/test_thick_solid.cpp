@@ -32,7 +32,7 @@ Made make(const TriangleMesh& mesh, const ThickSolidOptions& options, int thread
   return made;
 }
 
-/// Length of a lattice cube that was taken for a mesh with the longest side `longest`.
+/// Return the size of a lattice cube for a mesh with the longest side `longest`.
 double cube_of(const Made& made, double longest)
 {
   return longest / made.status.report.number("resolution", 0.0);
@@ -56,7 +56,7 @@ TEST(ThickSolid, ASheetBecomesAPlateOfTwiceTheLayer)
   const Made made = make(sheet, {});
   EXPECT_EQ(made.parts, 1);
   const double layer = 0.6 * cube_of(made, 1.0);
-  // A plate with half a cylinder at each edge and an eighth of a ball at each corner twice.
+  // A plate with a half cylinder at each of its four edges and a quarter ball at each corner.
   const double pi = std::acos(-1.0);
   const double expected =
     2.0 * layer + 2.0 * pi * layer * layer + 4.0 / 3.0 * pi * layer * layer * layer;
@@ -65,7 +65,7 @@ TEST(ThickSolid, ASheetBecomesAPlateOfTwiceTheLayer)
 
 TEST(ThickSolid, ThinWallsStay)
 {
-  // A plate with a hundredth of a cube between its sides.
+  // The distance between the sides of the plate is a hundredth of a lattice cube.
   const TriangleMesh plate = test::box(Vec3(0.0, 0.0, 0.0), Vec3(1.0, 1.0, 1e-4));
   const Made made = make(plate, {});
   EXPECT_EQ(made.parts, 1);
@@ -92,7 +92,7 @@ TEST(ThickSolid, AnOpenCubeIsFilled)
 {
   const Made made = make(test::open_cube(), {});
   EXPECT_EQ(made.parts, 1);
-  // Its walls stand in a layer at the opening.
+  // The walls at the opening have a layer around them.
   EXPECT_NEAR(made.volume, 8.0, 0.8);
 }
 

@@ -1,4 +1,4 @@
-// Alpha wraps: closed, around everything, near.
+// Alpha wraps are closed and near, and contain the whole surface.
 #include "inside/wrap_surface.h"
 
 #include "surface/triangle_tree.h"
@@ -55,13 +55,14 @@ TriangleMesh loose_triangles(int count)
   return soup;
 }
 
-/// Vertices - edges + triangles.
+/// Return vertices - edges + triangles.
 Index surface_characteristic(const TriangleMesh& mesh)
 {
   return mesh.points.rows() - count_edges(mesh.triangles).edges + mesh.triangles.rows();
 }
 
-/// Closed, each edge of two triangles, nothing crosses, outwards.
+/// Expect that the wrap is closed and oriented outwards, that each edge has two triangles, and that
+/// nothing crosses.
 void expect_clean(const TriangleMesh& wrap)
 {
   ASSERT_GT(wrap.triangles.rows(), 0);
@@ -78,8 +79,8 @@ void expect_clean(const TriangleMesh& wrap)
   EXPECT_GT(signed_volume(wrap.points, wrap.triangles), 0.0);
 }
 
-/// Every vertex and centre of the surface is inside of the wrap or on it, which may happen at
-/// corners, and the wrap's own vertices are as far from the surface as the offset says.
+/// Expect that every vertex and triangle center of the surface is inside of the wrap, or on it as
+/// may happen at corners, and that the vertices of the wrap are at the offset from the surface.
 void expect_around(const TriangleMesh& wrap, const TriangleMesh& mesh, double offset)
 {
   ExecutionContext context;
@@ -128,7 +129,7 @@ TEST_F(WrapSurface, IsClosedAndAroundWhateverItIsGiven)
   {
     const char* name;
     TriangleMesh mesh;
-    Index characteristic; ///< 2 for each ball, 0 for a torus; -1: not known
+    Index characteristic; ///< 2 for each ball, 0 for a torus, -1 if unknown
   };
   const WrapOptions options{ 0.05, 0.002, 60.0, 0 };
   for (const Case& c :
@@ -155,8 +156,8 @@ TEST_F(WrapSurface, IsClosedAndAroundWhateverItIsGiven)
 
 TEST_F(WrapSurface, VolumesAreWhatAlphaAndOffsetSay)
 {
-  // Around a convex body by no more than what is within the offset, at most; the body itself, at
-  // least.
+  // The volume of the wrap of a convex body is between that of the body and that of all points
+  // within the offset.
   const WrapOptions options{ 0.05, 0.004, 60.0, 0 };
   TriangleMesh wrap;
   ASSERT_TRUE(run(test::cube(), options, wrap).ok());
@@ -164,7 +165,7 @@ TEST_F(WrapSurface, VolumesAreWhatAlphaAndOffsetSay)
   const double volume = signed_volume(wrap.points, wrap.triangles);
   EXPECT_GT(volume, 8.0);
   EXPECT_LT(volume, 8.0 + 24.0 * offset + 6.0 * M_PI * offset * offset + 5.0 * std::pow(offset, 3));
-  // The shell of a sheet is two offsets thick, less what its triangles cut off.
+  // The wrap of a sheet is two offsets thick, except where triangles cut its round rim.
   ASSERT_TRUE(run(test::grid(4, 4), options, wrap).ok());
   const TriangleMesh sheet = test::grid(4, 4);
   const double thickness = 2.0 * options.offset * bounding_box(sheet.points).diagonal();
@@ -172,7 +173,7 @@ TEST_F(WrapSurface, VolumesAreWhatAlphaAndOffsetSay)
     (surface_area(sheet.points, sheet.triangles) * thickness);
   EXPECT_GT(ratio, 0.95);
   EXPECT_LT(ratio, 1.1);
-  // A hole is open to a ball that fits through it, else it is closed.
+  // The wrap enters a hole only if the ball of alpha fits through it.
   TriangleMesh holed = test::sphere(2);
   holed.triangles.conservativeResize(holed.triangles.rows() - 1, 3);
   ASSERT_TRUE(run(holed, { 0.1, 0.002, 60.0, 0 }, wrap).ok());
@@ -202,7 +203,7 @@ TEST_F(WrapSurface, PlaceAndScaleDoNotMatter)
 
 TEST_F(WrapSurface, TimeMemoryAndCancelEndIt)
 {
-  // A million triangles or so.
+  // About a million triangles.
   WrapOptions options{ 0.0005, 0.0001, 0.5, 0 };
   TriangleMesh wrap;
   const auto start = std::chrono::steady_clock::now();

@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_core_inside_tet_outcome_h
 #define bindpose_tests_core_inside_tet_outcome_h
 
-// What the tests of tetrahedralize() have in common: a run of it, and what every result promises.
+// Shared by the tests of tetrahedralize(): a run, and the invariants of every result.
 
 #include "inside/tetrahedralize.h"
 
@@ -28,10 +28,10 @@ struct TetOutcome
 TetOutcome run(const TriangleMesh& mesh, TetrahedralizeOptions options = {}, int threads = 0);
 TetOutcome run(const TriangleMesh& mesh, TetMethod method);
 
-/// What every result promises, whatever the method.
+/// Expect the invariants of the results of all methods.
 void expect_valid(const TetOutcome& outcome, const TriangleMesh& surface);
 
-/// Point handles.
+/// Return point handles.
 HandlePlaces places_of(const std::vector<Vec3>& points);
 
 /// Tests of method cdt.

@@ -1,4 +1,4 @@
-// A file is there whole or not at all.
+// A file is written completely or not at all.
 #include "io/atomic_file.h"
 #include "io/text_scanner.h"
 
@@ -33,13 +33,13 @@ TEST(AtomicFile, IsTheSameWhenItWaitsForTheDisk)
   ASSERT_TRUE(file.commit_synced().ok());
   EXPECT_EQ(folder.read("out"), "new");
   EXPECT_EQ(folder.number_of_files(), 1u);
-  EXPECT_FALSE(file.commit_synced().ok()); // of nothing
+  EXPECT_FALSE(file.commit_synced().ok()); // no file is open
   ASSERT_TRUE(file.open(folder / "unnamed", false).ok());
   ASSERT_TRUE(write_file(file.temporary(), "named").ok());
   ASSERT_TRUE(file.commit_synced_as(folder / "named").ok());
   EXPECT_EQ(folder.read("named"), "named");
   EXPECT_EQ(folder.number_of_files(), 2u);
-  // A temporary file that somebody has taken away.
+  // Another process has removed the temporary file.
   ASSERT_TRUE(file.open(folder / "out", true).ok());
   std::filesystem::remove(file.temporary());
   EXPECT_THAT(file.commit_synced().message, HasSubstr("cannot write"));

@@ -1,4 +1,4 @@
-// DMAT: column by column, as text and as raw doubles.
+// DMAT: values column by column, as text and as raw doubles.
 #include "io/dmat.h"
 
 #include "support/files.h"
@@ -39,7 +39,7 @@ TEST(Dmat, ErrorsAreNamed)
   EXPECT_THAT(error("1000000 1000000\n1\n"), HasSubstr("truncated"));
   EXPECT_THAT(error("0 0\n2 2\n12345678"), HasSubstr("truncated"));
   EXPECT_THAT(error("1099511627775 1099511627775\n1"), HasSubstr("truncated"));
-  // Nothing in it, but a walk through its columns or rows would take hours.
+  // These matrices are empty, but a loop over their columns or rows would take hours.
   EXPECT_THAT(error("1099511627775 0\n"), HasSubstr("no matrix has that size"));
   EXPECT_THAT(error("0 1099511627775\n"), HasSubstr("no matrix has that size"));
   EXPECT_EQ(matrix.size(), 0);

@@ -1,5 +1,5 @@
-// Skins as glTF: what is written comes back, files of others mean what the standard says, and
-// broken ones are told in one sentence.
+// Skins as glTF: round trips, files of other programs according to the standard, and one sentence
+// for each defect.
 #include "io/gltf_skin.h"
 #include "io/gltf_transform.h"
 
@@ -32,7 +32,7 @@ Eigen::Affine3d motion(const Vec3& axis, double degrees, const Vec3& to, double 
   return map;
 }
 
-/// A sphere on a chain of joints (the last one stands first), with rows of random weights.
+/// Return a sphere on a chain of joints, stored with the last joint first, with random weights.
 GltfSkin example(int joints, double row_sum = 1.0)
 {
   GltfSkin skin;
@@ -75,7 +75,7 @@ double difference(const Eigen::Affine3d& a, const Eigen::Affine3d& b)
   return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff();
 }
 
-/// Where linear blend skinning takes the vertices.
+/// Return the vertices after linear blend skinning.
 Points skinned(const GltfSkin& skin, const std::vector<Eigen::Affine3d>& posed)
 {
   Points result = skin.points;
@@ -100,7 +100,7 @@ json json_of(const std::string& glb)
   return json::parse(glb.substr(20, length));
 }
 
-/// A file of another program: a triangle on two joints, as text, its numbers in base64.
+/// Return a file of another program: a triangle on two joints, as text with its numbers in base64.
 json foreign()
 {
   return json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
@@ -135,7 +135,7 @@ TEST(GltfTransform, AMapWithoutShearInItsAxesIsKept)
     }
     EXPECT_LT(difference(nearest_trs(trs.affine()).affine(), trs.affine()), 1e-13);
   }
-  // A mirror is a half turn and a point reflection.
+  // A mirror image is a half turn and a point reflection.
   Eigen::Affine3d mirror = Eigen::Affine3d::Identity();
   mirror(0, 0) = -1.0;
   EXPECT_LT(difference(nearest_trs(mirror).affine(), mirror), 1e-13);
@@ -212,8 +212,8 @@ TEST(GltfSkin, RowsInTheFileSumToOne)
   ASSERT_TRUE(status.ok());
   EXPECT_EQ(status.report.text("rest_joint"), "yes");
   const json written = json_of(folder.read("rig.glb"));
-  EXPECT_EQ(written["skins"][0]["joints"].size(), 7u); // one more, which rests
-  // The sums, taken from the bytes.
+  EXPECT_EQ(written["skins"][0]["joints"].size(), 7u); // an additional joint that stays at rest
+  // Read the sums from the bytes of the file.
   const std::string glb = folder.read("rig.glb");
   std::uint32_t length = 0;
   std::memcpy(&length, glb.data() + 12, 4);
@@ -236,7 +236,7 @@ TEST(GltfSkin, RowsInTheFileSumToOne)
   {
     EXPECT_NEAR(sum, 1.0, float_step);
   }
-  // Reading takes the joint away again, and the rows lack what they lacked.
+  // Reading removes the additional joint, and the rows have their original sums below 1.
   GltfSkin back;
   ASSERT_TRUE(read_gltf_skin(folder / "rig.glb", back).ok());
   ASSERT_EQ(back.joints.size(), 6u);
@@ -274,7 +274,7 @@ TEST(GltfSkin, TheLargestWeightsAndWhatThatCosts)
     posed.push_back(joint.posed);
   }
   EXPECT_NEAR(status.report.number("dropped_share", 0), share, 1e-12);
-  // The error is the one of the weights that came back.
+  // The reported error equals that of the weights that were read.
   GltfSkin cut = skin;
   cut.weights = back.weights;
   const double error = (skinned(cut, posed) - skinned(skin, posed)).rowwise().norm().maxCoeff() /
@@ -319,7 +319,8 @@ TEST(GltfSkin, AnAnimationOfJoints)
   }
   Status status = write_gltf_skin(folder / "rig.glb", skin);
   ASSERT_TRUE(status.ok()) << status.message;
-  EXPECT_LT(status.report.number("animation_error", 1), 1e-6); // turns and even scales: exact
+  // Rotations and uniform scalings are exact.
+  EXPECT_LT(status.report.number("animation_error", 1), 1e-6);
   GltfSkin back;
   status = read_gltf_skin(folder / "rig.glb", back);
   ASSERT_TRUE(status.ok()) << status.message;
@@ -332,7 +333,7 @@ TEST(GltfSkin, AnAnimationOfJoints)
       EXPECT_LT(difference(back.frames[k].posed[j], skin.frames[k].posed[j]), 3e-6);
     }
   }
-  // Shears are not: the number says by how much.
+  // Shears are not exact, and the report contains their error.
   skin.frames[3].posed[4].linear() *= (Eigen::Matrix3d() << 1, 0.8, 0, 0, 1, 0, 0, 0, 1).finished();
   status = write_gltf_skin(folder / "sheared.glb", skin);
   ASSERT_TRUE(read_gltf_skin(folder / "sheared.glb", back).ok());
@@ -381,7 +382,7 @@ TEST(GltfSkin, AnAnimationOfShapes)
   ASSERT_EQ(read.warnings.size(), 1u);
   EXPECT_THAT(read.warnings[0], HasSubstr("does not keep 1 animation and 3 morph targets"));
   EXPECT_TRUE(back.frames.empty());
-  // A mesh without joints may have one as well.
+  // A mesh without joints may also have such an animation.
   skin.joints.clear();
   skin.weights.resize(0, 0);
   EXPECT_TRUE(write_gltf_skin(folder / "mesh.glb", skin, options).ok());
@@ -445,17 +446,18 @@ TEST(GltfSkin, AFileOfAnotherProgram)
   ASSERT_EQ(skin.joints.size(), 2u);
   EXPECT_EQ(skin.joints[1].name, "arm");
   EXPECT_EQ(skin.joints[1].parent, 0);
-  // The mesh's own node does not count, the joints' nodes compose.
+  // The node of a skinned mesh has no effect, and the transforms of the joints' nodes compose.
   EXPECT_EQ(Vec3(skin.points.row(1)), Vec3(1, 0, 0));
   EXPECT_LT((skin.joints[1].posed * Vec3(1, 0, 0) - Vec3(0, 4, 0)).norm(), 1e-12);
   EXPECT_EQ(skin.joints[1].rest.matrix(), Eigen::Matrix4d::Identity());
-  EXPECT_NEAR(skin.weights(1, 0), 0.5, 1e-12); // 64 and 64 of 255: the sum becomes one
-  // In a strip of three triangles every second one is turned over.
+  EXPECT_NEAR(skin.weights(1, 0), 0.5, 1e-12); // 64 and 64 of 255; rows are normalized to the sum 1
+  // In a strip of three triangles every second one has the opposite orientation.
   file["nodes"][0].erase("skin");
   ASSERT_TRUE(read_gltf_skin(folder.write("f.gltf", file.dump()), skin).ok());
-  EXPECT_EQ(Vec3(skin.points.row(0)), Vec3(9, 9, 9)); // without a skin the node does count
+  // The node of a mesh without a skin has an effect.
+  EXPECT_EQ(Vec3(skin.points.row(0)), Vec3(9, 9, 9));
   EXPECT_TRUE(skin.joints.empty());
-  // Numbers in a file beside it.
+  // The numbers may be in a separate file.
   const std::string bytes = folder.read("f.gltf");
   file["buffers"][0]["uri"] = "no such.bin";
   status = read_gltf_skin(folder.write("f.gltf", file.dump()), skin);
@@ -507,7 +509,7 @@ TEST(GltfSkin, ErrorsAreNamed)
   EXPECT_THAT(error([](json& f) { f["extensionsRequired"] = { "KHR_draco_mesh_compression" }; }),
     HasSubstr("KHR_draco"));
   json deep = "x";
-  // Sanitizers make the writer of the test's file overflow its own stack.
+  // With sanitizers, the JSON writer of this test overflows the stack for deeper nesting.
   for (int k = 0; k < (test::sanitized ? 500 : 5000); ++k)
   {
     deep = json::array({ deep });

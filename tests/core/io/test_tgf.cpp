@@ -1,4 +1,4 @@
-// TGF: nodes and edges survive the round trip; what is wrong is named with its line.
+// TGF: nodes and edges survive the round trip, and errors are reported with their line.
 #include "io/tgf.h"
 
 #include "support/files.h"

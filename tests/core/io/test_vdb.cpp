@@ -1,11 +1,11 @@
-// Files are read back by OpenVDB itself: every voxel against its sample, the band against its
-// definition by brute force, the isosurface of a narrow band against that of the full grid.
+// OpenVDB reads the files back. Every voxel is compared with its sample, the band with its
+// brute-force definition, and the isosurface of a narrow band with that of the full grid.
 #include "io/vdb.h"
 
 #include "support/files.h"
 #include "support/meshes.h"
 
-#define IMATH_HALF_NO_LOOKUP_TABLE // as vdb.cpp
+#define IMATH_HALF_NO_LOOKUP_TABLE // as in vdb.cpp
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Diagnostics.h>
 #include <openvdb/tools/VolumeToMesh.h>
@@ -39,7 +39,7 @@ struct Field
     this->for_each([&](Index i, Index j, Index k, Index)
       { this->values.push_back(f(this->grid.point(i, j, k))); });
   }
-  /// Calls visit(i, j, k, sample).
+  /// Call visit(i, j, k, sample) for each sample.
   template <typename Visit>
   void for_each(const Visit& visit) const
   {
@@ -63,14 +63,15 @@ openvdb::Coord coord(Index i, Index j, Index k)
   return openvdb::Coord(static_cast<int>(i), static_cast<int>(j), static_cast<int>(k));
 }
 
-/// 1 in a ball, 0 outside, linear over a third of the radius in between.
+/// Return a function that is 1 in a ball and 0 outside, and linear across its boundary over a third
+/// of the radius.
 std::function<double(const Vec3&)> soft_ball(const Vec3& center, double radius)
 {
   return [=](const Vec3& p)
   { return std::clamp(0.5 + 3.0 * (1.0 - (p - center).norm() / radius), 0.0, 1.0); };
 }
 
-/// A ball within the grid, indices below 0, sizes that are no multiples of 8.
+/// Return a ball within the grid. Some indices are negative, and the sizes are not multiples of 8.
 Field ball()
 {
   const Field frame({ -21, 24, -5, 13, 3, 60 }, [](const Vec3&) { return 0.0; });
@@ -139,7 +140,7 @@ TEST_F(Vdb, FloatsAndDoublesGiveTheSameFile)
 {
   const Field field = ball();
   const std::vector<float> floats(field.values.begin(), field.values.end());
-  this->options.tolerance = 0.0; // which is taken of the double
+  this->options.tolerance = 0.0; // a nonzero tolerance would apply to the double values
   ASSERT_TRUE(this->write(field).ok());
   ExecutionContext context;
   ASSERT_TRUE(
@@ -163,7 +164,8 @@ TEST_F(Vdb, FinePointsFarAwayStayWhereTheyAre)
   ASSERT_TRUE(this->write(field).ok());
   const openvdb::Vec3d at = this->read()->indexToWorld(openvdb::Vec3d(1e6, 1e6, 1e6));
   const Vec3 expected = field.grid.point(1000000, 1000000, 1000000);
-  EXPECT_LT((Vec3(at.x(), at.y(), at.z()) - expected).norm(), 1e-9); // their last place
+  // Up to the last bits of the coordinates.
+  EXPECT_LT((Vec3(at.x(), at.y(), at.z()) - expected).norm(), 1e-9);
 }
 
 TEST_F(Vdb, AxesMayBeTurned)
@@ -184,11 +186,11 @@ TEST_F(Vdb, RegionsOfOneValueAreTiles)
   ASSERT_TRUE(this->write(Field({ -128, -1, 0, 127, 0, 127 }, one)).ok());
   auto grid = this->read();
   EXPECT_EQ(grid->tree().leafCount(), 0u);
-  EXPECT_EQ(grid->tree().activeTileCount(), 1u); // of 128^3 voxels
+  EXPECT_EQ(grid->tree().activeTileCount(), 1u); // a tile of 128^3 voxels
   EXPECT_EQ(grid->activeVoxelCount(), 128u * 128u * 128u);
 
   this->options.overwrite = true;
-  ASSERT_TRUE(this->write(Field({ 0, 8, 0, 7, 0, 7 }, one)).ok()); // a layer beyond the tile
+  ASSERT_TRUE(this->write(Field({ 0, 8, 0, 7, 0, 7 }, one)).ok()); // one layer more than the tile
   grid = this->read();
   EXPECT_EQ(grid->tree().leafCount(), 1u);
   EXPECT_EQ(grid->tree().activeTileCount(), 1u);
@@ -232,7 +234,8 @@ TEST_F(Vdb, TheBackgroundMayBeTheInside)
   this->options.overwrite = true;
   ASSERT_TRUE(this->write(field).ok());
   grid = this->read();
-  EXPECT_EQ(grid->tree().getValue(coord(2, 4, 31)), 0.0f); // the far side: the mirror image
+  // Voxels on the other side of the band have the opposite value.
+  EXPECT_EQ(grid->tree().getValue(coord(2, 4, 31)), 0.0f);
   EXPECT_EQ(grid->tree().getValue(coord(-21, -5, 3)), 1.0f);
   EXPECT_FALSE(grid->tree().isValueOn(coord(2, 4, 31)));
 }
@@ -240,7 +243,8 @@ TEST_F(Vdb, TheBackgroundMayBeTheInside)
 TEST_F(Vdb, ANarrowBandIsWhatItsDefinitionSays)
 {
   test::Random random(7);
-  // Rare samples of the other side, some of them at the ends; outside of the extent it is 0.
+  // A few random samples have the other side's value, some of them at the ends. The value outside
+  // of the extent is 0.
   const Field field({ -9, 9, -2, 14, 5, 17 },
     [&](const Vec3&) { return random.below(300) == 0 ? 0.8 : 0.3 * random.uniform(); });
   for (const double background : { 0.0, 1.0 })
@@ -293,7 +297,7 @@ TEST_F(Vdb, ANarrowBandIsWhatItsDefinitionSays)
 
 TEST_F(Vdb, ANarrowBandHasTheSameIsosurface)
 {
-  // A ball within the grid, and one that the grid's end cuts.
+  // A ball within the grid, and one that the boundary of the grid cuts.
   const Field frame({ -21, 42, -5, 34, 3, 90 }, [](const Vec3&) { return 0.0; });
   for (const Vec3& center : { frame.grid.point(10, 15, 46), frame.grid.point(-21, 15, 46) })
   {
@@ -316,7 +320,7 @@ TEST_F(Vdb, ANarrowBandHasTheSameIsosurface)
       std::vector<openvdb::Vec3s> points;
       std::vector<openvdb::Vec4I> quads;
       openvdb::tools::volumeToMesh(grid, points, quads, 0.5);
-      // The same quads in another order are the same surface.
+      // The same quads in another order form the same surface.
       std::multiset<std::array<float, 12>> corners;
       double volume = 0.0;
       for (const openvdb::Vec4I& quad : quads)
@@ -337,7 +341,7 @@ TEST_F(Vdb, ANarrowBandHasTheSameIsosurface)
     EXPECT_TRUE(surface(*narrow) == expected);
     if (center == frame.grid.point(10, 15, 46))
     {
-      // Where the linear flank is 1/2 is the radius; OpenVDB's quads wind the other way round.
+      // The radius is where the linear ramp is 1/2. OpenVDB orients its quads the opposite way.
       EXPECT_NEAR(std::abs(expected.second), 4.0 / 3.0 * M_PI * std::pow(2.4, 3), 0.6);
     }
   }
@@ -364,7 +368,8 @@ TEST_F(Vdb, TheSameBytesForAnyNumberOfThreads)
   other.values[20000] += 0.25;
   ASSERT_TRUE(this->write(other, "other.vdb").ok());
   EXPECT_EQ(tag("one.vdb"), tag("two.vdb"));
-  EXPECT_NE(tag("one.vdb"), tag("other.vdb")); // by which programs see that a file has changed
+  // Programs detect by this tag that a file has changed.
+  EXPECT_NE(tag("one.vdb"), tag("other.vdb"));
   EXPECT_EQ(tag("one.vdb").size(), 36u);
   EXPECT_EQ(tag("one.vdb")[14], '8');
 }
@@ -458,7 +463,7 @@ TEST_F(Vdb, FilesAreThereWholeOrNotAtAll)
   EXPECT_THAT(this->write(field).message, HasSubstr("the file exists"));
   this->options.overwrite = true;
 
-  // A full disk, as far as a process can make one.
+  // Simulate a full disk by a limit on the file size.
   rlimit saved{};
   getrlimit(RLIMIT_FSIZE, &saved);
   rlimit small = saved;

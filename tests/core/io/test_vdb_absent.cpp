@@ -1,4 +1,4 @@
-// vdb.cpp as a build without OpenVDB compiles it.
+// vdb.cpp compiled without OpenVDB.
 #include "io/vdb.h"
 
 #include "support/files.h"

@@ -1,4 +1,4 @@
-// Outlines of images: true to what is shown within a pixel, closed, never crossing.
+// Outlines of images are closed, never cross, and are within a pixel of the depicted shape.
 #include "planar/image_outline.h"
 
 #include "support/sanitized.h"
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 namespace
 {
-using Picture = std::vector<std::vector<float>>; // row by row, y = 0 first
+using Picture = std::vector<std::vector<float>>; // row by row, beginning with y = 0
 
 Status outline_of(const Picture& picture, ImageOutline& outline, double simplify = 0.5)
 {
@@ -54,7 +54,7 @@ Picture noise(Index columns, Index rows, unsigned seed, bool binary)
     columns, rows, [&](double, double) { return binary ? std::round(any(random)) : any(random); });
 }
 
-/// Signed; every vertex must be the end of one segment and the start of one.
+/// Return the signed area. Every vertex must be the end of one segment and the start of one.
 double area_of(const ImageOutline& outline)
 {
   std::vector<int> balance(outline.points.rows(), 0);
@@ -76,7 +76,7 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c)
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// Pairs of segments without a common vertex that meet, by looking at all.
+/// Count the pairs of segments that meet without a common vertex, by brute force.
 int crossings(const ImageOutline& outline)
 {
   int count = 0;
@@ -108,7 +108,7 @@ double distance(const Vec2& p, const Vec2& a, const Vec2& b)
   return (p - a - t * (b - a)).norm();
 }
 
-/// Largest distance of points along one outline from another.
+/// Return the largest distance from points on one outline to the other outline.
 double one_way(const ImageOutline& from, const ImageOutline& to)
 {
   double largest = 0.0;
@@ -172,7 +172,7 @@ TEST(ImageOutline, DiscWithinAPixel)
           largest = std::max(largest, std::abs((p - center).norm() - radius));
         }
       }
-      // A pixel that is either in or out leaves half a pixel open by itself.
+      // Pixels with the values 0 and 1 determine the boundary only up to half a pixel.
       const double of_contour = smooth ? 0.15 : 0.71;
       EXPECT_LE(largest, of_contour + simplify);
       if (simplify <= 0.5)
@@ -215,7 +215,7 @@ TEST(ImageOutline, StaysWithinTheToleranceAndNeverCrosses)
 
 TEST(ImageOutline, OneComponentALoop)
 {
-  // Winding number of the contour at a pixel's centre: 1 where it is inside, 0 outside.
+  // The winding number of the contour at a pixel's center is 1 inside and 0 outside.
   const Picture picture = noise(40, 33, 5, false);
   ImageOutline outline;
   ASSERT_TRUE(outline_of(picture, outline, 0.0).ok());
@@ -231,7 +231,7 @@ TEST(ImageOutline, OneComponentALoop)
 
 TEST(ImageOutline, ContourIsWhereAlphaPasses)
 {
-  // A ramp along x: the line is where it passes one half.
+  // A ramp along x, whose outline is where the ramp passes 1/2.
   const Picture picture = paint(11, 5, [](double x, double) { return 1.0 - x / 10.0; });
   ImageOutline outline;
   ASSERT_TRUE(outline_of(picture, outline, 0.0).ok());
@@ -253,7 +253,7 @@ TEST(ImageOutline, SaddlesByBilinearInterpolation)
     EXPECT_TRUE(status.ok());
     return status.report.number("counts.loops", -1);
   };
-  EXPECT_EQ(loops(1.0f, 0.0f), 1); // the saddle's value is 1/2: inside
+  EXPECT_EQ(loops(1.0f, 0.0f), 1); // the value at the saddle is 1/2: inside
   EXPECT_EQ(loops(0.9f, 0.0f), 2);
   EXPECT_EQ(loops(0.9f, 0.2f), 1);
   EXPECT_EQ(loops(0.0f, 0.9f), 2);
@@ -281,7 +281,7 @@ TEST(ImageOutline, OpaqueImageReachesHalfAPixelOutside)
   EXPECT_EQ(outline.points.col(0).minCoeff(), -0.5);
   EXPECT_EQ(outline.points.col(0).maxCoeff(), 39.5);
   EXPECT_EQ(outline.points.col(1).maxCoeff(), 29.5);
-  EXPECT_NEAR(area_of(outline), 40 * 30, 4 * 0.125 + 0.5 * 140); // half a pixel all around
+  EXPECT_NEAR(area_of(outline), 40 * 30, 4 * 0.125 + 0.5 * 140); // half a pixel on all sides
 }
 
 TEST(ImageOutline, OnePixel)
@@ -343,5 +343,6 @@ TEST(ImageOutline, HugeImageInSeconds)
   ASSERT_TRUE(status.ok());
   EXPECT_NEAR(area_of(outline) / (M_PI * 3900.0 * 3900.0), 1.0, 1e-3);
   EXPECT_LT(outline.points.rows(), 3000);
-  EXPECT_LT(seconds.count(), test::sanitized ? 120.0 : 20.0); // 1 s alone, 21 s with sanitizers
+  // Measured: 1 s on an idle machine, 21 s with sanitizers.
+  EXPECT_LT(seconds.count(), test::sanitized ? 120.0 : 20.0);
 }

@@ -1,4 +1,4 @@
-// Triangles of what curves enclose: areas known exactly, angles, edges, handles, bad input.
+// Triangulations of the inside of curves: exact areas, angles, edges, handles, and bad input.
 #include "planar/planar_shape.h"
 
 #include "support/environment.h"
@@ -24,7 +24,7 @@ struct Curves
   PlanePoints points = PlanePoints(0, 2);
   Segments segments = Segments(0, 2);
 
-  /// Appends a polyline, closed or not.
+  /// Append a polyline, closed or open.
   Curves& add(const std::vector<Vec2>& corners, bool closed = true)
   {
     const Index first = this->points.rows();
@@ -61,7 +61,7 @@ double cross(const Vec2& a, const Vec2& b)
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Sum of the triangles' areas, each of which must be positive.
+/// Return the sum of the triangles' areas, each of which must be positive.
 double area_of(const PlanarShape& shape)
 {
   double area = 0.0;
@@ -77,7 +77,8 @@ double area_of(const PlanarShape& shape)
   return area;
 }
 
-/// Degrees, of all triangles that have no corner at one of the given points.
+/// Return the smallest angle in degrees of all triangles without a corner at one of the given
+/// points.
 double smallest_angle(const PlanarShape& shape, const std::vector<Vec2>& except = {})
 {
   double smallest = 180.0;
@@ -99,7 +100,7 @@ double smallest_angle(const PlanarShape& shape, const std::vector<Vec2>& except 
   return smallest;
 }
 
-/// Length of the mesh's edges that lie on the segment from a to b.
+/// Return the length of the mesh's edges on the segment from a to b.
 double covered(const PlanarShape& shape, const Vec2& a, const Vec2& b)
 {
   const double length = (b - a).norm();
@@ -130,7 +131,7 @@ double covered(const PlanarShape& shape, const Vec2& a, const Vec2& b)
   return sum;
 }
 
-/// Every vertex in use, each edge with one triangle to each side at most.
+/// Expect that all vertices are used and that each edge has at most one triangle on each side.
 void expect_mesh(const PlanarShape& shape)
 {
   std::set<std::pair<Index, Index>> sides;
@@ -167,7 +168,7 @@ protected:
     EXPECT_TRUE(status.ok()) << status.message;
     expect_mesh(shape);
     const double sum = area_of(shape);
-    // The report's is of before new points were rounded to where they lie.
+    // The report contains the area before the positions of new points were rounded.
     const double rounding = 0x1p-50 * curves.points.cwiseAbs().maxCoeff();
     EXPECT_NEAR(status.report.number("area", -1), sum, 1e-12 * sum + 100.0 * rounding);
     return sum;
@@ -186,13 +187,13 @@ protected:
   Status status;
 };
 
-/// The five tips of a star {5/2}, one stroke.
+/// Return the five tips of the star {5/2}, drawn in one stroke.
 std::vector<Vec2> pentagram()
 {
   return ring(5, 1.0, 2.0);
 }
 
-/// Area of its inner pentagon, and of all of it.
+/// Return the area of the inner pentagon, or of the whole star.
 double pentagram_area(bool all)
 {
   const double inner_radius = std::cos(2.0 * M_PI / 5.0) / std::cos(M_PI / 5.0);
@@ -208,7 +209,7 @@ TEST_F(PlanarShapeTest, Square)
   EXPECT_GE(smallest_angle(shape), 30.0 - 1e-9);
   EXPECT_TRUE((shape.winding_numbers.array() == 1.0).all());
   EXPECT_TRUE(status.warnings.empty());
-  // Vertices of the input come first, as they were.
+  // The vertices of the input come first and are unchanged.
   for (Index v = 0; v < shape.points.rows(); ++v)
   {
     ASSERT_EQ(shape.original_vertices[v], v < 4 ? v : -1);
@@ -256,8 +257,8 @@ TEST_F(PlanarShapeTest, PentagramByThreshold)
   EXPECT_EQ(status.report.number("counts.crossings", -1), 5);
   EXPECT_EQ(shape.winding_numbers.maxCoeff(), 2.0);
   EXPECT_EQ(shape.winding_numbers.minCoeff(), 1.0);
-  EXPECT_GE(smallest_angle(shape), 30.0 - 1e-9); // its tips have 36 degrees
-  for (int k = 0; k < 5; ++k) // strokes run on through the middle
+  EXPECT_GE(smallest_angle(shape), 30.0 - 1e-9); // the angles at its tips are 36 degrees
+  for (int k = 0; k < 5; ++k) // strokes continue through the middle as edges
   {
     const Vec2 a = star.points.row(k);
     const Vec2 b = star.points.row((k + 1) % 5);
@@ -279,15 +280,15 @@ TEST_F(PlanarShapeTest, OpenSquareGetsItsFourthSide)
 
 TEST_F(PlanarShapeTest, FigureEight)
 {
-  // One loop counter-clockwise, one clockwise: they wind 1 and -1 times.
+  // One loop is counter-clockwise and one clockwise: their winding numbers are 1 and -1.
   const Curves eight = Curves().add({ { 0, 0 }, { 3, 3 }, { 3, 0 }, { 0, 3 } });
   const Curves larger = Curves().add({ { 0, 0 }, { 4, 4 }, { 4, 0 }, { 0, 2 } });
-  // Lines y = x and y = 2 - x / 2 meet at 4/3.
+  // The lines y = x and y = 2 - x / 2 meet at x = 4/3.
   const double right = 0.5 * 4.0 * (4.0 - 4.0 / 3.0);
   const double left = 0.5 * 2.0 * 4.0 / 3.0;
   EXPECT_NEAR(area(eight), 2.25, 1e-12);
   EXPECT_NEAR(area(larger), std::max(left, right), 1e-12);
-  EXPECT_EQ(status.report.number("turned", -1), 1); // the larger one ran clockwise
+  EXPECT_EQ(status.report.number("turned", -1), 1); // the larger loop was clockwise
 }
 
 TEST_F(PlanarShapeTest, ClockwiseIsTurned)
@@ -303,7 +304,7 @@ TEST_F(PlanarShapeTest, OverlapsAndDoubledCurves)
   std::vector<Vec2> moved;
   for (const Vec2& p : square)
   {
-    moved.emplace_back(p + Vec2(0.5, 0.0)); // shares parts of two sides
+    moved.emplace_back(p + Vec2(0.5, 0.0)); // overlaps parts of two sides
   }
   const Curves two = Curves().add(square).add(moved);
   EXPECT_NEAR(area(two), 1.5, 1e-14);
@@ -312,7 +313,7 @@ TEST_F(PlanarShapeTest, OverlapsAndDoubledCurves)
   const Curves doubled = Curves().add(square).add(square);
   EXPECT_NEAR(area(doubled), 1.0, 1e-14);
   EXPECT_TRUE((shape.winding_numbers.array() == 2.0).all());
-  EXPECT_EQ(shape.original_vertices[3], 3); // of equal vertices the lowest
+  EXPECT_EQ(shape.original_vertices[3], 3); // the first of equal vertices is kept
   EXPECT_EQ(shape.original_vertices[4], -1);
 }
 
@@ -355,7 +356,7 @@ TEST_F(PlanarShapeTest, RandomTangleAgreesWithSampledArea)
 
 TEST_F(PlanarShapeTest, SharpTipsStayAndTheRestIsGood)
 {
-  const std::vector<Vec2> needle{ { 0, 0 }, { 1, 0 }, { 1, 0.05 } }; // 2.9 degrees
+  const std::vector<Vec2> needle{ { 0, 0 }, { 1, 0 }, { 1, 0.05 } }; // the angle is 2.9 degrees
   EXPECT_NEAR(area(Curves().add(needle)), 0.025, 1e-14);
   EXPECT_NEAR(smallest_angle(shape), std::atan(0.05) * 180.0 / M_PI, 1e-9);
   EXPECT_GE(smallest_angle(shape, { needle[0] }), 20.0);
@@ -381,7 +382,7 @@ TEST_F(PlanarShapeTest, HandlesAreVerticesAndBonesEdges)
   EXPECT_EQ(status.report.number("counts.outside_handles", -1), 2);
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("2 of 5"));
-  const Vec2 out(1.0, 0.6); // where the bone leaves
+  const Vec2 out(1.0, 0.6); // the bone leaves the square here
   EXPECT_NEAR(covered(shape, { 0.5, 0.5 }, out), (out - Vec2(0.5, 0.5)).norm(), 1e-12);
   EXPECT_GE(smallest_angle(shape), 25.0);
 }
@@ -422,7 +423,8 @@ TEST_F(PlanarShapeTest, ScaleAndPlaceDoNotMatter)
 
 TEST_F(PlanarShapeTest, CurvesThatAlmostTouch)
 {
-  // Corners of a coarse lattice, hit up to 1e-14: closer than doubles can refine.
+  // Corners of a coarse lattice with errors of up to 1e-14, closer to each other than doubles allow
+  // to refine.
   std::mt19937 random(11);
   std::uniform_real_distribution<double> any(0.0, 1.0);
   std::vector<Vec2> corners;
@@ -443,7 +445,8 @@ TEST_F(PlanarShapeTest, CurvesThatAlmostTouch)
 
 TEST_F(PlanarShapeTest, TanglesOnALatticeAndFarAway)
 {
-  // Many lines through the same points; refinement to 30 degrees has no end at some corners.
+  // Many lines pass through the same points. At some corners, refinement to 30 degrees does not
+  // terminate.
   options.edge = 0.05;
   for (const unsigned seed : { 3u, 4u, 39u, 47u })
   {
@@ -489,7 +492,7 @@ TEST_F(PlanarShapeTest, Refuses)
   Curves wrong = Curves().add(square);
   wrong.segments(2, 1) = 4;
   refuses(wrong, "segment 2 has vertex 4");
-  // Two arms, seen from between them at less than half a turn.
+  // Between the two arms the winding number is below 1/2.
   Curves arms;
   arms.add({ { 0, 0 }, { 1, 0 } }, false).add({ { 1, 2 }, { 0, 2 } }, false);
   refuses(arms, "enclose nothing");

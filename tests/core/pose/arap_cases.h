@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_core_pose_arap_cases_h
 #define bindpose_tests_core_pose_arap_cases_h
 
-// Poses that the tests of reduced ARAP share.
+// Poses shared by the tests of reduced ARAP.
 
 #include "pose/transform_parts.h"
 #include "pose/reduced_arap.h"
@@ -43,19 +43,20 @@ inline Pose posed(const Handles& handles, HandleMode mode, const Affine& t = ide
   return pose;
 }
 
-/// Plain iterations in double precision: nothing extrapolates.
+/// Return options for iterations in double precision without acceleration, started from rest.
 constexpr ReducedArap::SolveOptions iterations_from_rest(Index count)
 {
   return { 0.0, count, ReducedArap::Start::rest, 0, 0.0, false };
 }
 
-/// In double precision.
+/// Return options for iterations in double precision, started from the guess.
 constexpr ReducedArap::SolveOptions iterations(Index count)
 {
   return { 0.0, count, ReducedArap::Start::guess, 5, 0.0, false };
 }
 
-/// Bends a bar: left end held, right end turned and moved, middle as told.
+/// Return a pose that bends a bar: the left end is fixed, the right end turns and moves, the middle
+/// has the given mode.
 inline Pose bend(HandleMode middle)
 {
   Pose pose(3);
@@ -66,8 +67,8 @@ inline Pose bend(HandleMode middle)
   return pose;
 }
 
-/// SPEC D37: extra weights rest at zero, leave handles alone and lower the energy. Gives what the
-/// bind said.
+/// Expect that extra weights keep the rest shape, do not move handles, and lower the energy (SPEC
+/// D37). Return the status of the bind.
 inline Status expect_that_extra_weights_help(ExtraWeights kind)
 {
   const Rig rig = bar();
@@ -94,7 +95,7 @@ inline Status expect_that_extra_weights_help(ExtraWeights kind)
     EXPECT_TRUE(plain.solve(context, bend(middle), iterations(300)).ok());
     EXPECT_TRUE(wide.solve(context, bend(middle), iterations(300)).ok());
     EXPECT_LT(wide.energies().back(), plain.energies().back());
-    // Extra weights vanish at the handles: the full ones stay what they are.
+    // Extra weights vanish at the handles, so vertices with a full weight do not move.
     EXPECT_TRUE(wide.deform(context, rig.mesh.points, result).ok());
     for (Index v = 0; v < rig.mesh.points.rows(); ++v)
     {

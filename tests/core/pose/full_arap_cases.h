@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_core_pose_full_arap_cases_h
 #define bindpose_tests_core_pose_full_arap_cases_h
 
-// Meshes and handles that the tests of full ARAP share.
+// Meshes and handles shared by the tests of full ARAP.
 
 #include "pose/full_arap.h"
 #include "support/handles.h"
@@ -17,10 +17,11 @@ struct Held
 {
   TetMesh mesh;
   Handles handles;
-  std::vector<Index> labels; ///< #V
+  std::vector<Index> labels; ///< region of each vertex, #V
 };
 
-/// [0, 4] x [0, 1] x [0, 1]; regions 1, 2, 3 are the whole cross sections at x = 0, 2 and 4.
+/// Return the bar [0, 4] x [0, 1] x [0, 1]. Regions 1, 2 and 3 are the whole cross sections at x =
+/// 0, 2 and 4.
 inline Held held_bar(int cells)
 {
   Held bar;
@@ -50,7 +51,7 @@ inline Status bind(FullArap& arap, const Held& held, ArapEnergy energy)
     context, held.mesh.points, held.mesh.tets, held.handles, { energy, held.labels });
 }
 
-/// So many iterations without acceleration.
+/// Return options for the given number of iterations without acceleration.
 constexpr FullArap::SolveOptions plain(Index count, FullArap::Start start)
 {
   return { 0.0, count, start, 0 };

@@ -1,4 +1,4 @@
-// Anderson acceleration on a linear iteration, where what it must do is known.
+// Anderson acceleration on a linear iteration with a known solution.
 #include "pose/anderson.h"
 
 #include "support/meshes.h"
@@ -10,7 +10,7 @@ using namespace bindpose;
 
 namespace
 {
-/// x <- A x + b with spectral radius 0.98, and two numbers carried along, C x.
+/// The map x <- A x + b with spectral radius 0.98, and two dependent values C x.
 struct Problem
 {
   Eigen::Matrix4d a = Eigen::Vector4d(0.98, 0.9, -0.5, 0.3).asDiagonal();
@@ -60,7 +60,7 @@ TEST(Anderson, FindsALinearFixedPointInAboutAsManyStepsAsItHasUnknowns)
     {
       x = g;
     }
-    // What is carried stays the same function of x.
+    // The dependent values remain the same function of x.
     EXPECT_LT((x.tail<2>() - problem.c * x.head<4>()).norm(), 1e-9 * (1.0 + x.norm()));
   }
   const Eigen::Vector4d goal = problem.fixed_point();
@@ -100,7 +100,7 @@ TEST(Anderson, AnIterateThatStandsStillStaysFinite)
   Problem::Iterate x = Problem::Iterate::Constant(1.0);
   for (int step = 0; step < 20; ++step)
   {
-    const Problem::Iterate g = x; // the fixed point
+    const Problem::Iterate g = x; // already the fixed point
     anderson.next(g.data(), x.data());
     ASSERT_EQ(x, g);
   }
@@ -119,6 +119,6 @@ TEST(Anderson, PackedDotIsTheSumOfProducts)
     b.push_back(static_cast<double>(i % 5) + 0.5);
     single_a.push_back(static_cast<float>(a.back()));
     single_b.push_back(static_cast<float>(b.back()));
-    sum += a.back() * b.back(); // exact: small halves
+    sum += a.back() * b.back(); // exact, because the products are small multiples of 1/2
   }
 }

@@ -1,4 +1,4 @@
-// What deformations cost, in numbers that can be worked out by hand.
+// Energies of deformations with known values.
 #include "pose/arap_energy.h"
 
 #include "pose/rotation_fit.h"
@@ -29,7 +29,7 @@ const Tets& elements_of(const TetMesh& mesh)
   return mesh.tets;
 }
 
-/// The energy of an affine map with the best rotations.
+/// Return the energy of an affine map with optimal rotations.
 template <typename Mesh>
 double energy_of(const Mesh& mesh, ArapEnergy energy, const Eigen::Matrix3d& map)
 {
@@ -55,7 +55,7 @@ TEST(ArapEnergy, AffineMapsCostHalfTheIntegralOfTheDifferenceToTheirRotation)
   TriangleMesh square = test::grid(5, 4);
   TetMesh cube = test::tet_box(3, 2, 2);
   test::Random random(3);
-  for (Index v = 0; v < square.points.rows(); ++v) // no angle special, cotangents of both signs
+  for (Index v = 0; v < square.points.rows(); ++v) // no special angles; cotangents of both signs
   {
     const Vec3 p = square.points.row(v);
     if (p.x() > 0 && p.x() < 1 && p.y() > 0 && p.y() < 1)
@@ -98,7 +98,7 @@ TEST(ArapEnergy, SpokesCostTheSameForACommonRotationAndForSimilarities)
   const Eigen::Matrix3d stretch = turn * Vec3(1.5, 1, 1).asDiagonal();
   EXPECT_NEAR(energy_of(square, ArapEnergy::spokes, stretch), 0.125, 1e-12);
   EXPECT_NEAR(energy_of(cube, ArapEnergy::spokes, stretch), 0.125, 1e-12);
-  // Any map with one rotation for all; own rotations can only be better.
+  // The energy of any map with one common rotation. Separate rotations can only lower the energy.
   Eigen::Matrix3d map;
   map << 1.5, 0.2, 0.1, -0.3, 0.8, 0.4, 0.2, 0.1, 1.1;
   const RotationGroups groups =
@@ -113,7 +113,7 @@ TEST(ArapEnergy, SpokesCostTheSameForACommonRotationAndForSimilarities)
 
 TEST(ArapEnergy, SpokesLeaveOutEdgesOfNegativeWeight)
 {
-  // Two flat triangles on one edge: both angles opposite to it are obtuse.
+  // Two flat triangles share an edge, and both angles opposite to the edge are obtuse.
   TriangleMesh kite;
   kite.points.resize(4, 3);
   kite.points << -1, 0, 0, 1, 0, 0, 0, 0.2, 0, 0, -0.2, 0;
@@ -128,7 +128,7 @@ TEST(ArapEnergy, SpokesLeaveOutEdgesOfNegativeWeight)
   EXPECT_TRUE(left_out_warning(0).empty());
   arap_stiffness(kite.points, kite.triangles, ArapEnergy::spokes_and_rims, &left_out);
   EXPECT_EQ(left_out, 0);
-  // Rest is the cheapest that its rotations can make it.
+  // The rest shape has the lowest energy that optimal rotations give.
   EXPECT_LT(std::abs(energy_of(kite, ArapEnergy::spokes, Eigen::Matrix3d::Identity())), 1e-28);
 }
 
@@ -197,10 +197,12 @@ TEST(ArapEnergy, ElementsTakeTheLabelOfMostVertices)
   tets << 0, 1, 2, 3, 2, 3, 4, 5, 4, 5, 6, 7;
   const RotationGroups groups =
     rotation_groups(ArapEnergy::elements, tets, 4, { 3, 3, 1, 3, 1, 0, 0, 0 });
-  // 3 of 4 in label 3; 1 1 3 0: label 1; 1 0 0 0: label 0. Names by first appearance.
+  // The most frequent label is 3 (three of four), then 1 (1 1 3 0), then 0 (1 0 0 0). Groups are
+  // numbered in order of first appearance.
   EXPECT_EQ(groups.of_element, (std::vector<Index>{ 0, 1, 2 }));
   EXPECT_EQ(groups.count, 3);
-  // Vertices follow most of their elements, the lowest of equals.
+  // A vertex takes the group of most of its elements, and the lowest group if two are equally
+  // frequent.
   EXPECT_EQ(groups.of_vertex, (std::vector<Index>{ 0, 0, 0, 0, 1, 1, 2, 2 }));
   EXPECT_STREQ(to_string(ArapEnergy::elements, true), "tetrahedra");
   EXPECT_STREQ(to_string(ArapEnergy::elements, false), "triangles");

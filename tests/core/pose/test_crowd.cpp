@@ -1,4 +1,4 @@
-// A crowd is what ReducedArap would do, instance by instance.
+// A crowd gives the result of ReducedArap for each instance.
 #include "pose/crowd.h"
 
 #include "core/pose/arap_cases.h"
@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Poses of instances at a time, all different.
+/// Return the poses of the instances at a time, all of them different.
 std::vector<Pose> poses_at(const Handles& handles, int time)
 {
   std::vector<Pose> poses;
@@ -82,7 +82,7 @@ TEST(Crowd, ComesAndGoesAndSaysWhichPoseIsBad)
   Status status = crowd.solve(context, poses);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_THAT(status.message, HasSubstr("instance 3: "));
-  // The others' poses and its own again, from the beginning.
+  // Solve the first poses again after the failure.
   poses = poses_at(rig.handles, 0);
   poses.resize(2);
   ASSERT_TRUE(crowd.solve(context, poses).usable());
@@ -92,7 +92,7 @@ TEST(Crowd, ComesAndGoesAndSaysWhichPoseIsBad)
   poses = poses_at(rig.handles, 0);
   ASSERT_TRUE(crowd.solve(context, poses).usable());
   EXPECT_EQ(crowd.transforms()[4], first[4]);
-  // Iterations that do not suffice are counted.
+  // Instances that did not converge are counted.
   ReducedSolveOptions few;
   few.tolerance = 1e-15;
   few.max_iterations = 1;
@@ -108,7 +108,7 @@ TEST(Crowd, ComesAndGoesAndSaysWhichPoseIsBad)
 
 TEST(Crowd, StandsWhereItIsPlaced)
 {
-  // A placement is a map of the posed points, whatever the rows of weights sum to.
+  // A placement maps the posed points, for any row sum of the weights.
   for (const double share : { 1.0, 0.7 })
   {
     Rig rig = bar();
@@ -149,7 +149,8 @@ TEST(Crowd, NormalsFollow)
   Crowd crowd;
   ASSERT_TRUE(
     crowd.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).usable());
-  // All handles by one map: normals by its inverse transpose, then by that of the placement.
+  // The handles share one map. The normals are transformed by its inverse transpose, then by that
+  // of the placement.
   Eigen::Matrix3d map, place;
   map << 1.2, 0.3, 0, 0, 0.9, -0.2, 0.1, 0, 1.1;
   place << 0, -2, 0, 1, 0, 0.4, 0, 0, 1.5;

@@ -1,4 +1,4 @@
-// Stretches of elements against gradients that are known, and against Eigen's singular values.
+// Stretches of elements against known gradients and against singular values of Eigen.
 #include "pose/element_stretch.h"
 
 #include "support/meshes.h"
@@ -92,7 +92,7 @@ TEST(ElementStretch, AffineMapsHaveTheirSingularValuesEverywhere)
   EXPECT_NEAR(report.number("smallest_stretch", 0), 0.25, 1e-12);
   EXPECT_EQ(report.number("counts.stretched_elements", 0), box.tets.rows());
   EXPECT_EQ(report.number("counts.inverted_elements", -1), 0);
-  // A square in the plane z = 0 sees the map's first two columns only.
+  // Only the first two columns of the map matter for a square in the plane z = 0.
   const TriangleMesh square = test::grid(4, 4);
   const Eigen::Matrix3d in_plane = Vec3(1.5, 0.75, 9.0).asDiagonal();
   const Report flat = report_of(
@@ -121,7 +121,7 @@ TEST(ElementStretch, TheLimitSaysWhatIsStretched)
 
 TEST(ElementStretch, OneReflectedTetIsFoundAndNamed)
 {
-  // Two tets on one triangle; the second's apex goes through it.
+  // Two tets share a triangle. The apex of the second tet moves through it.
   Points rest(5, 3);
   rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1;
   Tets tets(2, 4);
@@ -138,7 +138,8 @@ TEST(ElementStretch, OneReflectedTetIsFoundAndNamed)
   EXPECT_NEAR(stretch.smallest[0], 1.0, 1e-15);
   EXPECT_NEAR(stretch.smallest[1], -1.0, 1e-15);
   EXPECT_NEAR(stretch.largest[1], 1.0, 1e-15);
-  // A mirror of all is an inversion of all; a tet that is inside out at rest counts from there.
+  // A mirror image inverts all tets. A tet that is inside out at rest is inverted if its
+  // orientation changes.
   EXPECT_EQ(report_of(rest, Points(-rest), tets).number("counts.inverted_elements", 0), 2);
   Tets other = tets;
   std::swap(other(1, 0), other(1, 1));
@@ -168,7 +169,7 @@ TEST(ElementStretch, TrianglesFlipInAPlaneOnly)
   const Points turned = moved(square.points, rotation(180, Vec3(0, 0, 1)));
   EXPECT_EQ(
     report_of(square.points, turned, square.triangles).number("counts.inverted_elements", -1), 0);
-  // A closed surface has no plane to look at its triangles from.
+  // Triangles of a closed surface have no common plane that defines an orientation.
   const TriangleMesh ball = test::sphere(1);
   EXPECT_EQ(report_of(ball.points, Points(-ball.points), ball.triangles)
               .number("counts.inverted_elements", -1),
@@ -177,7 +178,7 @@ TEST(ElementStretch, TrianglesFlipInAPlaneOnly)
 
 TEST(ElementStretch, AreThoseOfEigenForRandomPoses)
 {
-  const TetMesh box = test::tet_box(9, 9, 9); // several blocks, the last lanes part full
+  const TetMesh box = test::tet_box(9, 9, 9); // several blocks; the last block is partially filled
   const Points posed = shaken(box.points, 0.06);
   ElementStretch stretch;
   const Status status = measure(box.points, posed, box.tets, stretch);
@@ -217,7 +218,7 @@ TEST(ElementStretch, AreThoseOfEigenForRandomTriangles)
   measure(ball.points, posed, ball.triangles, stretch);
   for (Index t = 0; t < ball.triangles.rows(); ++t)
   {
-    // Gradient by a third direction that the pose keeps normal: its stretch is 1.
+    // Extend the gradient by the normal, which is mapped to the normal with a stretch of 1.
     Eigen::Matrix3d rest_edges, posed_edges;
     for (int k = 0; k < 2; ++k)
     {
@@ -228,7 +229,8 @@ TEST(ElementStretch, AreThoseOfEigenForRandomTriangles)
     rest_edges.col(2) = Vec3(rest_edges.col(0)).cross(Vec3(rest_edges.col(1))).normalized();
     posed_edges.col(2) = Vec3(posed_edges.col(0)).cross(Vec3(posed_edges.col(1))).normalized();
     Eigen::Matrix3d f = posed_edges * rest_edges.inverse();
-    f -= posed_edges.col(2) * rest_edges.col(2).transpose(); // rank 2
+    // Remove the normal, which gives rank 2.
+    f -= posed_edges.col(2) * rest_edges.col(2).transpose();
     const Vec3 sigma = Eigen::JacobiSVD<Eigen::Matrix3d>(f).singularValues();
     ASSERT_NEAR(stretch.largest[static_cast<std::size_t>(t)], sigma[0], 1e-12 * sigma[0]);
     ASSERT_NEAR(stretch.smallest[static_cast<std::size_t>(t)], sigma[1], 1e-12 * sigma[0]);

@@ -8,7 +8,7 @@ using namespace bindpose;
 
 namespace
 {
-/// A chain of two bones, a region and a point on the forearm.
+/// Return a chain of two bones, a region, and a point on the forearm.
 Handles arm()
 {
   Handles handles(4);

@@ -1,5 +1,5 @@
-// Full as-rigid-as-possible: against the reduced method in the whole space, rigid motions, and what
-// its energy must do.
+// Full as-rigid-as-possible: equality with the reduced method in the full space, rigid motions, and
+// properties of the energy.
 #include "pose/full_arap.h"
 
 #include "core/pose/arap_cases.h"
@@ -12,7 +12,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// The gradient of the energy with rotations that fit, #V x 3.
+/// Return the gradient of the energy with optimal rotations, #V x 3.
 template <typename Elements>
 Eigen::MatrixXd gradient(const Points& rest, const Elements& elements, const FullArap& arap)
 {
@@ -63,7 +63,7 @@ TEST(FullArap, IsTheReducedMethodInTheWholeSpaceIterateByIterate)
       if (surface)
       {
         ASSERT_TRUE(reduced.bind(context, mesh.points, skin, unit, handles, options).ok());
-        // The vertex inside is in no triangle: nothing may ask for it.
+        // The inner vertex belongs to no triangle, so the surface must ignore it.
         ASSERT_TRUE(full.bind(context, mesh.points, skin, handles, { energy, {} }).usable());
       }
       else
@@ -167,7 +167,7 @@ TEST(FullArap, AtTheEndNoFreeVertexIsPulled)
     options.tolerance = 0.0;
     options.max_iterations = 600;
     ASSERT_TRUE(arap.solve(context, bend(HandleMode::free), options).ok());
-    // One more local step: rotations that fit these points.
+    // One more local step, for rotations that are optimal for these points.
     const Points last = arap.posed();
     options.max_iterations = 1;
     options.anderson_window = 0;
@@ -215,7 +215,7 @@ TEST(FullArap, AccelerationReachesTheSameEnergyInFewerIterations)
       std::to_string(slow) + " plain iterations, " + std::to_string(quick) + " accelerated");
     EXPECT_LT(2 * quick, slow);
     EXPECT_NEAR(fast.back(), plain_energies.back(), 1e-6 * least);
-    // After the same number of iterations it is never higher.
+    // After equally many iterations the energy with acceleration is never higher.
     for (std::size_t i = 0; i < fast.size(); i += 2)
     {
       EXPECT_LE(fast[i], plain_energies[i] + 1e-12 * arap.rest_energy()) << i;
@@ -223,7 +223,7 @@ TEST(FullArap, AccelerationReachesTheSameEnergyInFewerIterations)
   }
 }
 
-// SPEC 3.9: reduction costs energy.
+// Reduction raises the energy (SPEC 3.9).
 TEST(FullArap, CostsNoMoreThanTheReducedMethodWithTheSameHandles)
 {
   const test::Rig rig = test::bar();

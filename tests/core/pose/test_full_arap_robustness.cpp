@@ -1,5 +1,5 @@
-// Full as-rigid-as-possible: constraints, parts of the mesh that nothing holds, and what must hold
-// whatever the mesh, the world and the machine.
+// Full as-rigid-as-possible: constraints, unconstrained parts of the mesh, degenerate meshes, and
+// independence of position, scale and threads.
 #include "pose/full_arap.h"
 
 #include "core/pose/arap_cases.h"
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// A square with handles at three corners and one at the fourth.
+/// A square with handles at its four corners.
 struct Cloth
 {
   TriangleMesh mesh = test::grid(6, 6);
@@ -42,7 +42,7 @@ TEST(FullArapRobustness, APivotInsideAnElementIsThatPointOfTheMesh)
   {
     FullArap arap;
     ASSERT_TRUE(bind(arap, bar, energy).usable());
-    // With a part held, and with nothing else held: the points alone say where the bar is.
+    // With a constrained part, and with the points alone, which then determine the pose of the bar.
     for (const HandleMode ends : { HandleMode::full, HandleMode::position, HandleMode::free })
     {
       for (const HandleMode mode : { HandleMode::full, HandleMode::position })
@@ -121,7 +121,7 @@ TEST(FullArapRobustness, PointsThatNearlyMeetAndArePulledApartNeverRaiseTheEnerg
       {
         ASSERT_LE(energies[i], energies[i - 1] * (1.0 + 1e-9)) << apart << " " << i;
       }
-      // The points that are kept are those of the last energy.
+      // The final points belong to the last energy.
       EXPECT_NEAR(arap_energy(cloth.mesh.points, cloth.mesh.triangles, arap.groups(), arap.posed(),
                     arap.rotations()),
         energies.back(), 1e-6 * energies.back());
@@ -187,7 +187,7 @@ TEST(FullArapRobustness, ABoneTakesTheVerticesAlongIt)
       EXPECT_LT((arap.posed().row(v).transpose() - target).norm(), 1e-14);
     }
   }
-  // Off the vertices: points along the bone are held just so.
+  // The bone misses the vertices, so points along the bone are constrained inside of elements.
   handles[0].head += Vec3(0.03, 0.11, 0.07);
   handles[0].tail += Vec3(-0.03, 0.12, 0.09);
   handles.resize(1);
@@ -202,8 +202,8 @@ TEST(FullArapRobustness, ABoneTakesTheVerticesAlongIt)
 TEST(FullArapRobustness, RedundantAndContradictingHandlesAreNamed)
 {
   Cloth cloth;
-  // Both in the triangle of (0, 0), (1/6, 0) and a corner across: three more points there than its
-  // plane can tell apart.
+  // All three points are in the triangle of (0, 0), (1/6, 0) and a third corner. Together with the
+  // handle at (0, 0) they are more positions than a triangle can satisfy independently.
   cloth.handles.push_back(point_handle("e", Vec3(0.06, 0.01, 0)));
   cloth.handles.push_back(point_handle("f", Vec3(0.10, 0.02, 0)));
   cloth.handles.push_back(point_handle("g", Vec3(0.12, 0.01, 0)));
@@ -224,7 +224,7 @@ TEST(FullArapRobustness, RedundantAndContradictingHandlesAreNamed)
   EXPECT_THAT(status.warnings[1], HasSubstr("contradict"));
   EXPECT_THAT(status.warnings[1], HasSubstr("'f'"));
   EXPECT_TRUE(arap.posed().allFinite());
-  // Two full regions on one vertex: half way between the two wishes.
+  // Two handles of mode full constrain one vertex: the result is the mean of their targets.
   Held bar = held_bar(4);
   Handle corner = point_handle("corner", Vec3(0, 0, 0));
   bar.handles.push_back(corner);
@@ -244,7 +244,7 @@ TEST(FullArapRobustness, RedundantAndContradictingHandlesAreNamed)
 
 TEST(FullArapRobustness, WhatNothingHoldsStays)
 {
-  // Two squares and a point that nothing uses; only the first square has a handle.
+  // Two squares and an unused point. Only the first square has handles.
   TriangleMesh two =
     test::join(test::grid(3, 3), test::translated(test::grid(3, 3), Vec3(5, 0, 0)));
   two.points.conservativeResize(two.points.rows() + 1, Eigen::NoChange);
@@ -256,11 +256,11 @@ TEST(FullArapRobustness, WhatNothingHoldsStays)
     FullArap arap;
     const Handles handles{ point_handle("a", Vec3(0, 0, 0)), point_handle("b", Vec3(1, 0, 0)) };
     ASSERT_TRUE(arap.bind(context, two.points, two.triangles, handles, { energy, {} }).ok());
-    // Nothing at all.
+    // No constraints.
     ASSERT_TRUE(arap.solve(context, posed(handles, HandleMode::free)).ok());
     EXPECT_LT((arap.posed() - two.points).cwiseAbs().maxCoeff(), 1e-12);
-    // A pose and back: rest is rest. Two points leave a turn about their line, which the guess
-    // takes from them.
+    // Pose and return to rest. Two points do not determine the rotation around their connecting
+    // line; the guess takes it from their transforms.
     arap.forget();
     Pose pose = posed(handles, HandleMode::full, rigid(90, Vec3(0, 0, 1), Vec3(1, 1, 1)));
     ASSERT_TRUE(arap.solve(context, pose).ok());
@@ -272,7 +272,7 @@ TEST(FullArapRobustness, WhatNothingHoldsStays)
     options.start = FullArap::Start::guess;
     ASSERT_TRUE(arap.solve(context, posed(handles, HandleMode::full), options).ok());
     EXPECT_LT((arap.posed() - two.points).cwiseAbs().maxCoeff(), 1e-9);
-    // One position alone: the square moves as it is.
+    // A single position translates the square.
     pose = posed(handles, HandleMode::free);
     pose[0].mode = HandleMode::position;
     pose[0].transform.col(3) << 0, 0, 2;
@@ -289,7 +289,7 @@ TEST(FullArapRobustness, FlatAndNeedleTrianglesDoNoHarm)
   Cloth cloth;
   TriangleMesh& mesh = cloth.mesh;
   const Index n = mesh.points.rows(), f = mesh.triangles.rows();
-  // A triangle without area to a vertex of its own, a needle, and a triangle with one corner twice.
+  // A triangle without area at a separate vertex, a needle, and a triangle with a repeated corner.
   mesh.points.conservativeResize(n + 2, Eigen::NoChange);
   mesh.points.row(n) << 2, 0, 0;
   mesh.points.row(n + 1) << 1.0 + 1e-13, 0.5, 0;
@@ -312,7 +312,7 @@ TEST(FullArapRobustness, FlatAndNeedleTrianglesDoNoHarm)
     ASSERT_TRUE(status.usable());
     EXPECT_TRUE(arap.posed().allFinite());
     EXPECT_LT(arap.posed().cwiseAbs().maxCoeff(), 3.0);
-    // The vertex that only the flat triangle uses moves as its neighbour does.
+    // The vertex that only the degenerate triangle uses moves like its neighbor.
     EXPECT_LT(
       ((arap.posed().row(n) - mesh.points.row(n)) - (arap.posed().row(5) - mesh.points.row(5)))
         .norm(),
@@ -351,7 +351,7 @@ TEST(FullArapRobustness, TheSameBitsForAnyNumberOfThreadsAndOneFactorisationForA
   }
 }
 
-// SPEC B22 for poses: no unit of length, no place and no direction is special.
+// Results do not depend on the unit of length, the position or the direction (SPEC B22 for poses).
 TEST(FullArapRobustness, ScaleAndPlaceOfTheWorldDoNotMatter)
 {
   const Held bar = held_bar(6);

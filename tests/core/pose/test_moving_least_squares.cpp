@@ -1,5 +1,5 @@
-// The warp against what must be: rigid poses exact, handles interpolated, invariances, the paper's
-// formulas written out plainly, and integrals that are known.
+// Moving least squares: rigid poses are exact, handles are interpolated, results are invariant.
+// Comparisons with the paper's formulas evaluated directly, and with known integrals.
 #include "pose/moving_least_squares.h"
 
 #include "support/handles.h"
@@ -60,7 +60,7 @@ Points random_points(Index count, bool flat, std::uint64_t seed = 5)
   return points;
 }
 
-/// Points and bones, none at another's place.
+/// Return points and bones at different positions.
 Handles mixed_handles(bool flat)
 {
   const double z = flat ? 0.0 : 1.0;
@@ -69,7 +69,7 @@ Handles mixed_handles(bool flat)
     bone(Vec3(0.5, 0.1, -0.2 * z), Vec3(0.9, 0.8, 0.1 * z), 3) };
 }
 
-/// Every handle by a motion of its own.
+/// Return a pose with a different motion of each handle.
 Pose mixed_pose(bool flat)
 {
   const Vec3 axis = flat ? Vec3(0, 0, 1) : Vec3(1, 2, 3);
@@ -106,8 +106,8 @@ double difference(const Points& a, const Points& b)
   return (a - b).rowwise().norm().maxCoeff();
 }
 
-/// The paper's formulas, handle by handle; bones as very many points side by side, each of its
-/// length's part of the handles' extent.
+/// Evaluate the paper's formulas for one point. A bone is replaced by very many points, each with
+/// the weight of its part of the bone's length in units of the handles' extent.
 Vec3 plain_warp(const Vec3& v, const Handles& handles, const Pose& pose, double exponent, bool flat)
 {
   double extent = 0.0;
@@ -254,7 +254,7 @@ TEST(MovingLeastSquares, MotionsAndScalesGoThrough)
     const Handles handles = mixed_handles(flat);
     const Pose pose = mixed_pose(flat);
     const Points posed = warped(rest, handles, pose);
-    // Rest and pose moved and scaled alike: the result is, too.
+    // If rest shape and pose are transformed by the same similarity, the result is, too.
     const Affine change = affine(
       1000.0 * rotation(40, flat ? Vec3(0, 0, 1) : Vec3(1, 0, 1)), Vec3(70, -20, flat ? 0 : 9));
     Handles changed = handles;
@@ -271,7 +271,7 @@ TEST(MovingLeastSquares, MotionsAndScalesGoThrough)
     }
     const Points after = warped(moved(rest, change), changed, conjugate);
     EXPECT_LT(difference(after, moved(posed, change)), 1e-8);
-    // The pose alone moved, even far away.
+    // The pose alone is moved, even far away.
     const Affine shift = affine(Eigen::Matrix3d::Identity(), Vec3(1e3, 2e3, flat ? 0 : -5e2));
     Pose shifted = pose;
     for (HandlePose& one : shifted)
@@ -286,18 +286,19 @@ TEST(MovingLeastSquares, OneHandleTellsOnlyWhatItCan)
 {
   const Points rest = random_points(50, false);
   const Affine motion = affine(rotation(60, Vec3(0, 0, 1)), Vec3(1, 2, 3));
-  // A point: where it goes, all goes.
+  // The motion of a single point translates everything.
   const Handles one{ point(Vec3(0.3, 0.2, 0.1), 0) };
   const Vec3 step = motion.leftCols<3>() * one[0].head + motion.col(3) - one[0].head;
   EXPECT_LT(difference(warped(rest, one, pose_of({ motion })),
               moved(rest, affine(Eigen::Matrix3d::Identity(), step))),
     1e-14);
-  // A bone in its plane: the whole motion.
+  // A bone in its plane determines the whole motion.
   const Points flat = random_points(50, true);
   const Handles stick{ bone(Vec3(0, 0, 0), Vec3(1, 0, 0), 0) };
   const Affine in_plane = affine(rotation(60, Vec3(0, 0, 1)), Vec3(1, 2, 0));
   EXPECT_LT(difference(warped(flat, stick, pose_of({ in_plane })), moved(flat, in_plane)), 1e-12);
-  // In space, turned across itself: the smallest rotation is this one; about itself: none.
+  // In space, the smallest rotation is used: it reproduces a rotation of the bone's direction, and
+  // it ignores a rotation around the bone.
   EXPECT_LT(difference(warped(rest, stick, pose_of({ in_plane })), moved(rest, in_plane)), 1e-12);
   const Affine roll = affine(rotation(70, Vec3(1, 0, 0)), Vec3::Zero());
   EXPECT_LT(difference(warped(rest, stick, pose_of({ roll })), rest), 1e-12);
@@ -308,7 +309,7 @@ TEST(MovingLeastSquares, AMirroredPoseInThePlaneDoesNotLeaveIt)
   const Points rest = random_points(100, true);
   const Handles handles{ point(Vec3(-0.5, 0, 0), 0), point(Vec3(0.5, 0, 0), 1),
     point(Vec3(0, 0.6, 0), 2) };
-  // In space a half turn would fit better.
+  // In space a half turn would fit better, but points in a plane must stay in the plane.
   const Pose mirror = pose_of({ affine(Eigen::Matrix3d::Identity(), Vec3::Zero()),
     affine(Eigen::Matrix3d::Identity(), Vec3::Zero()),
     affine(Eigen::Matrix3d::Identity(), Vec3(0, -1.2, 0)) });
@@ -320,8 +321,8 @@ TEST(MovingLeastSquares, ModesPositionAndFree)
   const Points rest = random_points(100, false);
   const Handles handles = mixed_handles(false);
   Pose pose = mixed_pose(false);
-  // A free handle is as if it were not there, even for a point on it. (It lies among the others, so
-  // that the handles' extent, the unit of bones, is the same.)
+  // A free handle has no effect, even on a point at its position. It is located between the other
+  // handles, so that the handles' extent, which is the unit of length of bones, is the same.
   Handles more = handles;
   more.push_back(point(Vec3(0.1, 0, 0), 4));
   Pose with_free = pose;
@@ -330,14 +331,14 @@ TEST(MovingLeastSquares, ModesPositionAndFree)
   Points on = rest;
   on.row(0) << 0.1, 0, 0;
   EXPECT_LT(difference(warped(on, more, with_free), warped(on, handles, pose)), 1e-12);
-  // Position: the pivot's translation.
+  // Mode position uses only the translation of the pivot.
   Pose position = pose;
   position[2].mode = HandleMode::position;
   const Vec3 head = handles[2].head;
   const Vec3 goes = pose[2].transform.leftCols<3>() * head + pose[2].transform.col(3);
   pose[2].transform = affine(Eigen::Matrix3d::Identity(), goes - head);
   EXPECT_EQ(difference(warped(rest, handles, position), warped(rest, handles, pose)), 0.0);
-  // All free: at rest, with a warning.
+  // All handles are free: the result is the rest shape, with a warning.
   for (HandlePose& one : pose)
   {
     one.mode = HandleMode::free;
@@ -354,9 +355,10 @@ TEST(MovingLeastSquares, ModesPositionAndFree)
 
 TEST(MovingLeastSquares, SharesOfABoneAreTheIntegrals)
 {
-  // v at distance d above the point a of the unit bone on x: for exponent 1 the integral of
-  // 1 / (d^2 + s^2) from -a to 1 - a is (atan((1 - a) / d) + atan(a / d)) / d, its first moment
-  // 1/2 log((d^2 + (1 - a)^2) / (d^2 + a^2)), its second 1 - d^2 times the first integral.
+  // v is at distance d above the point a of the unit bone on the x axis. For exponent 1, the
+  // integral of 1 / (d^2 + s^2) from -a to 1 - a is (atan((1 - a) / d) + atan(a / d)) / d. Its
+  // first moment is 1/2 log((d^2 + (1 - a)^2) / (d^2 + a^2)). Its second moment is 1 - d^2 times
+  // the integral.
   ExecutionContext context;
   for (const double d : { 1e-9, 1e-4, 0.1, 1.0, 50.0 })
   {
@@ -374,14 +376,14 @@ TEST(MovingLeastSquares, SharesOfABoneAreTheIntegrals)
       EXPECT_NEAR(share.amount / (d * d * zeroth), 1.0, 1e-9) << d << " " << a;
       EXPECT_NEAR(share.mean, a + first / zeroth, 1e-8 * std::max(1e-3, std::abs(first / zeroth)))
         << d;
-      if (d <= 1.0) // further off the closed form cancels
+      if (d <= 1.0) // for larger distances the closed form suffers from cancellation
       {
         EXPECT_NEAR(share.variance / (second / zeroth - std::pow(first / zeroth, 2)), 1.0, 1e-7)
           << d << " " << a;
       }
     }
   }
-  // Beyond the bone's end, on its line: 1 / s^2 from d to d + 1.
+  // A point beyond the bone's end on its line: the integral of 1 / s^2 from d to d + 1.
   const Handles handles{ bone(Vec3(0, 0, 0), Vec3(1, 0, 0), 0) };
   Points rest(1, 3);
   rest << 1.25, 0.0, 0.0;

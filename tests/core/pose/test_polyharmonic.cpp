@@ -1,5 +1,5 @@
-// Mixed finite elements for Laplace's equation of order 1, 2, 3: functions that solve it, plates
-// whose deflection is known, and the mixed system itself, solved by LU.
+// Mixed finite elements for Laplace's equation of order 1, 2 and 3: polynomial solutions, plates
+// with known deflections, and the complete mixed system, solved by LU.
 #include "pose/polyharmonic.h"
 
 #include "support/meshes.h"
@@ -21,13 +21,14 @@ namespace
 using Rows = Polyharmonic::Rows;
 using Function = std::function<double(double, double)>;
 
-/// A square of n x n squares with a band of given vertices of so many layers at its border.
+/// A square of n x n cells. The vertices of the given number of layers at its border have given
+/// values.
 struct Square
 {
   TriangleMesh mesh;
   Components parts;
   std::vector<Index> given;
-  Rows values, flux, load, x; ///< values at given vertices
+  Rows values, flux, load, x; ///< `values` has one row per given vertex
 
   Square(int n, int layers, const Vec3& corner, const Function& u = {})
     : mesh(translated(grid(n, n), corner)),
@@ -67,7 +68,7 @@ struct Square
     return status;
   }
 
-  /// Largest difference to u, as a share of its largest value.
+  /// Return the largest difference from u, as a fraction of the largest value of u.
   double error(const Function& u) const
   {
     double largest = 0.0, difference = 0.0;
@@ -93,7 +94,7 @@ const Harmonic polynomials[] = { { 1, [](double x, double y) { return x * x - y 
   { 2, [](double x, double y) { return (x * x + y * y) * (x * x - y * y); } },
   { 3, [](double x, double y) { return (x * x + y * y) * (x * x + y * y) * x; } } };
 
-/// Deflection at the middle of a unit plate under a load of one.
+/// Return the deflection at the center of a unit plate under a uniform load of 1.
 double plate(int n, PatchBoundary boundary)
 {
   Square square(n, 1, Vec3::Zero());
@@ -102,7 +103,8 @@ double plate(int n, PatchBoundary boundary)
   return square.x((n / 2) * (n + 1) + n / 2, 0);
 }
 
-/// The whole mixed system of u, v and, for order 3, w on all vertices, with a band given.
+/// Solve the complete mixed system of u, v and, for order 3, w on all vertices, with a band of
+/// given values.
 Eigen::VectorXd mixed_solution(const Square& square, int order)
 {
   const SparseMatrix k = stiffness_matrix(square.mesh.points, square.mesh.triangles);
@@ -118,8 +120,8 @@ Eigen::VectorXd mixed_solution(const Square& square, int order)
     given[square.given[i]] = 1;
     right[square.given[i]] = square.values(static_cast<Index>(i), 0);
   }
-  // Row block 0: u at given vertices, the last Laplacian's equation at free ones; row block q:
-  // M unknown_q = K unknown_(q - 1).
+  // Row block 0 contains u at given vertices and the equation of the last Laplacian at free ones.
+  // Row block q contains M unknown_q = K unknown_(q - 1).
   for (Index column = 0; column < n; ++column)
   {
     for (SparseMatrix::InnerIterator it(k, column); it; ++it)
@@ -180,7 +182,7 @@ TEST(Polyharmonic, AFundamentalSolutionIsApproached)
   EXPECT_LT(last, 3e-6);
 }
 
-// Timoshenko: 0.00126532 and 0.00406235.
+// Values of Timoshenko: 0.00126532 and 0.00406235.
 TEST(Polyharmonic, PlatesBendAsTheyShould)
 {
   const int n[] = { 8, 16, 32, 48 };
@@ -196,7 +198,7 @@ TEST(Polyharmonic, PlatesBendAsTheyShould)
 
 TEST(Polyharmonic, DerivativesAcrossTheEdgeAreMet)
 {
-  // u = r^2 x, du/dn on the sides of the square.
+  // u = r^2 x, with du/dn on the sides of the square.
   const Function u = polynomials[2].u;
   double last = 1.0;
   for (const int n : { 8, 16, 32 })
@@ -206,7 +208,7 @@ TEST(Polyharmonic, DerivativesAcrossTheEdgeAreMet)
     Polyharmonic system;
     system.bind(square.mesh.points, square.mesh.triangles, 2, PatchBoundary::tangent);
     ASSERT_TRUE(system.prepare(context, square.parts, square.given, {}).ok());
-    // At a corner two sides meet: their integrals are added there, so each side is asked alone.
+    // The integrals of two sides add up at a corner, so each side is tested alone.
     const Index size = square.mesh.points.rows();
     const auto side = [&](int axis, double sign)
     {
@@ -220,7 +222,7 @@ TEST(Polyharmonic, DerivativesAcrossTheEdgeAreMet)
         }
       }
       Rows flux = system.flux_of_derivatives(g);
-      // The half edges round the corner belong to the other sides.
+      // At a corner, the part of the other side is subtracted.
       const double h = 1.0 / n;
       for (Index v = 0; v < size; ++v)
       {

@@ -1,4 +1,4 @@
-// Pose files: what they mean, what is refused, and that what is written is read back.
+// Pose files: their meaning, the errors, and round trips.
 #include "pose/handle_hierarchy.h"
 #include "pose/pose_file.h"
 #include "pose/skinning.h"
@@ -17,7 +17,8 @@ using testing::HasSubstr;
 
 namespace
 {
-/// A point, and a chain of two bones along x; the second's parent is the first, which comes later.
+/// Return a point, and a chain of two bones along x. The parent of the first bone is the second
+/// one.
 Handles rig()
 {
   Handles handles{ test::point_handle("p", Vec3(1, 2, 3)),
@@ -57,7 +58,7 @@ TEST(PoseFile, HandlesMoveAboutTheirPivots)
     "p": {"mode": "position", "translate": [1, 0, 0],
           "rotate": {"axis": [0, 0, 5], "degrees": 90}, "scale": 2}}})");
   EXPECT_EQ(pose[0].mode, HandleMode::position);
-  // x -> c + t + R S (x - c), c = (1, 2, 3).
+  // x -> c + t + R S (x - c) with c = (1, 2, 3).
   EXPECT_LT((apply(pose[0].transform, Vec3(1, 2, 3)) - Vec3(2, 2, 3)).norm(), 1e-15);
   EXPECT_LT((apply(pose[0].transform, Vec3(2, 2, 4)) - Vec3(2, 4, 5)).norm(), 1e-15);
   EXPECT_EQ(pose[1].transform, identity_affine());
@@ -92,11 +93,11 @@ TEST(PoseFile, WhatIsNotMentionedKeepsTheBase)
   EXPECT_EQ(pose[0].transform, base[0].transform);
   EXPECT_EQ(pose[1].twist, base[1].twist);
   EXPECT_EQ(pose[1].stretch, 1.5);
-  // Absolute, not on top of the base.
+  // Edits are absolute, not relative to the base.
   base[1].transform(1, 3) = 100.0;
   EXPECT_EQ(
     read(R"({"handles": {"fore": {"translate": [0, 1, 0]}}})", base)[1].transform(1, 3), 1.0);
-  // Mode alone leaves the transform.
+  // An edit of the mode alone keeps the transform.
   EXPECT_EQ(read(R"({"handles": {"fore": {"mode": "free"}}})", base)[1].transform(1, 3), 100.0);
 }
 
@@ -104,17 +105,17 @@ TEST(PoseFile, InVersionOneParentsComposeOnlyWhenAsked)
 {
   const std::string upper = R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})";
   const std::string fore = R"("fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90})";
-  // World: turns about its own rest head.
+  // World space: the bone rotates around its own rest head.
   Pose pose = read("{\"handles\": {" + fore + "}, " + upper + "}}");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
-  // Parent: then once more with the parent, about the origin.
+  // Parent space: the rotation of the parent around the origin is applied afterwards.
   pose = read("{\"handles\": {" + fore + ", \"space\": \"parent\"}, " + upper + "}}");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(-1, 1, 0)).norm(), 1e-15);
-  // A root's parent is the world.
+  // The parent of a root is the world.
   pose = read(R"({"handles": {"upper": {"space": "parent", "translate": [1, 1, 1]}}})");
   EXPECT_EQ(pose[2].transform.col(3), Vec3(1, 1, 1));
-  // A handle that is not mentioned keeps its transform.
+  // A handle without an edit keeps its transform.
   EXPECT_EQ(read("{\"handles\": {" + upper + "}}")[1].transform, identity_affine());
 }
 
@@ -128,14 +129,14 @@ TEST(PoseFile, AMissingVersionWarnsIfChildrenWouldFollow)
     return status.warnings;
   };
   const std::string upper = R"("upper": {"scale": 2})";
-  // Once, in a sequence too.
+  // One warning, also for a sequence.
   ASSERT_EQ(warnings("{\"handles\": {" + upper + "}}").size(), 1u);
   EXPECT_THAT(warnings("{\"handles\": {" + upper + "}}")[0], HasSubstr("\"version\": 2"));
   EXPECT_EQ(
     warnings("{\"frames\": [{\"handles\": {" + upper + "}}, {\"handles\": {" + upper + "}}]}")
       .size(),
     1u);
-  // Not where both versions mean the same.
+  // No warning if both versions have the same meaning.
   EXPECT_EQ(warnings("{\"version\": 1, \"handles\": {" + upper + "}}").size(), 0u);
   EXPECT_EQ(warnings("{\"version\": 2, \"handles\": {" + upper + "}}").size(), 0u);
   EXPECT_EQ(warnings(R"({"handles": {"fore": {"scale": 2}, "p": {"scale": 2}}})").size(), 0u);
@@ -147,22 +148,22 @@ TEST(PoseFile, ChildrenFollowTheirParents)
   const auto read_new = [](const std::string& handles, const Pose& base = Pose(3))
   { return read("{\"version\": 2, \"handles\": {" + handles + "}}", base); };
   const std::string upper = R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})";
-  // A quarter turn about the origin, of the bone and of what hangs on it.
+  // A quarter turn about the origin rotates the bone and its child.
   Pose pose = read_new(upper);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(0, 2, 0)).norm(), 1e-15);
   EXPECT_EQ(pose[0].transform, identity_affine());
-  // Its own quarter turn comes first.
+  // The child's own quarter turn is applied first.
   pose = read_new(upper + R"(, "fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(-1, 1, 0)).norm(), 1e-15);
-  // In world space it does not follow, with a transform or without.
+  // In world space the child does not follow, with or without its own transform.
   pose = read_new(
     upper + R"(, "fore": {"space": "world", "rotate": {"axis": [0, 0, 1], "degrees": 90}})");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
   pose = read_new(upper + R"(, "fore": {"space": "world", "mode": "free"})");
   EXPECT_EQ(pose[1].transform, identity_affine());
   EXPECT_EQ(pose[1].mode, HandleMode::free);
-  // A child at the tail moves with the stretch and rotates with the twist there.
+  // A child at the tail moves with the stretch and rotates with the twist at the tail.
   pose = read_new(R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}, "stretch": 3})");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(0, 4, 0)).norm(), 1e-15);
   pose = read_new(R"("upper": {"twist": [0, 90]})");
@@ -172,7 +173,7 @@ TEST(PoseFile, ChildrenFollowTheirParents)
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
   EXPECT_DOUBLE_EQ(pose[1].stretch, 2.0);
-  pose = read_new(upper + R"(, "fore": {"tail": [0, 1, 0]})"); // where its head is
+  pose = read_new(upper + R"(, "fore": {"tail": [0, 1, 0]})"); // at the position of its head
   EXPECT_EQ(pose[1].stretch, 1.0);
   EXPECT_TRUE(pose[1].transform.allFinite());
 }
@@ -204,7 +205,7 @@ TEST(PoseFile, FollowersKeepTheirPlaceRelativeToTheParent)
                 .cwiseAbs()
                 .maxCoeff(),
       1e-13);
-    // Without a motion of the parent no bit changes.
+    // If the parent does not move, no bit changes.
     EXPECT_EQ(
       read(R"({"version": 2, "handles": {"p": {"translate": [0, 2, 0]}}})", base)[1].transform,
       base[1].transform);
@@ -216,7 +217,7 @@ TEST(PoseFile, FollowersKeepTheirPlaceRelativeToTheParent)
     flat[1].transform);
 }
 
-// A child moves like the skin at the point where it is attached.
+// A child moves like the skin at its attachment point.
 TEST(HandleHierarchy, ChildrenGoWithTheSkinWhereTheyAreAttached)
 {
   test::Random random(6);
@@ -256,7 +257,7 @@ TEST(HandleHierarchy, ParentsComeFirst)
   handles[3].parent = 4;
   handles[1].parent = 0;
   EXPECT_EQ(parents_first(handles), (std::vector<Index>{ 4, 3, 0, 1, 2 }));
-  handles[4].parent = 1; // a ring
+  handles[4].parent = 1; // a cycle
   std::vector<Index> order = parents_first(handles);
   std::sort(order.begin(), order.end());
   EXPECT_EQ(order, (std::vector<Index>{ 0, 1, 2, 3, 4 }));
@@ -267,13 +268,14 @@ TEST(PoseFile, BonesGoWhereTheirEndsAreSent)
   const Pose pose =
     read(R"({"handles": {"fore": {"head": [5, 5, 5], "tail": [5, 5, 8], "twist": [10, 20]}}})");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(5, 5, 5)).norm(), 1e-14);
-  EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(5, 5, 6)).norm(), 1e-14); // rigid
+  // The bone keeps its length.
+  EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(5, 5, 6)).norm(), 1e-14);
   EXPECT_DOUBLE_EQ(pose[1].stretch, 3.0);
   EXPECT_EQ(pose[1].twist, Eigen::Vector2d(10, 20));
-  // The minimal arc leaves what is perpendicular to both directions.
+  // The minimal rotation keeps vectors perpendicular to both directions.
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 1, 0)) - Vec3(5, 6, 5)).norm(), 1e-14);
   EXPECT_EQ(read(R"({"handles": {"fore": {"tail": [1, 2, 0], "stretch": 1}}})")[1].stretch, 1.0);
-  // One end given, the other rests.
+  // If one end is given, the other one is at its rest position.
   const Pose aimed = read(R"({"handles": {"fore": {"tail": [1, 4, 0]}}})");
   EXPECT_LT((apply(aimed[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
   EXPECT_DOUBLE_EQ(aimed[1].stretch, 4.0);
@@ -307,7 +309,7 @@ TEST(PoseFile, SequencesHaveFramesAndARate)
   EXPECT_EQ(apply_edits(sequence.frames[1], rig(), Pose(3))[0].transform(0, 3), 1.0);
 }
 
-// Expressions are somebody else's; here 't', 'twice t' and 'never'.
+// The caller evaluates expressions; here 't', 'twice t' and 'never'.
 TEST(PoseFile, TextsAreExpressionsInTime)
 {
   const PoseExpression expression = [](const std::string& text, double t, double& value)
@@ -325,7 +327,7 @@ TEST(PoseFile, TextsAreExpressionsInTime)
   EXPECT_EQ(pose[0].transform.col(3), Vec3(90, 1, 180));
   EXPECT_LT((apply(pose[2].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-14);
   EXPECT_EQ(pose[2].stretch, 90.0);
-  // In a sequence t is the frame's own.
+  // In a sequence, t is the time of the frame.
   const std::string frame = R"({"handles": {"p": {"translate": ["t", 0, 0]}}})";
   ASSERT_TRUE(parse_pose_file(
     R"({"fps": 4, "frames": [)" + frame + "," + frame + "]}", rig(), sequence, expression, 90.0)
@@ -345,7 +347,7 @@ TEST(PoseFile, TextsAreExpressionsInTime)
     HasSubstr("handle 'p'.scale is 'never', which is not a finite number at t = 0.5"));
   EXPECT_THAT(wrong(R"("mode": "t")"), HasSubstr("must be one of full, position, free"));
   EXPECT_THAT(wrong(R"("rotate": "t")"), HasSubstr("it must be an object"));
-  // Without anybody who knows expressions a text is none.
+  // Without an evaluator of expressions, a text is an error.
   EXPECT_THAT(message(text), HasSubstr("it must be a number"));
 }
 
@@ -446,7 +448,7 @@ TEST(PoseFile, WhatIsWrittenIsReadBack)
   ASSERT_TRUE(parse_pose_file(text, rig(), sequence).ok());
   ASSERT_EQ(sequence.frames.size(), 20u);
   EXPECT_EQ(sequence.frames_per_second, 30.0);
-  Pose other(3); // whatever the base
+  Pose other(3); // the result does not depend on the base
   other[1].transform(0, 0) = 9.0;
   other[1].mode = HandleMode::free;
   for (std::size_t frame = 0; frame < 20; ++frame)
@@ -466,7 +468,7 @@ TEST(PoseFile, WhatIsWrittenCanBeRead)
 {
   std::string text;
   Handles handles = rig();
-  handles[1].name = "caf\xe9"; // Latin 1
+  handles[1].name = "caf\xe9"; // Latin-1 encoding
   EXPECT_THAT(format_pose_file({ Pose(3) }, 24.0, handles, text).message, HasSubstr("UTF-8"));
   handles[1].name = "two\nlines \"quoted\"";
   ASSERT_TRUE(format_pose_file({ Pose(3) }, 24.0, handles, text).ok());
@@ -474,16 +476,16 @@ TEST(PoseFile, WhatIsWrittenCanBeRead)
   EXPECT_TRUE(parse_pose_file(text, handles, sequence).ok());
   EXPECT_EQ(message(text),
     "the pose file: the pose names a handle 'two?lines \"quoted\"' that does not exist");
-  // JSON has no word for infinity.
+  // JSON cannot represent infinity.
   Pose pose(3);
   pose[1].stretch = std::numeric_limits<double>::infinity();
   EXPECT_THAT(format_pose_file({ pose }, 24.0, rig(), text).message, HasSubstr("'fore'"));
   pose = Pose(3);
   pose[0].transform(0, 0) = 1e308;
   EXPECT_TRUE(format_pose_file({ pose }, 24.0, rig(), text).ok());
-  pose[0].transform(1, 1) = 1e308; // its pivot goes to 2e308
+  pose[0].transform(1, 1) = 1e308; // moves its pivot to 2e308
   EXPECT_THAT(format_pose_file({ pose }, 24.0, rig(), text).message, HasSubstr("'p'"));
-  // Squares of such lengths are no numbers, but their ratio is.
+  // The squares of these lengths overflow or underflow, but their ratio is representable.
   EXPECT_EQ(
     read(R"({"handles": {"fore": {"head": [0, 0, 0], "tail": [0, 1e200, 0]}}})")[1].stretch, 1e200);
   EXPECT_EQ(
@@ -493,7 +495,8 @@ TEST(PoseFile, WhatIsWrittenCanBeRead)
 
 TEST(PoseFile, ScalesUnevenByRoundoffAreEven)
 {
-  // A rotation and an even scale after rounding to single precision, for matrices of any size.
+  // Rotations with uniform scale, rounded to single precision, are recognized for matrices of any
+  // scale.
   for (const double scale : { 0.01, 1.0, 100.0 })
   {
     Pose pose(3);
@@ -506,7 +509,7 @@ TEST(PoseFile, ScalesUnevenByRoundoffAreEven)
     ASSERT_TRUE(status.ok());
     EXPECT_TRUE(status.warnings.empty()) << status.warnings[0];
     EXPECT_LT((read(text)[0].transform - pose[0].transform).cwiseAbs().maxCoeff(), 1e-5 * scale);
-    // An animator's squash is not.
+    // A deliberate non-uniform scale of 1.001 is not recognized as one.
     pose[0].transform.leftCols<3>() = turn * Vec3(scale, scale, 1.001 * scale).asDiagonal();
     status = format_pose_file({ pose }, 24.0, rig(), text);
     EXPECT_EQ(status.warnings.size(), 1u);

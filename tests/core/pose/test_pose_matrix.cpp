@@ -1,4 +1,4 @@
-// Poses of libigl's matrices: the formulas of its transforms and of its forward kinematics.
+// Poses from libigl's matrices: the formulas of its transforms and of its forward kinematics.
 #include "pose/pose_matrix.h"
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// A point, and three bones in a chain.
+/// Return a point, and three bones in a chain.
 Handles chain()
 {
   Handles handles(4);
@@ -63,9 +63,11 @@ TEST(PoseMatrix, RotationsAddUpAlongAChain)
     Handles handles = chain();
     for (Handle& handle : handles)
     {
-      handle.parent = known ? handle.parent : -1; // then joints tell
+      // Without parents, the joints determine the hierarchy.
+      handle.parent = known ? handle.parent : -1;
     }
-    // Each bone by a quarter turn about z: a square, whatever the quaternions' lengths.
+    // Each bone rotates by a quarter turn about z, which gives a square for quaternions of any
+    // length.
     Weights matrix(12, 1);
     for (int b = 0; b < 3; ++b)
     {

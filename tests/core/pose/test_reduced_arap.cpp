@@ -1,5 +1,5 @@
-// Reduced as-rigid-as-possible: against a dense twin, against the full method, and the energy's
-// own facts.
+// Reduced as-rigid-as-possible: comparisons with a dense implementation and with the full method,
+// and properties of the energy.
 #include "pose/reduced_arap.h"
 
 #include "core/pose/arap_cases.h"
@@ -13,7 +13,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// The best rotation for a matrix, by Eigen's SVD.
+/// Return the optimal rotation for a matrix, computed by Eigen's SVD.
 Eigen::Matrix3d svd_rotation(const Eigen::Matrix3d& s)
 {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(s, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -22,8 +22,8 @@ Eigen::Matrix3d svd_rotation(const Eigen::Matrix3d& s)
   return svd.matrixV() * flip * svd.matrixU().transpose();
 }
 
-/// The whole of the method with plain dense matrices: M, L and K as they are written down,
-/// constraints by one KKT system, rotations by SVD.
+/// Compute the method with plain dense matrices: M, L and K by their definitions, constraints by
+/// one KKT system, and rotations by SVD.
 Points dense_twin(const test::Rig& rig, const RotationGroups& groups, const Pose& pose, Index count)
 {
   const Index n = rig.mesh.points.rows(), m = rig.weights.cols(), r = groups.count;
@@ -99,7 +99,7 @@ Points dense_twin(const test::Rig& rig, const RotationGroups& groups, const Pose
   return result;
 }
 
-/// Every vertex its own handle: the reduced space is the whole space.
+/// Return a rig with one handle per vertex, so that the reduced space is the full space.
 test::Rig whole_space()
 {
   test::Rig rig;
@@ -117,7 +117,8 @@ test::Rig whole_space()
   return rig;
 }
 
-/// Full as-rigid-as-possible with some vertices given: one sparse system, one rotation a group.
+/// Compute full as-rigid-as-possible with fixed vertices: one linear system and one rotation per
+/// group.
 Points full_arap(const TetMesh& mesh, const RotationGroups& groups, const std::vector<Index>& fixed,
   const Points& targets, Index count)
 {
@@ -265,7 +266,7 @@ TEST(ReducedArap, NoHalfStepRaisesTheEnergyAndTheLastIsTheEdgeSum)
   }
 }
 
-// Extrapolating takes no other minimum than plain iterations do, and takes fewer to get there.
+// Acceleration finds the same minimum as plain iterations, in fewer iterations.
 TEST(ReducedArap, AccelerationReachesTheSameMinimumInFewerIterations)
 {
   const test::Rig rig = test::bar();
@@ -316,7 +317,7 @@ TEST(ReducedArap, RigidTargetsAreReached)
     EXPECT_LT(
       arap_energy(rig.mesh.points, rig.mesh.tets, arap.groups(), result, arap.rotations()), 1e-20);
   }
-  // One full handle says it all.
+  // A single handle of mode full determines the rigid motion.
   const Affine t = rigid(180, Vec3(0, 1, 0), Vec3(0, 0, 7));
   Pose pose = posed(rig.handles, HandleMode::free);
   pose[2] = { HandleMode::full, t, 1.0, Eigen::Vector2d::Zero() };
@@ -340,13 +341,13 @@ TEST(ReducedArap, OneClusterIsOneProcrustesRotation)
   ASSERT_TRUE(arap.solve(context, bend(HandleMode::position), iterations(3000)).ok());
   Points result;
   ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
-  // With one rotation the covariance is V^T L V': no edge lists needed.
+  // With a single rotation the covariance is V^T L V', without edge lists.
   const SparseMatrix l = stiffness_matrix(rig.mesh.points, rig.mesh.tets);
   const Eigen::Matrix3d s = rig.mesh.points.transpose() * (l * result);
   EXPECT_LT((svd_rotation(s) - arap.rotations()[0]).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-// SPEC D34, 3.9: fewer rotations or fewer transforms cost energy.
+// Fewer rotations or fewer transforms raise the energy (SPEC D34, 3.9).
 TEST(ReducedArap, ReductionCostsEnergy)
 {
   const test::Rig rig = test::bar();
@@ -365,7 +366,8 @@ TEST(ReducedArap, ReductionCostsEnergy)
   EXPECT_EQ(own, energy_of(10 * rig.mesh.points.rows()));
   EXPECT_LT(own, energy_of(6));
   EXPECT_LT(energy_of(6), energy_of(1));
-  // Full: the handles' vertices where the reduced method put them, all others free.
+  // The full method, with the handles' vertices fixed at the result of the reduced method and all
+  // others free.
   ReducedArap arap;
   ASSERT_TRUE(arap
                 .bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles,

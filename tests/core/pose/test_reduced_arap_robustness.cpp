@@ -1,5 +1,5 @@
-// Reduced as-rigid-as-possible: constraints, extra weights, and what must hold whatever the
-// weights, the world and the machine.
+// Reduced as-rigid-as-possible: constraints, extra weights, difficult weights, and independence of
+// position, scale and threads.
 #include "pose/full_arap.h"
 #include "pose/reduced_arap.h"
 
@@ -54,7 +54,7 @@ TEST(ReducedArapRobustness, APivotInsideATetIsThatPointOfTheMesh)
   ASSERT_TRUE(arap.solve(context, bend(HandleMode::position)).usable());
   Points result;
   ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
-  // Where the mesh takes the point: find it in its tet by hand.
+  // Interpolate the posed point in its tet.
   for (Index e = 0; e < rig.mesh.tets.rows(); ++e)
   {
     Eigen::Matrix4d corners;
@@ -76,7 +76,7 @@ TEST(ReducedArapRobustness, APivotInsideATetIsThatPointOfTheMesh)
 TEST(ReducedArapRobustness, RedundantAndContradictingPositionsAreNamed)
 {
   test::Rig rig = test::bar();
-  // Begins where the point handle "right" is.
+  // This bone begins at the position of the point handle "right".
   rig.handles.push_back(test::bone_handle("tail bone", rig.handles[2].head, Vec3(5, 0.5, 0.5)));
   Weights weights(rig.weights.rows(), 4);
   weights << rig.weights, 0.5 * rig.weights.col(2);
@@ -102,7 +102,7 @@ TEST(ReducedArapRobustness, RedundantAndContradictingPositionsAreNamed)
   EXPECT_THAT(status.warnings[1], HasSubstr("'right', 'tail bone'"));
   Points result;
   ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
-  // Least squares: half way between the two wishes.
+  // Least squares give the mean of the two targets.
   EXPECT_LT((result.rowwise() - Eigen::RowVector3d(4, 2.0, 0.5)).rowwise().norm().minCoeff(), 1e-9);
 }
 
@@ -152,7 +152,7 @@ TEST(ReducedArapRobustness, RestStaysAtRestWhateverTheWeights)
       ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
       EXPECT_LT((result - rig.mesh.points).cwiseAbs().maxCoeff(), 1e-9);
     }
-    // And a drag moves things by about as much as it moves the handle.
+    // A drag displaces vertices by about as much as the handle.
     Pose pose = posed(rig.handles, HandleMode::position);
     pose[1].transform.col(3) << 0.3, 0.2, 0.1;
     pose[2].mode = HandleMode::free;
@@ -163,7 +163,7 @@ TEST(ReducedArapRobustness, RestStaysAtRestWhateverTheWeights)
   }
 }
 
-// SPEC F52 in small: any modes, any transforms, reflections and collapses among them.
+// Random modes and transforms, including reflections and collapses (SPEC F52 on a small mesh).
 TEST(ReducedArapRobustness, RandomDragsStayFiniteAndNearTheirHandles)
 {
   const test::Rig rig = test::box(3);
@@ -311,7 +311,7 @@ TEST(ReducedArapRobustness, TheOrderOfHandlesDoesNotMatter)
     a.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options).ok());
   ASSERT_TRUE(
     b.bind(context, rig.mesh.points, rig.mesh.tets, other.weights, other.handles, options).ok());
-  // Plain iterations: extrapolating magnifies round-off until it converges.
+  // No acceleration, because extrapolation amplifies round-off until it converges.
   ASSERT_TRUE(a.solve(context, pose, iterations_from_rest(30)).ok());
   ASSERT_TRUE(b.solve(context, permuted, iterations_from_rest(30)).ok());
   Points first, second;
@@ -357,7 +357,7 @@ TEST(ReducedArapRobustness, AWarmStartNeedsFewerIterations)
   const Status warm = arap.solve(context, pose, options);
   ASSERT_TRUE(warm.ok());
   EXPECT_LT(warm.report.number("iterations", 1e9), cold.report.number("iterations", 0));
-  // Forgetting gives what a fresh object gives.
+  // After forget() the result equals that of a new object.
   arap.forget();
   ASSERT_TRUE(arap.solve(context, pose, options).ok());
   ReducedArap fresh;
@@ -407,7 +407,7 @@ TEST(ReducedArapRobustness, ATimeBudgetIsReplayedByItsIterations)
   ASSERT_TRUE(timed.deform(context, rig.mesh.points, first).ok());
   ASSERT_TRUE(counted.deform(context, rig.mesh.points, second).ok());
   EXPECT_EQ(first, second);
-  // However short it is, one iteration in each precision is done.
+  // Even the smallest budget allows one iteration in each precision.
   options.max_iterations = 100;
   options.budget_microseconds = 1e-9;
   EXPECT_EQ(timed.solve(context, pose, options).report.number("iterations", 0.0), 2.0);
@@ -415,10 +415,12 @@ TEST(ReducedArapRobustness, ATimeBudgetIsReplayedByItsIterations)
   EXPECT_EQ(timed.solve(context, pose, options).report.number("iterations", 0.0), 1.0);
 }
 
-// Single precision is a way, not another result: last digits are those of double precision.
+// Single precision only speeds up the solve: the last digits of the result are those of double
+// precision.
 TEST(ReducedArapRobustness, MixedPrecisionComesToTheSameShape)
 {
-  for (const double size : { 1.0, 1e-15, 1e15, 1e-60, 1e60 }) // the last two no float can hold
+  // The last two exceed the range of float.
+  for (const double size : { 1.0, 1e-15, 1e15, 1e-60, 1e60 })
   {
     test::Rig rig = test::bar();
     rig.mesh.points *= size;
@@ -495,11 +497,11 @@ TEST(ReducedArapRobustness, CancelEndsTheBindAndTheSolve)
 
 namespace
 {
-/// The bar, its middle handle a bone between two vertices away from it.
+/// The bar, with a middle handle that is a bone between two vertices.
 struct BoneInABar
 {
   test::Rig rig = test::bar();
-  Index head = 0, tail = 0; ///< vertices
+  Index head = 0, tail = 0; ///< vertex ids
 
   BoneInABar()
   {
@@ -556,7 +558,7 @@ TEST(ReducedArapRobustness, EndsOfBonesAreHeldOneByOne)
     EXPECT_EQ((without.row(bar.head).transpose() - head).norm() < 1e-9, holds_pivot(mode));
     EXPECT_EQ((without.row(bar.tail).transpose() - tail).norm() < 1e-9, holds_tail(mode));
   }
-  // What is held costs, both ends most.
+  // Constraints raise the energy, and constraining both ends raises it most.
   EXPECT_LT(energies[0], energies[1]);
   EXPECT_LT(energies[0], energies[2]);
   EXPECT_LT(energies[1], energies[3]);
@@ -565,7 +567,7 @@ TEST(ReducedArapRobustness, EndsOfBonesAreHeldOneByOne)
 
 TEST(ReducedArapRobustness, RigidTargetsOfEndsAreReached)
 {
-  // Both ends of bones that are not all on one line hold a rigid motion.
+  // Constrained ends of bones that are not collinear determine a rigid motion.
   BoneInABar bar;
   test::Rig& rig = bar.rig;
   rig.handles[2].kind = HandleKind::bone;

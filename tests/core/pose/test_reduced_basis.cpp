@@ -1,5 +1,5 @@
-// The quick and the sturdy way to a basis lead to the same space, and the quick one declines where
-// a rank could be in doubt.
+// The fast and the robust construction of the basis give the same space. The fast one declines if a
+// rank is in doubt.
 #include "pose/reduced_basis.h"
 
 #include "support/bars.h"
@@ -12,7 +12,7 @@ using namespace bindpose;
 
 namespace
 {
-/// A box with handles here and there and weights that fall off with distance.
+/// Return a box with scattered handles and weights that decrease with distance.
 test::Rig many_handles()
 {
   test::Rig rig;
@@ -35,7 +35,7 @@ test::Rig many_handles()
   return rig;
 }
 
-/// The space of a rig, and what one choice of modes asks of it.
+/// The reduced space of a rig, with the constraints of one choice of modes.
 struct Case
 {
   explicit Case(const test::Rig& rig)
@@ -50,7 +50,7 @@ struct Case
     this->choose({}, {});
   }
 
-  /// Full handles, and ends of handles (row of pivot_rows) that are held.
+  /// Choose the handles of mode full, and the constrained ends of handles (rows of pivot_rows).
   void choose(const std::vector<Index>& full, const std::vector<Index>& held_rows)
   {
     this->given = Coordinates::Zero(4 * this->space.columns, 3);
@@ -78,7 +78,8 @@ struct Case
     }
   }
 
-  /// As if the third coordinate were the same everywhere: unknowns that nothing sees.
+  /// Modify the space as if the third coordinate were constant, so that some unknowns have no
+  /// effect.
   void flatten()
   {
     for (Index i = 2; i < 4 * this->space.columns; i += 4)
@@ -99,7 +100,7 @@ struct Case
   }
   bool quickly(ReducedBasis& basis) const { return this->quickly(this->space.stiffness, basis); }
 
-  /// B: column by column, without D*.
+  /// Return the basis B column by column, without the particular solution D*.
   Eigen::MatrixXd columns(const Eigen::MatrixXd& stiffness, const ReducedBasis& basis) const
   {
     const Coordinates nothing = Coordinates::Zero(4 * this->space.columns, 3);
@@ -115,7 +116,7 @@ struct Case
     return b;
   }
 
-  /// One basis does what it promises; gives C.
+  /// Check the defining properties of one basis. Return C, its covariance.
   Eigen::MatrixXd check(const Eigen::MatrixXd& stiffness, ReducedBasis& basis) const
   {
     const Eigen::MatrixXd b = this->columns(stiffness, basis);
@@ -130,7 +131,7 @@ struct Case
     return c;
   }
 
-  /// Both ways, compared.
+  /// Compare the fast and the robust construction.
   void compare(const Eigen::MatrixXd& stiffness, const Coordinates& load) const
   {
     ReducedBasis quick, sturdy;
@@ -139,7 +140,7 @@ struct Case
     EXPECT_TRUE(quick.redundant().empty() && sturdy.redundant().empty());
     ASSERT_EQ(quick.coordinates(), sturdy.coordinates());
     const Eigen::MatrixXd a = this->check(stiffness, quick), b = this->check(stiffness, sturdy);
-    // Bases of the same space differ by a rotation.
+    // Two bases of the same space differ by a rotation.
     EXPECT_LT((a * a.transpose() - b * b.transpose()).norm(), 1e-10 * (a * a.transpose()).norm());
 
     const auto still = [&](const ReducedBasis& basis)
@@ -189,7 +190,7 @@ TEST(ReducedBasis, BothWaysLeadToTheSame)
       one.compare(one.space.stiffness, nothing);
       one.compare(with_mass, load);
     }
-    // Nothing holds it: only with a mass is that a system.
+    // Without constraints the system is nonsingular only with a mass.
     one.choose({}, {});
     one.compare(with_mass, load);
     ReducedBasis basis;
@@ -215,22 +216,22 @@ TEST(ReducedBasis, TheQuickWayDeclinesWhatIsInDoubt)
   same.held(1, 3) = std::nan("");
   EXPECT_FALSE(same.quickly(basis));
 
-  // What the sturdy way calls redundant, make() does, too.
+  // make() finds the same redundant constraints as the robust construction.
   same.held.row(1) = same.held.row(0);
   basis.make(same.space, same.space.stiffness, same.open, same.held);
   EXPECT_EQ(basis.redundant().size(), 1u);
-  // And goes on quickly after that.
+  // Afterwards the fast construction works again.
   same.choose({}, { 0, 1 });
   EXPECT_TRUE(same.quickly(basis));
   EXPECT_TRUE(basis.redundant().empty());
 
-  // More constraints than the quick way is quick with.
+  // Too many constraints for the fast construction.
   Case many(rig);
   many.choose({ 0, 1, 2, 3, 4 }, { 5, 6, 7, 8, 9 });
   ReducedBasis few;
   EXPECT_FALSE(many.quickly(few));
 
-  // Two columns that are nearly the same.
+  // Two almost equal columns.
   test::Rig doubled = rig;
   for (const double apart : { 0.0, 1e-12, 1e-6 })
   {

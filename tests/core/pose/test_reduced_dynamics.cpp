@@ -1,4 +1,4 @@
-// Reduced dynamics: what mechanics says, step by step.
+// Reduced dynamics: laws of mechanics, step by step.
 #include "pose/reduced_dynamics.h"
 
 #include "core/pose/arap_cases.h"
@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// A body of the bar's tets, with its mass by lumped_mass.
+/// A body of the bar's tets, with masses from lumped_mass.
 class Body
 {
 public:
@@ -54,7 +54,7 @@ private:
   const test::Rig& rig_;
 };
 
-/// Left end held, right end drawn aside, to be let go.
+/// Return the pose with the left end fixed and the right end displaced, before its release.
 Pose drawn()
 {
   return bend(HandleMode::free);
@@ -68,7 +68,7 @@ Pose let_go()
 }
 } // namespace
 
-// SPEC 3.9.8: implicit Euler falls -g h^2 N (N + 1) / 2, and does not bend.
+// Implicit Euler falls by g h^2 N (N + 1) / 2 without deformation (SPEC 3.9.8).
 TEST(ReducedDynamics, FallsFreely)
 {
   const test::Rig rig = test::bar();
@@ -118,7 +118,8 @@ TEST(ReducedDynamics, WithoutGravityMomentumStays)
   ReducedDynamicsOptions options;
   options.time_step = 0.01;
   options.stiffness = 50.0;
-  // Held at one end, swung, then let go altogether: it flies off, spinning and swinging.
+  // The bar is fixed at one end and swings. Then it is released completely and moves away, rotating
+  // and vibrating.
   ASSERT_TRUE(body.dynamics.start(body.context, drawn()).usable());
   for (int n = 0; n < 20; ++n)
   {
@@ -132,7 +133,7 @@ TEST(ReducedDynamics, WithoutGravityMomentumStays)
     body.step(nothing, options);
     ASSERT_LT((body.dynamics.momentum() - momentum).norm(), 1e-10 * momentum.norm()) << n;
   }
-  // The kernel's momentum is that of the vertices.
+  // The momentum of the kernel equals that of the vertices.
   const Vec3 before = body.middle();
   body.step(nothing, options);
   const Vec3 velocity = (body.middle() - before) / options.time_step;
@@ -161,9 +162,9 @@ TEST(ReducedDynamics, SwingsAreWavesThatLoseEnergy)
     energy = now;
     largest_kinetic = std::max(largest_kinetic, body.dynamics.kinetic_energy());
   }
-  EXPECT_GT(largest_kinetic, 0.1 * start); // it did swing
+  EXPECT_GT(largest_kinetic, 0.1 * start); // the bar did vibrate
   EXPECT_LT(energy, 0.9 * start);
-  // At rest it stays: no drift.
+  // A body at rest stays at rest without drift.
   ASSERT_TRUE(body.dynamics.start(body.context, posed(rig.handles, HandleMode::free)).usable());
   for (int n = 0; n < 100; ++n)
   {
@@ -190,7 +191,7 @@ TEST(ReducedDynamics, ComesToRestWhereTheForcesBalance)
   EXPECT_LT(body.dynamics.kinetic_energy(), 1e-12);
   const Points hanging = body.points();
   EXPECT_LT(hanging.col(1).minCoeff(), rig.mesh.points.col(1).minCoeff() - 0.01);
-  // Other steps, the same place: what is balanced does not depend on time.
+  // The equilibrium does not depend on the time step.
   options.time_step = 0.25;
   for (int n = 0; n < 300; ++n)
   {
@@ -211,7 +212,8 @@ TEST(ReducedDynamics, AReleasedDragKeepsItsVelocity)
   {
     for (HandlePose& handle : pose)
     {
-      handle.transform.col(3) = Vec3(0.0, 0.05 * n, 0.0); // carried at 2.5 lengths a second
+      // Moves with the speed 2.5 lengths per second.
+      handle.transform.col(3) = Vec3(0.0, 0.05 * n, 0.0);
     }
     body.step(pose, options);
   }
@@ -223,7 +225,7 @@ TEST(ReducedDynamics, AReleasedDragKeepsItsVelocity)
   }
 }
 
-// An hour of frames: shaken, let go, under gravity, with large steps.
+// One hour at 24 frames per second: random drags and releases under gravity, with large steps.
 TEST(ReducedDynamics, AnHourOfFramesStaysFinite)
 {
   const test::Rig rig = test::bar(6);
@@ -272,7 +274,7 @@ TEST(ReducedDynamics, ReplaysAreTheSameBitsOnAnyNumberOfThreads)
   }
   const Points at_end = first.points();
   EXPECT_EQ(at_end, second.points());
-  // From a state kept on the way, too.
+  // The same from a state saved on the way.
   first.dynamics.set_state(half);
   EXPECT_NE(first.points(), at_end);
   for (int n = 30; n < 60; ++n)

@@ -1,5 +1,5 @@
-// Centres of rotation against the paper's sums written out, and skinning about them against what
-// must be: rigid motions exact, twisted joints as wide as at rest.
+// Centers of rotation: comparisons with the paper's sums. Skinning with them: exact rigid motions,
+// and twisted joints that keep their width.
 #include "pose/rotation_centres.h"
 
 #include "pose/skinning.h"
@@ -37,7 +37,7 @@ Points moved(const Points& points, const Affine& t)
   return result;
 }
 
-/// Positive, rows sum to one; each row has a zero somewhere.
+/// Return nonnegative weights. Rows sum to 1, and each row contains a zero.
 Weights random_weights(Index rows, Index cols)
 {
   test::Random random(8);
@@ -53,7 +53,7 @@ Weights random_weights(Index rows, Index cols)
   return weights;
 }
 
-/// Bumps of a size of the shape's around places along x.
+/// Return normalized Gaussian bumps at equally spaced positions along x.
 Weights smooth_weights(const Points& points, Index cols)
 {
   const double length = points.col(0).maxCoeff();
@@ -154,8 +154,8 @@ RotationCentresOptions exact()
   return options;
 }
 
-/// A tube of radius 1 around z from -2 to 2; weights go from the first to the second handle within
-/// |z| < 1, half and half in the ring at z = 0.
+/// A tube of radius 1 around z from -2 to 2. The weights change from the first to the second handle
+/// within |z| < 1 and are equal on the ring at z = 0.
 struct Tube
 {
   TriangleMesh mesh = test::grid(24, 16, 2.0 * pi, 4.0);
@@ -163,7 +163,7 @@ struct Tube
 
   Tube()
   {
-    // Closed by hand: the last column of points is the first.
+    // Close the tube: the last column of points is the first one.
     for (Index t = 0; t < this->mesh.triangles.size(); ++t)
     {
       Index& v = this->mesh.triangles.data()[t];
@@ -179,7 +179,7 @@ struct Tube
     }
   }
 
-  /// Radii of the posed ring at z = 0.
+  /// Return the smallest and largest radius of the posed ring at z = 0.
   std::pair<double, double> ring(const Points& posed) const
   {
     double least = 1e300, most = 0.0;
@@ -231,7 +231,7 @@ TEST(RotationCentres, GroupsMoveThemLittle)
   Points centres;
   const Status few =
     rotation_centres(context, coarse, bar.points, TetsView(bar.tets), weights, centres);
-  EXPECT_LT(few.report.number("counts.groups", 0), bar.tets.rows() / 10); // of all ten pairs
+  EXPECT_LT(few.report.number("counts.groups", 0), bar.tets.rows() / 10); // over all ten pairs
   EXPECT_EQ(few.report.number("counts.centers", 0), bar.points.rows());
 }
 

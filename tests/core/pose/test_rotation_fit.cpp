@@ -1,4 +1,4 @@
-// Best rotations against Eigen's SVD, and what happens where the best one is not unique.
+// Optimal rotations: comparisons with Eigen's SVD, and cases with several optima.
 #include "pose/rotation_fit.h"
 
 #include "support/meshes.h"
@@ -26,7 +26,7 @@ Eigen::Matrix3d random_rotation(test::Random& random)
   return Eigen::AngleAxisd(random.uniform(-3.0, 3.0), axis).toRotationMatrix();
 }
 
-/// The largest tr(R S) over rotations.
+/// Return the largest tr(R S) over rotations R.
 double best_trace(const Eigen::Matrix3d& s)
 {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(s, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -34,7 +34,7 @@ double best_trace(const Eigen::Matrix3d& s)
   return svd.singularValues()[0] + svd.singularValues()[1] + sign * svd.singularValues()[2];
 }
 
-/// det +1, orthogonal, and as good as the SVD's.
+/// Expect an orthogonal matrix with determinant +1 that is as good as the result of the SVD.
 void expect_best(const Eigen::Matrix3d& s, const Eigen::Matrix3d& r)
 {
   ASSERT_LT((r * r.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-13);
@@ -56,11 +56,11 @@ TEST(RotationFit, HundredThousandRandomMatricesAreAsGoodAsTheirSvd)
     {
       matrix = random_rotation(random) * Vec3(1.0, 0.9, -0.5).asDiagonal() * matrix;
     }
-    if (k % 4 == 2) // sizes from 1e-20 to 1e20
+    if (k % 4 == 2) // magnitudes from 1e-20 to 1e20
     {
       matrix *= std::pow(10.0, random.uniform(-20.0, 20.0));
     }
-    if (k % 4 == 3) // thin: singular values apart by up to 1e12
+    if (k % 4 == 3) // singular values differ by factors of up to 1e12
     {
       matrix = random_rotation(random) *
         Vec3(1.0, std::pow(10.0, random.uniform(-6.0, 0.0)),
@@ -123,7 +123,7 @@ TEST(RotationFit, ReflectionsGiveTheBestRotation)
     Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
     fit_rotation(s, r);
     expect_best(s, r);
-    // Two equal sizes: a circle of best rotations. All three equal: a sphere.
+    // With two singular values of equal magnitude the optima form a circle, with three a sphere.
     s = random_rotation(random) * Vec3(3, 1, -1).asDiagonal();
     fit_rotation(s, r);
     expect_best(s, r);
@@ -152,11 +152,12 @@ TEST(RotationFit, RankOneTakesTheNearestOfTheBest)
   {
     const Eigen::Matrix3d before = random_rotation(random);
     const Vec3 rest = random.in_box(-Vec3::Ones(), Vec3::Ones());
-    // The previous rotation is among the best: it stays.
+    // A previous rotation that is optimal is kept.
     Eigen::Matrix3d r = before;
     fit_rotation(rest * (before * rest).transpose(), r);
     ASSERT_LT((r - before).cwiseAbs().maxCoeff(), 1e-12);
-    // It is not: the nearest of the best is the minimal arc from where the previous took the edge.
+    // Otherwise the nearest optimum is the previous rotation followed by the minimal rotation to
+    // the posed edge.
     const Vec3 posed = random.in_box(-Vec3::Ones(), Vec3::Ones());
     fit_rotation(rest * posed.transpose(), r);
     expect_best(rest * posed.transpose(), r);
@@ -165,8 +166,8 @@ TEST(RotationFit, RankOneTakesTheNearestOfTheBest)
   }
 }
 
-// Counts that fill groups of lanes and that do not; every third matrix is of rank one, for which
-// the previous rotation counts.
+// Counts that do or do not fill groups of lanes. Every third matrix has rank one, for which the
+// result depends on the previous rotation.
 TEST(RotationFit, BatchesAndSinglesAgreeToTheBit)
 {
   test::Random random(13);
@@ -202,7 +203,7 @@ TEST(RotationFit, BatchesAndSinglesAgreeToTheBit)
         EXPECT_EQ(single(e / 3, e % 3), r[e * stride + k]) << k << " of " << count;
       }
     }
-    for (int e = 0; e < 9; ++e) // what lies between the planes is left alone
+    for (int e = 0; e < 9; ++e) // values between the planes are unchanged
     {
       for (Index k = count; k < stride; ++k)
       {

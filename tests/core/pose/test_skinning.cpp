@@ -1,4 +1,4 @@
-// Skinning: identity, common motions, joints, quaternion signs.
+// Skinning: identity, common motions, joints, and signs of quaternions.
 #include "pose/skinning.h"
 
 #include "pose/pose_file.h"
@@ -62,7 +62,7 @@ Posed pose_with(const Points& points, const Weights& weights, const std::vector<
   return posed;
 }
 
-/// A ring of points of radius 1 around x at x = 0, and half-and-half weights.
+/// Return points of radius 1 around the x axis at x = 0.
 Points ring()
 {
   Points points(16, 3);
@@ -113,7 +113,7 @@ TEST(Skinning, OneHandleTakesAnyAffineMapExactlyUnderBoth)
   const test::Rig rig = test::box();
   const Points points = rig.mesh.points.topRows(20);
   Affine affine = turn(70, Vec3(1, 0, 3), Vec3(1, 2, 0), Vec3(0, -4, 5));
-  affine.leftCols<3>() *= Vec3(2.0, 0.5, -1.0).asDiagonal(); // a reflection, too
+  affine.leftCols<3>() *= Vec3(2.0, 0.5, -1.0).asDiagonal(); // includes a reflection
   Points pivot(1, 3);
   pivot << 0.3, 0.4, 0.5;
   const Posed posed = pose_with(points, Weights::Ones(20, 1), { affine }, pivot);
@@ -156,7 +156,7 @@ TEST(Skinning, ATwistedRingShrinksByTheCosineUnderLinearBlendAndNotUnderDual)
       EXPECT_NEAR(posed.linear.row(i).norm(), radius, 1e-14);
       EXPECT_NEAR(posed.dual.row(i).norm(), 1.0, 1e-14);
     }
-    // Dual quaternions turn by half the angle.
+    // Dual quaternions rotate by half the angle.
     const Points exact = moved(ring(), turn(0.5 * degrees, Vec3(1, 0, 0)));
     EXPECT_LT((posed.dual - exact).cwiseAbs().maxCoeff(), 1e-14);
   }
@@ -171,13 +171,14 @@ TEST(Skinning, ARotationAndItsFullTurnsAreOne)
   const Points pivots = Points::Zero(2, 3);
   for (const double degrees : { 10.0, 170.0, -170.0, 190.0 })
   {
-    // q and -q: the same matrix to round-off, by way of angles a full turn apart.
+    // q and -q: equal matrices up to round-off, from angles that differ by a full turn.
     const Posed a = pose_with(ring(), half, { base, turn(degrees, axis) }, pivots);
     const Posed b = pose_with(ring(), half, { base, turn(degrees + 360.0, axis) }, pivots);
     EXPECT_LT((a.dual - b.dual).cwiseAbs().maxCoeff(), 1e-12);
     for (Index i = 0; i < 16; ++i)
     {
-      EXPECT_NEAR(a.dual.row(i).norm(), 1.0, 1e-13); // the shorter way is a rotation, too
+      // Blending along the shorter path is also a rotation.
+      EXPECT_NEAR(a.dual.row(i).norm(), 1.0, 1e-13);
     }
   }
 }
@@ -191,7 +192,7 @@ TEST(Skinning, DualQuaternionsCommuteWithMovesOfTheWorld)
   {
     transforms.push_back(turn(random.uniform(-80, 80), random.in_box(-Vec3::Ones(), Vec3::Ones()),
       Vec3::Zero(), random.in_box(-Vec3::Ones(), Vec3::Ones())));
-    transforms.back().leftCols<3>() *= 1.2; // blended about the pivots
+    transforms.back().leftCols<3>() *= 1.2; // scales are blended about the pivots
   }
   const Affine world = turn(50, Vec3(2, 1, 1), Vec3::Zero(), Vec3(7, 8, 9));
   const Affine back = affine_about(
@@ -218,7 +219,7 @@ TEST(Skinning, DualQuaternionsCommuteWithMovesOfTheWorld)
 
 TEST(Skinning, NormalsStayNormalToPosedPlanes)
 {
-  // A common affine map takes a plane to a plane: its normal must come along.
+  // A common affine map moves a plane, and the transformed normals must remain normal to it.
   const Weights ones = Weights::Ones(3, 1);
   Affine affine = turn(35, Vec3(3, 1, 2), Vec3::Zero(), Vec3(1, 2, 3));
   affine.leftCols<3>() *= Vec3(3.0, 0.5, 1.0).asDiagonal();
@@ -250,7 +251,7 @@ TEST(Skinning, NormalsAreUnitVectorsAtAnyScale)
   {
     std::vector<Affine> transforms{ identity_affine() };
     transforms[0].leftCols<3>() *= scale;
-    transforms[0](2, 2) *= 2.0; // twice as long: the normal leans
+    transforms[0](2, 2) *= 2.0; // twice as long along z, so the normal tilts
     const Vec3 expected = Vec3(0.6, 0.0, 0.4).normalized();
     Points posed;
     ASSERT_TRUE(skinning.linear_blend_normals(context, normals, transforms, posed).ok());
@@ -326,7 +327,8 @@ TEST(Skinning, ModesReadAsTranslationsAndIdentity)
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("'c'"));
 
-  // Bones held by their ends: the tail moves along, both ends have the transform.
+  // Bones with constrained ends: with mode tail the bone is translated with its tail, with mode
+  // ends it has its transform.
   handles[1].kind = handles[2].kind = HandleKind::bone;
   handles[1].tail = Vec3(3, 0, 0);
   pose[1].mode = HandleMode::tail;
@@ -381,7 +383,7 @@ TEST(StretchableBones, ATwistTurnsByTheEndpointWeightAndKeepsTheRadius)
   Points quarter = moved(points, turn(90.0, Vec3::UnitX()));
   Points posed = stretched(points, ones, { identity_affine() }, { bone });
   EXPECT_LT((posed - quarter).cwiseAbs().maxCoeff(), 1e-15);
-  // Painted, it turns by what is painted; NaN is where nothing is.
+  // A painted endpoint weight replaces the computed one. NaN means not painted.
   Weights painted = Weights::Constant(16, 1, 0.25);
   painted(3, 0) = std::numeric_limits<double>::quiet_NaN();
   posed = stretched(points, ones, { identity_affine() }, { bone }, painted);
@@ -408,7 +410,7 @@ TEST(StretchableBones, WithoutAChangeAreLinearBlendBitForBit)
   const Points posed = stretched(rig.mesh.points, rig.weights, transforms, bones, Weights(), 1);
   EXPECT_NE(posed, linear);
   EXPECT_EQ(stretched(rig.mesh.points, rig.weights, transforms, bones, Weights(), 3), posed);
-  // A rigid motion of all handles comes afterwards.
+  // A rigid motion of all handles is applied afterwards.
   const Affine rigid = turn(75.0, Vec3(-1, 1, 3), Vec3(2, 0, 1), Vec3(5, 6, 7));
   const Points here =
     stretched(rig.mesh.points, rig.weights, std::vector<Affine>(5, identity_affine()), bones);
@@ -419,7 +421,7 @@ TEST(StretchableBones, WithoutAChangeAreLinearBlendBitForBit)
 
 namespace
 {
-/// The definition, point by point and weight by weight.
+/// Evaluate the definition point by point and weight by weight.
 Points stretched_one_by_one(const Points& points, const Weights& weights,
   const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
   const Weights& endpoints)
@@ -458,7 +460,8 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
   const auto between = [&](double lower, double upper) { return random.uniform(lower, upper); };
   for (int trial = 0; trial < 60; ++trial)
   {
-    const Index vertices = 1 + random.below(70), handles = 1 + random.below(6); // odd tiles
+    // The numbers of vertices include incomplete tiles.
+    const Index vertices = 1 + random.below(70), handles = 1 + random.below(6);
     Points points(vertices, 3);
     Weights weights(vertices, handles), painted(vertices, handles);
     for (Index v = 0; v < vertices; ++v)
@@ -482,7 +485,7 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
       transforms.back().leftCols<3>() *= between(0.5, 2.0);
       BoneChange bone{ Vec3(3, -2, 1) + random.in_box(-ones, ones), random.in_box(-ones, ones) };
       bone.stretch = random.below(3) == 0 ? 1.0 : between(-1.0, 3.0);
-      // None, up to a turn, whole and half turns, many turns.
+      // No twist, up to one turn, multiples of half turns, or many turns.
       const double sizes[] = { 0.0, 360.0, 180.0, 3600.0 };
       const auto size = static_cast<std::size_t>(random.below(4));
       for (double& angle : bone.twist.reshaped())
@@ -492,7 +495,7 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
       }
       if (random.below(8) == 0)
       {
-        bone.vector.setZero(); // no direction to change along
+        bone.vector.setZero(); // no direction for stretch and twist
       }
       bones.push_back(bone);
     }
@@ -507,7 +510,8 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
     ASSERT_TRUE(floats.bind(context, weights, options).ok());
     Points posed;
     ASSERT_TRUE(floats.stretchable_bones(context, points, transforms, bones, painted, posed).ok());
-    EXPECT_LT((posed - expected).cwiseAbs().maxCoeff(), 2e-4); // ten turns in 2^-24 of one
+    // Ten turns with a precision of 2^-24 turns.
+    EXPECT_LT((posed - expected).cwiseAbs().maxCoeff(), 2e-4);
   }
 }
 
@@ -523,7 +527,7 @@ TEST(StretchableBones, WholeTurnsAndLanesWithoutWeightChangeNothing)
     weights(v, v % 2) = 0.0;
   }
   std::vector<BoneChange> bones(2, unit_bone);
-  bones[0].twist = { 720.0, -1080.0 }; // where its endpoint weight is 1: three turns
+  bones[0].twist = { 720.0, -1080.0 }; // three turns at the endpoint weight 1
   bones[1].twist = { 0.0, 90.0 };
   for (const bool single : { false, true })
   {
@@ -539,7 +543,7 @@ TEST(StretchableBones, WholeTurnsAndLanesWithoutWeightChangeNothing)
     {
       EXPECT_EQ(posed.row(v) == points.row(v), weights(v, 0) == 1.0) << v;
     }
-    // Twists beyond all measure turn by some angle, in finite numbers.
+    // Huge twists rotate by an arbitrary angle with finite results.
     bones[1].twist = { -1e300, 1e200 };
     ASSERT_TRUE(skinning.stretchable_bones(context, points, still, bones, Weights(), posed).ok());
     ASSERT_TRUE(posed.allFinite());
@@ -590,7 +594,8 @@ TEST(StretchableBones, SizesThatDoNotFitAreNamed)
 
 namespace
 {
-/// Random poses of the box's five handles, of any angle: quaternions flip.
+/// Return random transforms of the box's five handles with any angle, so that quaternions change
+/// their sign.
 std::vector<Affine> wild_transforms(test::Random& random, bool shears)
 {
   std::vector<Affine> transforms;
@@ -662,7 +667,7 @@ TEST(Skinning, SinglePrecisionIsRightToAMillionthOfTheDiagonal)
       std::vector<Affine> transforms = wild_transforms(random, shears);
       for (Affine& t : transforms)
       {
-        t.col(3) += place - t.leftCols<3>() * place; // the same motion, there
+        t.col(3) += place - t.leftCols<3>() * place; // the same motion at this position
       }
       const Blends exact = blends_of(points, rig.weights, transforms, centres, {});
       const Blends fast = blends_of(points, rig.weights, transforms, centres, single);
@@ -683,7 +688,7 @@ TEST(Skinning, SinglePrecisionIsRightToAMillionthOfTheDiagonal)
 
 TEST(Skinning, ManyInstancesAreEachLikeOne)
 {
-  const test::Rig rig = test::box(5); // no whole number of tiles
+  const test::Rig rig = test::box(5); // not a multiple of the tile size
   const Points& rest = rig.mesh.points;
   const double diagonal = bounding_box(rest).diagonal();
   SkinningOptions single;
@@ -741,7 +746,7 @@ TEST(Skinning, DroppedWeightsAreCountedAndTheirErrorIsBounded)
     Index dropped = 0;
     double share = 0.0;
     Points twin(rig.mesh.points.rows(), 3);
-    double reach = 0.0; // how far apart two handles take a point
+    double reach = 0.0; // largest distance between the images of a point under two handles
     for (Index v = 0; v < twin.rows(); ++v)
     {
       std::vector<std::pair<double, Index>> row;
@@ -791,7 +796,8 @@ TEST(Skinning, DroppedWeightsAreCountedAndTheirErrorIsBounded)
 
 TEST(Skinning, SignsOfQuaternionsAreEachVertexsOwn)
 {
-  // Vertices of a tile have different references; each alone must give the same.
+  // Vertices of a tile have different reference quaternions. Each vertex alone must give the same
+  // result.
   const test::Rig rig = test::box();
   const Points pivots = handle_pivots(rig.handles);
   test::Random random(13);

@@ -1,4 +1,4 @@
-// Skinning eigenmodes: against a bar's analytic eigenvalues, orthogonal, the same every time.
+// Skinning eigenmodes: analytic eigenvalues of a bar, orthogonality, and determinism.
 #include "pose/skinning_eigenmodes.h"
 
 #include "core/pose/arap_cases.h"
@@ -10,7 +10,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// The eigenproblem of a box of tets, held where x = 0.
+/// The eigenproblem of a box of tets that is fixed at x = 0.
 struct Held
 {
   TetMesh mesh;
@@ -33,7 +33,8 @@ struct Held
 };
 } // namespace
 
-// A thin bar held at one end: w = sin((k - 1/2) pi x / l), lambda its wave number's square.
+// A thin bar fixed at one end: w = sin((k - 1/2) pi x / l), and lambda is the square of the wave
+// number.
 TEST(SkinningEigenmodes, OfABarHeldAtOneEndAreSines)
 {
   const Held bar(tet_box(48, 2, 2, Vec3::Zero(), Vec3(6.0, 0.25, 0.25)));
@@ -44,7 +45,7 @@ TEST(SkinningEigenmodes, OfABarHeldAtOneEndAreSines)
   for (Index k = 0; k < 6; ++k)
   {
     const double wave = (static_cast<double>(k) + 0.5) * EIGEN_PI / 6.0;
-    // Second order in the mesh size, 1/8 along the bar.
+    // The error is of second order in the mesh size, which is 1/8 along the bar.
     EXPECT_NEAR(found.eigenvalues[k], wave * wave, 0.02 * wave * wave);
     Eigen::VectorXd sine = (wave * bar.mesh.points.col(0)).array().sin();
     const double agreement = std::abs(sine.dot(bar.mass.asDiagonal() * found.modes.col(k))) /
@@ -56,7 +57,7 @@ TEST(SkinningEigenmodes, OfABarHeldAtOneEndAreSines)
 
 TEST(SkinningEigenmodes, SolveTheProblemAndAreOrthogonal)
 {
-  // As wide as high: eigenvalues come in pairs.
+  // The box is as wide as high, so its eigenvalues come in pairs.
   const Held box(tet_box(6, 5, 5));
   ExecutionContext context;
   Eigenmodes found;
@@ -77,13 +78,13 @@ TEST(SkinningEigenmodes, SolveTheProblemAndAreOrthogonal)
       found.eigenvalues[k] * (box.mass.asDiagonal() * unit.col(k)).eval();
     for (const Index v : box.zero)
     {
-      residual[v] = 0.0; // what holds the vertex there
+      residual[v] = 0.0; // reaction force at a fixed vertex
     }
     EXPECT_LT(residual.norm(), 1e-8 * found.eigenvalues[k]) << k;
   }
   const Eigen::MatrixXd gram = unit.transpose() * box.mass.asDiagonal() * unit;
   EXPECT_LT((gram - Eigen::MatrixXd::Identity(15, 15)).cwiseAbs().maxCoeff(), 1e-8);
-  // The dense solver agrees (asked for so many that it takes over).
+  // The dense solver gives the same result. The large number of modes makes the function choose it.
   Eigenmodes dense;
   ASSERT_TRUE(skinning_eigenmodes(
     context, box.stiffness, box.mass, box.zero, box.mesh.points.rows() / 2, dense)
@@ -141,7 +142,7 @@ TEST(SkinningEigenmodes, NothingFreeGivesNoModesAndCancelEnds)
     StatusCode::cancelled);
 }
 
-// SPEC D37 with modes for bumps.
+// SPEC D37 with eigenmodes instead of bumps.
 TEST(SkinningEigenmodes, AsExtraWeightsTheyRestAtZeroAndLowerTheEnergy)
 {
   const Status bound = expect_that_extra_weights_help(ExtraWeights::eigenmodes);

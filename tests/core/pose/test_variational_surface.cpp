@@ -1,4 +1,4 @@
-// Smooth surfaces between what handles and flags hold: facts, invariances, refusals.
+// Smooth surfaces between handles and fixed vertices: known results, invariances, and errors.
 #include "pose/variational_surface.h"
 
 #include "core/pose/full_arap_cases.h"
@@ -19,7 +19,7 @@ constexpr int squares = 12;
 constexpr PatchBoundary every_boundary[] = { PatchBoundary::region, PatchBoundary::curve,
   PatchBoundary::tangent };
 
-/// Layers between a vertex of a square and its border.
+/// Return the number of layers between a vertex of a square and its border.
 Index depth(const TriangleMesh& square, Index v)
 {
   const double x = square.points(v, 0), y = square.points(v, 1);
@@ -36,7 +36,7 @@ std::vector<char> band(const TriangleMesh& square, int layers)
   return fixed;
 }
 
-/// A square whose band of three layers stays and whose middle is a region that goes up.
+/// A square with a fixed band of three layers. A region in its middle moves up.
 struct Bump
 {
   TriangleMesh mesh = grid(squares, squares);
@@ -86,7 +86,7 @@ double difference(const Points& a, const Points& b)
   return (a - b).cwiseAbs().maxCoeff();
 }
 
-/// A strip of the cylinder of radius 1 about the x axis.
+/// Return a strip of the cylinder of radius 1 around the x axis.
 TriangleMesh bent_square()
 {
   TriangleMesh mesh = grid(squares, squares);
@@ -146,7 +146,9 @@ TEST(VariationalSurface, AMotionOfAllThatIsHeldMovesAll)
   struct Case
   {
     bool bent, fair;
-    double angle; // displacements of a turned mesh are smooth only where the mesh itself is
+    // Rotation in radians. It is 0 for displacements on a bent mesh, because the displacements of a
+    // rotation are only as smooth as the mesh.
+    double angle;
   };
   for (const Case& c :
     { Case{ true, true, 1.1 }, Case{ true, false, 0.0 }, Case{ false, false, 1.1 } })
@@ -206,7 +208,8 @@ TEST(VariationalSurface, MovingAHandleDoesNotFactorAgain)
   bump.pose[0].transform(2, 3) = 0.8;
   ASSERT_TRUE(bump.surface.solve(bump.context, bump.pose).ok());
   const Points flat = bump.mesh.points;
-  EXPECT_LT(difference(bump.surface.posed() - flat, 2.0 * (once - flat)), 1e-13); // linear
+  // The solution is linear in the pose.
+  EXPECT_LT(difference(bump.surface.posed() - flat, 2.0 * (once - flat)), 1e-13);
   EXPECT_EQ(bump.surface.factorisations(), 1);
   bump.pose[0].mode = HandleMode::free;
   ASSERT_TRUE(bump.surface.solve(bump.context, bump.pose).ok());
@@ -256,7 +259,7 @@ TEST(VariationalSurface, AFlatPatchFairedOnItsOwnPlaneIsItself)
 
 TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
 {
-  // On the plane: dx/dn of the plane itself, so that what is given and what is there agree.
+  // Fair the plane itself with its own derivatives dx/dn.
   Bump bump;
   bump.handles.clear();
   bump.pose.clear();
@@ -266,8 +269,8 @@ TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
   const Points around = bump.surface.posed();
   bump.options.tangent_source = PatchTangents::clamped;
   ASSERT_TRUE(bump.solve().ok());
-  EXPECT_GT(difference(bump.surface.posed(), around), 1e-3); // a cusp
-  // Displacements: clamped is as at rest.
+  EXPECT_GT(difference(bump.surface.posed(), around), 1e-3); // clamped tangents make a cusp
+  // For displacements, clamped tangents are those of the rest shape.
   bump.options.fair = false;
   bump.handles = { point_handle("p", Vec3(0.5, 0.5, 0.0)) };
   bump.pose = { HandlePose() };
@@ -310,7 +313,7 @@ TEST(VariationalSurface, WhatCannotBeIsRefused)
   nothing.options.fair = true;
   EXPECT_THAT(refusal(nothing), HasSubstr("nothing is fixed"));
   nothing.options.fair = false;
-  EXPECT_TRUE(nothing.solve().ok()); // it stays
+  EXPECT_TRUE(nothing.solve().ok()); // the surface stays at rest
 
   Bump apart;
   apart.mesh = join(apart.mesh, translated(apart.mesh, Vec3(2, 0, 0)));
@@ -363,7 +366,8 @@ TEST(VariationalSurface, WhatCannotBeIsRefused)
 TEST(VariationalSurface, DefectsAwayFromThePatchDoNotMatter)
 {
   Bump bump;
-  bump.mesh.points.row(0) = bump.mesh.points.row(1); // in a corner, three layers away
+  // Coincides with a vertex in a corner, three layers away from free vertices.
+  bump.mesh.points.row(0) = bump.mesh.points.row(1);
   bump.options.order = 2;
   EXPECT_TRUE(bump.solve().ok());
 }

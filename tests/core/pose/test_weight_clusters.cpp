@@ -12,7 +12,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Rows in tight groups around given centres.
+/// Return rows in tight groups around the given centers.
 Weights blobs(const Weights& centres, Index each, double spread)
 {
   test::Random random(3);
@@ -32,7 +32,7 @@ TEST(WeightClusters, GroupsAreFound)
 {
   Weights centres(4, 2);
   centres << 0, 0, 1, 0, 0, 1, 1, 1;
-  for (const Index each : { 50, 5000 }) // the second is clustered on a sample
+  for (const Index each : { 50, 5000 }) // 5000 rows per group are clustered on a sample
   {
     ExecutionContext context;
     Clusters clusters;
@@ -72,7 +72,7 @@ TEST(WeightClusters, NoRowHasANearerMean)
     (means.rowwise() - rig.weights.row(v)).rowwise().squaredNorm().minCoeff(&nearest);
     wrong += nearest != clusters.of_row[static_cast<std::size_t>(v)] ? 1 : 0;
   }
-  EXPECT_EQ(wrong, 0); // Lloyd's iteration has come to rest
+  EXPECT_EQ(wrong, 0); // Lloyd's iteration has converged
 }
 
 TEST(WeightClusters, EqualRowsAreOneCluster)
@@ -98,7 +98,7 @@ TEST(WeightClusters, FarthestPointsSpread)
   std::vector<Index> seeds;
   farthest_rows(context, line, 3, seeds);
   EXPECT_EQ(seeds, (std::vector<Index>{ 10, 0, 5 }));
-  farthest_rows(context, line, 100, seeds); // all rows, each once
+  farthest_rows(context, line, 100, seeds); // returns all rows once
   EXPECT_EQ(seeds.size(), 11u);
   EXPECT_EQ(std::set<Index>(seeds.begin(), seeds.end()).size(), 11u);
 }
@@ -119,7 +119,7 @@ TEST(WeightClusters, BumpsAreSplinesThatVanishAtTheHandles)
   {
     EXPECT_LT(bumps.row(v).maxCoeff(), 1e-12);
   }
-  // Neighbours overlap: a seed is inside another's bump, or as far from it as from a handle.
+  // Neighboring bumps overlap, except where the distance to a handle limits their radius.
   Index overlaps = 0;
   for (Index e = 0; e < bumps.cols(); ++e)
   {

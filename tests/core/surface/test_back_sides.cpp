@@ -1,5 +1,5 @@
-// Backs of triangles: found where a patch encloses something, whatever the order and the way of its
-// copies, and only there.
+// Back sides of triangles: found on patches that enclose a volume, for any order and orientation of
+// the copies, and nowhere else.
 #include "surface/back_sides.h"
 
 #include "surface/surface_repair.h"
@@ -61,7 +61,7 @@ TEST(BackSides, AreTheInnerCopiesOfWhatEnclosesSomething)
     const std::vector<Index> backs = back_sides(twice.points, twice.triangles);
     EXPECT_EQ(backs.size(), static_cast<std::size_t>(ball.triangles.rows()));
     EXPECT_NEAR(volume_without(twice, backs), volume, 1e-12);
-    // Twice each way: all but one are backs.
+    // Every triangle occurs twice in each orientation, so all but one are back sides.
     const TriangleMesh four = shuffled(welded(test::join(twice, twice)), seed);
     const std::vector<Index> three = back_sides(four.points, four.triangles);
     EXPECT_EQ(three.size(), static_cast<std::size_t>(3 * ball.triangles.rows()));
@@ -83,7 +83,7 @@ TEST(BackSides, AreNotThereWhereNothingIsEnclosed)
   const TriangleMesh leaf = test::grid(4, 4);
   const TriangleMesh two_leaves = welded(test::join(leaf, test::flipped(leaf)));
   EXPECT_TRUE(back_sides(two_leaves.points, two_leaves.triangles).empty());
-  // Once, or twice the same way.
+  // Triangles that occur once, or twice in the same orientation.
   const TriangleMesh ball = test::sphere(2);
   EXPECT_TRUE(back_sides(ball.points, ball.triangles).empty());
   const TriangleMesh same_way = welded(test::join(ball, ball));
@@ -92,7 +92,7 @@ TEST(BackSides, AreNotThereWhereNothingIsEnclosed)
 
 TEST(BackSides, AreFoundPatchByPatch)
 {
-  // A ball of two sides beside a leaf of two sides and a ball of one.
+  // A two-sided ball, a two-sided leaf, and a one-sided ball.
   const TriangleMesh ball = test::sphere(2);
   const TriangleMesh leaf = test::translated(test::grid(4, 4), Vec3(5, 0, 0));
   TriangleMesh all =

@@ -1,4 +1,5 @@
-// Links between parts of a surface: against a spanning forest from all pairs of triangles.
+// Links between parts of a surface: comparisons with a minimum spanning forest over all pairs of
+// triangles.
 #include "surface/part_links.h"
 
 #include "base/disjoint_sets.h"
@@ -31,11 +32,11 @@ Corners corners(const TriangleMesh& mesh, Index f)
     mesh.points.row(mesh.triangles(f, 2)) };
 }
 
-/// Parts of one mesh after the other.
+/// The parts of one mesh, one after the other.
 struct Shape
 {
   TriangleMesh mesh;
-  std::vector<Index> parts; ///< of triangles
+  std::vector<Index> parts; ///< part of each triangle
   Index count = 0;
 
   void add(const TriangleMesh& part)
@@ -56,7 +57,8 @@ std::vector<PartLink> links_of(
   return links;
 }
 
-/// Total length of the shortest links that lead from every part to a held one, from all pairs.
+/// Return the total length of the shortest links that connect every part to a fixed one, from all
+/// pairs of triangles.
 double shortest_forest(const Shape& shape, const std::vector<char>& held)
 {
   struct Edge
@@ -79,7 +81,7 @@ double shortest_forest(const Shape& shape, const std::vector<char>& held)
   }
   std::sort(
     edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return x.length < y.length; });
-  DisjointSets<Index> sets(held.size() + 1); // the last one holds
+  DisjointSets<Index> sets(held.size() + 1); // the last set represents the fixed parts
   for (std::size_t p = 0; p < held.size(); ++p)
   {
     if (held[p])
@@ -114,7 +116,7 @@ TEST(PartLinks, NearestPlacesAreNearerThanAllSamples)
     }
     if (round % 10 == 4)
     {
-      b[2] = 0.5 * (b[0] + b[1]); // without area
+      b[2] = 0.5 * (b[0] + b[1]); // makes the triangle degenerate
     }
     std::array<Vec3, 2> places;
     const double distance = nearest_places(a, b, places);
@@ -191,7 +193,7 @@ TEST(PartLinks, AreTheShortestForestOfAllPairs)
 
 TEST(PartLinks, LeadToEverythingThatALoosePartTouches)
 {
-  // A plate on four legs, 0.01 above them, and a leg that does not reach it.
+  // A plate 0.01 above four legs, and a shorter leg.
   Shape shape;
   shape.add(box(Vec3(0, 0, 1.01), Vec3(4, 4, 1.1)));
   for (const Vec3& at : { Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(0, 3, 0), Vec3(3, 3, 0) })
@@ -210,7 +212,7 @@ TEST(PartLinks, LeadToEverythingThatALoosePartTouches)
   EXPECT_EQ(linked, (std::set<Index>{ 0, 1, 2, 3, 4 }));
   EXPECT_GE(links.size(), 8U) << "several below every corner of the plate";
   EXPECT_LE(links.size(), 100U) << "about one in each cube of the spacing";
-  // Held parts are not linked to each other, nor a plate that is held itself.
+  // Fixed parts are not linked to each other, even if all parts are fixed.
   EXPECT_TRUE(links_of(shape, { 1, 1, 1, 1, 1, 1 }, { 0.02, 0.5 }).empty());
 }
 

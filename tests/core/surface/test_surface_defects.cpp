@@ -57,7 +57,7 @@ void expect_the_counts(const Listed& listed)
   EXPECT_EQ(count(Defect::inward_component) == 0, found.inward_components == 0);
 }
 
-/// Every triangle with corners of its own.
+/// Return the mesh with separate corners for every triangle.
 TriangleMesh soup(const TriangleMesh& mesh)
 {
   TriangleMesh result;
@@ -106,7 +106,7 @@ TEST(SurfaceDefects, TrianglesOfNoUse)
   TriangleMesh mesh = test::cube();
   const Index t = mesh.triangles.rows();
   mesh.points.conservativeResize(mesh.points.rows() + 1, 3);
-  mesh.points.row(mesh.points.rows() - 1) << 5.0, 5.0, 5.0; // of no triangle
+  mesh.points.row(mesh.points.rows() - 1) << 5.0, 5.0, 5.0; // used by no triangle
   mesh.triangles.conservativeResize(t + 2, 3);
   mesh.triangles.row(t) << mesh.triangles(3, 1), mesh.triangles(3, 2), mesh.triangles(3, 0);
   mesh.triangles.row(t + 1) << 0, 1, 0;
@@ -123,7 +123,7 @@ TEST(SurfaceDefects, TrianglesOfNoUse)
   ASSERT_EQ(unreferenced.size(), 1u);
   EXPECT_THAT(unreferenced[0].vertices, ElementsAre(8));
   EXPECT_EQ(unreferenced[0].component, -1);
-  EXPECT_EQ(found.of(Defect::nonmanifold_edge).size(), 3u); // of the duplicate
+  EXPECT_EQ(found.of(Defect::nonmanifold_edge).size(), 3u); // the edges of the duplicate triangle
 }
 
 TEST(SurfaceDefects, MisorientedEdgesAreThoseOfTheInputEvenWhenRepaired)
@@ -167,7 +167,7 @@ TEST(SurfaceDefects, CrossingTrianglesNameEachOther)
   {
     EXPECT_EQ(met.count(t), 1u);
   }
-  // As many as in the pairs.
+  // The number of triangles in the crossing pairs is the same.
   std::map<Index, int> in_pairs;
   for (const auto& [s, t] : found.repaired.crossings)
   {

@@ -1,4 +1,4 @@
-// Distances along surfaces on which they are known.
+// Distances along surfaces with known distances.
 #include "support/meshes.h"
 #include "surface/surface_disc.h"
 
@@ -14,7 +14,7 @@ TEST(SurfaceDisc, OnAFlatGridDistancesAreThoseOfThePlane)
   const TriangleMesh flat = test::grid(40, 40);
   const SurfaceDisc disc(flat.points, flat.triangles);
   const Vec3 place(0.513, 0.507, 0.0);
-  Index triangle = 0; // the one under the place
+  Index triangle = 0; // the triangle that contains the place
   for (Index f = 0; f < flat.triangles.rows(); ++f)
   {
     Eigen::Matrix3d m;
@@ -49,7 +49,7 @@ TEST(SurfaceDisc, OnAFlatGridDistancesAreThoseOfThePlane)
     }
   }
   EXPECT_GT(found.size(), 400u);
-  // Every call begins anew.
+  // Each call starts from scratch.
   EXPECT_EQ(disc.within(place, triangle, radius).size(), found.size());
 }
 
@@ -66,14 +66,14 @@ TEST(SurfaceDisc, OnASphereDistancesAreArcs)
     EXPECT_NEAR(distance, arc, 0.02 * arc + 0.01);
     ++count;
   }
-  // The cap's area over the sphere's.
+  // The area of the cap divided by that of the sphere.
   EXPECT_NEAR(static_cast<double>(count) / static_cast<double>(ball.points.rows()),
     0.5 * (1.0 - std::cos(2.0)), 0.02);
 }
 
 TEST(SurfaceDisc, TheOtherSideOfAThinPlateIsFarAway)
 {
-  // Two grids, a hair apart, not joined.
+  // Two unconnected grids at a small distance.
   const TriangleMesh flat = test::grid(20, 20);
   const TriangleMesh two = test::join(flat, test::translated(flat, Vec3(0, 0, 1e-3)));
   const SurfaceDisc disc(two.points, two.triangles);

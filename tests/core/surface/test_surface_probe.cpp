@@ -1,4 +1,4 @@
-// What lies under a cursor: thickness and nearest places of shapes where these are known.
+// Picking on a surface: thickness and nearest points of known shapes.
 #include "support/meshes.h"
 #include "surface/surface_probe.h"
 
@@ -10,7 +10,7 @@ namespace
 {
 const Vec3 far_left(-7.0, 0.11, 0.07);
 
-// Distance from the plane through the centre across the ray.
+// Return the distance from the plane through the center perpendicular to the ray.
 double off_centre(const Vec3& p, const Vec3& direction)
 {
   return std::abs(p.dot(direction.normalized()));
@@ -24,7 +24,7 @@ TEST(SurfaceProbe, MidThicknessOfASphereIsItsCentrePlane)
   test::Random random(3);
   for (int i = 0; i < 200; ++i)
   {
-    // The polyhedron is symmetric about its centre: so is every chord, exactly.
+    // The polyhedron is symmetric about its center, so all chords are exactly symmetric.
     const Vec3 direction = random.in_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)).normalized();
     const Vec3 aside = 0.4 * direction.cross(random.in_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
     LineSpan through;
@@ -48,7 +48,8 @@ TEST(SurfaceProbe, EdgesAndVerticesCountOnce)
 {
   const TriangleMesh cube = test::cube(-1.0, 1.0);
   const SurfaceProbe probe(cube.points, cube.triangles);
-  // Through the diagonal of a side, through an edge's middle, through corners.
+  // The rays pass through the diagonal of a side, through the middle of an edge, and through
+  // corners.
   for (const Vec3& origin : { Vec3(-5, 0, 0), Vec3(-5, -5, 0), Vec3(-5, -5, -5) })
   {
     EXPECT_EQ(probe.hits(origin, -origin).size(), 2u) << origin.transpose();
@@ -113,7 +114,7 @@ TEST(SurfaceProbe, NearestIsTheNearestOfAllTriangles)
     Vec3 place;
     ASSERT_TRUE(probe.nearest(p, place));
     EXPECT_NEAR((p - place).norm(), std::abs(p.norm() - 1.0), 0.02);
-    // No vertex is nearer.
+    // No vertex is nearer than the result.
     const double nearest = (ball.points.rowwise() - p.transpose()).rowwise().norm().minCoeff();
     EXPECT_LE((p - place).norm(), nearest + 1e-12);
   }

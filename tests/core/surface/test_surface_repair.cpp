@@ -70,7 +70,7 @@ TEST(SurfaceRepair, WeldsEqualVerticesAndRemembersThem)
     EXPECT_EQ(repaired.points.row(v), soup.points.row(repaired.original_vertices[v]));
   }
   EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), 8.0, 1e-14);
-  // Minus zero is zero.
+  // Coordinates of -0 and 0 are equal.
   TriangleMesh signs = test::cube(0.0, 1.0);
   signs = test::unwelded(signs);
   signs.points.row(0) *= -1.0;
@@ -82,7 +82,7 @@ TEST(SurfaceRepair, DropsWhatHasNoAreaAndStrayVertices)
   TriangleMesh mesh = test::cube();
   mesh.points.conservativeResize(10, 3);
   mesh.points.row(8) << 0.0, 0.0, -1.0; // between vertices 0 and 3, on the diagonal
-  mesh.points.row(9).setConstant(std::numeric_limits<double>::quiet_NaN()); // nobody uses it
+  mesh.points.row(9).setConstant(std::numeric_limits<double>::quiet_NaN()); // unused
   mesh.triangles.conservativeResize(14, 3);
   mesh.triangles.row(12) << 0, 8, 3;
   mesh.triangles.row(13) << 5, 5, 7;
@@ -171,7 +171,7 @@ TEST(SurfaceRepair, InsideOutComponentsAreTurnedWithWhatLiesInThem)
   EXPECT_EQ(repaired.found.inward_components, 1);
   EXPECT_EQ(repaired.turned_components, 1);
   EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), shell, 1e-12);
-  // Two solids, one inside out.
+  // Two solids, one of them inside out.
   const TriangleMesh far = test::translated(inner, Vec3(9, 0, 0));
   const RepairedSurface two = repair(test::join(outer, test::flipped(far)));
   EXPECT_EQ(two.turned_components, 1);
@@ -182,12 +182,13 @@ TEST(SurfaceRepair, InsideOutComponentsAreTurnedWithWhatLiesInThem)
 
 TEST(SurfaceRepair, SolidsThatTouchAreTurnedOneByOne)
 {
-  // A chain of cubes, each in an edge or a vertex with the next; every other one inside out.
+  // A chain of cubes in which each cube shares an edge or a vertex with the next one. Every second
+  // cube is inside out.
   TriangleMesh chain;
   const int count = 9;
   for (int i = 0; i < count; ++i)
   {
-    const int z = i / 2; // they meet in an edge along z, then in a vertex
+    const int z = i / 2; // neighbors share an edge along z or a vertex, alternately
     const TriangleMesh cube = test::translated(test::cube(0.0, 1.0), Vec3(i, i, z));
     chain = i == 0 ? cube : test::join(chain, i % 2 ? test::flipped(cube) : cube);
   }
@@ -200,7 +201,7 @@ TEST(SurfaceRepair, SolidsThatTouchAreTurnedOneByOne)
 
 TEST(SurfaceRepair, ACavityThatTouchesStaysACavity)
 {
-  // A tet that touches the inside of the cube around it in a vertex, then in an edge.
+  // A tet inside of a cube that touches the cube's inside at a vertex, then at an edge.
   for (const double top : { 0.0, 1.0 })
   {
     TriangleMesh tet;
@@ -240,8 +241,8 @@ TEST(SurfaceRepair, SnappingWeldsWhatNearlyCoincides)
 
 TEST(SurfaceRepair, CountsCrossingsOfCubes)
 {
-  // A corner of one cube pokes into the other: three squares cross three squares. In all six pairs
-  // of squares that meet, the segment of the crossing is found in the triangles by brute force.
+  // A corner of one cube is inside of the other, so three squares cross three squares in six pairs.
+  // Brute force finds the crossing triangles of all pairs.
   const TriangleMesh two =
     test::join(test::cube(), test::translated(test::cube(), Vec3(1.03, 0.9, 0.85)));
   Index pairs = 0;
@@ -254,7 +255,8 @@ TEST(SurfaceRepair, CountsCrossingsOfCubes)
   }
   EXPECT_GE(pairs, 6);
   EXPECT_EQ(diagnose(two).self_intersections, pairs);
-  // Touching in a square, nothing shared by id: each triangle of one meets both of the other.
+  // The cubes touch in a square without shared vertices. Each triangle of one square meets both
+  // triangles of the other.
   TriangleMesh touching =
     test::join(test::cube(), test::translated(test::cube(), Vec3(2.0, 0.25, 0.25)));
   EXPECT_GE(diagnose(touching).self_intersections, 4);
@@ -264,8 +266,8 @@ TEST(SurfaceRepair, CountsCrossingsOfCubes)
 
 TEST(SurfaceRepair, CrossingsAreThoseOfThePlaneEquations)
 {
-  // Twin: random triangles in general position cross when an edge of one passes through the other,
-  // by solving for the point with doubles.
+  // Reference: random triangles in general position cross if an edge of one passes through the
+  // other. The intersection point is computed in double precision.
   test::Random random(11);
   const auto passes = [](const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c)
   {
@@ -305,21 +307,22 @@ TEST(SurfaceRepair, SharedVerticesAndEdgesAreNoCrossing)
   mesh.points.resize(6, 3);
   mesh.points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.3, 0.3, 0, 0.3, 0.3, 1;
   mesh.triangles.resize(2, 3);
-  mesh.triangles << 0, 1, 2, 0, 1, 3; // a hinge
+  mesh.triangles << 0, 1, 2, 0, 1, 3; // two triangles with a common edge
   EXPECT_FALSE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
   mesh.triangles << 0, 1, 2, 0, 1, 4; // folded onto each other
   EXPECT_TRUE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
-  mesh.triangles << 0, 1, 2, 0, 3, 5; // one vertex, and a wall through the other
+  // The only contact is the common vertex, at which the second triangle stands on the first one.
+  mesh.triangles << 0, 1, 2, 0, 3, 5;
   EXPECT_FALSE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
   mesh.triangles << 0, 1, 2, 0, 4, 5; // touches along a segment from the vertex
   EXPECT_TRUE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
-  mesh.triangles << 0, 1, 2, 3, 4, 5; // a vertex on the other's inside
+  mesh.triangles << 0, 1, 2, 3, 4, 5; // a vertex inside of the other triangle
   EXPECT_TRUE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
 }
 
 TEST(SurfaceRepair, ExactSigns)
 {
-  // The fourth point is on the plane but for the last bit.
+  // The fourth point is exactly on the plane, or off by the last bit.
   const Vec3 a(0.1, 0.2, 0.3), b(1.1, 0.2, 0.3), c(0.1, 1.2, 0.3);
   const double z = 0.3;
   EXPECT_EQ(orientation_3d(a, b, c, Vec3(0.7, 0.6, z)), 0);
@@ -330,7 +333,7 @@ TEST(SurfaceRepair, ExactSigns)
   EXPECT_TRUE(collinear(Vec3(1, 1, 1), Vec3(2, 2, 2), Vec3(3, 3, 3)));
   EXPECT_FALSE(collinear(Vec3(1, 1, 1), Vec3(2, 2, 2), Vec3(3, 3, std::nextafter(3.0, 4.0))));
   EXPECT_EQ(orientation_3d(Vec3(0, 0, 0), Vec3(tiny, 0, 0), Vec3(0, tiny, 0), Vec3(0, 0, tiny)), 1);
-  // Any even permutation keeps the sign, any odd one turns it.
+  // Even permutations keep the sign, and odd permutations change it.
   test::Random random(5);
   for (int round = 0; round < 200; ++round)
   {
@@ -363,7 +366,7 @@ TEST(SurfaceRepair, TreeDistancesAreBruteForce)
       const Vec3 b = mesh.points.row(mesh.triangles(t, 1));
       const Vec3 c = mesh.points.row(mesh.triangles(t, 2));
       nearest = std::min(nearest, (closest_point(p, a, b, c) - p).norm());
-      // Nothing of the triangle is nearer than its closest point.
+      // No point of the triangle is nearer than its closest point.
       const double s = random.uniform(), r = random.uniform();
       const Vec3 q = s + r < 1 ? Vec3(a + s * (b - a) + r * (c - a)) : a;
       EXPECT_GE((q - p).norm() + 1e-12, (closest_point(p, a, b, c) - p).norm());
@@ -381,7 +384,8 @@ TEST(SurfaceRepair, SegmentsMeetTrianglesAsBruteForceSays)
   int met = 0;
   for (int i = 0; i < 2000; ++i)
   {
-    // Of all lengths; every fourth one along an axis, every eighth one between two vertices.
+    // Segments of various lengths. Every fourth one is parallel to an axis, and every eighth one
+    // connects two vertices.
     const Vec3 a = i % 8 == 7 ? Vec3(mesh.points.row(random.below(mesh.points.rows())))
                               : random.in_box(Vec3(-1.6, -1.6, -0.6), Vec3(1.6, 1.6, 0.6));
     Vec3 b = i % 8 == 7
@@ -406,7 +410,8 @@ TEST(SurfaceRepair, SegmentsMeetTrianglesAsBruteForceSays)
   }
   EXPECT_GT(met, 400);
   EXPECT_LT(met, 1600);
-  // Touching counts, passing by an ulp does not, and nothing meets a triangle without area.
+  // Touching counts as meeting. Missing by an ulp does not, and triangles without area meet
+  // nothing.
   const Vec3 p(0, 0, 0), q(1, 0, 0), r(0, 1, 0);
   EXPECT_TRUE(segment_meets_triangle(Vec3(0.25, 0.25, 1), Vec3(0.25, 0.25, 0), p, q, r));
   EXPECT_TRUE(segment_meets_triangle(Vec3(0.5, 0.5, 1), Vec3(0.5, 0.5, -1), p, q, r));
@@ -459,8 +464,8 @@ TEST(SurfaceRepair, SameForAnyNumberOfThreads)
 
 TEST(SurfaceRepair, ClosestPointOfTrianglesThatAreLines)
 {
-  // Three corners on a line in any order, and two or three of them at one place: the nearest point
-  // of the longest edge, and never one that is not on the line.
+  // Three corners on a line in any order, or two or three equal corners. The result is the nearest
+  // point of the longest edge, which is always on the line.
   test::Random random(11);
   const auto anywhere = [&] { return random.in_box(Vec3::Constant(-1.0), Vec3::Constant(1.0)); };
   for (int round = 0; round < 3000; ++round)

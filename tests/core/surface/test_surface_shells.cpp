@@ -1,5 +1,5 @@
-// Shells in shells: which are turned, compared with a twin that knows the solids, and how the time
-// grows on surfaces of many non-manifold edges and duplicate triangles.
+// Nested shells: reversed shells are compared with a reference that uses the known solids. Also
+// measures the growth of the time on surfaces with many non-manifold edges and duplicate triangles.
 #include "surface/surface_repair.h"
 
 #include "support/meshes.h"
@@ -35,7 +35,7 @@ bool contains(const Cube& outer, const Cube& inner)
   return in;
 }
 
-/// Twelve triangles per cube, or a finer grid on each face, with vertices of their own.
+/// Return cubes with separate vertices, of twelve triangles or of a finer grid on each face.
 TriangleMesh mesh_of(const std::vector<Cube>& cubes)
 {
   TriangleMesh mesh;
@@ -54,8 +54,8 @@ TriangleMesh mesh_of(const std::vector<Cube>& cubes)
   return mesh;
 }
 
-/// All twelve triangles of random unit voxels of a lattice, welded: voxels share edges, vertices
-/// and, twice, faces. A fraction of the triangles is there once more.
+/// Return the triangles of random unit voxels of a lattice with shared vertices. Voxels may share
+/// edges and vertices, and shared faces occur twice. A fraction of the triangles is repeated.
 TriangleMesh voxels(int along, double fill, double doubled)
 {
   test::Random random(17);
@@ -101,7 +101,7 @@ TriangleMesh voxels(int along, double fill, double doubled)
   return mesh;
 }
 
-/// CPU seconds of a repair without the search for crossings: the least of three.
+/// Return the CPU seconds of a repair without the search for crossings: the minimum of three runs.
 double seconds_of(const TriangleMesh& mesh)
 {
   double best = 1e300;
@@ -124,7 +124,8 @@ TEST(SurfaceShells, TurnedShellsAreThoseOfATwinThatKnowsTheSolids)
   test::Random random(5);
   for (int round = 0; round < 6; ++round)
   {
-    // Cubes in the cells of a lattice, half of them with smaller ones inside, those with a third.
+    // Cubes in the cells of a lattice. Half of them contain a smaller cube, and half of these
+    // contain a third one.
     std::vector<Cube> cubes;
     const int along = 2 + 2 * round;
     for (int i = 0; i < along * along * along; ++i)
@@ -151,15 +152,15 @@ TEST(SurfaceShells, TurnedShellsAreThoseOfATwinThatKnowsTheSolids)
         cube.size *= 0.6;
       }
     }
-    // A cube around a part of them; others only touch its box.
+    // A large cube that contains some of the cubes. Others only overlap its bounding box.
     cubes.push_back({ { -0.3, -0.2, -0.1 }, 0.5 * along, round % 2 == 0 });
-    // Not the lattice's order.
+    // Shuffle the order of the cubes.
     for (std::size_t i = cubes.size(); i > 1; --i)
     {
       std::swap(cubes[i - 1], cubes[static_cast<std::size_t>(random.below(static_cast<Index>(i)))]);
     }
-    // The twin: an outermost cube that faces inwards is turned, with all cubes in it. Cubes that
-    // cross the large one are not in it.
+    // Reference: an outermost cube with inward orientation is reversed together with all cubes
+    // inside of it. Cubes that cross the large one are not inside of it.
     std::vector<bool> turned(cubes.size(), false);
     for (std::size_t i = 0; i < cubes.size(); ++i)
     {
@@ -198,7 +199,7 @@ TEST(SurfaceShells, TurnedShellsAreThoseOfATwinThatKnowsTheSolids)
 
 TEST(SurfaceShells, AFineShellAroundManySolids)
 {
-  // Enough triangles and solids for the container's winding numbers to be computed by crossings.
+  // Enough triangles and solids that the container's winding numbers are computed by ray crossings.
   TriangleMesh mesh = test::flipped(test::sphere(6, 10.0));
   const Index outer = mesh.triangles.rows();
   std::vector<Cube> cubes;
@@ -207,14 +208,15 @@ TEST(SurfaceShells, AFineShellAroundManySolids)
     const double lower[3] = { i % 5 - 2.5, i / 5 % 5 - 2.5, i / 25 - 2.5 };
     cubes.push_back({ { lower[0], lower[1], lower[2] }, 0.5, i % 3 == 0 });
   }
-  cubes.push_back({ { 9.0, 9.0, 9.0 }, 0.5, false }); // in the box of the sphere, outside of it
+  // Inside of the sphere's bounding box, outside of the sphere.
+  cubes.push_back({ { 9.0, 9.0, 9.0 }, 0.5, false });
   mesh = test::join(mesh, mesh_of(cubes));
   ExecutionContext context;
   RepairedSurface repaired;
   ASSERT_TRUE(repair_surface(mesh.points, mesh.triangles, {}, repaired, context).ok());
   EXPECT_EQ(repaired.found.inward_components, 1);
   EXPECT_EQ(static_cast<Index>(repaired.inward_triangles.size()), outer);
-  // All are turned but the last.
+  // All cubes except the last one are reversed.
   Index kept = 0;
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
   {

@@ -1,4 +1,4 @@
-// Vertices by their coordinates.
+// Order of vertices by their coordinates.
 #include "surface/vertex_order.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// Weights to compare with: closed forms, limits in which one method becomes another, and what sets
-// them apart.
+// Baseline weights for comparisons: closed forms, limits in which two methods agree, and their
+// differences.
 #include "weights/baseline_weights.h"
 #include "weights/unconstrained_weights.h"
 
@@ -51,7 +51,7 @@ BaselineWeightsOptions options_for(BaselineMethod method)
   return options;
 }
 
-/// Largest |sum w_j p_j - p|, p_j the vertex that point handle j has become.
+/// Return the largest |sum w_j p_j - p|, where p_j is the vertex of point handle j.
 double affine_error(const WeightsProblem& problem, const WeightsResult& result)
 {
   Points handles(problem.handle_count(), 3);
@@ -69,7 +69,7 @@ double difference(const WeightsResult& a, const WeightsResult& b)
   return (a.weights - b.weights).cwiseAbs().maxCoeff();
 }
 
-/// Without vertices that are in no element.
+/// Return the domain without unused vertices.
 Domain without_stray(const Domain& domain)
 {
   std::vector<Index> id(static_cast<std::size_t>(domain.points.rows()), -1);
@@ -94,7 +94,7 @@ Domain without_stray(const Domain& domain)
   return result;
 }
 
-/// The unit square without (.4, .6) x (.3, 1].
+/// Return the unit square without (.4, .6) x (.3, 1].
 Domain slotted_square(int n)
 {
   const TriangleMesh square = test::grid(n, n);
@@ -141,7 +141,7 @@ TEST(LinearSubspace, HandlesThatDoNotSpanAreAWarning)
   const WeightsResult weights = unconstrained(two, UnconstrainedMethod::linear_subspace, &status);
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("do not span"));
-  // What is linear along the line of both is the answer all the same, nearly.
+  // The result is nearly linear along the line through the two handles.
   for (Index v = 0; v < two.vertex_count(); ++v)
   {
     EXPECT_NEAR(weights.raw(v, 1), (two.mesh.domain.points(v, 0) - 0.2) / 0.6, 1e-2);
@@ -159,7 +159,8 @@ TEST(LinearSubspace, OnClosedSurfacesItIsBiharmonic)
 
 TEST(GraphBiharmonic, DependsOnTheMesh)
 {
-  // Half of a strip four times as fine: int (w'')^2 does not care, the sum of squares does.
+  // Half of the strip has a four times finer mesh. The integral of (w'')^2 does not depend on it,
+  // but the sum of squares does.
   test::Bar strip = test::bar(40, { 0.0, 1.0 });
   const auto uneven = [](double x) { return x < 0.8 ? 0.5 * x / 0.8 : 0.5 + 2.5 * (x - 0.8); };
   test::Bar warped = strip;
@@ -196,7 +197,7 @@ TEST(InverseDistance, IsShepards)
       EXPECT_NEAR(straight.weights(v, 0), 0.1552, 5e-5) << "across the slot, known";
     }
   }
-  // A bone, a region and a point, by brute force.
+  // Brute-force check with a bone, a region and a point.
   const TetMesh box = test::tet_box(4, 4, 4);
   handles = { test::point_handle("p", Vec3(0.1, 0.9, 0.6)),
     test::bone_handle("b", Vec3(0.25, 0.25, 0.25), Vec3(0.75, 0.25, 0.5)),
@@ -302,7 +303,7 @@ TEST(BoneHeat, HandlesHideBehindWalls)
   };
   EXPECT_GT(at_probe(test::to_domain(test::grid(20, 20))), 0.99) << "the nearest";
   EXPECT_LT(at_probe(slotted_square(20)), 0.01) << "the nearest is behind the slot";
-  // The same in a volume: a bone in one leg of a U is not seen from the other.
+  // The same in a volume: a bone in one leg of a U is not visible from the other leg.
   const TetMesh box = test::tet_box(10, 10, 2, Vec3::Zero(), Vec3(1.0, 1.0, 0.2));
   Domain u;
   u.points = box.points;

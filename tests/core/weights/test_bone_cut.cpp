@@ -1,4 +1,4 @@
-// Cut meshes by their Euler characteristic, their edges and the sides that they know.
+// Cut meshes: Euler characteristic, edges, and sides of vertices.
 #include "weights/bone_cut.h"
 
 #include "weights_shapes.h"
@@ -11,7 +11,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Vertices that triangles use - edges + triangles.
+/// Return used vertices - edges + triangles.
 Index euler(const Triangles& triangles)
 {
   std::vector<bool> used(static_cast<std::size_t>(triangles.maxCoeff() + 1), false);
@@ -23,7 +23,7 @@ Index euler(const Triangles& triangles)
     static_cast<Index>(mesh_edges(triangles).size()) + triangles.rows();
 }
 
-/// 8 x 8 squares on the unit square.
+/// Return 8 x 8 squares on the unit square.
 TriangleMesh square()
 {
   return test::grid(8, 8);
@@ -37,7 +37,7 @@ BoneCut cut(const TriangleMesh& mesh, const Handles& bones)
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(
     status.report.number("counts.doubled_vertices", -1), result.points.rows() - mesh.points.rows());
-  // The same triangles at the same places.
+  // The triangles keep their positions.
   for (Index i = 0; i < mesh.triangles.size(); ++i)
   {
     const Index original = result.original[static_cast<std::size_t>(result.triangles.data()[i])];
@@ -50,7 +50,7 @@ BoneCut cut(const TriangleMesh& mesh, const Handles& bones)
   return result;
 }
 
-/// How many points have this side.
+/// Return the number of points on this side.
 Index count(const BoneCut& cut, Index side)
 {
   return std::count(cut.side.begin(), cut.side.end(), side);
@@ -62,13 +62,13 @@ TEST(BoneCut, ASlitInsideIsAHole)
   const TriangleMesh mesh = square();
   const Handles bones{ test::bone_handle("b", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)) };
   const BoneCut result = cut(mesh, bones);
-  // Five vertices on the bone, two of them tips.
+  // Five vertices are on the bone, two of them are its ends.
   EXPECT_EQ(result.points.rows() - mesh.points.rows(), 3);
   EXPECT_EQ(euler(mesh.triangles), 1);
   EXPECT_EQ(euler(result.triangles), 0);
   EXPECT_EQ(count(result, 1), 3);
   EXPECT_EQ(count(result, 2), 3);
-  // Left of a bone along +x is +y: triangles with left points lie above.
+  // The left side of a bone along +x is +y, so triangles with left vertices are above it.
   for (Index t = 0; t < result.triangles.rows(); ++t)
   {
     for (int k = 0; k < 3; ++k)
@@ -102,15 +102,15 @@ TEST(BoneCut, ABoneFromEdgeToEdgeMakesTwoPieces)
 TEST(BoneCut, BonesThatMeetAndCross)
 {
   const TriangleMesh mesh = square();
-  // A cross that touches no boundary: one hole, a middle that is four points.
+  // A cross that touches no boundary makes one hole, and its middle becomes four points.
   const Handles cross{ test::bone_handle("a", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)),
     test::bone_handle("b", Vec3(0.5, 0.25, 0), Vec3(0.5, 0.75, 0)) };
   const BoneCut crossed = cut(mesh, cross);
   EXPECT_EQ(crossed.points.rows() - mesh.points.rows(), 2 + 2 + 3);
   EXPECT_EQ(euler(crossed.triangles), 0);
-  EXPECT_EQ(count(crossed, 1), 2 + 2); // the middle belongs to the first of the list
+  EXPECT_EQ(count(crossed, 1), 2 + 2); // the middle belongs to the first bone of the list
   EXPECT_EQ(count(crossed, 3), 2);
-  // A closed square: its inside comes out.
+  // A closed square separates its inside.
   const Vec3 corners[4] = { Vec3(0.25, 0.25, 0), Vec3(0.75, 0.25, 0), Vec3(0.75, 0.75, 0),
     Vec3(0.25, 0.75, 0) };
   Handles ring;
@@ -142,10 +142,10 @@ TEST(BoneCut, BonesOfOneEdgeEachOpenTogether)
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(result.points.rows() - mesh.points.rows(), 4);
   EXPECT_EQ(connected_components(result.points.rows(), result.triangles).count, 2);
-  // Four vertices go to the first of their two bones: the last one has none left.
+  // The four vertices belong to the first of their two bones, so the last bone has none.
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_NE(status.warnings[0].find("'r3'"), std::string::npos);
-  // As one curve they have four on either side.
+  // As one curve the bones have four vertices on each side.
   const Status whole =
     cut_along_bones(mesh.points, mesh.triangles, ring, { 0, 0, 0, 0 }, context, result);
   EXPECT_TRUE(whole.ok() && whole.warnings.empty());
@@ -187,7 +187,8 @@ TEST(BoneCut, WhatCannotBeCutIsOneSentence)
   };
   const auto bone = [](const Vec3& head, const Vec3& tail)
   { return Handles{ test::bone_handle("oblique", head, tail) }; };
-  // Across cells, through vertices that no edge joins, beyond the mesh, and too short to open.
+  // Bones across cells, through vertices without a common edge, outside of the mesh, and too short
+  // to open.
   EXPECT_NE(
     message(mesh, bone(Vec3(0.1, 0.2, 0), Vec3(0.8, 0.7, 0))).find("'oblique'"), std::string::npos);
   EXPECT_NE(

@@ -1,6 +1,6 @@
-// The quadratic programs against projected Gauss-Seidel, the certificate against the definition,
-// and the stop: on the certificate, the same from any start, the same bits from any number of
-// threads.
+// The quadratic programs are compared with projected Gauss-Seidel, and the certificate with its
+// definition. The stopping criterion is the certificate, results agree from any start, and their
+// bits do not depend on the number of threads.
 #include "weights/box_qp.h"
 
 #include "base/memory.h"
@@ -37,7 +37,7 @@ SparseMatrix energy(const TetMesh& mesh, int order)
   return harmonic_energy(stiffness_matrix(mesh.points, mesh.tets), mass / mass.maxCoeff(), order);
 }
 
-/// One for each fixed vertex: 1 there, 0 at the others.
+/// Return one column per fixed vertex: 1 at this vertex and 0 at the others.
 std::vector<BoxQpColumn> unit_columns(Index count)
 {
   std::vector<BoxQpColumn> columns(static_cast<std::size_t>(count));
@@ -56,7 +56,7 @@ BoxQpColumn column_of(std::initializer_list<double> values)
   return column;
 }
 
-/// The minimiser by sweeps over single vertices: slow, simple, independent.
+/// Compute the minimizer by sweeps over single vertices: a slow, simple and independent method.
 Eigen::VectorXd gauss_seidel(
   const SparseMatrix& q, const std::vector<Index>& fixed, const Eigen::VectorXd& values, int sweeps)
 {
@@ -169,7 +169,7 @@ TEST(BoxQp, CertificateBoundsTheTrueGap)
 
 TEST(BoxQp, OrderedPairsHoldAndTheirMultipliersProveIt)
 {
-  // A strip ordered along x: the unconstrained minimiser overshoots, the ordered one must not.
+  // A strip ordered along x. The unconstrained minimizer overshoots, the ordered one must not.
   const int n = 24;
   const TriangleMesh mesh = test::grid(n, 1, 1.0, 1.0 / n);
   const SparseMatrix q = energy(mesh, 2);
@@ -194,7 +194,7 @@ TEST(BoxQp, OrderedPairsHoldAndTheirMultipliersProveIt)
   }
   EXPECT_GE(least, 0.0) << "exactly";
   EXPECT_GE(ordered.multipliers.minCoeff(), 0.0);
-  // More constraints cost energy.
+  // More constraints raise the energy.
   column.pairs.clear();
   const BoxQpSolution bounded = qp.solve(column, context);
   EXPECT_GT(ordered.certificate.energy, bounded.certificate.energy * (1.0 + 1e-6));
@@ -213,14 +213,14 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   BoxQpColumn unbounded = column;
   unbounded.bounds.lower = Eigen::VectorXd::Constant(q.rows(), -HUGE_VAL);
   unbounded.bounds.upper = Eigen::VectorXd::Constant(q.rows(), HUGE_VAL);
-  // With nothing to keep: the minimiser without bounds, which overshoots.
+  // Without bounds the result is the unconstrained minimizer, which overshoots.
   const BoxQpSolution free = qp.solve(unbounded, context);
   ASSERT_TRUE(free.status.ok());
   EXPECT_EQ(free.iterations, 0);
   const Eigen::VectorXd minimiser = qp.unconstrained(column.fixed_values);
   EXPECT_GT(minimiser.maxCoeff(), 0.8);
   EXPECT_LT((free.w - minimiser).cwiseAbs().maxCoeff(), 1e-9);
-  // Some bounds, and none elsewhere.
+  // Bounds on a part of the vertices only.
   BoxQpColumn some = unbounded;
   some.bounds.lower.head(n).setZero();
   some.bounds.upper.head(n).setConstant(0.8);
@@ -228,7 +228,7 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   ASSERT_TRUE(half.status.ok());
   EXPECT_LE(half.w.head(n).maxCoeff(), 0.8);
   EXPECT_GT(half.w.maxCoeff(), 0.8);
-  // Between given values the order is as good as the bounds.
+  // An order between given values has the effect of bounds.
   for (Index row = 0; row < 2; ++row)
   {
     for (Index i = 0; i < n; ++i)
@@ -281,8 +281,9 @@ TEST(BoxQp, EveryStartEndsAtTheSameWeights)
 
 namespace
 {
-/// Two boxes of tets, shaken.
-/// @param slivers with a layer of almost flat tets in the first: 1e-3 of the others' height.
+/// Return two boxes of tets with perturbed vertices.
+/// @param slivers Insert a layer of almost flat tets into the first box, with 1e-3 of the height of
+/// the others.
 TetMesh two_boxes(bool slivers)
 {
   TetMesh first = test::tet_box(7, 6, 5);
@@ -320,7 +321,7 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
 {
   const TetMesh mesh = two_boxes(GetParam());
   const SparseMatrix q = energy(mesh, 2);
-  // More columns than are solved for together; the last handles are on the second box.
+  // There are more columns than are solved together. The last handles are in the second box.
   std::vector<Index> fixed;
   for (Index j = 0; j < 11; ++j)
   {
@@ -341,9 +342,9 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
   for (const double scale : { 1.0, 1e6, 1e-6 })
   {
     const SparseMatrix scaled = scale * q;
-    // Each of two solutions has settled to 1.5e-6 or 5e-9 (box_qp_workspace.h), whatever the
-    // processor rounds. Starts of their own go to the interior-point method, the others do not.
-    // With slivers round-off alone makes 1e-7.
+    // Each of the two solutions has an error of 1.5e-6 or 5e-9 (box_qp_workspace.h) on any
+    // processor. Columns with a given start use the interior-point method, the others do not.
+    // Slivers alone cause round-off errors of 1e-7.
     for (const auto& [tolerance, same] :
       { std::pair{ 1e-6, 3e-6 }, std::pair{ 1e-9, GetParam() ? 1e-6 : 1e-8 } })
     {
@@ -402,7 +403,7 @@ TEST(BoxQp, ThreadsDoNotChangeABit)
     ASSERT_TRUE(qp.prepare(context).ok());
     const std::vector<BoxQpSolution> solutions = qp.solve_all(columns, context);
     EXPECT_EQ(qp.analyses(), 1);
-    // One of Q, one for the starts of all columns, the rest for the columns.
+    // One factorization of Q, one for the starts of all columns, and the others for the columns.
     Index factorisations = SparseSolver::has_cholmod() ? 2 : 1;
     for (const BoxQpSolution& solution : solutions)
     {
@@ -426,7 +427,7 @@ TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
 {
   if (test::sanitized)
   {
-    return; // the sanitizer's own memory is a multiple of ours
+    return; // the sanitizer's own memory is a multiple of the measured one
   }
   const TetMesh box = test::tet_box(20, 20, 20);
   const SparseMatrix q = energy(box, 2);
@@ -435,7 +436,7 @@ TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
   for (const int threads : { 1, 2 })
   {
     ::malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << "5"; // the peak begins anew
+    std::ofstream("/proc/self/clear_refs") << "5"; // resets the peak
     const double before = resident_memory();
     BoxQp qp(q, fixed, {});
     ExecutionContext context;
@@ -457,7 +458,7 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
   const std::vector<BoxQpColumn> columns = unit_columns(3);
   ExecutionContext context;
   BoxQpOptions options;
-  options.solver.memory_limit = 1; // less than what the process holds already
+  options.solver.memory_limit = 1; // less than the process already uses
   BoxQp none(q, fixed, options);
   const Status refused = none.prepare(context, columns);
   EXPECT_EQ(refused.code, StatusCode::internal_error);
@@ -467,7 +468,7 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
   EXPECT_GT(none.memory_estimate(), resident_memory());
 
   std::vector<BoxQpSolution> reference;
-  double needed[2]; // by one thread and by two
+  double needed[2]; // by one thread and by two threads
   for (const int threads : { 2, 1 })
   {
     ExecutionContext some;
@@ -479,7 +480,7 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
     needed[threads - 1] = qp.memory_estimate() - before;
     reference = qp.solve_all(columns, some);
   }
-  // Too little for two threads.
+  // Not enough memory for two threads.
   ASSERT_GT(needed[1], needed[0] + 8 * mebibyte);
   ::malloc_trim(0);
   options.solver.memory_limit = static_cast<Index>((resident_memory() + needed[0]) / mebibyte) + 4;

@@ -1,4 +1,4 @@
-// Cages: weights are linear along their edges and faces, whatever the energy does between them.
+// Cages: weights are linear along cage edges and faces, for any energy inside.
 #include "weights/bounded_biharmonic_weights.h"
 #include "base/simplex_locator.h"
 #include "weights/monotone_weights.h"
@@ -26,7 +26,7 @@ Handle cage_vertex(const std::string& name, const Vec3& at)
   return handle;
 }
 
-/// A polyline of cage edges, closed or not.
+/// Return a polyline of cage edges, closed or open.
 Handles polyline(const std::vector<Vec3>& corners, bool closed)
 {
   Handles handles;
@@ -42,7 +42,7 @@ Handles polyline(const std::vector<Vec3>& corners, bool closed)
   return handles;
 }
 
-/// The faces of a cube around the origin.
+/// Return the faces of a cube around the origin.
 Handles cube_cage(double half)
 {
   const TriangleMesh cube = test::cube(-half, half);
@@ -68,7 +68,8 @@ WeightsResult bounded(const WeightsProblem& problem)
   return result;
 }
 
-/// Along the element from corner a to corner b (and c) weights are the barycentric coordinates.
+/// Expect barycentric coordinates as weights along the element from corner a to corner b (and c).
+/// Return the number of vertices on the element.
 Index expect_linear_along(
   const WeightsProblem& problem, const Weights& weights, const CageElement& element)
 {
@@ -100,7 +101,8 @@ Index expect_linear_along(
 
 TEST(Cages, AreLinearAlongEdgesInThePlane)
 {
-  // A closed triangle inside a square, its corners and edges on no vertex in particular.
+  // A closed triangle inside a square. Its corners and edges are at arbitrary positions relative to
+  // the mesh.
   const Handles handles =
     polyline({ { 0.21, 0.18, 0 }, { 0.83, 0.31, 0 }, { 0.44, 0.87, 0 } }, true);
   const WeightsProblem problem = problem_of(test::to_domain(test::grid(20, 20)), handles);
@@ -162,7 +164,7 @@ TEST(Cages, AreLinearOnFacesInSpace)
 
 TEST(Cages, ThatAreTheWholeBoundaryAddNothing)
 {
-  // Every vertex of the boundary lies on the cage already.
+  // All vertices of the boundary are already on the cage.
   const TetMesh box = test::tet_box(4, 4, 4, Vec3::Constant(-1.0), Vec3::Constant(1.0));
   const WeightsProblem problem = problem_of(test::to_domain(box), cube_cage(1.0));
   EXPECT_TRUE(problem.mesh.inserted.empty());
@@ -188,7 +190,8 @@ TEST_F(CagesInTets, AroundASurfaceAreItsDomain)
   EXPECT_EQ(status.report.text("transfer"), "exact") << "the points are vertices of the tets";
   EXPECT_TRUE(status.warnings.empty()) << status.warnings.front();
   EXPECT_LT((result.weights.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
-  // Linear on the faces, they nearly are coordinates inside: corners carry the ball along.
+  // The weights are linear on the faces, so inside they are nearly coordinates: the corners
+  // approximately reproduce the ball's points.
   const Handles cage = cube_cage(1.0);
   double farthest = 0.0;
   for (Index v = 0; v < ball.points.rows(); ++v)
@@ -222,9 +225,9 @@ TEST_F(CagesInTets, OfEdgesAroundAFlatShapeAreItsDomain)
     [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
   { return bounded_biharmonic_weights(problem, {}, of_method, weights); };
   TriangleMesh shape = test::grid(10, 10, 0.8, 0.8);
-  shape.points.leftCols(2).array() += 0.1; // in a cage of one
+  shape.points.leftCols(2).array() += 0.1; // inside of a cage of size one
   Handles cage = polyline({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, true);
-  // Edges may run either way.
+  // Edges may have either direction.
   cage[1].cage.clear();
   cage[2].cage = { { 2, 1, -1 }, { 2, 3, -1 } };
   const Eigen::Matrix3d turn =
@@ -247,7 +250,7 @@ TEST_F(CagesInTets, OfEdgesAroundAFlatShapeAreItsDomain)
     EXPECT_NEAR(status.report.number("cage.area", 0.0), 1.0, 1e-12);
     EXPECT_LT((result.weights.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
     EXPECT_GE(result.weights.minCoeff(), 0.0);
-    // The middle belongs to all corners alike.
+    // The weights of all corners are equal in the middle.
     const Index middle = 60;
     ASSERT_LT((Vec3(shape.points.row(middle)) - Vec3(0.5, 0.5, 0.0)).norm(), 1e-12);
     EXPECT_LT((result.weights.row(middle).array() - 0.25).abs().maxCoeff(), 5e-3);

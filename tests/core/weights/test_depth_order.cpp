@@ -1,5 +1,5 @@
-// Depth is the layers' blend: constant for equal layers, the handle's own layer on a handle; ties
-// go to the later handle.
+// The depth is the weighted mean of the layers: constant for equal layers, and the handle's own
+// layer at a handle. For equal depths the later handle is in front.
 #include "weights/depth_order.h"
 
 #include "weights_shapes.h"

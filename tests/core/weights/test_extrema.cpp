@@ -1,4 +1,4 @@
-// Persistence on a path, where it can be read off, and against a brute-force twin on a grid.
+// Persistence on a path with known values, and on a grid compared with brute force.
 #include "weights/extrema.h"
 
 #include "weights_shapes.h"
@@ -30,8 +30,8 @@ VertexGraph path(Index count)
   return graph;
 }
 
-/// How far one must climb from v to a vertex that is exempt or lower: by the lowest pass, found
-/// with a queue ordered by height.
+/// Return the climb from v to an exempt or lower vertex over the lowest pass, found with a queue
+/// ordered by height.
 double climb(
   const VertexGraph& graph, const Eigen::VectorXd& f, const std::vector<char>& exempt, Index from)
 {
@@ -70,8 +70,10 @@ TEST(Extrema, PersistenceOnAPathCanBeReadOff)
   f << 0.0, 0.5, 0.3, 0.9, 0.85, 1.0, 0.2, 0.4, 0.4;
   std::vector<char> exempt{ 1, 0, 0, 0, 0, 1, 0, 0, 0 };
   const auto found = interior_extrema(path(9), f, exempt);
-  // Minima: 0.2 (vertex 6) climbs to the handle at 1; 0.3 (2) over 0.5; 0.85 (4) over 0.9.
-  // Maxima: 0.4 (7, 8) down to 0.2; 0.9 (3) down to 0.85; 0.5 (1) down to 0.3.
+  // Minima: 0.2 (vertex 6) climbs to the handle at 1, 0.3 (vertex 2) over 0.5, and 0.85 (vertex 4)
+  // over 0.9.
+  // Maxima: 0.4 (vertices 7 and 8) descends to 0.2, 0.9 (vertex 3) to 0.85, and 0.5 (vertex 1) to
+  // 0.3.
   ASSERT_EQ(found.size(), 6u);
   EXPECT_EQ(found[0].vertex, 6);
   EXPECT_FALSE(found[0].maximum);
@@ -91,11 +93,11 @@ TEST(Extrema, HandlesWinTiesAndPlateausAreOne)
   Eigen::VectorXd f(7);
   f << 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0;
   EXPECT_TRUE(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }).empty());
-  // A round-off dip beside a handle is a ripple, not the global minimum.
+  // A dip of round-off size next to a handle is ignored and is not the global minimum.
   f[0] = -1e-10;
   EXPECT_TRUE(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }).empty());
   EXPECT_EQ(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }, 0.0).size(), 1u);
-  // Without handles both ends count fully, each once.
+  // Without handles both ends of the path count once, with their full persistence.
   const auto all = interior_extrema(path(7), f, std::vector<char>(7, 0));
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].persistence, 1.0);

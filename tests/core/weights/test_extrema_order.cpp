@@ -1,4 +1,4 @@
-// Orders with given extrema, whatever values they are made from.
+// Vertex orders with given extrema, from any values.
 #include "weights/extrema_order.h"
 
 #include "weights_shapes.h"
@@ -12,7 +12,8 @@ using Eigen::VectorXd;
 
 namespace
 {
-/// Whether each vertex that is not listed has a neighbour on either side, a listed one all on one.
+/// Expect that an unlisted vertex has neighbors on both sides, and that all unlisted neighbors of a
+/// listed vertex are on one side.
 void expect_order(const VertexGraph& graph, const ExtremaList& list, const std::vector<Index>& rank)
 {
   for (std::size_t v = 0; v < list.size(); ++v)

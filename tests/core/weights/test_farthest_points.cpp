@@ -1,4 +1,4 @@
-// Farthest points against the definition, and where there are too few.
+// Farthest points: comparisons with the definition, and too few points.
 #include "weights/farthest_points.h"
 
 #include "support/meshes.h"
@@ -42,7 +42,7 @@ TEST(FarthestPoints, BoxCornersComeFirst)
   ExecutionContext context;
   std::vector<Index> chosen;
   ASSERT_TRUE(farthest_points(mesh.points, mesh.triangles, 8, context, chosen).ok());
-  EXPECT_EQ(chosen[0], 0); // all corners are equally far: the smallest id
+  EXPECT_EQ(chosen[0], 0); // all corners are equally far, so the smallest id is chosen
   EXPECT_EQ(chosen[1], 7); // the opposite corner
   std::sort(chosen.begin(), chosen.end());
   EXPECT_EQ(chosen, (std::vector<Index>{ 0, 1, 2, 3, 4, 5, 6, 7 }));
@@ -52,7 +52,7 @@ TEST(FarthestPoints, TooFewPlacesAndCancel)
 {
   TriangleMesh mesh = test::cube();
   mesh.points.conservativeResize(9, 3);
-  mesh.points.row(8) << 100, 100, 100; // no triangle uses it
+  mesh.points.row(8) << 100, 100, 100; // used by no triangle
   ExecutionContext context;
   std::vector<Index> chosen;
   const Status few = farthest_points(mesh.points, mesh.triangles, 9, context, chosen);

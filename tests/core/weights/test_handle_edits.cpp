@@ -1,4 +1,4 @@
-// Edits of handle lists: what is new, what stays, what is refused.
+// Edits of handle lists: new handles, unchanged handles, and errors.
 #include "support/meshes.h"
 #include "weights/handle_edits.h"
 
@@ -28,7 +28,7 @@ Handle bone(const std::string& name, const Vec3& head, const Vec3& tail, Index p
   return handle;
 }
 
-// upper - lower - hand, a point below the hand, and another point.
+// Return the chain upper - lower - hand, a point as a child of the hand, and another point.
 Handles arm()
 {
   Handles handles = { bone("upper.L", Vec3(1, 0, 0), Vec3(2, 0, 0)),
@@ -40,7 +40,7 @@ Handles arm()
   return handles;
 }
 
-// An open cage a - b - c and a face a b c.
+// Return an open cage a - b - c and a face a b c.
 Handles cage()
 {
   Handles handles = { make("a.L", HandleKind::cage_vertex, Vec3(1, 0, 0)),
@@ -188,7 +188,7 @@ TEST(HandleEdits, MirroringCopiesBonesWithNamesAndParents)
   EXPECT_EQ(after.handles[6].parent, 5);
   EXPECT_EQ(after.handles[7].parent, 6);
   EXPECT_EQ(after.handles[8].parent, 7);
-  // Once more: everything has its image.
+  // A second call adds nothing, because all handles have a mirror image.
   EditedHandles again;
   ASSERT_TRUE(mirror_handles(after.handles, {}, Vec3::Zero(), Vec3(1, 0, 0), again).ok());
   EXPECT_EQ(again.handles.size(), 9u);
@@ -196,7 +196,7 @@ TEST(HandleEdits, MirroringCopiesBonesWithNamesAndParents)
   {
     EXPECT_EQ(again.handles[i].head, after.handles[i].head);
   }
-  // An image that is out of place is moved there.
+  // An existing mirror image at another position is moved.
   Handles moved = after.handles;
   moved[0].head = Vec3(1, 0, 0.25);
   ASSERT_TRUE(mirror_handles(moved, { 0 }, Vec3::Zero(), Vec3(1, 0, 0), again).ok());

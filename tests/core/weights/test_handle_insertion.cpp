@@ -1,5 +1,5 @@
-// Handles become vertices: volumes and orientations stay, original ids stay, new vertices lie where
-// they should, and every odd place has a defined result.
+// Handles become vertices. Volumes, orientations and original ids are kept, new vertices are at the
+// handles, and every degenerate position has a defined result.
 #include "weights/handle_constraints.h"
 
 #include "weights_shapes.h"
@@ -23,7 +23,7 @@ HandleInsertion inserted(
   return result;
 }
 
-/// Facts that hold for every insertion.
+/// Expect the invariants of every insertion.
 void expect_sound(const Domain& before, const HandleInsertion& after)
 {
   const Index n = before.points.rows();
@@ -79,7 +79,7 @@ Vec3 place(const HandleInsertion& mesh, Index handle)
 TEST(HandleInsertion, PointsInsideCellsFacesAndEdgesBecomeVertices)
 {
   const Domain box = test::to_domain(test::tet_box(3, 3, 3));
-  // Cell centre region, a face's interior, an edge's middle, a vertex.
+  // In a cell, in the interior of a face, in the middle of an edge, and at a vertex.
   const Handles handles = test::point_handles({ Vec3(0.55, 0.62, 0.41), Vec3(0.2, 0.1, 0.0),
     Vec3(0.5, 1.0, 1.0), Vec3(1.0 / 3.0, 2.0 / 3.0, 1.0 / 3.0) });
   const HandleInsertion mesh = inserted(box, handles);
@@ -164,7 +164,7 @@ TEST(HandleInsertion, BonesAreSampledAtTheLocalEdgeLength)
     }
     EXPECT_GE(at.size(), 3u);
   }
-  // The joint is one vertex of both.
+  // The joint is one vertex of both bones.
   std::vector<Index> joint;
   std::set_intersection(mesh.handles[0].vertices.begin(), mesh.handles[0].vertices.end(),
     mesh.handles[1].vertices.begin(), mesh.handles[1].vertices.end(), std::back_inserter(joint));
@@ -212,7 +212,7 @@ TEST(HandleInsertion, KeepMeshTakesTheCorners)
   EXPECT_EQ(same.code, StatusCode::invalid_input) << "all corners shared: nothing is p1's own";
   EXPECT_NE(same.message.find("'p1'"), std::string::npos);
 
-  // Joints of a rig: the first is skipped, the second takes the corners.
+  // Joints of a rig: the first one is skipped, and the second one owns the corners.
   Handles joints = handles;
   joints.push_back(test::point_handle("p3", Vec3(0.6, 0.2, 0.1)));
   for (Handle& joint : joints)
@@ -307,7 +307,7 @@ TEST(HandleConstraints, PartsWithoutHandlesFollowTheNearest)
 
 TEST(HandleConstraints, OneWarningPerKind)
 {
-  // Five parts, of which two have handles; the others follow two different ones.
+  // Five parts, two of which have handles. The others follow two different handles.
   TriangleMesh mesh = test::grid(3, 3);
   for (const double x : { 3.0, 6.0, 9.0, 12.0 })
   {
@@ -322,7 +322,7 @@ TEST(HandleConstraints, OneWarningPerKind)
   EXPECT_EQ(constraints.warnings[0],
     "3 connected parts without a handle follow the nearest handles 'p1', 'p2'");
 
-  // Six handles in one tet share its corners in fifteen pairs.
+  // Six handles in one tet give fifteen pairs with shared corners.
   const Domain box = test::to_domain(test::tet_box(1, 1, 1));
   HandleInsertionOptions options;
   options.keep_mesh = true;
@@ -349,9 +349,10 @@ TEST(HandleConstraints, FlatTrianglesFollowTheirNeighbours)
   TriangleMesh mesh = test::grid(3, 3);
   const Index n = mesh.points.rows();
   mesh.points.conservativeResize(n + 3, 3);
-  mesh.points.row(n) << 0.5, 0.0, 0.0; // in a triangle without area, on the edge 1-2
-  mesh.points.row(n + 1) << 9.0, 9.0, 9.0; // in no triangle
-  mesh.points.row(n + 2) << 0.6, 0.0, 0.0; // in another flat one, with the first
+  mesh.points.row(n) << 0.5, 0.0, 0.0; // used by a triangle without area, on the edge 1-2
+  mesh.points.row(n + 1) << 9.0, 9.0, 9.0; // used by no triangle
+  // Used by another degenerate triangle, with the first vertex.
+  mesh.points.row(n + 2) << 0.6, 0.0, 0.0;
   mesh.triangles.conservativeResize(mesh.triangles.rows() + 2, 3);
   mesh.triangles.row(mesh.triangles.rows() - 2) << n, n + 2, n;
   mesh.triangles.row(mesh.triangles.rows() - 1) << 1, n, 1;

@@ -1,5 +1,5 @@
-// Smoothing with given extrema against isotonic regression, a dense quadratic program, monotone
-// weights, and what it promises: the extrema of the list and no other, units that do not show.
+// Smoothing with given extrema: comparisons with isotonic regression, a dense quadratic program and
+// monotone weights. The result has exactly the listed extrema, and it does not depend on units.
 #include "weights/monotone_smoothing.h"
 
 #include "base/laplacian.h"
@@ -36,7 +36,7 @@ Smoothed smooth(const Domain& domain, const VectorXd& data,
   return result;
 }
 
-/// Two hills and two hollows and noise.
+/// Return a function with two hills, two hollows and noise.
 VectorXd noisy_hills(const Domain& domain, double noise)
 {
   test::Random random(3);
@@ -52,7 +52,7 @@ VectorXd noisy_hills(const Domain& domain, double noise)
     });
 }
 
-/// Two maxima and two minima: the vertices next to the hills and hollows.
+/// Return the list of two maxima and two minima at the vertices nearest to the hills and hollows.
 ExtremaList hills_list(const Domain& domain)
 {
   ExtremaList list(static_cast<std::size_t>(domain.points.rows()), 0);
@@ -70,7 +70,7 @@ ExtremaList hills_list(const Domain& domain)
   return list;
 }
 
-/// Certified, extrema are those of the list and no other.
+/// Expect a certified result that has exactly the listed extrema.
 void expect_only_listed(const Domain& domain, const Smoothed& result, double tolerance = 1e-6)
 {
   ASSERT_TRUE(result.status.ok()) << result.status.message;
@@ -99,7 +99,7 @@ void expect_only_listed(const Domain& domain, const Smoothed& result, double tol
   }
 }
 
-/// Isotonic regression by pooling adjacent violators.
+/// Compute isotonic regression by pooling adjacent violators.
 std::vector<double> isotonic(const std::vector<double>& f, const std::vector<double>& mass)
 {
   struct Block
@@ -130,8 +130,9 @@ std::vector<double> isotonic(const std::vector<double>& f, const std::vector<dou
 }
 } // namespace
 
-// A strip of triangles (i, i + 1, i + 2): by an order along it vertex i lies between i - 2 and
-// i + 2. Faithful to the data, that is isotonic regression of the even and of the odd vertices.
+// A strip of triangles (i, i + 1, i + 2). In an order along the strip, the value of vertex i is
+// between those of i - 2 and i + 2. If the energy contains only the fit to the data, this is
+// isotonic regression of the even and of the odd vertices.
 TEST(MonotoneSmoothing, IsIsotonicRegressionAlongAStrip)
 {
   constexpr Index n = 41;
@@ -201,7 +202,7 @@ TEST(MonotoneSmoothing, AgreesWithADenseTwin)
       const Smoothed result = smooth(domain, f, options);
       expect_only_listed(domain, result, 1e-9);
 
-      // The same program, dense, by Hildreth's ascent in the multipliers, one after another.
+      // The same program in dense form, solved by Hildreth's coordinate ascent in the multipliers.
       const ScaledMesh scaled = scale_mesh(domain, std::vector<char>(std::size_t(n), 1));
       const double unit = scaled.mass_unit;
       const Eigen::RowVector3d centroid =
@@ -267,7 +268,7 @@ TEST(MonotoneSmoothing, LeavesTheListedExtremaAndNoOther)
         options.keep_values = keep;
         const Smoothed result = smooth(domain, f, options);
         expect_only_listed(domain, result);
-        // All four are there, and they are the only ones.
+        // All four listed extrema occur, and no others.
         EXPECT_EQ(interior_extrema(vertex_graph(domain), result.values, none).size(), 4u);
         ASSERT_EQ(result.extrema.size(), 4u);
         for (const Extremum& e : result.extrema)
@@ -329,7 +330,7 @@ TEST(MonotoneSmoothing, KeepsDataThatNeedNoChange)
   EXPECT_EQ(result.iterations, 0);
 }
 
-// Values alone, one maximum of 1 and minima of 0: a column of monotone weights.
+// Without data, with one maximum of 1 and minima of 0, the result is a column of monotone weights.
 TEST(MonotoneSmoothing, WithoutDataItIsMonotoneWeights)
 {
   const Domain domain = test::to_domain(test::grid(40, 40));
@@ -375,7 +376,7 @@ TEST(MonotoneSmoothing, UnitsDoNotMatter)
   options.extrema = hills_list(domain);
   const VectorXd plain = smooth(domain, f, options).values;
   const double range = f.maxCoeff() - f.minCoeff();
-  // Powers of two round nothing.
+  // Powers of two cause no rounding.
   for (const double scale : { 1048576.0, 1.0 / 1048576.0 })
   {
     const VectorXd scaled = scale * f;
@@ -394,7 +395,7 @@ TEST(MonotoneSmoothing, UnitsDoNotMatter)
     kind = static_cast<signed char>(-kind);
   }
   EXPECT_LE((smooth(domain, upside_down, turned).values + plain).cwiseAbs().maxCoeff(),
-    2e-2 * range); // ties of the order fall the other way
+    2e-2 * range); // ties of the order are broken in the opposite direction
   Domain moved = domain;
   const Eigen::Matrix3d rotation =
     Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
@@ -473,7 +474,7 @@ TEST(MonotoneSmoothing, PartsAreSmoothedEachForItself)
   const Domain alone = test::to_domain(square);
   Domain both = test::to_domain(test::join(square, test::translated(square, Vec3(2.0, 0.0, 0.0))));
   const Index n = alone.points.rows();
-  // And two vertices that nothing uses.
+  // Two unused vertices are added.
   both.points.conservativeResize(2 * n + 2, 3);
   both.points.bottomRows(2) << 9.0, 9.0, 9.0, 0.0, 0.0, 0.0;
   const VectorXd f = noisy_hills(alone, 0.3);
@@ -482,7 +483,7 @@ TEST(MonotoneSmoothing, PartsAreSmoothedEachForItself)
   MonotoneSmoothingOptions options;
   options.extrema = hills_list(alone);
   options.extrema.resize(static_cast<std::size_t>(2 * n + 2), 0);
-  // Nothing is listed in the second part: constant, the mean.
+  // The second part has no listed extremum, so its result is constant: the mean.
   const Smoothed half = smooth(both, twice, options);
   ASSERT_TRUE(half.status.ok()) << half.status.message;
   EXPECT_EQ(half.status.warnings.size(), 2u);
@@ -492,10 +493,10 @@ TEST(MonotoneSmoothing, PartsAreSmoothedEachForItself)
   EXPECT_NEAR(half.values.segment(n, n).minCoeff(), mean, 1e-12);
   EXPECT_TRUE(std::isnan(half.values[2 * n]));
   EXPECT_EQ(half.values[2 * n + 1], 7.0);
-  // A maximum there needs a minimum, too.
+  // A maximum in the second part requires a minimum in it.
   options.extrema[static_cast<std::size_t>(n) + 40] = 1;
   EXPECT_EQ(smooth(both, twice, options).status.code, StatusCode::invalid_input);
-  // Chosen ones are chosen in each part.
+  // Automatic extrema are chosen separately in each part.
   options.extrema.clear();
   options.persistence = 0.3;
   const Smoothed chosen = smooth(both, twice, options);
@@ -505,14 +506,14 @@ TEST(MonotoneSmoothing, PartsAreSmoothedEachForItself)
     EXPECT_EQ(chosen.list[v], chosen.list[n + v]);
     EXPECT_NEAR(chosen.values[v], chosen.values[n + v], 1e-6);
   }
-  // The second part constant in the data: nothing to list there.
+  // If the data of the second part are constant, it has no extrema to list.
   twice.segment(n, n).setConstant(0.125);
   const Smoothed flat = smooth(both, twice, options);
   ASSERT_TRUE(flat.status.ok()) << flat.status.message;
   EXPECT_NEAR(flat.values[n + 5], 0.125, 1e-12);
 }
 
-// Two squares that share one corner: a maximum there closes off either from the other.
+// Two squares share one corner, so an extremum at this corner separates the squares.
 TEST(MonotoneSmoothing, WhatAnExtremumClosesOffNeedsOneOfTheOtherKind)
 {
   TriangleMesh mesh = test::grid(6, 6);
@@ -520,11 +521,12 @@ TEST(MonotoneSmoothing, WhatAnExtremumClosesOffNeedsOneOfTheOtherKind)
   mesh = test::join(mesh, second);
   for (Index& v : mesh.triangles.reshaped())
   {
-    v = v == 49 ? 48 : v; // the second's first corner is the first's last
+    // The first corner of the second square is the last corner of the first one.
+    v = v == 49 ? 48 : v;
   }
   Domain domain = test::to_domain(mesh);
   VectorXd f = domain.points.col(0) + domain.points.col(1);
-  f = (f.array() - 2.0).abs().matrix(); // a minimum at the corner that both share
+  f = (f.array() - 2.0).abs().matrix(); // a minimum at the shared corner
   f[97] += 0.5;
   MonotoneSmoothingOptions options;
   options.extrema_count = 2;
@@ -582,7 +584,7 @@ TEST(MonotoneSmoothing, BadInputIsSaid)
   EXPECT_NE(message(f, options).find("no minimum"), std::string::npos);
   options.extrema[3] = -1;
   EXPECT_NE(message(f, options).find("no maximum"), std::string::npos);
-  // A minimum above the maximum next to it.
+  // A minimum with a larger value than the maximum next to it.
   options.extrema[3] = 1;
   options.extrema[4] = -1;
   options.keep_values = true;
@@ -620,7 +622,7 @@ TEST(MonotoneSmoothing, TooFewIterationsAreSaidAndCancelEndsIt)
   EXPECT_NE(result.status.message.find("not certified"), std::string::npos);
   EXPECT_EQ(result.values.size(), f.size());
   EXPECT_GT(std::max(result.certificate.relative_gap, result.certificate.kkt_residual), 1e-6);
-  EXPECT_LE(result.certificate.order_violation, 0.0); // the order holds all the same
+  EXPECT_LE(result.certificate.order_violation, 0.0); // the order constraints are still satisfied
 
   ExecutionContext before;
   before.request_cancel();

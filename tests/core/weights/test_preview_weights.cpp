@@ -1,5 +1,5 @@
-// Previews against biharmonic weights by their own factorisation, and what the certificate
-// promises.
+// Previews are compared with biharmonic weights from a separate factorization, and their
+// certificate is checked.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/preview_weights.h"
 #include "weights/unconstrained_weights.h"
@@ -32,7 +32,7 @@ WeightsResult preview(const WeightsProblem& problem)
   return result;
 }
 
-/// The same by the energy's own factorisation.
+/// Compute the same weights with a factorization of the energy.
 Weights clamped_biharmonic(const WeightsProblem& problem)
 {
   ExecutionContext context;
@@ -95,7 +95,8 @@ TEST(PreviewWeights, CertificateBoundsTheDistanceFromBoundedWeights)
 
 TEST(PreviewWeights, OfPartsAndOfVerticesThatAreAllFixed)
 {
-  // A second box without a handle follows; a mesh that is nothing but handles is what they say.
+  // A second box without a handle follows the nearest handle. If all vertices are handles, the
+  // weights are the given values.
   TetMesh two = test::tet_box(3, 3, 3);
   const TetMesh other = test::tet_box(2, 2, 2, Vec3(3, 0, 0), Vec3(4, 1, 1));
   const Index n = two.points.rows(), t = two.tets.rows();

@@ -1,5 +1,5 @@
-// Weights of surfaces by their volume and by a lattice: against the stages by hand, against each
-// other, on parts that are near but not connected, and the choice between them.
+// Weights of surfaces by their volume and by a lattice: comparisons with the separate stages and
+// with each other, parts that are near but not connected, and the automatic choice of the domain.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/embedded_surface.h"
 #include "weights/surface_weights.h"
@@ -48,7 +48,7 @@ double rms(const Weights& a, const Weights& b)
   return std::sqrt((a - b).squaredNorm() / static_cast<double>(a.size()));
 }
 
-/// [0, 4] x [0, 1] x [0, 1], squares of 1/8.
+/// Return the surface of [0, 4] x [0, 1] x [0, 1] with squares of 1/8.
 TriangleMesh long_box()
 {
   return { test::tet_box(32, 8, 8, Vec3::Zero(), Vec3(4, 1, 1)).points,
@@ -132,7 +132,8 @@ TEST(SurfaceWeights, OfTheEmbeddingAreNearThoseOfAFineVolume)
 
 TEST(SurfaceWeights, ProngsThatAreNearButNotConnectedDoNotShareWeights)
 {
-  // Two prongs of a fork, 1/20 apart, on a lattice of cubes of 1/3: joined at their base only.
+  // Two prongs of a fork, 1/20 apart, in a lattice with cubes of 1/3. They are joined only at their
+  // base.
   TriangleMesh fork =
     test::join(TriangleMesh{ test::tet_box(32, 4, 4, Vec3::Zero(), Vec3(4, 0.5, 0.5)).points,
                  boundary_triangles(test::tet_box(32, 4, 4).tets) },
@@ -160,7 +161,7 @@ TEST(SurfaceWeights, ProngsThatAreNearButNotConnectedDoNotShareWeights)
 
 TEST(SurfaceWeights, BonesInPartsThatShareTetsFindTheirOwn)
 {
-  // A bone in each of two slabs that lie in the same tets of the lattice.
+  // Two slabs in the same tets of the lattice, with one bone each.
   const TriangleMesh below{ test::tet_box(16, 16, 1, Vec3::Zero(), Vec3(4, 4, 0.1)).points,
     boundary_triangles(test::tet_box(16, 16, 1).tets) };
   const TriangleMesh slabs = test::join(below, test::translated(below, Vec3(0, 0, 0.15)));
@@ -177,8 +178,8 @@ TEST(SurfaceWeights, BonesInPartsThatShareTetsFindTheirOwn)
 
 TEST(SurfaceWeights, APartWithoutAHandleFollowsTheHandleNearestToItsSurface)
 {
-  // A knob between two bars with a handle each, 3 % nearer to the handle of the right one: less
-  // than any lattice here resolves.
+  // A knob between two bars with one handle each. It is 3 % nearer to the handle of the right bar,
+  // which is less than the lattices of this test resolve.
   const auto box = [](const Vec3& lower, const Vec3& upper)
   {
     const TetMesh tets = test::tet_box(4, 4, 4, lower, upper);
@@ -207,8 +208,8 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsTheHandleNearestToItsSurface)
 
 TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
 {
-  // A bar with a handle at each end; a knob 0.004 above it, nearest to the left handle, and a seat
-  // across the gap between the bar and a second one that has a handle of its own.
+  // A bar with a handle at each end. A knob 0.004 above the bar is nearest to the left handle. A
+  // seat spans the gap between the bar and a second bar that has another handle.
   const auto box = [](int n, const Vec3& lower, const Vec3& upper)
   {
     const TetMesh tets = test::tet_box(n, 4, 4, lower, upper);
@@ -237,7 +238,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
     for (Index v = bar.points.rows(); v < end_of_knob; ++v)
     {
       const Vec3 p = shape.points.row(v);
-      // The bar's own weights below the knob.
+      // The weights of the bar below the knob.
       double nearest = 1e300;
       Index below = 0;
       for (Index u = 0; u < bar.points.rows(); ++u)
@@ -252,7 +253,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
     for (Index v = end_of_knob; v < end_of_seat; ++v)
     {
       const double y = shape.points(v, 1);
-      if (y < 0.5 || y > 1.5) // above a bar: follows that bar
+      if (y < 0.5 || y > 1.5) // next to a bar: follows this bar
       {
         EXPECT_GT(result.weights(v, y < 0.5 ? 1 : 2), 0.6) << y << " at " << resolution;
       }
@@ -328,7 +329,8 @@ TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
   expect_weights(result.weights, sheet.points.rows(), 2);
 
   status = solve(sheet, { handles[0], handles[1] }, in(WeightsDomain::volume), result);
-  if (status.usable()) // else the tets do not hold what the sheet's winding number encloses
+  // Otherwise the tets miss too much of the volume where the sheet's winding number is high.
+  if (status.usable())
   {
     expect_weights(result.weights, sheet.points.rows(), 2);
   }
@@ -376,7 +378,7 @@ TEST_F(SurfaceWeightsInTets, TheEmbeddingTakesOverWhereTheVolumeFails)
       EXPECT_LE(column.certificate.relative_gap, 1e-6);
     }
 
-    // A domain that was asked for is not left.
+    // An explicitly requested domain is not replaced by another one.
     EXPECT_EQ(run(WeightsDomain::volume, result).code, failure.code);
   }
 }
@@ -448,7 +450,7 @@ TEST(SurfaceWeights, RawOnesAreCarriedOnlyWhenAskedForAndChangeNothing)
   EXPECT_EQ(with.weights, without.weights);
   ASSERT_EQ(with.raw.rows(), mesh.points.rows());
   ASSERT_EQ(with.raw.cols(), 3);
-  // Each column is bounded by itself, so rows sum to one only about.
+  // Each column has separate bounds, so the rows sum only approximately to 1.
   const Eigen::VectorXd sums = with.raw.rowwise().sum();
   EXPECT_GT((sums.array() - 1.0).abs().maxCoeff(), 1e-12);
   EXPECT_LT((sums.array() - 1.0).abs().maxCoeff(), 0.5);

@@ -1,5 +1,5 @@
-// Transfer is exact on vertices, reproduces linear functions inside, clamps to the nearest place
-// outside, and its search agrees with looking at every element.
+// Transfer is exact at vertices, reproduces linear functions inside, and uses the nearest point for
+// points outside. Its search agrees with a brute-force search over all elements.
 #include "base/simplex_locator.h"
 #include "weights/transfer.h"
 

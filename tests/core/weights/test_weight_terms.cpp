@@ -1,5 +1,6 @@
-// Terms of bounded and monotone weights: against dense twins that know nothing of interior points,
-// rates, exact equalities, and certificates computed again from the form and the weights alone.
+// Terms of bounded and monotone weights: comparisons with dense solvers without interior points,
+// convergence rates, exact equalities, and certificates recomputed from the quadratic form and the
+// weights.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/unconstrained_weights.h"
@@ -67,8 +68,8 @@ Eigen::MatrixXd no_values(const Domain& domain, const Handles& handles)
     domain.points.rows(), static_cast<Index>(handles.size()), std::nan(""));
 }
 
-/// min 1/2 w'Qw in a box by coordinate descent, which converges to the minimiser; lower = upper
-/// where a value is given.
+/// Minimize 1/2 w'Qw in a box by coordinate descent, which converges to the minimizer. lower =
+/// upper marks given values.
 Eigen::VectorXd coordinate_descent(const Eigen::MatrixXd& q, const Eigen::VectorXd& lower,
   const Eigen::VectorXd& upper, Eigen::VectorXd w)
 {
@@ -95,7 +96,8 @@ Eigen::VectorXd coordinate_descent(const Eigen::MatrixXd& q, const Eigen::Vector
   return w;
 }
 
-/// The relative gap of one column from its gradient, values and bounds; lower = upper: given.
+/// Return the relative gap of one column from its gradient, values and bounds. lower = upper marks
+/// given values.
 double relative_gap(const SparseMatrix& q, const Eigen::VectorXd& w, const Eigen::VectorXd& lower,
   const Eigen::VectorXd& upper)
 {
@@ -128,7 +130,8 @@ void expect_error(const Status& status, const std::vector<std::string>& words)
   }
 }
 
-/// Vertices of a square grid mirrored left to right. Its diagonals are not.
+/// Return the mirror images of the vertices of a square grid, left to right. The grid's diagonals
+/// are not symmetric.
 std::vector<Index> mirrored(int n)
 {
   std::vector<Index> mirror;
@@ -211,7 +214,7 @@ TEST(WeightTerms, BoundsAndPinsAreTheDenseMinimiser)
 
 TEST(WeightTerms, BoundsOfHandlesWidenTheBox)
 {
-  // Bounds so wide that they do not matter give the weights without bounds.
+  // Bounds that are wide enough have no effect.
   const Domain domain = test::to_domain(test::grid(20, 20));
   const Handles handles = test::five_points();
   BoundedWeightsOptions options;
@@ -228,7 +231,7 @@ TEST(WeightTerms, BoundsOfHandlesWidenTheBox)
   ASSERT_TRUE(unconstrained_weights(plain, UnconstrainedWeightsOptions(), context, free).ok());
   EXPECT_LT(free.raw.minCoeff(), -0.01);
   EXPECT_LE((wide.result.raw - free.raw).cwiseAbs().maxCoeff(), 1e-6);
-  // A single handle is 1 everywhere unless a bound or a pin keeps it from that.
+  // The weight of a single handle is 1 everywhere if no bound or pin prevents it.
   const Handles one(handles.begin(), handles.begin() + 1);
   BoundedWeightsOptions pinned;
   pinned.terms.pinned = no_values(domain, one);
@@ -380,7 +383,7 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
   {
     const Eigen::VectorXd w = solved.result.raw.col(j);
     const Eigen::VectorXd g = q * w;
-    double total = 0.0; // the gradient of the set's unknown
+    double total = 0.0; // gradient with respect to the common value of the set
     double value = -1.0;
     double gap = 0.0;
     for (Index v = 0; v < w.size(); ++v)
@@ -401,10 +404,11 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
       }
     }
     gap += std::max(total * value, -total * (1.0 - value));
-    // What is certified is a nearer bound, 1e-9.
+    // This bound is weaker than the certified one, which is 1e-9.
     EXPECT_LE(gap / (0.5 * w.dot(g)), 5e-8);
   }
-  // A set that joins a part without a handle to one that has some connects the two.
+  // A rigid set that contains vertices of a part without a handle connects it to a part with
+  // handles.
   TriangleMesh two = test::grid(4, 4);
   const Index count = two.points.rows();
   Points points(2 * count, 3);
@@ -457,7 +461,7 @@ TEST(WeightTerms, MonotoneWeightsTakeThem)
   }
   options.terms.upper(3 * 21 + 9, 0) = std::nan("");
   options.terms.lower = no_values(domain, handles);
-  options.terms.lower(0, 0) = 0.999; // above what is nearer to the handle may be
+  options.terms.lower(0, 0) = 0.999; // above the upper bound of vertices nearer to the handle
   options.terms.upper.col(0).setConstant(0.99);
   options.terms.upper(0, 0) = std::nan("");
   for (const Index v : solved.problem.fixed)
@@ -487,11 +491,12 @@ TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
     EXPECT_EQ(solved.result.raw(v, 2), solved.result.raw(other, 2));
     free_difference =
       std::max(free_difference, std::abs(free.result.raw(v, 0) - free.result.raw(other, 1)));
-    // The fourth handle has no image; its weights are what they were.
+    // The fourth handle has no mirror image, so its weights do not change.
     EXPECT_NEAR(solved.result.raw(v, 3), free.result.raw(v, 3), 1e-5);
   }
   EXPECT_GT(free_difference, 1e-3) << "the fourth handle and the diagonals are not symmetric";
-  // Not better than without, and not worse than the mean of both, which the constraint allows.
+  // The energy is not below that without the constraint, and not above that of the mean of the two
+  // solutions, which satisfies the constraint.
   const SparseMatrix q = solved.problem.energy(2);
   const auto energy = [&](const Eigen::VectorXd& a) { return 0.5 * a.dot(q * a); };
   const double pair = energy(solved.result.raw.col(0)) + energy(solved.result.raw.col(1));
@@ -499,7 +504,7 @@ TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
   EXPECT_LE(solved.result.columns[0].certificate.relative_gap, 1e-9);
   EXPECT_NEAR(solved.result.columns[0].certificate.energy, pair, 1e-9 * pair);
 
-  // Of a plane: the same.
+  // A mirror plane gives the same result.
   BoundedWeightsOptions plane;
   plane.tolerance = 1e-9;
   plane.terms.mirror_origin = Vec3(0.5, 0, 0);
@@ -545,7 +550,8 @@ TEST(WeightTerms, CoupledColumnsAreTheDenseMinimiser)
   options.partition = PartitionOfUnity::coupled;
   const Solved solved = solve(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
-  // The twin moves two columns of a vertex against each other, best pair after best pair.
+  // Reference: descent steps that shift weight between two columns of one vertex, for all pairs of
+  // columns in turn.
   const Eigen::MatrixXd q = Eigen::MatrixXd(solved.problem.energy(2));
   const Index count = domain.points.rows();
   Eigen::MatrixXd w = Eigen::MatrixXd::Constant(count, 4, 0.25);
@@ -604,8 +610,9 @@ TEST(WeightTerms, CoupledColumnsSumToOne)
   EXPECT_LE(solved.result.row_sum_error, 1e-12);
   EXPECT_GT(alone.result.row_sum_error, 0.01);
   EXPECT_LE((w - solved.result.weights).cwiseAbs().maxCoeff(), 1e-12);
-  // The second bound of the certificate, from the gradients alone, with any multipliers, here the
-  // rows' mean gradients: 1/2 r' A^-1 r where a weight is inside, the linear bound elsewhere.
+  // The second bound of the certificate from the gradients alone, valid for any multipliers; here
+  // the mean gradients of the rows. It is 1/2 r' A^-1 r for weights inside of their bounds, and the
+  // linear bound for the others.
   const Eigen::MatrixXd g = q * w;
   std::vector<Index> free;
   for (Index v = 0; v < w.rows(); ++v)
@@ -710,7 +717,8 @@ TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
     first = threads == 1 ? result.weights : first;
     EXPECT_EQ((result.weights - first).cwiseAbs().maxCoeff(), 0.0);
   }
-  // Too few iterations: the best rows so far, which sum to one, and numbers that say so.
+  // With too few iterations the result is the best rows so far. They sum to 1, and the report
+  // contains their gap.
   options.maximum_iterations = 3;
   ExecutionContext context;
   WeightsResult result;
@@ -719,7 +727,7 @@ TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
   EXPECT_NE(late.message.find("not certified"), std::string::npos) << late.message;
   EXPECT_LE(result.row_sum_error, 1e-12);
   EXPECT_GT(late.report.number("relative_gap", 0.0), 1e-6);
-  // Cancelled in the coupled part.
+  // Cancel during the coupled part.
   options.maximum_iterations = 100;
   std::atomic<bool> stop{ false };
   ExecutionContext cancelled([&](double, const std::string& phase)

@@ -1,5 +1,5 @@
-// Weights against closed forms in one dimension, published numbers on the square and the slotted
-// square, and the invariances: units, rotation, threads, domains.
+// Weights: closed forms in one dimension, published values on the square and the slotted square,
+// and invariance under units, rotation, threads and domains.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/unconstrained_weights.h"
@@ -54,7 +54,7 @@ WeightsResult unconstrained(const WeightsProblem& problem, int order)
   return result;
 }
 
-/// What every bounded result promises (B11, B14).
+/// Expect the properties of every bounded result (SPEC B11, B14).
 void expect_certified(
   const WeightsProblem& problem, const WeightsResult& result, double tolerance = 1e-6)
 {
@@ -88,8 +88,9 @@ void expect_certified(
   EXPECT_EQ(result.analyses, 1);
 }
 
-/// The energy integral of w'' squared of a bar of length 1 and width 1, from what is reported for
-/// the strip: 1/2 w'Qw with the mass divided by its maximum, and a width of 4 / n.
+/// Return the integral of (w'')^2 on a bar of length 1 and width 1 from the certificate of the
+/// strip, which has the width 2 / n. The certificate contains 1/2 w'Qw with the mass divided by its
+/// maximum.
 double bar_energy(const Certificate& certificate, int n)
 {
   const double width = 4.0 / n * 0.5; // two rows of height 1/n
@@ -160,7 +161,7 @@ TEST(Weights, TheTriharmonicBarIsAQuintic)
 
 TEST(Weights, TriharmonicOnesAreCertifiedOnAFineSquare)
 {
-  // The form's condition grows with the sixth power of 1 / h.
+  // The condition number of the quadratic form grows with (1 / h)^6.
   const WeightsProblem problem =
     problem_of(test::to_domain(test::grid(60, 60)), test::five_points());
   const WeightsResult result = bounded(problem, 3);
@@ -215,7 +216,7 @@ TEST(Weights, FivePointsOnASquareHaveTheKnownExtrema)
 
 TEST(Weights, EnergiesOnTheFineSquareAreTheKnownOnes)
 {
-  // One handle of five, on 160 x 160 squares: ratios to the energy without bounds.
+  // One of five handles on 160 x 160 squares: ratios to the energy without bounds.
   const WeightsProblem problem =
     problem_of(test::to_domain(test::grid(160, 160)), test::five_points());
   ExecutionContext context;
@@ -231,9 +232,9 @@ TEST(Weights, EnergiesOnTheFineSquareAreTheKnownOnes)
   ASSERT_TRUE(monotone_guide(problem, group, {}, context, guide).ok());
   const BoxQpSolution mono = solver.solve(group.columns[2], context);
   ASSERT_TRUE(box.status.ok() && mono.status.ok());
-  // The same numbers hold for the other handles, but for the monotone one of the last: the guide's
-  // smallest weight of 1e-3 on the grid's diagonals makes it 1.8634, with a cotangent of 0 there it
-  // is 1.8643.
+  // The same ratios hold for the other handles, except for monotone weights of the last handle.
+  // There the ratio is 1.8634, because the guide uses weights of at least 1e-3 on the grid's
+  // diagonals. With their cotangent of 0 it would be 1.8643.
   EXPECT_NEAR(box.certificate.energy / free, 1.2611, 2e-4);
   EXPECT_NEAR(mono.certificate.energy / free, 1.2645, 2e-4);
   EXPECT_EQ(solver.analyses(), 1) << "bounds and monotone rows share one analysis";
@@ -276,7 +277,7 @@ TEST(Weights, TheSlotIsGoneAroundNotAcross)
   EXPECT_NEAR(mono.columns[0].certificate.energy / e, 1.1640, 1e-4);
   EXPECT_NEAR(box.raw(probe, 0), 2.69e-3, 2e-5);
   EXPECT_NEAR(mono.raw(probe, 0), 2.63e-3, 2e-5);
-  // Inverse distance does not know the slot.
+  // Inverse distances ignore the slot.
   const double da = 1.0 / (0.35 * 0.35);
   const double db = 1.0 / (0.15 * 0.15);
   EXPECT_NEAR(da / (da + db), 0.1552, 1e-4);
@@ -307,7 +308,7 @@ TEST(Weights, VolumesWithHandlesAnywhereAreCertified)
   {
     EXPECT_EQ(column.extrema.size(), 0u);
   }
-  // Locality: bounded weights are nearly zero far away, harmonic ones are not.
+  // Locality: bounded weights are nearly zero far away from their handle, harmonic ones are not.
   const WeightsResult harmonic = unconstrained(problem, 1);
   EXPECT_GT((result.raw.array() < 1e-6).count(), 2 * (harmonic.raw.array().abs() < 1e-6).count());
   for (const int threads : { 1, 2 })
@@ -363,7 +364,7 @@ TEST(Weights, SliversOfAThousandthOfADegree)
   TetMesh box = test::tet_box(6, 6, 6);
   for (Index v = 0; v < box.points.rows(); ++v)
   {
-    // The middle layer comes within 1e-5 of a cell's height of the one below.
+    // The distance of the middle layer from the layer below it is 1e-5 of the height of a cell.
     box.points(v, 2) -= std::abs(box.points(v, 2) - 0.5) < 1e-9 ? (1.0 - 1e-5) / 6.0 : 0.0;
   }
   TriangleMesh square = test::grid(12, 12);
@@ -435,7 +436,7 @@ TEST(Weights, OneHandleIsOneEverywhere)
 
 TEST(Weights, PartsAndStrayVerticesHaveDefinedRows)
 {
-  // Two squares with handles, one without; one vertex in no triangle.
+  // Two squares with handles, one without, and an unused vertex.
   TriangleMesh mesh = test::join(test::grid(8, 8),
     test::join(test::translated(test::grid(8, 8), Vec3(2, 0, 0)),
       test::translated(test::grid(3, 3), Vec3(4, 0, 0))));
@@ -501,7 +502,8 @@ TEST(Weights, BudgetCancelAndBadOptions)
               .code,
     StatusCode::invalid_input);
 
-  // Stopped after every number of looks at the flag, each ends as cancelled.
+  // Cancel after various numbers of polls of the flag; both methods must return the status
+  // cancelled.
   for (const int looks : { 0, 1, 3, 10, 40 })
   {
     int asked = 0;
@@ -519,7 +521,7 @@ TEST(Weights, BudgetCancelAndBadOptions)
 
 TEST(Weights, AHelperJointWithoutAVertexHasNoWeights)
 {
-  // Two joints of a rig with the same nearest vertex: the first, the helper, is skipped.
+  // Two joints of a rig with the same nearest vertex. The first one, a helper joint, is skipped.
   Handles joints{ test::point_handle("helper", Vec3(-0.2, -0.2, -0.2)),
     test::point_handle("hip", Vec3(-0.1, -0.1, -0.1)),
     test::bone_handle("spine", Vec3(0.5, 0.5, 0.1), Vec3(0.5, 0.5, 0.8)) };
@@ -541,7 +543,7 @@ TEST(Weights, AHelperJointWithoutAVertexHasNoWeights)
   const WeightsResult harmonic = unconstrained(problem, 1);
   EXPECT_EQ(harmonic.weights.col(0).cwiseAbs().maxCoeff(), 0.0);
 
-  // A control bone is skipped even where it has vertices, and adds none to the mesh.
+  // A control bone is skipped even if it has vertices, and it inserts no vertices into the mesh.
   joints[0].head = joints[0].tail = Vec3(0.9, 0.1, 0.3);
   joints[0].ownership = Ownership::none;
   const WeightsProblem controlled = problem_of(box, joints);

@@ -1,7 +1,7 @@
 #ifndef weights_shapes_h
 #define weights_shapes_h
 
-// Domains and handles that the tests of weights share.
+// Domains and handles shared by the tests of weights.
 
 #include "weights/weights_problem.h"
 
@@ -33,7 +33,7 @@ inline Domain to_domain(const TetMesh& mesh)
   return domain;
 }
 
-/// A problem without fault.
+/// Make a problem, and expect success.
 inline WeightsProblem problem_of(const Domain& domain, const Handles& handles,
   const std::vector<Index>& regions = {}, const WeightsOptions& options = {})
 {
@@ -44,7 +44,7 @@ inline WeightsProblem problem_of(const Domain& domain, const Handles& handles,
   return problem;
 }
 
-/// Points p1, p2, …
+/// Return points named p1, p2, …
 inline Handles point_handles(const std::vector<Vec3>& places)
 {
   Handles handles;
@@ -55,15 +55,15 @@ inline Handles point_handles(const std::vector<Vec3>& places)
   return handles;
 }
 
-/// The five points on the unit square whose extrema and energies are known.
+/// Return the five points on the unit square for which extrema and energies are known.
 inline Handles five_points()
 {
   return point_handles({ Vec3(0.2, 0.2, 0.0), Vec3(0.8, 0.2, 0.0), Vec3(0.5, 0.5, 0.0),
     Vec3(0.25, 0.8, 0.0), Vec3(0.8, 0.75, 0.0) });
 }
 
-/// A strip of n squares and two rows on [0, 1], so thin that weights depend on x alone, and labels:
-/// 1, 2, … for the columns of vertices at the given places.
+/// A strip of n squares and two rows on [0, 1], so thin that weights depend only on x. The columns
+/// of vertices at the given positions have the labels 1, 2, …
 struct Bar
 {
   Domain domain;

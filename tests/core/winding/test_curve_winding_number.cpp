@@ -1,5 +1,5 @@
-// Winding numbers of curves in the plane that are known: whole ones, angles, symmetries; and the
-// plain sum of angles as a twin.
+// Winding numbers of plane curves with known values: integers, angles and symmetries. The plain sum
+// of angles is the reference.
 #include "winding/curve_winding_number.h"
 
 #include "support/meshes.h"
@@ -21,7 +21,7 @@ struct Curve
   PlanePoints points{ 0, 2 };
   Segments segments{ 0, 2 };
 
-  /// Segments along the vertices, and back to the first one.
+  /// Append segments along the vertices, and back to the first one if closed.
   void add(const std::vector<Vec2>& vertices, bool closed)
   {
     const Index first = this->points.rows();
@@ -53,7 +53,7 @@ Curve curve_of(const std::vector<Vec2>& vertices, bool closed = true)
   return curve;
 }
 
-/// [lower, upper]^2, counter-clockwise from the lower left corner.
+/// Return [lower, upper]^2, counter-clockwise from the lower left corner.
 std::vector<Vec2> square(double lower = -1.0, double upper = 1.0)
 {
   return { { lower, lower }, { upper, lower }, { upper, upper }, { lower, upper } };
@@ -75,7 +75,7 @@ void expect_winding(const Curve& curve, const Vec2& p, double expected, double t
   EXPECT_NEAR(winding.evaluate_at(p), expected, tolerance) << "at " << p.transpose();
 }
 
-/// A wiggly closed curve without crossings: r = 1 + amplitude cos(waves angle).
+/// Return a closed curve without crossings: r = 1 + amplitude cos(waves angle).
 std::vector<Vec2> flower(Index count, double amplitude, int waves)
 {
   std::vector<Vec2> vertices;
@@ -126,9 +126,9 @@ TEST(CurveWindingNumber, SegmentSeenUnderARightAngleIsAQuarter)
   const Curve segment = curve_of({ { 1, -1 }, { 1, 1 } }, false);
   expect_winding(segment, Vec2::Zero(), 0.25);
   expect_winding(segment, Vec2(2, 0), -0.25);
-  // Straddling the ray, behind the point's left: the same angle.
+  // The same angle for a segment behind the point, which crosses the negative x axis.
   expect_winding(curve_of({ { -1, 1 }, { -1, -1 } }, false), Vec2::Zero(), 0.25);
-  // 60 degrees under a segment of length 1 from the third corner of an equilateral triangle.
+  // The third corner of an equilateral triangle sees the opposite side at an angle of 60 degrees.
   expect_winding(
     curve_of({ { 0, 0 }, { 1, 0 } }, false), Vec2(0.5, 0.5 * std::sqrt(3.0)), 1.0 / 6.0);
 }
@@ -161,7 +161,7 @@ TEST(CurveWindingNumber, PartsAddUp)
   Curve overlapping = curve_of(square());
   overlapping.add(square(0.0, 2.0), true);
   expect_winding(overlapping, Vec2(0.5, 0.5), 2.0, 0.0);
-  // The top again, and the top turned round.
+  // The top side is repeated, or reversed.
   Curve doubled = curve_of(square());
   doubled.add_segment(2, 3);
   expect_winding(doubled, Vec2::Zero(), 1.25);
@@ -192,10 +192,10 @@ TEST(CurveWindingNumber, PrincipalValueOnTheCurve)
     vertices.emplace_back(1e4 + std::cos(2.0 * pi * i / 7.0), std::sin(2.0 * pi * i / 7.0) - 3e4);
   }
   const Curve heptagon = curve_of(vertices);
-  expect_winding(heptagon, vertices[3], 5.0 / 14.0, 1e-10); // corners are rounded
+  expect_winding(heptagon, vertices[3], 5.0 / 14.0, 1e-10); // coordinates are rounded
   expect_winding(heptagon, 0.5 * (vertices[1] + vertices[2]), 0.5, 1e-10);
   expect_winding(heptagon, 0.3 * vertices[6] + 0.7 * vertices[0], 0.5, 1e-10);
-  // At an open end and on a doubled segment.
+  // At an open end, and on a segment repeated in the opposite direction.
   expect_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 1, 1 } }, false), Vec2(0, 0), 0.125);
   expect_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 0, 0 } }, false), Vec2(0.5, 0), 0.0);
 }
@@ -213,7 +213,8 @@ TEST(CurveWindingNumber, JumpsByOneAcrossTheCurveAndNotAcrossChords)
     const double behind = winding.evaluate_at(Vec2(-1.0 - e, 0.25));
     EXPECT_NEAR(before - behind, 0.0, e);
   }
-  // On the chord itself, on the line through it, and at its ends' height: no jump, no touch.
+  // No jump and no contact on the chord itself, on the line through it, or at the height of its
+  // ends.
   bool on_curve = true;
   EXPECT_NEAR(winding.evaluate_at(Vec2(-1, 0.25), &on_curve),
     curve_winding_number_direct(curve.points, curve.segments, Vec2(-1, 0.25)), 1e-15);
@@ -224,8 +225,8 @@ TEST(CurveWindingNumber, JumpsByOneAcrossTheCurveAndNotAcrossChords)
 
 TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnHeapsOnALattice)
 {
-  // Vertices and points on a small lattice: points on segments, at vertices, in line with them, at
-  // the same height; doubled, opposite, branching and collinear segments everywhere.
+  // Vertices and points on a small lattice. Points are on segments, at vertices, collinear with
+  // them or at their height. Many segments are repeated, opposite, branching or collinear.
   for (std::uint64_t seed = 1; seed <= 60; ++seed)
   {
     test::Random random(seed);
@@ -273,7 +274,7 @@ TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnLongCurves)
 {
   Curve curve = curve_of(flower(3000, 0.3, 9));
   curve.add(flower(500, 0.1, 40), false);
-  for (Index i = 0; i < 200; ++i) // bits of a curve, scattered
+  for (Index i = 0; i < 200; ++i) // short scattered curves
   {
     test::Random random(static_cast<std::uint64_t>(i) + 99);
     const Vec2 at(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
@@ -283,7 +284,7 @@ TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnLongCurves)
   EXPECT_EQ(winding.status().report.number("counts.open_ends", -1), 202);
   EXPECT_EQ(winding.status().report.number("counts.components", -1), 202);
   PlanePoints queries = random_points(2000, 1.6, 5);
-  for (Index i = 0; i < 600; ++i) // at vertices, at segments' middles, beside them
+  for (Index i = 0; i < 600; ++i) // at vertices, at midpoints of segments, and next to them
   {
     const Index e = (37 * i) % curve.segments.rows();
     const Vec2 a = curve.points.row(curve.segments(e, 0));
@@ -306,7 +307,7 @@ TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnLongCurves)
 
 TEST(CurveWindingNumber, FlowerIsInsideWhereItsRadiusSays)
 {
-  // A polygon of n corners leaves its curve by less than 1e-5 here.
+  // The distance of the polygon from its curve is below 1e-5.
   const Curve curve = curve_of(flower(20000, 0.3, 9));
   const CurveWindingNumber winding(curve.points, curve.segments);
   const PlanePoints queries = random_points(5000, 1.5, 11);
@@ -323,8 +324,8 @@ TEST(CurveWindingNumber, FlowerIsInsideWhereItsRadiusSays)
 
 TEST(CurveWindingNumber, GradientIsThatOfTheField)
 {
-  // In front of a segment from (1, -1) to (1, 1): the angle is 2 atan(1 / (1 - x)) on the axis, its
-  // derivative 2 / ((1 - x)^2 + 1); at 0 that makes 1 / (2 pi).
+  // A point in front of a segment from (1, -1) to (1, 1). On the x axis the angle is 2 atan(1 / (1
+  // - x)), and its derivative is 2 / ((1 - x)^2 + 1). At 0 this gives the gradient 1 / (2 pi).
   const Curve segment = curve_of({ { 1, -1 }, { 1, 1 } }, false);
   ExecutionContext context;
   PlanePoints query(1, 2);
@@ -353,13 +354,13 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
       {
         const double difference =
           winding.evaluate_at(p + h * Vec2::Unit(k)) - winding.evaluate_at(p - h * Vec2::Unit(k));
-        // Whole steps are jumps across the curve, which the gradient leaves out.
+        // The gradient excludes integer jumps across the curve.
         const double smooth = (difference - std::round(difference)) / (2.0 * h);
         ASSERT_NEAR(unit * gradients[2 * i + k], unit * smooth, 1e-4) << p.transpose();
       }
     }
   }
-  // Closed: none. At an open end: finite. Far away: none.
+  // The gradient is zero inside of a closed curve, finite at an open end, and zero far away.
   const Curve closed = curve_of(square());
   ASSERT_TRUE(CurveWindingNumber(closed.points, closed.segments)
                 .evaluate_gradient(query, context, gradient.data())
@@ -371,7 +372,7 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
   ASSERT_TRUE(CurveWindingNumber(segment.points, segment.segments)
                 .evaluate_gradient(special, context, at.data())
                 .ok());
-  // Seen from (1, 1) only the other end, 2 below, has a share.
+  // At (1, 1), which is one end, only the other end contributes. It is 2 below.
   EXPECT_NEAR(at[0], 0.25 / pi, 1e-15);
   EXPECT_NEAR(at[1], 0.0, 1e-15);
   EXPECT_EQ(at[2], 0.0);
@@ -406,7 +407,7 @@ TEST(CurveWindingNumber, ShiftsScalesAndOrderDoNotMatter)
   }
   PlanePoints shuffled = curve.points;
   Segments renamed = curve.segments;
-  const Index n = shuffled.rows(); // 494 has no factor 101
+  const Index n = shuffled.rows(); // 494 is not divisible by 101
   for (Index v = 0; v < n; ++v)
   {
     shuffled.row((v * 101) % n) = curve.points.row(v);
@@ -432,7 +433,8 @@ TEST(CurveWindingNumber, HugeAndTinyCurvesAreNoExceptions)
 
 TEST(CurveWindingNumber, ReportTellsWhatTheCurveIs)
 {
-  // Each side with ends of its own; one side twice; a segment without length, by id and by place.
+  // The sides have separate ends. Later a side is repeated, and two segments have no length, by id
+  // and by position.
   Curve curve;
   const std::vector<Vec2> corners = square();
   for (int i = 0; i < 4; ++i)
@@ -454,7 +456,7 @@ TEST(CurveWindingNumber, ReportTellsWhatTheCurveIs)
 
   curve.add_segment(1, 0);
   curve.add_segment(2, 2);
-  curve.add_segment(0, 7); // equal vertices
+  curve.add_segment(0, 7); // vertices with equal coordinates
   curve.add({ { 5, 5 }, { 6, 5 } }, false);
   report = winding.build(curve.points, curve.segments, context).report;
   EXPECT_EQ(report.number("counts.duplicate_segments", -1), 1);
@@ -463,7 +465,7 @@ TEST(CurveWindingNumber, ReportTellsWhatTheCurveIs)
   EXPECT_EQ(report.number("counts.nonmanifold_vertices", -1), 2);
   EXPECT_EQ(report.number("counts.open_ends", -1), 4);
   EXPECT_EQ(report.number("counts.components", -1), 2);
-  // The lower side cancels; the way back over it is open.
+  // The repeated lower side cancels, so the curve is open there.
   EXPECT_NEAR(winding.evaluate_at(Vec2(0, 0)),
     0.75 + (std::atan2(5.0, 6.0) - std::atan2(5.0, 5.0)) / (2.0 * pi), 1e-15);
 }
@@ -474,7 +476,7 @@ TEST(CurveWindingNumber, NothingWindsAroundNothing)
   EXPECT_TRUE(empty.status().ok());
   EXPECT_EQ(empty.status().warnings.size(), 1u);
   EXPECT_EQ(empty.evaluate_at(Vec2(1, 2)), 0.0);
-  EXPECT_EQ(CurveWindingNumber().evaluate_at(Vec2(1, 2)), 0.0); // never built
+  EXPECT_EQ(CurveWindingNumber().evaluate_at(Vec2(1, 2)), 0.0); // not built
   const Curve dot = curve_of({ { 3, 3 }, { 3, 3 } });
   const CurveWindingNumber degenerate(dot.points, dot.segments);
   EXPECT_EQ(degenerate.status().warnings.size(), 1u);
@@ -503,7 +505,7 @@ TEST(CurveWindingNumber, BadInputIsNamed)
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     EXPECT_NE(status.message.find("vertex 3"), std::string::npos);
   }
-  // A vertex that nothing uses may be anything.
+  // An unused vertex may have any coordinates.
   curve.points.row(3).setZero();
   curve.points.conservativeResize(5, 2);
   curve.points.row(4).setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -1,5 +1,5 @@
-// The dipole field is the winding number within its tolerance, whatever the triangles, wherever the
-// point, and the same bits however it is asked for.
+// The dipole field equals the winding number within its tolerance, for all triangles and points.
+// Its bits do not depend on how it is evaluated.
 #include "winding/dipole_field.h"
 
 #include "winding/winding_number.h"
@@ -41,7 +41,7 @@ TriangleMesh bumpy(int levels)
   return mesh;
 }
 
-/// Fans over small loops here and there on a sphere, and one large loop.
+/// Return fans over small scattered loops on a sphere, and over one large loop.
 TriangleMesh caps(int loops)
 {
   test::Random random(17);
@@ -79,7 +79,7 @@ TriangleMesh caps(int loops)
   return mesh;
 }
 
-/// Triangles of all sizes anywhere, some of them flat or of no size at all.
+/// Return triangles of all sizes at random positions, some of them degenerate.
 TriangleMesh soup(Index count)
 {
   test::Random random(23);
@@ -128,7 +128,7 @@ std::vector<Case> all_cases()
   return cases;
 }
 
-/// By the plain sums, of one triangle each where they do not count once.
+/// Return the value of the plain sum, evaluated per triangle if multiplicities differ from 1.
 double expected_at(const Case& c, const Vec3& p)
 {
   if (std::all_of(c.multiplicities.begin(), c.multiplicities.end(), [](int m) { return m == 1; }))
@@ -156,7 +156,7 @@ DipoleField make(const Case& c, double tolerance, int threads = 1)
   return field;
 }
 
-/// In and around the box, far away, at and near triangles; none on one.
+/// Return points in and around the box, far away, and near triangles, but on none of them.
 std::vector<Vec3> points_for(const TriangleMesh& mesh, int count, test::Random& random)
 {
   std::vector<Vec3> points;
@@ -222,7 +222,7 @@ TEST(DipoleField, TouchingTrianglesCountNothing)
     EXPECT_NEAR(field.evaluate(Vec3(1.0001, 0, 0), &on_surface), 0.0, tolerance);
     EXPECT_FALSE(on_surface);
 
-    // Vertices of many triangles, of some that were cut too.
+    // Vertices with many triangles, some of which were subdivided.
     for (const Case& c : { once("bumpy", bumpy(3)), once("slivers", test::grid(1, 300)) })
     {
       const DipoleField other = make(c, tolerance);
@@ -313,7 +313,8 @@ TEST(DipoleField, GradientIsTheSlope)
     for (int i = 0; i < 200; ++i)
     {
       const Vec3 p = (i % 4 ? 1.0 : 6.0) * random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
-      // Of the exact sum, so that neither cells nor steep slopes disturb.
+      // Differences of the exact sum, which are not affected by cells; points with steep slopes are
+      // skipped.
       const double step = 1e-5;
       Vec3 slope, second;
       for (int k = 0; k < 3; ++k)
@@ -342,7 +343,7 @@ TEST(DipoleField, NothingGivesNothing)
   Case uncounted = once("uncounted", test::cube());
   std::fill(uncounted.multiplicities.begin(), uncounted.multiplicities.end(), 0);
   EXPECT_EQ(make(uncounted, 1e-3).evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
-  // Triangles without area, all at one place.
+  // Triangles without area, all at one position.
   Case flat = once("flat", soup(50));
   flat.mesh.points.setConstant(0.25);
   const DipoleField field = make(flat, 1e-3);
@@ -350,7 +351,8 @@ TEST(DipoleField, NothingGivesNothing)
   EXPECT_EQ(field.evaluate(Vec3::Constant(0.25)), 0.0);
 }
 
-// Their errors add up, those of sums in floats too; neither may break the tolerance.
+// Errors of coincident triangles and of single-precision sums accumulate, but must not exceed the
+// tolerance.
 TEST(DipoleField, ManyTrianglesAtOnePlace)
 {
   for (const Index count : { 200, 1000 })

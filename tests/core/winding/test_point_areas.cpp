@@ -1,4 +1,4 @@
-// Areas of samples whose Voronoi cells are known.
+// Areas of samples with known Voronoi cells.
 #include "winding/point_areas.h"
 
 #include "support/meshes.h"
@@ -23,7 +23,7 @@ Eigen::VectorXd areas_of(const Points& points, const Points& normals, Index neig
   return areas;
 }
 
-/// n * n points a step apart in the plane z = 0, and normals up.
+/// Return n * n points at distances of `step` in the plane z = 0, with upward normals.
 void square_lattice(Index n, double step, Points& points, Points& normals)
 {
   points.resize(n * n, 3);
@@ -48,7 +48,7 @@ TEST(PointAreas, LatticesHaveTheirCells)
       EXPECT_NEAR(areas[12 * y + x], 0.25, 1e-14);
     }
   }
-  // Turned, and made of rhombs: hexagons of area sqrt(3) / 2.
+  // A lattice of rhombi, rotated: the cells are hexagons of area sqrt(3) / 2.
   square_lattice(12, 1.0, points, normals);
   for (Index i = 0; i < points.rows(); ++i)
   {
@@ -64,15 +64,16 @@ TEST(PointAreas, LatticesHaveTheirCells)
 
 TEST(PointAreas, CellsAreClippedToTheDiscOfHalfTheFarthestNeighbour)
 {
-  // The other points on one line: strips, cut by the disc.
+  // Collinear points: their cells are strips, clipped by the disc.
   Points points(3, 3), normals(3, 3);
   points << -1, 0, 0, 0, 0, 0, 1, 0, 0;
   normals << 0, 0, 1, 0, 0, 1, 0, 0, 1;
   const Eigen::VectorXd areas = areas_of(points, normals);
-  EXPECT_NEAR(areas[1], 0.25 * pi, 1e-14); // radius 1/2: the bisectors touch it
-  // Radius 1, cut at 1/2: the disc without a segment of 120 degrees.
+  EXPECT_NEAR(areas[1], 0.25 * pi, 1e-14); // the bisectors touch the disc of radius 1/2
+  // A disc of radius 1, cut at the distance 1/2: the disc without a circular segment of 120
+  // degrees.
   EXPECT_NEAR(areas[0], pi - (pi / 3.0 - std::sqrt(3.0) / 4.0), 1e-14);
-  // Two points: discs of half their distance.
+  // Two points: discs with half their distance as the radius.
   EXPECT_NEAR(areas_of(points.topRows(2), normals.topRows(2))[0], 0.25 * pi, 1e-14);
 }
 
@@ -81,7 +82,8 @@ TEST(PointAreas, SharedPlacesAndSidesOfASheet)
   Points points, normals;
   square_lattice(9, 1.0, points, normals);
   const Index n = points.rows();
-  // Each point twice: half the area each. The sheet's other side close by: nothing changes.
+  // If each point occurs twice, it has half of the area. A second side of the sheet nearby has no
+  // effect.
   Points twice(2 * n, 3), same(2 * n, 3), other(2 * n, 3), below(2 * n, 3);
   twice << points, points;
   same << normals, normals;
@@ -91,7 +93,7 @@ TEST(PointAreas, SharedPlacesAndSidesOfASheet)
   EXPECT_NEAR(areas_of(twice, other, 24)[40], 1.0, 1e-13);
   EXPECT_NEAR(areas_of(below, other, 24)[40], 1.0, 1e-13);
   EXPECT_NEAR(areas_of(below, other, 24)[40 + n], 1.0, 1e-13);
-  // All at one place, or without a direction: none.
+  // The areas are zero if all points coincide, or have no normal.
   EXPECT_EQ(areas_of(Points::Zero(5, 3), normals.topRows(5)).sum(), 0.0);
   EXPECT_EQ(areas_of(points, Points::Zero(n, 3)).sum(), 0.0);
   EXPECT_EQ(areas_of(points.topRows(1), normals.topRows(1)).sum(), 0.0);
@@ -113,7 +115,7 @@ TEST(PointAreas, SpheresHaveTheirArea)
       const double r = std::sqrt(1.0 - z * z);
       points.row(i) << r * std::cos(angle), r * std::sin(angle), z;
     }
-    // Random samples have cells that reach beyond what 12 neighbours can tell.
+    // Cells of random samples may extend beyond the 12 nearest neighbors.
     const auto error = [&](Index neighbors)
     { return std::abs(areas_of(points, points, neighbors).sum() / (4.0 * pi) - 1.0); };
     EXPECT_LT(error(12), even ? 1e-3 : 0.05);

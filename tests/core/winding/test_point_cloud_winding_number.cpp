@@ -1,5 +1,5 @@
-// Winding numbers of oriented points: the formula, solid angles that are known, and the plain sum
-// as a twin.
+// Winding numbers of oriented points: the formula, known solid angles, and comparisons with the
+// plain sum.
 #include "winding/point_cloud_winding_number.h"
 
 #include "support/meshes.h"
@@ -23,7 +23,8 @@ struct Cloud
   Eigen::VectorXd areas;
 };
 
-/// Points of the unit sphere, evenly along a spiral or at random, each with its share of the area.
+/// Return points on the unit sphere, on a spiral with even spacing or at random, each with an equal
+/// part of the area.
 Cloud sphere(Index count, bool even = true, std::uint64_t seed = 5)
 {
   test::Random random(seed);
@@ -42,7 +43,8 @@ Cloud sphere(Index count, bool even = true, std::uint64_t seed = 5)
   return cloud;
 }
 
-/// Scattered everywhere, directions and areas at random: nothing cancels by design.
+/// Return scattered points with random directions and areas, so that nothing cancels
+/// systematically.
 Cloud heap(Index count, std::uint64_t seed)
 {
   test::Random random(seed);
@@ -64,7 +66,7 @@ double dipole(const Vec3& p, const Vec3& n, double area, const Vec3& q)
   return area * n.dot(d) / (4.0 * pi * d.squaredNorm() * d.norm());
 }
 
-/// The definition, one after the other.
+/// Evaluate the definition point by point.
 double plain_sum(const Cloud& cloud, const Vec3& q)
 {
   double sum = 0.0;
@@ -93,7 +95,7 @@ PointCloudWindingNumber built(const Cloud& cloud, WindingMethod method = Winding
   return winding;
 }
 
-/// In and around the box, and near points: at their places, and spacings away.
+/// Return points in and around the box, at samples, and some spacings away from samples.
 Points queries_around(const Cloud& cloud, Index count, std::uint64_t seed)
 {
   test::Random random(seed);
@@ -129,7 +131,7 @@ TEST(PointCloudWindingNumber, OneDipoleIsItsFormula)
       EXPECT_NEAR(winding.evaluate_exactly_at(q), expected, 1e-14 * std::abs(expected));
     }
   }
-  // On the axis at distance d: area / (4 pi d^2). Normals are directions, of any length.
+  // On the axis at distance d the value is area / (4 pi d^2). Normals may have any length.
   cloud.points << 0, 0, 1;
   cloud.normals << 0, 0, 1e-200;
   EXPECT_NEAR(built(cloud).evaluate_exactly_at(Vec3(0, 0, -1)), 2.5 / (16.0 * pi), 1e-16);
@@ -155,7 +157,7 @@ TEST(PointCloudWindingNumber, SpheresWindOnceInsideAndTheErrorShrinks)
         std::max({ two_away, std::abs(winding.evaluate_at((1.0 - 2.0 * spacing) * u) - 1.0),
           std::abs(winding.evaluate_at((1.0 + 2.0 * spacing) * u)) });
     }
-    // Evenly spread samples err less than the area of one.
+    // For evenly spaced samples the error is smaller than the area of one sample.
     EXPECT_LT(largest, 0.5 / static_cast<double>(count));
     EXPECT_LT(two_away, 0.02);
     EXPECT_LT(largest, 0.5 * last);
@@ -169,30 +171,30 @@ TEST(PointCloudWindingNumber, SpheresWindOnceInsideAndTheErrorShrinks)
 TEST(PointCloudWindingNumber, HalfASphereIsItsSolidAngle)
 {
   Cloud cloud = sphere(40000);
-  const Index half = 20000; // z > 0
+  const Index half = 20000; // the points with z > 0
   cloud = { cloud.points.topRows(half), cloud.normals.topRows(half), cloud.areas.head(half) };
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-6);
-  // Below on the axis it looks like the disc of its rim: (1 - cos) / 2.
+  // From below on the axis, the cap equals the disc of its rim: (1 - cos) / 2.
   for (const double z : { 0.0, -0.3, -1.0, -4.0 })
   {
     const double expected = 0.5 * (1.0 + z / std::sqrt(1.0 + z * z));
     EXPECT_NEAR(winding.evaluate_at(Vec3(0, 0, z)), expected, 5e-5) << z;
   }
-  // Inside above the rim's plane: all but that disc.
+  // Inside, above the plane of the rim: the whole sphere minus this disc.
   EXPECT_NEAR(winding.evaluate_at(Vec3(0, 0, 0.5)), 0.5 * (1.0 + 0.5 / std::sqrt(1.25)), 5e-5);
-  EXPECT_NEAR(winding.evaluate_at(Vec3(0.6, 0, 0)), 0.5, 5e-4); // in the rim's plane
+  EXPECT_NEAR(winding.evaluate_at(Vec3(0.6, 0, 0)), 0.5, 5e-4); // in the plane of the rim
 }
 
 TEST(PointCloudWindingNumber, FastKeepsItsTolerance)
 {
   std::vector<Cloud> clouds{ sphere(20000), sphere(6000, false), heap(8000, 3) };
-  // A flat square, whose boxes have no thickness, and a line.
+  // A flat square, with boxes without thickness, and a line.
   Cloud flat = heap(5000, 4);
   flat.points.col(2).setZero();
   clouds.push_back(flat);
   flat.points.col(1).setZero();
   clouds.push_back(flat);
-  // Points many times at few places.
+  // Many points at few positions.
   Cloud stacked = heap(4000, 5);
   stacked.points = (2.0 * stacked.points.array()).round() * 0.5;
   clouds.push_back(stacked);
@@ -222,7 +224,7 @@ TEST(PointCloudWindingNumber, FastKeepsItsTolerance)
 
 TEST(PointCloudWindingNumber, FastKeepsItsToleranceWhereErrorsAddUp)
 {
-  // In the centre of a sphere all boxes are equally far away and err the same way.
+  // At the center of a sphere all boxes are equally far away, so their errors have the same sign.
   const Cloud cloud = sphere(100000);
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-4);
   test::Random random(3);
@@ -262,7 +264,7 @@ TEST(PointCloudWindingNumber, PointsOnSamplesCountTheOthers)
       EXPECT_EQ(flags[i], 1);
       ASSERT_NEAR(values[i], plain_sum(cloud, cloud.points.row(i)), 1e-3);
     }
-    // Half of a sphere's other points are seen from each of them: about 1/2, the principal value.
+    // A sample on a sphere has the principal value, about 1/2, from the other samples.
     EXPECT_NEAR(values[2500], 0.5, 0.05);
     bool on_surface = true;
     winding.evaluate_at(Vec3(cloud.points.row(3)) * (1.0 + 1e-9), &on_surface);
@@ -297,7 +299,8 @@ TEST(PointCloudWindingNumber, ShiftsAndScalesDoNotMatter)
     {
       Cloud moved = cloud;
       moved.points.array() += shift;
-      // What touches is wider far from the origin: points on samples excepted, they are the same.
+      // The tolerance of touching is larger far from the origin. Except for points on samples, the
+      // values are the same.
       const Eigen::VectorXd there = values(moved, queries.array() + shift, method);
       const double tolerance = method == WindingMethod::fast ? 2e-6 : 1e-11;
       for (Index i = 0; i < queries.rows(); ++i)
@@ -322,7 +325,7 @@ TEST(PointCloudWindingNumber, EstimatedAreasDoForEvenSamples)
     ASSERT_NEAR(winding.evaluate_at(0.9 * u), 1.0, 5e-3);
     ASSERT_NEAR(winding.evaluate_at(1.1 * u), 0.0, 5e-3);
   }
-  // Areas are areas: in other units, at another place.
+  // Estimated areas scale with the square of the unit and do not depend on the position.
   Cloud moved = cloud;
   moved.points = Points((0x1p10 * cloud.points).array() + 0x1p12);
   const PointCloudWindingNumber large = built(moved, WindingMethod::automatic, 1e-4, &no_areas);
@@ -356,7 +359,7 @@ TEST(PointCloudWindingNumber, NormalsAndAreasOfZeroCountNothing)
   ASSERT_EQ(winding.status().warnings.size(), 1u);
   EXPECT_NE(winding.status().warnings[0].find("2 of 3000"), std::string::npos);
   EXPECT_NEAR(winding.evaluate_at(Vec3(0.2, 0.1, 0)), plain_sum(cloud, Vec3(0.2, 0.1, 0)), 1e-3);
-  bool on_surface = false; // they are samples nevertheless
+  bool on_surface = false; // the points are still detected as samples
   winding.evaluate_at(cloud.points.row(7), &on_surface);
   EXPECT_TRUE(on_surface);
   cloud.areas.setZero();
@@ -369,7 +372,7 @@ TEST(PointCloudWindingNumber, NothingWindsAroundNothing)
   const PointCloudWindingNumber winding = built(nothing);
   EXPECT_EQ(winding.status().warnings.size(), 1u);
   EXPECT_EQ(winding.evaluate_at(Vec3(1, 2, 3)), 0.0);
-  EXPECT_EQ(PointCloudWindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0); // never built
+  EXPECT_EQ(PointCloudWindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0); // not built
 }
 
 TEST(PointCloudWindingNumber, BadInputIsNamed)
@@ -633,7 +636,7 @@ TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
     ASSERT_TRUE(winding.evaluate_gradient(odd, context, at_odd.data()).ok());
     EXPECT_EQ(Points(at_odd.topRows(1)), Points(Points::Zero(1, 3)));
     EXPECT_TRUE(at_odd.row(1).array().isNaN().all());
-    EXPECT_LE(at_odd.row(2).norm(), 1e-3); // in the middle of a sphere
+    EXPECT_LE(at_odd.row(2).norm(), 1e-3); // at the center of the sphere
   }
   EXPECT_EQ(values[0], values[1]);
   const PointCloudWindingNumber winding = built(cloud);
@@ -641,7 +644,7 @@ TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
   Points gradients(grid.count(), 3);
   EXPECT_EQ(
     winding.evaluate_gradient(grid, cancelled, gradients.data()).code, StatusCode::cancelled);
-  // Eight times as large: an eighth as steep.
+  // At eight times the size, the gradient is an eighth.
   Cloud larger = cloud;
   larger.points *= 8.0;
   larger.areas *= 64.0;

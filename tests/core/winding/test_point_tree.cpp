@@ -1,4 +1,4 @@
-// The tree holds every point once, and finds what a search of all points finds.
+// The tree contains every point once, and its searches agree with brute force.
 #include "winding/point_tree.h"
 
 #include "support/meshes.h"

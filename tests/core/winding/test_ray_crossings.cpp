@@ -1,6 +1,5 @@
-// Crossings of rays agree with winding numbers that are known as integers, on surfaces whose
-// vertices, edges and faces lie on the rays; and winding numbers do not depend on how many points
-// were expected.
+// Ray crossings agree with known integer winding numbers on surfaces whose vertices, edges and
+// faces are on the rays. Winding numbers do not depend on the expected number of points.
 #include "winding/ray_crossings.h"
 
 #include "winding/exact_frame.h"
@@ -18,7 +17,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Tetrahedra with corners on the lattice of 1/4 in a box of side 2, some inside out: closed.
+/// Return tetrahedra with corners on the lattice of 1/4 in a box of side 2. The surface is closed,
+/// and some tetrahedra are inside out.
 TriangleMesh lattice_tets(test::Random& random, Index tets)
 {
   TriangleMesh mesh{ Points(4 * tets, 3), Triangles(4 * tets, 3) };
@@ -37,7 +37,8 @@ TriangleMesh lattice_tets(test::Random& random, Index tets)
   return mesh;
 }
 
-/// The lattice of 1/8 around that box: rays run through vertices, along edges and in faces.
+/// Return the lattice of 1/8 around this box. Its rays pass through vertices, along edges and in
+/// faces.
 SampleGrid lattice_grid()
 {
   SampleGrid grid;
@@ -47,7 +48,7 @@ SampleGrid lattice_grid()
   return grid;
 }
 
-/// A sphere with every n-th triangle missing.
+/// Return a sphere without every n-th triangle.
 TriangleMesh with_holes(int levels, Index n)
 {
   TriangleMesh mesh = test::sphere(levels);
@@ -101,7 +102,7 @@ TEST(RayCrossings, RaysThroughVerticesEdgesAndFaces)
     SCOPED_TRACE(tets);
     const TriangleMesh mesh = lattice_tets(random, tets);
     const ExactFrame frame(bounding_box(mesh.points, mesh.triangles));
-    // The frame scales by powers of two and does not move the box: coordinates stay exact.
+    // The frame scales by powers of two and does not move the box, so coordinates remain exact.
     Points framed = mesh.points;
     for (Index v = 0; v < framed.rows(); ++v)
     {
@@ -122,7 +123,8 @@ TEST(RayCrossings, RaysThroughVerticesEdgesAndFaces)
     {
       bool touches = false;
       const double sum = winding_number_direct(mesh.points, mesh.triangles, points[i], &touches);
-      // Flat triangles are touched, too, but belong to no surface: the rays may see them.
+      // Degenerate triangles may also be reported as touched, but they belong to no surface and the
+      // rays may ignore them.
       if (touches)
       {
         EXPECT_FALSE(resolved[i]) << points[i].transpose();
@@ -132,7 +134,7 @@ TEST(RayCrossings, RaysThroughVerticesEdgesAndFaces)
         EXPECT_NEAR(counts[i], sum, 1e-9) << points[i].transpose();
       }
     }
-    // Rows of the grid give the same.
+    // Rows of the grid give the same counts.
     RayCrossings::Grid rows;
     for (Index i = 0; i < 21; ++i)
     {
@@ -203,7 +205,7 @@ TEST(RayCrossings, FewAndManyPointsOfACurvedSurface)
 
 TEST(RayCrossings, TrianglesAsLargeAsTheSurfaceAreNotListedInEveryLayer)
 {
-  // Tets across all of the box: each face meets about half of the layers.
+  // Tets that span the whole box, so each face crosses about half of the layers.
   test::Random random(19);
   constexpr Index tets = 3000;
   TriangleMesh heap = lattice_tets(random, tets);
@@ -292,7 +294,7 @@ TEST(WindingExpectedQueries, FastKeepsItsToleranceForAnyNumber)
           std::abs(values[i] - winding_number_direct(mesh.points, mesh.triangles, points.row(i))));
       }
       EXPECT_LE(worst, tolerance);
-      // One at a time, and on any number of threads.
+      // Single points and any number of threads give the same bits.
       EXPECT_EQ(winding.evaluate_at(points.row(3)), values[3]);
       ExecutionContext one;
       one.set_threads(1);

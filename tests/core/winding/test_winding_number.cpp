@@ -1,4 +1,4 @@
-// Winding numbers that are known: closed forms, symmetries, identities.
+// Winding numbers with known values: closed forms, symmetries and identities.
 #include "winding/winding_number.h"
 
 #include "support/meshes.h"
@@ -16,7 +16,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr WindingMethod methods[] = { WindingMethod::exact, WindingMethod::direct,
   WindingMethod::hierarchical, WindingMethod::crossings };
 
-/// All ways to compute it, each with small leaves so that the tree has something to do.
+/// Return all methods, each with small leaves so that the trees have several levels.
 std::vector<WindingNumber> all_ways(const TriangleMesh& mesh)
 {
   std::vector<WindingNumber> ways;
@@ -44,7 +44,7 @@ void expect_winding(const TriangleMesh& mesh, const Vec3& p, double expected, do
   }
 }
 
-/// Some of a mesh's triangles.
+/// Return the mesh with the given triangles only.
 TriangleMesh part(const TriangleMesh& mesh, const std::vector<Index>& triangles)
 {
   TriangleMesh result;
@@ -70,7 +70,7 @@ TriangleMesh triangles_of(const std::vector<Vec3>& corners)
   return mesh;
 }
 
-/// Regular n-gon of radius 1 at height 1, normal up.
+/// Return a regular n-gon of radius 1 at height 1 with an upward normal.
 TriangleMesh disc(int n)
 {
   std::vector<Vec3> corners;
@@ -84,7 +84,7 @@ TriangleMesh disc(int n)
   return triangles_of(corners);
 }
 
-/// The box [-1,1]^2 x [-1,0] without its lid at z = 0.
+/// Return the box [-1,1]^2 x [-1,0] without its lid at z = 0.
 TriangleMesh open_half_cube()
 {
   TriangleMesh mesh = test::open_cube();
@@ -116,7 +116,7 @@ TEST(WindingNumber, GradientIsTheKnownOneAndThatOfTheField)
     EXPECT_NEAR(gradient.y(), 0.03449705, error);
     EXPECT_NEAR(gradient.z(), -0.30037298, error);
   }
-  // Another unit: a derivative is one over a length.
+  // A change of the unit of length scales the gradient by its inverse.
   const WindingNumber large(Points(1000.0 * mesh.points), mesh.triangles);
   ExecutionContext context;
   Points query(1, 3);
@@ -128,7 +128,7 @@ TEST(WindingNumber, GradientIsTheKnownOneAndThatOfTheField)
 
 TEST(WindingNumber, FlagsTellWhatTouchesTheSurface)
 {
-  // Samples on the faces of the cube and of the open cube, seen from both sides of the lid.
+  // Samples on the faces of the cube and of the open cube, on both sides of the missing lid.
   for (const TriangleMesh& mesh : { test::cube(), test::open_cube() })
   {
     for (const WindingMethod method : { WindingMethod::direct, WindingMethod::crossings,
@@ -226,7 +226,7 @@ TEST(WindingNumber, DiscsConvergeToTheirCap)
   EXPECT_NEAR(cap, 0.146446609407, 1e-12);
   expect_winding(disc(32), Vec3::Zero(), cap - 5.685e-4, 5e-8);
   expect_winding(disc(64), Vec3::Zero(), cap - 1.420e-4, 5e-8);
-  // On the axis dw/dz is 1/4 sqrt(1/2) at this height; the polygon's error is below 1e-5.
+  // On the axis dw/dz is 1/4 sqrt(1/2) at this height. The error of the polygon is below 1e-5.
   const TriangleMesh fine = disc(512);
   const double h = 1e-5;
   const double up = winding_number_direct(fine.points, fine.triangles, Vec3(0, 0, h));
@@ -260,7 +260,7 @@ TEST(WindingNumber, JumpsByOneAcrossTheSurface)
     EXPECT_NEAR(jump(1e-3), 0.9999000826, 1e-10) << to_string(way.method());
     EXPECT_NEAR(jump(1e-6), 0.9999999001, 1e-10) << to_string(way.method());
     EXPECT_NEAR(jump(1e-9), 0.9999999999, 1e-10) << to_string(way.method());
-    // Nearer than any tolerance of 1e-12 or so: still a clean jump, not noise.
+    // Below a tolerance of about 1e-12 the jump is still exact and not noise.
     EXPECT_NEAR(jump(1e-14), 1.0, 1e-12) << to_string(way.method());
   }
 }
@@ -279,7 +279,7 @@ TEST(WindingNumber, HarmonicOffTheSurface)
     laplacian += w(p + h * Vec3::Unit(k)) + w(p - h * Vec3::Unit(k));
     gradient[k] = (w(p + 1e-5 * Vec3::Unit(k)) - w(p - 1e-5 * Vec3::Unit(k))) / 2e-5;
   }
-  EXPECT_NEAR(laplacian / (h * h), 0.0, 1e-4); // O(h^2)
+  EXPECT_NEAR(laplacian / (h * h), 0.0, 1e-4); // the error is O(h^2)
   EXPECT_LT((gradient - Vec3(0.05503676, 0.03449705, -0.30037298)).norm(), 1e-7);
 }
 
@@ -287,7 +287,7 @@ TEST(WindingNumber, PrincipalValueOnTheSurface)
 {
   const TriangleMesh cube = test::cube();
   const std::vector<std::pair<Vec3, double>> cases{ { Vec3(0.2, 0.3, 1), 0.5 },
-    { Vec3(0, 0, 1), 0.5 }, // on the face's diagonal
+    { Vec3(0, 0, 1), 0.5 }, // on the diagonal of the face
     { Vec3(1, 0.25, -0.5), 0.5 }, { Vec3(1, 1, 0.1), 0.25 }, { Vec3(-1, 0.7, -1), 0.25 },
     { Vec3(1, 1, 1), 0.125 }, { Vec3(-1, 1, -1), 0.125 } };
   for (const auto& [p, expected] : cases)
@@ -306,7 +306,7 @@ TEST(WindingNumber, PrincipalValueOnTheSurface)
 
 TEST(WindingNumber, PrincipalValueOnSlantedSurfacesFarFromTheOrigin)
 {
-  // Regular tetrahedron: the angles are known, and midpoints are rounded off the faces.
+  // A regular tetrahedron has known angles. Rounding moves the midpoints off its faces.
   TriangleMesh mesh = triangles_of({ Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(1, 1, 1),
     Vec3(-1, 1, -1), Vec3(-1, -1, 1), Vec3(1, 1, 1), Vec3(-1, -1, 1), Vec3(1, -1, -1),
     Vec3(1, -1, -1), Vec3(-1, -1, 1), Vec3(-1, 1, -1) });
@@ -317,7 +317,7 @@ TEST(WindingNumber, PrincipalValueOnSlantedSurfacesFarFromTheOrigin)
     TriangleMesh moved = mesh;
     moved.points = mesh.points * turn.transpose();
     moved = test::translated(moved, Vec3(shift, -2.0 * shift, 0.5 * shift));
-    const double far = shift == 0.0 ? 1e-14 : 1e-10; // corners are rounded to the far ulp
+    const double far = shift == 0.0 ? 1e-14 : 1e-10; // rounding of the translated corners
     const auto v = [&](int i) -> Vec3 { return moved.points.row(i); };
     expect_winding(moved, v(0), std::acos(23.0 / 27.0) / (4.0 * pi), far);
     expect_winding(moved, 0.5 * (v(0) + v(1)), std::acos(1.0 / 3.0) / (2.0 * pi), far);
@@ -368,7 +368,7 @@ TEST(WindingNumber, ShiftsScalesAndOrderDoNotMatter)
   std::vector<Index> to(static_cast<std::size_t>(mesh.points.rows()));
   for (Index v = 0; v < mesh.points.rows(); ++v)
   {
-    to[v] = (v * 101) % mesh.points.rows(); // #V has no factor 101
+    to[v] = (v * 101) % mesh.points.rows(); // #V is not divisible by 101
     shuffled.points.row(to[v]) = mesh.points.row(v);
   }
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
@@ -386,9 +386,9 @@ TEST(WindingNumber, FlatTrianglesCountNothing)
   TriangleMesh mesh = test::cube();
   const Index n = mesh.points.rows();
   mesh.points.conservativeResize(n + 3, 3);
-  mesh.points.row(n) = mesh.points.row(0); // equal to another vertex
-  mesh.points.row(n + 1) << 0, 0, 0; // half way between 0 and 7
-  mesh.points.row(n + 2) << 5, 5, 5; // nobody's
+  mesh.points.row(n) = mesh.points.row(0); // coincides with another vertex
+  mesh.points.row(n + 1) << 0, 0, 0; // the midpoint of vertices 0 and 7
+  mesh.points.row(n + 2) << 5, 5, 5; // used by no triangle
   mesh.triangles.conservativeResize(15, 3);
   mesh.triangles.row(12) << 0, 0, 1;
   mesh.triangles.row(13) << 0, n, 3;
@@ -402,7 +402,7 @@ TEST(WindingNumber, FlatTrianglesCountNothing)
     EXPECT_EQ(report.number("counts.vertices", -1), 11);
   }
   expect_winding(mesh, Vec3(0.1, 0.2, 0.3), 1.0, 1e-14);
-  expect_winding(mesh, Vec3(0.5, 0.5, 0.5), 1.0, 1e-14); // on the flat one
+  expect_winding(mesh, Vec3(0.5, 0.5, 0.5), 1.0, 1e-14); // on a degenerate triangle
   expect_winding(mesh, Vec3(1.5, 0.2, 0.3), 0.0, 1e-14);
   const TriangleMesh flat = part(mesh, { 12, 13, 14 });
   expect_winding(flat, Vec3(0.5, 0.25, 0.125), 0.0, 1e-15);
@@ -411,7 +411,7 @@ TEST(WindingNumber, FlatTrianglesCountNothing)
 
 TEST(WindingNumber, ReportTellsWhatTheSurfaceIs)
 {
-  // Each side with corners of its own: six components until equal vertices are merged.
+  // The sides have separate corners, so there are six components until equal vertices are merged.
   const TriangleMesh cube = test::cube();
   std::vector<Vec3> corners;
   for (Index t = 0; t < 12; ++t)
@@ -443,8 +443,8 @@ TEST(WindingNumber, ReportTellsWhatTheSurfaceIs)
 
 TEST(WindingNumber, BoundaryTellsEdgesAndComponents)
 {
-  // A cube without its top, the same upside down and far away, a closed cube inside out, and two
-  // copies of one triangle, of whose edges each counts twice.
+  // A cube without its top, a flipped copy far away, a closed cube inside out, and two copies of
+  // one triangle whose edges have multiplicity 2.
   TriangleMesh twice;
   twice.points.resize(3, 3);
   twice.points << 0, 0, 50, 1, 0, 50, 0, 1, 50;
@@ -458,7 +458,7 @@ TEST(WindingNumber, BoundaryTellsEdgesAndComponents)
   const SurfaceBoundary& boundary = winding.boundary();
   ASSERT_EQ(boundary.components.size(), 4u);
   ASSERT_EQ(boundary.edges.size(), 4u + 4u + 3u);
-  // What is said about a component is told by where one of its boundary edges lies.
+  // Identify the component by the position of its boundary edge.
   std::vector<int> seen(4, 0);
   for (const SurfaceBoundary::BoundaryEdge& edge : boundary.edges)
   {
@@ -479,8 +479,8 @@ TEST(WindingNumber, BoundaryTellsEdgesAndComponents)
     EXPECT_EQ(part.open_edges, 4);
     const bool flipped = from[0] > 1e5;
     EXPECT_NEAR(part.volume, flipped ? -8.0 : 8.0, 1e-9);
-    // Seen from above the walls run around the hole clockwise, so that a lid would run the other
-    // way.
+    // Seen from above, the walls run clockwise around the hole, so a lid would run
+    // counter-clockwise.
     const Vec3 middle = flipped ? far_away : Vec3::Zero();
     EXPECT_EQ(from[2], 1.0);
     EXPECT_NEAR((from - middle).cross(to - middle)[2], flipped ? 2.0 : -2.0, 1e-9);
@@ -505,7 +505,7 @@ TEST(WindingNumber, EmptyMeshWindsAroundNothing)
     ASSERT_EQ(way.status().warnings.size(), 1u);
   }
   EXPECT_EQ(winding_number_direct(nothing.points, nothing.triangles, Vec3::Zero()), 0.0);
-  EXPECT_EQ(WindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0); // never built
+  EXPECT_EQ(WindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0); // not built
 }
 
 TEST(WindingNumber, BadInputIsNamed)

@@ -1,5 +1,5 @@
-// The ways to compute winding numbers agree with each other and with twins that share no code, on
-// soups made to hurt; and they keep their promises on threads, extents and cancel.
+// The methods agree with each other and with independent references on difficult soups. They also
+// support threads, extents and cancel.
 #include "winding/winding_number.h"
 
 #include "support/meshes.h"
@@ -35,8 +35,8 @@ WindingNumber make(const TriangleMesh& mesh, WindingMethod method, Index leaf = 
 
 using Lattice = Eigen::Matrix<std::int64_t, 3, 1>;
 
-/// For points on the lattice of 1/8: sums what is not touched in long double, decides what is
-/// touched in whole numbers.
+/// Evaluate a point on the lattice of 1/8: exact integer decisions of sides, and a sum in long
+/// double over the triangles whose plane does not contain the point.
 double lattice_twin(const TriangleMesh& mesh, const Vec3& p)
 {
   using Long3 = Eigen::Matrix<long double, 3, 1>;
@@ -54,7 +54,7 @@ double lattice_twin(const TriangleMesh& mesh, const Vec3& p)
     const std::int64_t side = v[0].dot(v[1].cross(v[2]));
     if (side == 0)
     {
-      continue; // in the plane: touched or seen edge on, nothing in both cases
+      continue; // the point is in the triangle's plane, so its contribution is zero
     }
     const long double la = x[0].norm(), lb = x[1].norm(), lc = x[2].norm();
     sum += std::atan2(x[0].dot(x[1].cross(x[2])),
@@ -63,8 +63,8 @@ double lattice_twin(const TriangleMesh& mesh, const Vec3& p)
   return static_cast<double>(sum / 6.283185307179586476925286766559L);
 }
 
-/// Random triangles on a lattice of 1/4 in a box of side 2: coplanar, crossing, touching, flat,
-/// doubled, flipped.
+/// Return random triangles on a lattice of 1/4 in a box of side 2: coplanar, crossing, touching,
+/// degenerate, repeated and flipped ones.
 TriangleMesh lattice_soup(test::Random& random, Index triangles)
 {
   TriangleMesh mesh;
@@ -102,7 +102,7 @@ TriangleMesh lattice_soup(test::Random& random, Index triangles)
   return mesh;
 }
 
-/// Points on the lattice of 1/8: many on vertices, edges, faces, below and above them.
+/// Return a point on the lattice of 1/8. Many are at, below or above vertices, edges and faces.
 Vec3 lattice_point(test::Random& random)
 {
   return Vec3(static_cast<double>(random.below(21)), static_cast<double>(random.below(21)),
@@ -111,7 +111,7 @@ Vec3 lattice_point(test::Random& random)
     Vec3::Constant(1.25);
 }
 
-/// A bumpy closed surface with holes and a second sheet through it.
+/// Return a bumpy closed surface with holes and a second sheet through it.
 TriangleMesh unclean_surface(int levels, double hole)
 {
   TriangleMesh mesh = test::sphere(levels);
@@ -208,7 +208,7 @@ TEST(WindingMethods, AgreeOnRandomSoups)
 TEST(WindingMethods, AgreeOnUncleanSurfaces)
 {
   test::Random random(5);
-  for (const double hole : { -1.0, 0.1, 0.6 }) // -1: none
+  for (const double hole : { -1.0, 0.1, 0.6 }) // -1: no holes
   {
     const TriangleMesh mesh = unclean_surface(4, hole);
     std::vector<Vec3> points;
@@ -234,11 +234,11 @@ TEST(WindingMethods, AgreeOnUncleanSurfaces)
 
 TEST(WindingMethods, RaysThroughVerticesAndEdgesOfClosedSurfaces)
 {
-  // Straight above and below vertices and edge midpoints, along every axis.
+  // Directly above and below vertices and midpoints of edges, along every axis.
   TriangleMesh mesh = test::sphere(2);
   for (int turn = 0; turn < 3; ++turn)
   {
-    mesh.points.col(turn) *= 0.5; // another shortest axis each time
+    mesh.points.col(turn) *= 0.5; // changes the shortest axis
     const WindingNumber winding = make(mesh, WindingMethod::crossings);
     for (Index t = 0; t < mesh.triangles.rows(); ++t)
     {
@@ -263,7 +263,8 @@ TEST(WindingMethods, RaysThroughVerticesAndEdgesOfClosedSurfaces)
 
 TEST(WindingMethods, ThinTrianglesDoNotFlip)
 {
-  // A box 1e-7 thin: its long sides are slivers, the point is nearer to them than their width.
+  // A box of thickness 1e-7. Its long sides are slivers, and the point is nearer to them than their
+  // width.
   TriangleMesh mesh = test::cube();
   mesh.points.col(0) *= 1e-7;
   mesh.points.col(1) *= 1e-4;
@@ -284,10 +285,10 @@ TEST(WindingMethods, ThinTrianglesDoNotFlip)
 
 TEST(WindingMethods, SliversAreSeenUnderTheAngleOfTheirRectangle)
 {
-  // Above a corner of a rectangle x by y, at height h, it is seen under
-  // atan(x y / (h sqrt(x^2 + y^2 + h^2))); four of them make one above any place. However thin the
-  // rectangle is, this is a good part of all around where h is about its width: 1e-14 are five
-  // tolerances.
+  // A point at height h above a corner of a rectangle x by y sees the rectangle at the solid angle
+  // atan(x y / (h sqrt(x^2 + y^2 + h^2))). Four such rectangles form one rectangle below any point.
+  // If h is about the width, this is a large part of the full solid angle for any width. A width of
+  // 1e-14 is five tolerances.
   const double xs[2] = { -0.7, 1.3 };
   for (const double width : { 1e-3, 1e-8, 1e-12, 1e-13, 1e-14 })
   {
@@ -320,7 +321,7 @@ TEST(WindingMethods, WhatIsNoTriangleCannotBeTouched)
 {
   TriangleMesh mesh = test::cube();
   mesh.triangles.conservativeResize(13, 3);
-  mesh.triangles.row(12) << 0, 7, 0; // a line between opposite corners
+  mesh.triangles.row(12) << 0, 7, 0; // a segment between opposite corners
   for (const WindingMethod method : ways)
   {
     bool touches = true;
@@ -335,8 +336,8 @@ TEST(WindingMethods, WhatIsNoTriangleCannotBeTouched)
 
 TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
 {
-  // 2^-49 of 1e9 and more is 2e-6 and more, where floats tell 1e-7 from each other: a closed sphere
-  // for the cells, loose triangles for the blocks.
+  // At 1e9 the tolerance of touching, 2^-49 of the coordinates, is 2e-6, while single precision
+  // resolves 1e-7 here. The closed sphere tests the cells, the loose triangles test the blocks.
   const TriangleMesh sphere = test::sphere(2);
   TriangleMesh loose{ Points(3 * sphere.triangles.rows(), 3), sphere.triangles };
   for (Index t = 0; t < sphere.triangles.rows(); ++t)
@@ -375,8 +376,9 @@ TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
 
 TEST(WindingMethods, AsSmallAsDoublesGet)
 {
-  // A sphere on a lattice of whole numbers, and the same one with the smallest number there is as
-  // its unit: the same answers. Products of three such lengths are 0 in floats, even when scaled.
+  // A sphere on an integer lattice, and the same sphere with the smallest positive double as its
+  // unit, give the same results. Products of three such lengths underflow to 0 in single precision,
+  // even if scaled.
   constexpr double unit = std::numeric_limits<double>::denorm_min();
   const TriangleMesh sphere = test::sphere(2);
   TriangleMesh mesh = sphere, tiny = sphere;
@@ -405,8 +407,9 @@ TEST(WindingMethods, AsSmallAsDoublesGet)
 
 TEST(WindingMethods, FastNextToALongTriangleThatIsCut)
 {
-  // One triangle as long as the box among many small ones: halved until it is as small, at places
-  // that are rounded by some 1e-17. A few 1e-15 from its edge that is a good part of the angle.
+  // One triangle as long as the box among many small ones. It is bisected to their size at points
+  // that are rounded by about 1e-17. At a distance of a few 1e-15 from its edge, this is a large
+  // part of the angle.
   TriangleMesh mesh;
   test::Random random(3);
   for (int i = 0; i < 80; ++i)
@@ -449,7 +452,7 @@ TEST(WindingMethods, AutomaticChoosesByCounts)
   EXPECT_EQ(make(test::open_cube(), WindingMethod::automatic).method(), WindingMethod::direct);
   EXPECT_EQ(make(test::sphere(3), WindingMethod::automatic).method(), WindingMethod::crossings);
   EXPECT_EQ(make(test::sphere(3), WindingMethod::fast).method(), WindingMethod::crossings);
-  // Groups of triangles with corners of their own, pulled apart: a soup of triangles, of patches.
+  // Groups of triangles with separate corners, moved apart: a soup of triangles or of patches.
   for (const Index group : { 1, 256 })
   {
     const TriangleMesh sphere = test::sphere(group == 1 ? 5 : 6);
@@ -477,7 +480,7 @@ TEST(WindingMethods, AutomaticChoosesByCounts)
 
 TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
 {
-  // Tets across all of the box: each face would be in hundreds of cells.
+  // Tets that span the whole box, so each face would be in hundreds of cells.
   test::Random random(19);
   constexpr Index tets = 3000;
   TriangleMesh heap{ Points(4 * tets, 3), Triangles(4 * tets, 3) };
@@ -495,7 +498,8 @@ TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
   }
   const WindingNumber winding = make(heap, WindingMethod::automatic);
   EXPECT_EQ(winding.method(), WindingMethod::crossings);
-  // At most 16 entries a triangle and 100,000 more, of 30 bytes, in blocks that may be half empty.
+  // At most 16 entries per triangle and 100,000 more, of 30 bytes each, in blocks that may be half
+  // empty.
   EXPECT_LT(static_cast<double>(winding.memory()), 64.0 * (16.0 * 4 * tets + 1e5));
   for (int i = 0; i < 20; ++i)
   {
@@ -507,7 +511,7 @@ TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
 
 TEST(WindingMethods, FastKeepsItsTolerance)
 {
-  // Unclean surfaces and a soup, in the box, far outside and close to the triangles.
+  // Unclean surfaces and a soup; points in the box, far outside, and close to the triangles.
   const TriangleMesh sphere = test::sphere(4);
   TriangleMesh holes = sphere;
   Index kept = 0;
@@ -549,7 +553,7 @@ TEST(WindingMethods, FastKeepsItsTolerance)
         EXPECT_NEAR(winding.evaluate_exactly_at(queries.row(i)), exact, 1e-11);
       }
       EXPECT_LE(worst, tolerance);
-      // On the surface: the principal value, exactly.
+      // On the surface the value is the exact principal value.
       bool on_surface = false;
       const Vec3 vertex = mesh.points.row(mesh.triangles(5, 1));
       EXPECT_NEAR(winding.evaluate_at(vertex, &on_surface),
@@ -584,7 +588,7 @@ TEST(WindingMethods, SameBitsForAnyThreadsAndExtent)
       Eigen::VectorXd values;
       ASSERT_TRUE(winding.evaluate(grid, many, values).ok());
       EXPECT_EQ(std::memcmp(values.data(), expected.data(), sizeof(double) * values.size()), 0);
-      // A build on other threads makes the same structure.
+      // A build with another number of threads gives the same structure.
       ExecutionContext again;
       again.set_threads(threads);
       WindingNumber::Options options;
@@ -617,8 +621,8 @@ TEST(WindingMethods, SameBitsForAnyThreadsAndExtent)
 
 TEST(WindingMethods, FineSurfacesOnRowsAndAtPoints)
 {
-  // 164k triangles of very different sizes: a torus that is thin on one side, around a small sphere
-  // inside out. So the cells are cut several times over.
+  // 164,000 triangles of very different sizes, so that cells are subdivided several times: a torus
+  // that is thin on one side, around a small sphere that is inside out.
   TriangleMesh ring = test::torus(320, 128, 1.0, 0.45);
   for (Index v = 0; v < ring.points.rows(); ++v)
   {
@@ -632,7 +636,7 @@ TEST(WindingMethods, FineSurfacesOnRowsAndAtPoints)
   const TriangleMesh mesh = test::join(ring, test::flipped(ball));
   const WindingNumber winding = make(mesh, WindingMethod::crossings);
 
-  // In the small sphere it is once around by the torus, less once.
+  // In the small sphere the torus contributes 1 and the sphere -1.
   EXPECT_EQ(winding.evaluate_at(Vec3(1.0, 0.0, 0.2)), 0.0);
   EXPECT_EQ(winding.evaluate_at(Vec3(1.0, 0.0, -0.2)), 1.0);
   EXPECT_EQ(winding.evaluate_at(Vec3(-1.0, 0.001, 0.0003)), 1.0);
@@ -651,7 +655,7 @@ TEST(WindingMethods, FineSurfacesOnRowsAndAtPoints)
     ASSERT_EQ(rows[i], winding.evaluate_at(p)) << p.transpose();
     ASSERT_EQ(rows[i], std::round(rows[i]));
   }
-  // Against the plain sum, most of them a hair's breadth from the surface.
+  // Comparison with the plain sum at points that are mostly very close to the surface.
   test::Random random(7);
   for (int i = 0; i < 300; ++i)
   {

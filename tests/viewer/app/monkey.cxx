@@ -25,7 +25,7 @@ namespace bindpose::test
 
 namespace
 {
-/// The window would ask where to, or go.
+/// Report whether an action is excluded because it would open a file dialog or quit.
 bool is_left_alone(const QString& name)
 {
   return name == "file.quit" || name == "file.open" || name.startsWith("file.save");
@@ -65,7 +65,8 @@ std::string Monkey::story() const
   return story;
 }
 
-/// A place of the picture, now and then one outside; every other time a handle.
+/// Return a random position in the picture, sometimes one outside. Half of the positions are on
+/// handles.
 QPoint Monkey::anywhere()
 {
   const Handles& handles = this->window_->document()->handles();
@@ -111,10 +112,10 @@ void Monkey::drag()
     QApplication::processEvents();
     if (this->pick(25) == 0)
     {
-      this->any_key(); // in the middle of it
+      this->any_key(); // during the drag
     }
   }
-  if (this->pick(12) != 0) // else the button stays down for a while
+  if (this->pick(12) != 0) // otherwise the button stays down for a while
   {
     this->hand_.release(from + by, button, held);
   }
@@ -159,7 +160,7 @@ void Monkey::any_option()
   this->hand_.choose(option.key, value);
 }
 
-/// Any that is seen, if it does not ask for a file.
+/// Click a random visible button, unless it opens a file dialog.
 void Monkey::any_button_of_panels()
 {
   QStringList texts;
@@ -265,7 +266,7 @@ void Monkey::act()
       break;
     case 24:
     {
-      const QSize size(640 + this->pick(300), 480 + this->pick(200)); // software draws slowly
+      const QSize size(640 + this->pick(300), 480 + this->pick(200)); // software rendering is slow
       this->note("resize", QString("%1 x %2").arg(size.width()).arg(size.height()));
       this->window_->resize(size);
       break;
@@ -333,7 +334,7 @@ void Monkey::rest()
       this->hand_.release(this->hand_.place(0.5, 0.5), button);
     }
   }
-  this->hand_.press_key("Esc"); // of drags without a button
+  this->hand_.press_key("Esc"); // ends drags without a button
   this->window_->binding()->cancel();
   this->window_->inspection()->cancel();
   this->window_->weights()->cancel();

@@ -12,23 +12,25 @@
 namespace bindpose::test
 {
 
-/// Plays with a window: clicks, drags, keys, the wheel, entries of the menus, options, panels,
-/// buttons, binds and cancels, undo and redo, other sizes, other files; anything but the end of the
-/// program. The same seed does the same, but for what time decides. Dialogs are closed.
+/// Sends random events to a window: clicks, drags, keys, the wheel, menu entries, options, panels,
+/// buttons, binds and cancels, undo and redo, other sizes, other files; everything except quitting
+/// the program. The same seed gives the same events, except where timing decides. Dialogs are
+/// closed.
 class Monkey
 {
 public:
   Monkey(MainWindow* window, unsigned seed, std::vector<QString> files);
 
-  /// So many random events, and what they have asked for.
+  /// Send this number of random events and process their effects.
   void play(int events);
-  /// The buttons are let go, what plays stops, what runs has ended: the window is one to look at.
+  /// Release the buttons, stop playback and cancel all computations, so that the window can be
+  /// inspected.
   void rest();
 
   long long events() const { return this->events_; }
-  /// How often each kind of event came.
+  /// Return the number of events of each kind.
   const std::map<std::string, long long>& counts() const { return this->counts_; }
-  /// What it did last, the latest at the end.
+  /// Return the last events, the latest at the end.
   std::string story() const;
 
 private:

@@ -9,7 +9,7 @@
 namespace bindpose::test
 {
 
-/// Opens folders in place of the desktop, and keeps which.
+/// Receives requests to open folders instead of the desktop, and records their URLs.
 class OpenedFolders : public QObject
 {
   Q_OBJECT

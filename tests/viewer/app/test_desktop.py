@@ -1,5 +1,5 @@
-"""The window among others, under a window manager: keys, menus, dialogs and the mouse come from the X server as a
-person's would, and what happened is read from the sessions that are saved."""
+"""The window among other windows, under a window manager. Keys, menus, dialogs and the mouse use the X server, as for a
+user. The results are read from saved sessions."""
 
 import json
 import os
@@ -12,11 +12,11 @@ import pytest
 
 PROGRAM = os.environ["BINDPOSE_PROGRAM"]
 DATA = pathlib.Path(__file__).resolve().parents[3] / "examples" / "tours" / "data"
-SECONDS = 60  # patience, of a busy machine
+SECONDS = 60  # time limit for a busy machine
 
 
 def wait_for(condition, what):
-    """What the condition gives as soon as it is true."""
+    """Return the result of the condition as soon as it is true."""
     end = time.monotonic() + SECONDS
     while time.monotonic() < end:
         found = condition()
@@ -27,7 +27,7 @@ def wait_for(condition, what):
 
 
 class Desktop:
-    """An X server with a window manager, and whatever runs on it."""
+    """An X server with a window manager and other programs."""
 
     def __init__(self, home):
         self.home = home
@@ -53,12 +53,12 @@ class Desktop:
         return process
 
     def start_program(self, *words):
-        """Bindpose; what it says goes to a file."""
+        """Start Bindpose with its standard error in a file."""
         with open(self.home / "said.txt", "ab") as said:
             return self.start(PROGRAM, *words, stderr=said)
 
     def wait_for(self, condition, what):
-        """As above, while all that was started still runs."""
+        """Wait like wait_for(), and check that all started programs are still running."""
         def is_met():
             ended = [f"{process.args[0]} with {process.poll()}" for process in self.running if process.poll() is not None]
             assert not ended, f"{what}: ended before it: {', '.join(ended)}"
@@ -66,19 +66,19 @@ class Desktop:
         return wait_for(is_met, what)
 
     def tool(self, *words, check=True):
-        """What xdotool says."""
+        """Run xdotool and return its output."""
         done = subprocess.run(["xdotool", *map(str, words)], env=self.environment(), capture_output=True, text=True,
                               check=False)
         assert not check or done.returncode == 0, f"xdotool {words}: {done.stderr}"
         return done.stdout.strip()
 
     def is_managed(self):
-        """Whether somebody manages windows: it says what it supports on the root window."""
+        """Report whether a window manager is running. It writes its capabilities to the root window."""
         return subprocess.run(["xdotool", "get_num_desktops"], env=self.environment(), capture_output=True,
                               check=False).returncode == 0
 
     def window(self, name):
-        """The window whose title holds this expression, in front; None without one."""
+        """Return the topmost window whose title contains this expression, or None."""
         found = self.tool("search", "--onlyvisible", "--name", name, check=False).split()
         return found[-1] if found else None
 
@@ -88,7 +88,7 @@ class Desktop:
         return window
 
     def activate(self, window):
-        """What is typed from now on is for this window."""
+        """Give the keyboard focus to this window."""
         def is_active():
             self.tool("windowactivate", window, check=False)
             return self.tool("getwindowfocus", check=False) == window
@@ -110,7 +110,7 @@ def desktop(tmp_path):
     there = Desktop(tmp_path)
     yield there
     there.end()
-    # Qt warns of what may end it, such as a second thread that passes for the application's.
+    # Qt warns of problems that may terminate it, such as a second thread that is used as the application's.
     said = tmp_path / "said.txt"
     assert not said.exists() or "thread" not in said.read_text(errors="replace"), said.read_text(errors="replace")
 
@@ -128,14 +128,14 @@ class App:
         return self.desktop.tool("getwindowname", self.window)
 
     def mouse(self, x, y, *more):
-        """Moves it to a pixel of the window."""
+        """Move the mouse to a pixel of the window."""
         self.desktop.tool("mousemove", "--window", self.window, x, y, *more)
 
     def activate(self):
         self.desktop.activate(self.window)
 
     def save_as(self, path):
-        """By its dialog, which asks for a name."""
+        """Save with the dialog, which asks for a name."""
         self.desktop.keys("ctrl+shift+s")
         self.desktop.wait_for_window("Save the session")
         self.desktop.keys("ctrl+a")
@@ -148,7 +148,7 @@ class App:
         return self.desktop.wait_for(lambda: path.exists() and json.loads(path.read_text()), f"{path}")
 
     def save(self, path):
-        """Again, over what was saved."""
+        """Save again, over the existing file."""
         before = path.stat().st_mtime_ns
         self.desktop.keys("ctrl+s")
         self.desktop.wait_for(lambda: path.stat().st_mtime_ns != before, "the session, saved again")
@@ -156,17 +156,17 @@ class App:
 
 
 def translations(session):
-    """How far each handle is moved, three numbers."""
+    """Return the translation of each handle as three numbers."""
     return [[handle["transform"][k] for k in (3, 7, 11)] for handle in session["pose"]]
 
 
 def move_all(desktop, app, *keys):
-    """All handles are taken by a key; then the mouse goes up and to the right, then these keys."""
+    """Start a move of all handles by a key, move the mouse up and to the right, then press these keys."""
     app.activate()
     app.mouse(300, 250)
     desktop.keys("ctrl+a", "g")
     for step in range(1, 6):
-        time.sleep(0.1)  # as a hand does
+        time.sleep(0.1)  # as fast as a user
         app.mouse(300 + 8 * step, 250 - 4 * step)
     time.sleep(0.1)
     desktop.keys(*keys)
@@ -178,11 +178,11 @@ def test_keys_dialogs_undo_and_escape(desktop, tmp_path):
     path = tmp_path / "work.bindpose"
     rest = app.save_as(path)
     assert all(move == [0, 0, 0] for move in translations(rest))
-    # Typed: 0.25 along x, for all at once.
+    # Typed number: 0.25 along x, for all handles.
     move_all(desktop, app, "x", "0", "period", "2", "5", "Return")
     moved = translations(app.save(path))
     assert all(move == pytest.approx([0.25, 0, 0]) for move in moved), moved
-    # Esc in the middle of a drag gives back what was before it, to the bit.
+    # Esc during a drag restores every bit.
     move_all(desktop, app, "Escape")
     desktop.keys("k")  # a change, so that there is something to save
     assert translations(app.save(path)) == moved
@@ -190,7 +190,7 @@ def test_keys_dialogs_undo_and_escape(desktop, tmp_path):
     assert translations(app.save(path)) == translations(rest)
     desktop.keys("ctrl+shift+z")
     assert translations(app.save(path)) == moved
-    # By the mouse alone, some of all three.
+    # Without typed numbers, the mouse alone moves the handles.
     move_all(desktop, app, "Return")
     assert translations(app.save(path)) != moved
 
@@ -202,10 +202,10 @@ def test_menus_and_the_window_manager(desktop, tmp_path):
     app.activate()
     desktop.keys("alt+v", "o")
     assert app.save(path)["options"]["show.outlines"] is False
-    # Sizes are the window manager's to give; the work stays.
+    # The window manager changes the size; the work does not change.
     desktop.tool("windowsize", "--sync", app.window, 900, 700)
     desktop.wait_for(lambda: "Geometry: 900x700" in desktop.tool("getwindowgeometry", app.window), "another size")
-    # Its closing asks about what is not saved: Esc keeps the window, then it is discarded.
+    # Closing the window asks about unsaved changes. Esc keeps the window; then the changes are discarded.
     app.activate()
     desktop.keys("k")
     desktop.wait_for(lambda: "*" in app.title(), "a mark of what is not saved")
@@ -230,7 +230,7 @@ def test_a_killed_window_leaves_its_work_to_the_next(desktop, tmp_path):
         for file in recovery.glob("*/work.bindpose"):
             try:
                 session = json.loads(file.read_text())
-            except FileNotFoundError:  # a newer one took its place
+            except FileNotFoundError:  # a newer file has replaced it
                 continue
             if all(move == pytest.approx([0.5, 0, 0]) for move in translations(session)):
                 return file
@@ -251,8 +251,8 @@ def test_a_killed_window_leaves_its_work_to_the_next(desktop, tmp_path):
 
 @pytest.mark.parametrize("content, words", [("once upon a time\n", "line 1"), (None, "No such file")])
 def test_a_bad_file_from_an_icon_opens_a_window(desktop, tmp_path, content, words):
-    """A desktop starts the program without a terminal. The window stays, empty, until it is closed; what its error bar
-    says is tested by bindpose_app_tests."""
+    """A desktop starts the program without a terminal. The window stays open and empty until it is closed.
+    bindpose_app_tests checks the text of its error bar."""
     path = tmp_path / "bad.off"
     if content:
         path.write_text(content)

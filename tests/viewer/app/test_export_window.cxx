@@ -1,5 +1,5 @@
-// What the menu File exports: when it can be chosen, what is in the files, and what is said about
-// them. Errors leave when something of their kind succeeds.
+// The exports of the menu File: when they are enabled, the content of the files, and the messages
+// about them. An error disappears when an action of its kind succeeds.
 #include "opened_folders.h"
 #include "window_test.h"
 
@@ -83,7 +83,7 @@ protected:
     EXPECT_NE(entry, nullptr) << name;
     return entry && entry->isEnabled();
   }
-  /// Chooses the entry and answers its dialogs, as a person does with the keyboard.
+  /// Choose the entry and answer its dialogs, as a user does with the keyboard.
   void export_by_menu(const char* name, const std::string& path)
   {
     int answered = 0;
@@ -189,14 +189,14 @@ TEST_F(ExportWindow, TheRigHasTheSkinAndStandsAsTheHandlesDo)
   ASSERT_EQ(other.document()->handles().size(), 2U);
   const Pose pose = other.document()->pose();
   EXPECT_LT((pose[1].transform.col(3) - Vec3(0.25, 0, 0)).norm(), 1e-6);
-  // The shape there is the shape here.
+  // Both windows show the same shape.
   QApplication::processEvents();
   const Points here = to_points(this->window.shown()).view();
   const Points there = to_points(other.shown()).view();
   ASSERT_EQ(there.rows(), here.rows());
   EXPECT_LT((there - here).cwiseAbs().maxCoeff(), 1e-5);
   EXPECT_TRUE(this->said().contains("ball.glb"));
-  // A method that glTF does not have is said.
+  // A method that glTF does not support is reported.
   this->window.set_method(1);
   ASSERT_TRUE(this->window.exports()->save_rig(text(path)));
   EXPECT_TRUE(this->said().contains("linear blend skinning")) << this->said().toStdString();
@@ -224,7 +224,7 @@ TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
   this->press("Show the timeline");
   EXPECT_TRUE(this->window.strip()->isVisible());
   EXPECT_EQ(this->said(), QString());
-  // With two keys there is one; here as a pose file, which needs no other program.
+  // With two keys a film can be exported. A pose file needs no other program.
   EXPECT_EQ(this->hand.press_key("K"), QString());
   this->hand.scrub(0.25);
   this->bend();
@@ -258,7 +258,7 @@ TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
   EXPECT_EQ(this->said(), QString());
   ASSERT_TRUE(this->window.exports()->save_shape(text(this->folder / "ball.ply")));
   EXPECT_EQ(this->window.error(), QString());
-  // Another kind says nothing about it.
+  // Success of another kind of action does not remove the error.
   EXPECT_FALSE(this->window.editing()->commands()->rename(0, "top"));
   const QString refused = this->window.error();
   EXPECT_FALSE(refused.isEmpty());
@@ -267,7 +267,7 @@ TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
   EXPECT_EQ(this->window.error(), refused);
   EXPECT_TRUE(this->window.editing()->commands()->rename(0, "foot"));
   EXPECT_EQ(this->window.error(), QString());
-  // A picture of key frames that cannot be written, and one that can.
+  // An export of key frames that cannot be written, then one that can.
   EXPECT_EQ(this->hand.press_key("K"), QString());
   this->window.posing()->export_to("/no/such/folder/ball.json");
   ASSERT_TRUE(wait_for([this] { return !this->window.error().isEmpty(); }));

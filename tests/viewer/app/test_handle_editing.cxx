@@ -1,5 +1,5 @@
-// Handles by hand: real mouse and key events of Qt on the picture, what they make of the document,
-// and that undo and redo give back the same bits.
+// Interactive editing of handles by Qt mouse and key events on the picture: the effect on the
+// document, and bit-exact undo and redo.
 #include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
@@ -60,7 +60,7 @@ class HandleWindow : public test::WindowTest
 protected:
   HandleWindow() { QApplication::setActiveWindow(&this->window); }
 
-  /// A pole along z from -1 to 1, 0.4 thick.
+  /// Open a pole along z from -1 to 1, with radius 0.4.
   void open_mesh(int levels = 3)
   {
     TriangleMesh mesh = test::sphere(levels);
@@ -72,7 +72,7 @@ protected:
     this->render();
   }
 
-  /// With two points and a bone between, bound.
+  /// Open a bound pole with two points and a bone between them.
   void open_bound()
   {
     const Handles list{ test::point_handle("left", Vec3(-0.3, 0, 0.5)),
@@ -187,7 +187,7 @@ protected:
     return {};
   }
 
-  /// Handles, pose and surface to the last bit.
+  /// Return handles, pose and surface with all their bits.
   std::string state()
   {
     std::ostringstream out;
@@ -218,7 +218,8 @@ protected:
     }
     return out.str();
   }
-  /// It is one step of this name, which undo takes back and redo brings again.
+  /// Expect that the edit is one step of this name, and that undo and redo restore the exact
+  /// states.
   template <typename Edit>
   void check(const QString& name, const Edit& edit)
   {
@@ -261,7 +262,7 @@ TEST_F(HandleWindow, HandlesComeFromTheShape)
   {
     EXPECT_LT((each.head.array() / Vec3(0.4, 0.4, 1.0).array()).matrix().norm(), 1.0) << "inside";
   }
-  // What is there stays when the next is called off.
+  // A canceled computation keeps the existing handles.
   makes->start(AutomaticMethod::points, 7);
   makes->cancel();
   ASSERT_TRUE(wait());
@@ -304,7 +305,7 @@ TEST_F(HandleWindow, AutoRigMakesBonesAndBindsThem)
   EXPECT_TRUE(this->document()->handles().empty());
   EXPECT_FALSE(this->window.is_bound());
 
-  // A ball has no bones: it gets points.
+  // A ball has no bones, so it gets points.
   const TriangleMesh ball = test::sphere(3);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
   makes->auto_rig_action()->trigger();
@@ -328,10 +329,10 @@ TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
   this->check("add point p1", [&] { this->click(top); });
   this->check("add point p2", [&] { this->click(low); });
   ASSERT_EQ(this->names(), QStringList({ "p1", "p2" }));
-  // Halfway through the pole: near its axis, at the height of the mouse.
+  // The point is halfway through the pole: near its axis, at the height of the mouse.
   EXPECT_NEAR(this->handle("p1").head.z(), 0.6, 0.05);
   EXPECT_LT(this->handle("p1").head.head<2>().norm(), 0.1);
-  // On the surface instead: an ellipsoid's.
+  // With PlaceInside off, the point is on the surface of the ellipsoid.
   this->key(Qt::Key_I);
   this->check("add point p3", [&] { this->click(this->pixel(Vec3(0, 0, 0.0))); });
   const Vec3 on = this->handle("p3").head;
@@ -339,7 +340,7 @@ TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
   EXPECT_EQ(this->window.panel()->selected_handle(), 2);
   this->key(Qt::Key_Escape);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
-  // Offered, not done: then the handles bend the shape.
+  // The bind is offered, but not started. After it, the handles bend the shape.
   EXPECT_FALSE(this->window.is_bound());
   this->window.binding()->start();
   ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
@@ -381,7 +382,7 @@ TEST_F(HandleWindow, BonesAreDrawnAsAChain)
   EXPECT_EQ(this->handle("b2").parent, this->number("b1"));
   EXPECT_EQ(this->handle("b2").head, this->handle("b1").tail);
   EXPECT_NEAR((this->handle("b2").tail - this->handle("b2").head).norm(), 0.8, 0.1);
-  // A click is no bone; Esc while one is drawn leaves nothing.
+  // A click adds no bone. Esc discards an unfinished bone.
   const std::string before = this->state();
   const int steps = this->history()->count();
   this->click(this->pixel(Vec3(0.1, 0, 0.3)));
@@ -421,7 +422,7 @@ TEST_F(HandleWindow, CagesAreClosedLeftOpenAndTakenBackVertexByVertex)
   {
     this->history()->undo();
   }
-  // In one go: three clicks, and the first one again.
+  // One cage by three clicks and a fourth one on the first vertex.
   this->key(Qt::Key_C);
   for (const Vec3& corner : corners)
   {
@@ -432,7 +433,7 @@ TEST_F(HandleWindow, CagesAreClosedLeftOpenAndTakenBackVertexByVertex)
   EXPECT_EQ(this->history()->undoText(), "close cage");
   EXPECT_EQ(edges(), 3U);
   EXPECT_FALSE(this->drawn()->IsMakingCage());
-  // Esc takes the last vertex away, then leaves the mode.
+  // Esc removes the last vertex; the next Esc ends the mode.
   this->history()->clear();
   const std::string closed = this->state();
   this->click(this->pixel(Vec3(-0.9, 0, 0.3)));
@@ -443,7 +444,7 @@ TEST_F(HandleWindow, CagesAreClosedLeftOpenAndTakenBackVertexByVertex)
   EXPECT_EQ(this->state(), closed);
   this->key(Qt::Key_Escape);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
-  // Enter leaves one open.
+  // Enter ends a cage without closing it.
   this->key(Qt::Key_C);
   this->click(this->pixel(Vec3(-0.9, 0, 0.3)));
   this->click(this->pixel(Vec3(-0.9, 0, -0.3)));
@@ -486,7 +487,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
     }
   }
   EXPECT_LT((this->handle("r1").head - middle).norm(), 1e-12);
-  // The next stroke goes on with it; another region has another label.
+  // The next stroke extends the region; a new region has another label.
   this->check("paint region r1", [&] { this->drag(top, top + QPoint(0, 40)); });
   EXPECT_GT(labelled(1), first);
   for (QPushButton* button : this->window.findChild<ModeBar*>()->findChildren<QPushButton*>())
@@ -500,18 +501,18 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   this->check("paint region r2", [&] { this->drag(low, low + QPoint(5, 0)); });
   EXPECT_EQ(this->handle("r2").region_id, 2);
   EXPECT_GT(labelled(2), 0);
-  // A stroke that Esc ends leaves nothing, and the mode goes on.
+  // A stroke that Esc cancels has no effect, and the mode continues.
   const std::string before = this->state();
   this->press(low, low + QPoint(0, -60));
   this->key(Qt::Key_Escape);
   this->release(low + QPoint(0, -60));
   EXPECT_EQ(this->state(), before);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::paint_regions);
-  // Deleting a region takes its labels along.
+  // Deleting a region also deletes its labels.
   this->editing()->select({ this->number("r2") });
   this->check("delete r2", [&] { this->key(Qt::Key_Delete); });
   EXPECT_EQ(labelled(2), 0);
-  // The brush's size by key and by slider.
+  // The brush's size changes by key and by slider.
   auto* brush = this->viewport()->brush_widget()->GetRegionBrushRepresentation();
   const double radius = brush->GetDiscRadius();
   this->key(Qt::Key_BracketRight);
@@ -529,7 +530,7 @@ TEST_F(HandleWindow, WhatCannotBePlacedIsOneSentence)
   const QPoint at = this->pixel(Vec3(0, 0, 0.5));
   this->click(at);
   const int steps = this->history()->count();
-  this->click(at); // at the very same place
+  this->click(at); // at the same position
   EXPECT_EQ(this->history()->count(), steps);
   EXPECT_TRUE(this->editing()->is_warning());
   EXPECT_TRUE(this->hint().contains("p1")) << this->hint().toStdString();
@@ -556,11 +557,11 @@ TEST_F(HandleWindow, ANewPointMovesNumbersAndNothingElse)
   ASSERT_EQ(this->names(), QStringList({ "left", "right", "p1", "spine" }));
   EXPECT_EQ(this->document()->pose()[3].mode, HandleMode::ends);
   EXPECT_EQ(this->document()->pose()[3].transform, pose[2].transform);
-  EXPECT_EQ(this->window.panel()->shown_column(), 3); // of spine still
+  EXPECT_EQ(this->window.panel()->shown_column(), 3); // still the column of spine
   this->editing()->set_mode(HandleEditing::pose);
   EXPECT_LT((this->points() - posed).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_FALSE(this->window.rebind_bar()->isHidden()); // offered
-  // The selection follows undo and redo by names.
+  EXPECT_FALSE(this->window.rebind_bar()->isHidden()); // a new bind is offered
+  // Undo and redo keep the selection by name.
   this->editing()->select({ 3 });
   this->history()->undo();
   ASSERT_EQ(this->names().size(), 3);
@@ -587,8 +588,8 @@ TEST_F(HandleWindow, RestPlacesAreMovedAndARebindIsOffered)
   this->check("move at rest left", [&] { this->drag(at, at + QPoint(0, 30)); });
   EXPECT_GT((this->handle("left").head - Vec3(-0.3, 0, 0.5)).norm(), 0.02);
   EXPECT_FALSE(this->window.rebind_bar()->isHidden());
-  this->render(); // the bar takes room
-  // Esc in the middle: as before, bit by bit.
+  this->render(); // the bar takes up space
+  // Esc during the drag restores every bit.
   const std::string before = this->state();
   const int steps = this->history()->count();
   const QPoint from = this->pixel(this->handle("right").head);
@@ -611,7 +612,7 @@ TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCancelledBitByBit)
   this->key(Qt::Key_W);
   EXPECT_EQ(this->drawn()->GetGizmo(), Drawn::GIZMO_MOVE);
   this->render();
-  // Along the axis as it is seen, and beside it.
+  // Drag along the projected axis, with some deviation from it.
   const QPoint z = this->grip(Drawn::MOVE_Z);
   const Vec3 head = this->handle("right").head;
   const QPoint along = this->pixel(head + Vec3(0, 0, 0.3)) - this->pixel(head);
@@ -620,7 +621,7 @@ TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCancelledBitByBit)
   EXPECT_GT(way.z(), 0.05);
   EXPECT_EQ(way.x(), 0.0);
   EXPECT_EQ(way.y(), 0.0);
-  // Cancelled: to the last bit.
+  // A canceled drag restores every bit.
   const std::string before = this->state();
   const Points posed = this->points();
   const QPoint x = this->grip(Drawn::MOVE_X);
@@ -633,7 +634,7 @@ TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCancelledBitByBit)
   this->release(x + QPoint(40, 10));
   EXPECT_EQ(this->state(), before);
   EXPECT_EQ(this->history()->undoText(), "move right");
-  // Rings turn, boxes scale.
+  // Rings turn and boxes scale.
   this->key(Qt::Key_E);
   this->render();
   const QPoint ring = this->grip(Drawn::TURN_VIEW);
@@ -656,7 +657,7 @@ TEST_F(HandleWindow, StretchGoesToTheBoneOnlyWhereItIsSeen)
   EXPECT_FALSE(this->drawn()->GetStretchableBones());
 }
 
-/// Letters and digits are the drag's while it goes on, and the window's else.
+/// During a drag, letters and digits control the drag. Otherwise they are shortcuts of the window.
 TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
 {
   this->open_bound();
@@ -670,8 +671,8 @@ TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
   this->key(Qt::Key_Period);
   this->key(Qt::Key_2);
   this->key(Qt::Key_5);
-  this->key(Qt::Key_A); // no mode
-  this->key(Qt::Key_Space); // no playing
+  this->key(Qt::Key_A); // must not start an edit mode
+  this->key(Qt::Key_Space); // must not start playback
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
   EXPECT_EQ(this->document()->number("pose.method"), method);
   EXPECT_TRUE(this->hint().contains("Z .25")) << this->hint().toStdString();
@@ -679,10 +680,10 @@ TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
   EXPECT_FALSE(this->widget()->IsDragging());
   EXPECT_EQ(Vec3(this->document()->pose()[1].transform.col(3)), Vec3(0, 0, 0.25));
   EXPECT_EQ(this->history()->undoText(), "move right");
-  // Without a drag the same keys are the window's.
+  // Without a drag, the same keys are shortcuts of the window.
   this->key(Qt::Key_2);
   EXPECT_EQ(this->document()->number("pose.method"), 1);
-  // R turns what is selected; T shows the shape at rest.
+  // R turns the selected handle; T shows the shape at rest.
   this->key(Qt::Key_R);
   EXPECT_TRUE(this->widget()->IsDragging());
   EXPECT_FALSE(this->window.posing()->looks_at_rest());
@@ -738,7 +739,7 @@ TEST_F(HandleWindow, CommandsAreStepsWithNames)
   this->check("unlock left", [&] { commands->action("lock")->trigger(); });
   this->check("mode of left", [&] { commands->action("fixes.position")->trigger(); });
   EXPECT_TRUE(commands->action("fixes.position")->isChecked());
-  EXPECT_FALSE(commands->action("fixes.tail")->isEnabled()); // no bone
+  EXPECT_FALSE(commands->action("fixes.tail")->isEnabled()); // left is not a bone
   this->check("snap to the surface: left", [&] { commands->action("snap")->trigger(); });
   const Vec3 on = this->handle("left").head;
   EXPECT_NEAR(Vec3(on.x() / 0.4, on.y() / 0.4, on.z()).norm(), 1.0, 0.03);
@@ -762,7 +763,7 @@ TEST_F(HandleWindow, CommandsAreStepsWithNames)
   ASSERT_EQ(this->document()->handles().size(), 4U);
   const Handle& copy = this->document()->handles().back();
   EXPECT_LT((copy.tail - Vec3(-0.2, 0, 0.1)).norm(), 1e-12);
-  EXPECT_EQ(this->editing()->selected(), std::vector<int>{ 3 }); // what is new
+  EXPECT_EQ(this->editing()->selected(), std::vector<int>{ 3 }); // the new handle
   this->check(
     "delete " + QString::fromStdString(copy.name), [&] { commands->action("delete")->trigger(); });
   EXPECT_TRUE(this->editing()->selected().empty());
@@ -794,7 +795,7 @@ TEST_F(HandleWindow, CageEdgesAreToggledBetweenTwoVertices)
 TEST_F(HandleWindow, NamesThatCannotBeAreOneSentence)
 {
   this->open_bound();
-  // Kept poses follow the name.
+  // Stored poses use the new name.
   PoseShelf shelf;
   Pose kept(3);
   kept[0].transform.col(3) = Vec3(0.5, 0, 0);
@@ -820,7 +821,7 @@ TEST_F(HandleWindow, NamesThatCannotBeAreOneSentence)
     EXPECT_EQ(this->state(), before);
     EXPECT_EQ(this->history()->count(), steps);
   }
-  // By F2, in a box.
+  // Rename with F2, in a dialog.
   this->key(Qt::Key_F2);
   auto* box = this->window.findChild<QInputDialog*>();
   ASSERT_NE(box, nullptr);
@@ -856,13 +857,13 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
   {
     EXPECT_TRUE(texts.contains(text)) << text;
   }
-  // Beside handles the button is the camera's.
+  // Away from handles, the right button belongs to the camera.
   const QPoint beside(20, this->viewport()->height() - 20);
   this->hover(beside);
   this->mouse(QEvent::MouseButtonPress, beside, Qt::RightButton, Qt::RightButton);
   EXPECT_FALSE(menu->isVisible());
   this->mouse(QEvent::MouseButtonRelease, beside, Qt::RightButton, Qt::NoButton);
-  // During a drag it cancels that.
+  // During a drag, the right button cancels the drag.
   const std::string before = this->state();
   this->press(at, at + QPoint(40, 0));
   this->mouse(QEvent::MouseButtonPress, at + QPoint(40, 0), Qt::RightButton, Qt::RightButton);
@@ -870,14 +871,14 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
   EXPECT_FALSE(menu->isVisible());
   this->mouse(QEvent::MouseButtonRelease, at, Qt::RightButton, Qt::NoButton);
   this->release(at);
-  // In the list the same.
+  // The list has the same menu.
   const HandleTree* handles = this->window.panel()->handle_list();
   QTreeWidget* list = handles->tree();
   Q_EMIT list->customContextMenuRequested(list->visualItemRect(handles->item(2)).center());
   EXPECT_TRUE(menu->isVisible());
   EXPECT_EQ(this->editing()->selected(), std::vector<int>{ 2 });
   menu->hide();
-  // The menu of parents has all others, and none.
+  // The menu of parents lists all other handles and an entry for no parent.
   for (QAction* action : menu->actions())
   {
     if (action->menu() && action->text().contains("arent"))
@@ -927,7 +928,8 @@ TEST_F(HandleWindow, ToolsAreOnlyThereForWhatThereIs)
   EXPECT_TRUE(enabled("gizmo.move"));
 }
 
-/// The sheet has every binding of the widgets and every key of the window, and these work.
+/// The sheet contains every binding of the widgets and every key of the window, and all of them
+/// work.
 TEST_F(HandleWindow, TheSheetTellsTheKeysThatThereAre)
 {
   this->viewport()->setFocus();
@@ -962,7 +964,7 @@ TEST_F(HandleWindow, TheSheetTellsTheKeysThatThereAre)
   EXPECT_GT(shown, 1);
   EXPECT_LT(shown, 12);
   sheet->close();
-  // All keys of the table belong to an action, each to one.
+  // Every key of the table belongs to exactly one action.
   QMap<QString, QString> owner;
   for (const WindowKey& key : window_keys)
   {
@@ -997,14 +999,14 @@ TEST_F(HandleWindow, RegionsAndWeightsAreNotShownAtOnce)
   EXPECT_EQ(this->window.panels()->shown_panel(), PanelColumn::bind_and_pose);
   this->window.panels()->show_panel(PanelColumn::weights);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
-  EXPECT_EQ(this->window.size(), size); // two panels are never there at once
+  EXPECT_EQ(this->window.size(), size); // two panels are never visible at the same time
   EXPECT_EQ(this->picture(), weights);
 }
 
 TEST_F(HandleWindow, NothingIsClippedInASmallWindow)
 {
   this->open_mesh();
-  this->resize(QSize(900, 600)); // with what is said without handles
+  this->resize(QSize(900, 600)); // with the text for a mesh without handles
   this->open_bound();
   for (const QSize& size : { QSize(900, 600), QSize(1280, 800) })
   {
@@ -1030,7 +1032,8 @@ TEST_F(HandleWindow, NothingIsClippedInASmallWindow)
   }
 }
 
-/// What it looks like; for people BINDPOSE_PICTURES names a folder that the pictures go to.
+/// Each mode has a different picture. The pictures are saved in the folder BINDPOSE_PICTURES, if
+/// that is set.
 TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
 {
   const char* folder = std::getenv("BINDPOSE_PICTURES");

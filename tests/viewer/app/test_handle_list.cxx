@@ -1,5 +1,5 @@
 // The list of handles, the panel of weights and the picture show the same selection, however it was
-// made, and what is chosen in the panel is for all of it. The list is a tree that can be searched.
+// made. Choices in the panel apply to all selected handles. The list is a tree with a search.
 #include "window_test.h"
 
 #include "document/document.h"
@@ -34,7 +34,7 @@ namespace
 class HandleList : public test::WindowTest
 {
 protected:
-  /// A ball with three points along z and a bone, all weighing the same.
+  /// A ball with three points along z and a bone, with equal weights.
   void SetUp() override
   {
     Handles handles(4);
@@ -69,7 +69,7 @@ protected:
     QTest::mouseClick(tree->viewport(), Qt::LeftButton, held, at.center());
     QApplication::processEvents();
   }
-  /// What is selected, of which all that show it say the same.
+  /// Return the selection, and expect that all views agree on it.
   std::vector<int> selected()
   {
     const std::vector<int> result = this->window.editing()->selected();
@@ -83,7 +83,7 @@ protected:
     EXPECT_EQ(this->window.panel()->selected_handles(), result);
     return result;
   }
-  /// A click on a handle in the picture.
+  /// Click a handle in the picture.
   void pick(const char* name, Qt::KeyboardModifiers held = Qt::NoModifier)
   {
     QPoint at;
@@ -163,7 +163,7 @@ TEST_F(HandleList, WhatIsSelectedInThePictureIsSelectedInTheList)
   EXPECT_EQ(this->selected(), Numbers({ 0, 1, 2, 3 }));
   this->pick("middle", Qt::ShiftModifier);
   EXPECT_EQ(this->selected(), Numbers({ 0, 2, 3 }));
-  // What is deleted and comes back by undo is selected by its names.
+  // Undo of a deletion selects the restored handles by name.
   this->hand.trigger("delete");
   EXPECT_EQ(this->selected(), Numbers());
   this->hand.trigger("edit.undo");
@@ -207,7 +207,7 @@ TEST_F(HandleList, AModeIsForAllThatAreSelectedAndOneStep)
   EXPECT_EQ(this->mode(0), HandleMode::automatic);
   EXPECT_EQ(this->mode(2), HandleMode::automatic);
   EXPECT_EQ(this->modes()->currentIndex(), this->entry_of(HandleMode::automatic));
-  // A tail is held of bones only.
+  // Mode tail is offered for bones only.
   EXPECT_FALSE(this->offers(HandleMode::tail));
   this->click(3);
   EXPECT_TRUE(this->offers(HandleMode::tail));
@@ -235,7 +235,7 @@ TEST_F(HandleList, TheWeightsPanelAndTheSelectionFollowEachOther)
   auto* box = weights->findChild<QComboBox*>("weights.column");
   box->setCurrentIndex(1 + 1);
   EXPECT_EQ(this->selected(), Numbers({ 1 }));
-  // Of several the last one is shown, and they stay selected.
+  // The last of several selected handles is shown, and all stay selected.
   this->click(2, Qt::ControlModifier);
   EXPECT_EQ(this->selected(), Numbers({ 1, 2 }));
   EXPECT_EQ(weights->column(), 2);
@@ -294,7 +294,7 @@ protected:
       std::find_if(now.begin(), now.end(), [&](const Handle& each) { return each.name == name; }) -
       now.begin());
   }
-  /// Names of the rows that are seen without scrolling.
+  /// Return the names of the rows that are visible without scrolling.
   QStringList seen()
   {
     QApplication::processEvents();
@@ -327,7 +327,7 @@ TEST_F(HandleTreeWindow, ChildrenAreBelowTheirParents)
     EXPECT_EQ(this->text(k).toStdString(), handle.name);
     EXPECT_TRUE(this->list()->item(k)->isExpanded());
   }
-  // Another parent by the menu's function moves the row; what was folded stays so.
+  // A new parent, set by the menu's function, moves the row. Folded rows stay folded.
   this->list()->item(this->number("right_hand"))->setExpanded(false);
   this->window.panel()->select_handle(this->number("left_hand"));
   this->window.editing()->commands()->set_parent(this->number("hips"));
@@ -335,7 +335,7 @@ TEST_F(HandleTreeWindow, ChildrenAreBelowTheirParents)
   ASSERT_NE(moved->parent(), nullptr);
   EXPECT_EQ(moved->parent()->text(0), "hips");
   EXPECT_FALSE(this->list()->item(this->number("right_hand"))->isExpanded());
-  // What is selected in the picture is unfolded.
+  // Selecting a handle in the picture unfolds its row.
   this->window.panel()->select_handle(this->number("right_finger_2"));
   EXPECT_TRUE(this->list()->item(this->number("right_hand"))->isExpanded());
 }
@@ -353,7 +353,7 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
     << "letters are no shortcuts there";
   QTest::keyClick(search, Qt::Key_Return);
   EXPECT_EQ(this->window.editing()->selected(), Numbers({ this->number("right_finger_0") }));
-  // What is selected elsewhere is seen, whatever is searched for.
+  // A handle that is selected elsewhere is visible, whatever the search text.
   this->window.panel()->select_handle(this->number("nose"));
   EXPECT_TRUE(this->seen().contains("nose"));
   search->setFocus();
@@ -372,7 +372,7 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
 
 TEST_F(HandleTreeWindow, ALargeScreenShowsADozenRowsAndTheHeightCanBeDragged)
 {
-  this->resize(QSize(1920, 1040)); // what a desktop leaves of 1920 x 1080
+  this->resize(QSize(1920, 1040)); // the space that a desktop provides on a screen of 1920 x 1080
   EXPECT_GE(this->seen().size(), 12);
   this->resize(QSize(1280, 760));
   EXPECT_GE(this->seen().size(), 4);

@@ -1,5 +1,5 @@
-// The window as a person uses it: open, bind, drag, undo, cancel. Drags are synthetic events on the
-// interactor; what is asserted is where vertices are.
+// The window as a user operates it: open, bind, drag, undo, cancel. Drags are synthetic events on
+// the interactor. The tests assert the positions of vertices.
 #include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
@@ -93,7 +93,8 @@ Vec3 top_of(vtkPolyData* data)
   return top;
 }
 
-/// Deep blue where a weight is one: blue well above red. The shaded surface has none.
+/// Count deep blue pixels (blue well above red), which show a weight of one. The shaded surface has
+/// none.
 int blue_pixels(const QImage& image)
 {
   int count = 0;
@@ -122,7 +123,7 @@ protected:
     ASSERT_TRUE(this->window.set_mesh(with_weights(column()), "column"));
     ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
     ASSERT_TRUE(this->window.is_bound());
-    this->window.history()->clear(); // of opening
+    this->window.history()->clear(); // discard the steps of opening
     this->render();
   }
 
@@ -132,7 +133,7 @@ protected:
     this->window.viewport()->renderWindow()->Render();
   }
 
-  /// Where a handle is in the window, in VTK's pixels.
+  /// Return the pixel of a handle in the window, in VTK's coordinates.
   Eigen::Vector2i pixel_of(vtkIdType handle)
   {
     auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
@@ -189,7 +190,8 @@ TEST_F(Window, ADragMovesVerticesAndUndoTakesItBack)
   EXPECT_EQ(top_of(this->window.shown()), moved);
 }
 
-/// As from an icon of a desktop, where nobody sees the terminal.
+/// A program started from a desktop icon has no visible terminal, so the window must show the
+/// errors.
 TEST_F(Window, FilesThatCannotBeReadAreNamedInTheErrorBar)
 {
   const test::Folder folder;
@@ -210,7 +212,7 @@ TEST_F(Window, FilesThatCannotBeReadAreNamedInTheErrorBar)
   EXPECT_TRUE(said[1].contains("noise.png")) << said[1].toStdString();
   EXPECT_TRUE(said[2].contains("old.bindpose")) << said[2].toStdString();
   ASSERT_NE(this->window.shown(), nullptr) << "what can be opened is open";
-  // Another file that opens is not about them.
+  // Opening another file removes the errors.
   ASSERT_TRUE(this->window.set_mesh(surface, "again"));
   EXPECT_EQ(this->window.error(), QString());
 }
@@ -226,7 +228,7 @@ TEST_F(Window, ARigIsReadyToBePosed)
   ASSERT_EQ(writer->Write(), 1) << writer->GetStatusMessage();
   EXPECT_TRUE(this->window.open(QString::fromStdString(path)));
   std::remove(path.c_str());
-  ASSERT_TRUE(this->window.is_bound()); // by the weights in the file
+  ASSERT_TRUE(this->window.is_bound()); // bound by the weights in the file
   this->render();
   const Vec3 rest = top_of(this->window.shown());
   this->drag(1, { 80, 0 });
@@ -260,7 +262,7 @@ TEST_F(Window, AllMethodsFollowTheHandles)
   {
     this->window.set_method(method);
     EXPECT_EQ(this->window.error(), QString());
-    // Both handles fix everything: all methods agree that the top has moved as far.
+    // The two handles determine the motion of the top, so all methods agree on it.
     EXPECT_NEAR((top_of(this->window.shown()) - linear).norm(), 0.0, 0.05 * (linear - rest).norm());
   }
 }
@@ -290,7 +292,7 @@ TEST_F(Window, BindsOffTheUiThreadWithProgress)
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   EXPECT_FALSE(this->window.is_bound());
   double last = 0.0;
-  std::string backward; // which phase went back, and by how much
+  std::string backward; // phases whose progress went back, and by how much
   int steps = 0;
   QObject::connect(this->window.findChild<BindJob*>(), &BindJob::progress,
     [&](double fraction, const QString& phase)
@@ -343,7 +345,8 @@ TEST_F(Window, APreviewIsThereToPoseWithBeforeTheBindEnds)
   ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
   EXPECT_TRUE(this->window.is_bound());
 
-  // Cancelled after its preview, a first bind leaves that, as a step that can be undone.
+  // If a first bind is canceled after its preview, the preview's weights stay, as a step that can
+  // be undone.
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
   EXPECT_FALSE(this->window.is_bound());
   this->window.binding()->start();
@@ -354,7 +357,7 @@ TEST_F(Window, APreviewIsThereToPoseWithBeforeTheBindEnds)
   EXPECT_TRUE(this->window.is_bound());
   EXPECT_FALSE(this->window.document()->has_preview());
   EXPECT_EQ(this->window.error(), QString());
-  // The next bind that is cancelled leaves these weights.
+  // If the next bind is canceled, these weights stay.
   vtkDataArray* kept = this->window.shown()->GetPointData()->GetArray("Weights");
   this->window.binding()->start();
   ASSERT_TRUE(wait_for([this] { return this->window.document()->has_preview(); }));
@@ -530,7 +533,7 @@ TEST_F(Window, WhatCannotBeDoneYetIsDisabledInTheMenus)
   }
 }
 
-/// No word is cut off, whatever the handles are called and however small the window is.
+/// No text is clipped, whatever the names of the handles and the size of the window.
 TEST_F(Window, NoTextOfThePanelIsClipped)
 {
   Handles handles(2);
@@ -594,7 +597,8 @@ TEST_F(Window, HandlesAreDraggedBesideAnOpenVolumeInThePanelPose)
   this->render();
   const double slice = this->window.volume_view()->position();
   const Vec3 rest = top_of(this->window.shown());
-  // At rest around the slice they stay, and so does the slice behind them.
+  // The shape is at rest around the slice: a drag moves neither the handles nor the slice behind
+  // them.
   this->drag(1, { 80, 0 });
   EXPECT_EQ(top_of(this->window.shown()), rest);
   EXPECT_EQ(this->window.volume_view()->position(), slice);
@@ -642,7 +646,7 @@ TEST_F(Window, TurnsDarkAndLightAgain)
   {
     EXPECT_TRUE(dark.save(QString(folder) + "/dark.png"));
   }
-  // Panel, menu, view: each is dark; what is written on them is not.
+  // Panel, menu and view are dark; their text is light.
   const auto light_share = [](const QImage& image, const QRect& at)
   {
     int light_pixels = 0, all = 0;
@@ -675,9 +679,9 @@ int main(int argc, char** argv)
   testing::InitGoogleTest(&argc, argv);
   if (testing::GTEST_FLAG(list_tests))
   {
-    return RUN_ALL_TESTS(); // tests are listed while building, without a display
+    return RUN_ALL_TESTS(); // tests are listed during the build, without a display
   }
-  // Recent files and recovered work of the tests are not those of whoever runs them.
+  // Recent files and recovered work of the tests must be separate from those of the user.
   const bindpose::test::Folder folder;
   qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString(folder / "config"));
   qputenv("XDG_DATA_HOME", QByteArray::fromStdString(folder / "data"));

@@ -1,5 +1,5 @@
-// A window that is played with at random stays sound: it answers, every number in it is finite, no
-// dialog is left open, and undo of everything is where it began, to the last bit.
+// A window under random events stays sound: it responds, every number in it is finite, no dialog
+// stays open, and undoing all steps restores the initial state bit by bit.
 #include "monkey.h"
 
 #include "main_window.h"
@@ -26,7 +26,7 @@ using test::fingerprints;
 
 namespace
 {
-/// Of the environment, or the default.
+/// Return a number from the environment, or the default.
 double setting(const char* name, double otherwise)
 {
   const char* text = std::getenv(name);
@@ -51,7 +51,7 @@ bool is_finite(vtkPolyData* data)
   return !data || to_points(data).view().allFinite();
 }
 
-/// Without what was found for free handles, which is no work of a person.
+/// Reset the transforms that were found for free handles, because they are not the user's work.
 Pose fixed(Pose pose)
 {
   for (HandlePose& each : pose)
@@ -64,14 +64,14 @@ Pose fixed(Pose pose)
   return pose;
 }
 
-/// Options that the program chooses, too: that is no step, and survives undo.
+/// Options that the program also chooses by itself. Such a change is not a step, and undo keeps it.
 const char* const chosen_by_the_program[] = { "show.column", "weights.column", "weights.what",
   "weights.raw", "tets.shown", "tets.colours", "defects.shown", "volume.level",
   "volume.isosurface" };
 
 using Fingerprints = std::map<std::string, std::string>;
 
-/// Of what a person has made and chosen.
+/// Return fingerprints of everything that the user has made and chosen.
 Fingerprints own_fingerprints(const Document& document)
 {
   Work work = document.work();
@@ -82,7 +82,7 @@ Fingerprints own_fingerprints(const Document& document)
   return fingerprints(work);
 }
 
-/// What must hold whenever the window rests.
+/// Check the invariants of an idle window.
 void check_window(MainWindow& window)
 {
   const Document& document = *window.document();
@@ -98,7 +98,7 @@ void check_window(MainWindow& window)
   EXPECT_TRUE(window.isVisible());
 }
 
-/// What is other now, for a sentence.
+/// Return the parts that have changed, as a sentence.
 std::string other_parts(const Fingerprints& before, const Fingerprints& now)
 {
   const auto part_of = [](const Fingerprints& all, const std::string& name)
@@ -127,7 +127,7 @@ std::string steps_of(const QUndoStack* history)
   return text;
 }
 
-/// All the way back and all the way forth again, bit by bit.
+/// Undo all steps and redo them again; both must restore every bit.
 void check_history(MainWindow& window, const Fingerprints& beginning)
 {
   QUndoStack* history = window.history();
@@ -142,7 +142,8 @@ void check_history(MainWindow& window, const Fingerprints& beginning)
 }
 } // namespace
 
-/// BINDPOSE_MONKEY_SECONDS and BINDPOSE_MONKEY_SEED say how long and which; 60 seconds without.
+/// BINDPOSE_MONKEY_SECONDS is the duration in seconds (default 60). BINDPOSE_MONKEY_SEED is the
+/// first seed.
 TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
 {
   const double seconds = setting("BINDPOSE_MONKEY_SECONDS", 60.0);
@@ -166,7 +167,7 @@ TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
     window.show();
     QApplication::setActiveWindow(&window);
     QApplication::processEvents();
-    if (seed % 4 != 0) // else it begins with nothing
+    if (seed % 4 != 0) // otherwise the window starts empty
     {
       ASSERT_TRUE(window.open(data("figure_weights.vtp")));
       ASSERT_TRUE(window.open(data("figure.tgf")));
@@ -181,7 +182,7 @@ TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
       monkey.play(50);
       monkey.rest();
       EXPECT_TRUE(wait_until([&] { return is_idle(&window); }, 60.0)) << "it never rests";
-      QElapsedTimer answer; // a frame and all that waits
+      QElapsedTimer answer; // duration of a frame and all pending events
       answer.start();
       QApplication::processEvents();
       window.viewport()->renderWindow()->Render();

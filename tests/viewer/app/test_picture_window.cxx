@@ -1,5 +1,5 @@
-// Pictures of the view as they are saved: their sizes, that they show what is seen, and that those
-// with a transparent background, put over any colour, are what would have been drawn on it.
+// Saved pictures of the view: their sizes, and that they show the same as the window. A picture
+// with a transparent background, composited over any color, equals a picture drawn on that color.
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -69,8 +69,8 @@ double share_apart(const QImage& a, const QImage& b, int level)
   return static_cast<double>(apart) / (a.width() * a.height());
 }
 
-/// How much darker than the background beside them the letters and lines at the scalar bar are,
-/// over all pixels: twice as thick ones are twice as much.
+/// Return how much darker than the background the letters and lines at the scalar bar are, summed
+/// over all pixels. The sum is proportional to their thickness.
 double ink(const QImage& image)
 {
   double sum = 0.0;
@@ -86,7 +86,7 @@ double ink(const QImage& image)
   return sum;
 }
 
-/// What a picture is over a colour.
+/// Return a pixel composited over a color.
 QColor over(const QColor& pixel, const Rgb& ground)
 {
   const double alpha = pixel.alphaF();
@@ -99,7 +99,7 @@ QColor over(const QColor& pixel, const Rgb& ground)
 class PictureWindow : public test::WindowTest
 {
 protected:
-  /// A ball with two handles and the isolines and scalar bar of one's weights.
+  /// Open a ball with two handles, with the isolines and the scalar bar of one handle's weights.
   void open_weighted()
   {
     const TriangleMesh ball = test::sphere(4);
@@ -121,15 +121,16 @@ protected:
     return picture;
   }
 
-  /// The transparent picture put over plain colours is the opaque picture on such a ground, at
-  /// every pixel: half covered edges, see-through things and letters, too.
+  /// Expect that the transparent picture, composited over plain colors, equals the opaque picture
+  /// on such a background at every pixel, including half covered edges, see-through objects and
+  /// letters.
   void expect_right_over_any_colour(int scale)
   {
     const auto clear = this->take(scale, true);
     ASSERT_EQ(clear->GetNumberOfScalarComponents(), 4);
     vtkRenderer* renderer = this->window.viewport()->renderer();
     const Rgb grounds[] = { { 1.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 }, { 0.8, 0.2, 0.6 } };
-    int part = 0; // covered
+    int part = 0; // number of partly covered pixels
     for (const Rgb& ground : grounds)
     {
       renderer->GradientBackgroundOff();
@@ -150,7 +151,7 @@ protected:
       EXPECT_LE(worst, 4) << "of 255, over " << ground[0] << " " << ground[1] << " " << ground[2];
     }
     EXPECT_GT(part, 500) << "edges are partly covered";
-    // Nothing where nothing is, everything in the middle of the shape.
+    // The background is clear.
     EXPECT_EQ(pixel_of(clear, clear->GetDimensions()[0] - 4, 4).alpha(), 0);
   }
 };
@@ -174,11 +175,11 @@ TEST_F(PictureWindow, OfEveryScaleIsWhatIsSeenOnlyFiner)
 {
   this->open_weighted();
   const QImage seen = this->picture().convertToFormat(QImage::Format_ARGB32);
-  for (const int scale : { 1, 2, 5 }) // the last in several tiles
+  for (const int scale : { 1, 2, 5 }) // the last one needs several tiles
   {
     const QImage taken = image_of(this->take(scale, false));
     const QImage small = taken.scaled(seen.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
-    // Edges of letters and lines fall on other pixels; in all else they are the same.
+    // Edges of letters and lines cover other pixels; everything else is the same.
     EXPECT_LT(share_apart(small, seen, 24), 0.02) << scale;
     EXPECT_LT(share_apart(small, seen, 80), 0.004) << scale;
     EXPECT_NEAR(ink(taken) / (scale * scale), ink(seen), 0.15 * ink(seen)) << scale;
@@ -262,7 +263,7 @@ TEST_F(PictureWindow, TheDialogTellsTheSizeAndRemembers)
       QApplication::processEvents();
       EXPECT_TRUE(dialog.grab().save(QString(folder) + "/picture_dialog.png"));
     }
-    dialog.reject(); // nothing is kept
+    dialog.reject(); // no choice is stored
   }
   {
     PictureDialog dialog(this->window.viewport(), &this->window);

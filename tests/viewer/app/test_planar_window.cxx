@@ -1,5 +1,4 @@
-// The 2D mode: pictures and shapes that lie in a plane, whichever it is, and weights over a
-// picture.
+// The 2D mode: pictures and planar shapes, in any plane, and weights over a picture.
 #include "binding.h"
 #include "window_test.h"
 
@@ -30,7 +29,7 @@ namespace
 class PlanarWindow : public test::WindowTest
 {
 protected:
-  /// A rectangle, turned and moved; its middle is at `center`.
+  /// Open a rectangle, rotated by `turn` and centered at `center`.
   void open(const Eigen::Matrix3d& turn, const Vec3& center = Vec3(1, 2, 3))
   {
     this->mesh = test::grid(16, 8, 2.0, 1.0);
@@ -77,7 +76,7 @@ TEST_F(PlanarWindow, AShapeInAPlaneIsSeenFromInFrontWithoutPerspective)
     EXPECT_TRUE(this->camera()->GetParallelProjection() != 0);
     EXPECT_LT((this->sight() + normal).norm(), 1e-9) << normal.transpose();
     EXPECT_LT((Vec3(this->camera()->GetViewUp()) - up).norm(), 1e-9) << normal.transpose();
-    // All of it, in the middle of the picture and large.
+    // The whole shape is visible, large and centered in the picture.
     QRect seen;
     for (Index v = 0; v < this->mesh.points.rows(); ++v)
     {
@@ -104,7 +103,7 @@ TEST_F(PlanarWindow, DraggingMovesItAndTheMenuLetsItBeTurned)
   this->drag(at, at + QPoint(60, 25));
   EXPECT_LT((this->sight() - sight).norm(), 1e-9);
   EXPECT_LE((this->pixel(middle) - before - QPoint(60, 25)).manhattanLength(), 3);
-  // Out of the 2D mode, and back.
+  // Leave the 2D mode and return to it.
   ASSERT_TRUE(this->entry()->isEnabled());
   EXPECT_TRUE(this->entry()->isChecked());
   this->entry()->trigger();
@@ -119,7 +118,7 @@ TEST_F(PlanarWindow, DraggingMovesItAndTheMenuLetsItBeTurned)
   this->render();
   EXPECT_TRUE(this->window.viewport()->is_flat());
   EXPECT_LT((this->sight() + tilted.col(2)).norm(), 1e-9);
-  // A ball has no such view.
+  // A ball has no 2D mode.
   const TriangleMesh ball = test::sphere(3);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
   EXPECT_FALSE(this->window.viewport()->is_flat());
@@ -148,7 +147,7 @@ TEST_F(PlanarWindow, ATiltedPlaneIsBoundPosedInItselfAndLayered)
   EXPECT_GT((posed - this->mesh.points).rowwise().norm().maxCoeff(), 0.05);
   const Vec3 normal = tilted.col(2);
   EXPECT_LT(((posed.rowwise() - Eigen::RowVector3d(1, 2, 3)) * normal).cwiseAbs().maxCoeff(), 1e-9);
-  // Layers move what is drawn along the normal, and nothing else.
+  // Layers move the drawn surface along the normal and change nothing else.
   set_handle_layer(
     this->window.document()->handle_data(), this->window.document()->handle_cells()[1], 3.0);
   this->window.document()->commit_handles("layer", "layer");
@@ -175,7 +174,7 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   this->window.viewport()->handle_widget()->SetEnabled(false);
   const Index points = this->window.document()->surface()->GetNumberOfPoints();
   const auto columns = static_cast<Index>(this->window.document()->handles().size());
-  // The same weight everywhere: one colour, no isoline.
+  // Equal weights everywhere give one color and no isoline.
   Weights weights = Weights::Constant(points, columns, 0.65 / (columns - 1));
   weights.col(0).setConstant(0.35);
   ASSERT_TRUE(this->window.document()->set_weights(weights, "even").ok());
@@ -212,7 +211,7 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   }
   EXPECT_GT(covered, 20000);
   EXPECT_EQ(wrong, 0);
-  // The picture alone is the picture: as without any column.
+  // The picture alone looks the same as without any column.
   this->window.panels()->show_panel(PanelColumn::bind_and_pose);
   this->choose("show.column", 0);
   const QImage plain = this->picture();
@@ -240,7 +239,7 @@ TEST_F(PlanarWindow, BesideEachOtherBothShapesHaveThePicture)
   this->choose("pose.ghost", 1);
   this->window.viewport()->handle_widget()->SetEnabled(false);
   const QImage seen = this->picture();
-  const int half = seen.width() / 2, below = seen.height() - 60; // the names are there
+  const int half = seen.width() / 2, below = seen.height() - 60; // exclude the names at the bottom
   int coloured = 0, apart = 0;
   for (int y = 0; y < below; ++y)
   {
@@ -253,8 +252,10 @@ TEST_F(PlanarWindow, BesideEachOtherBothShapesHaveThePicture)
     }
   }
   EXPECT_GT(coloured, 5000);
-  EXPECT_LT(apart, coloured / 10); // at rest both are the same; of an odd width half a pixel off
-  // See-through over the shape it is blue again, where it is elsewhere.
+  EXPECT_LT(apart, coloured / 10); // at rest both halves are equal; an odd width shifts one by half
+                                   // a pixel
+  // When drawn over the shape, the see-through comparison is blue wherever it differs from the
+  // shape.
   this->choose("pose.ghost", 0);
   const auto is_blue = [](const QColor& c) { return c.blue() > c.red() + 20; };
   const int same = count(this->picture(), is_blue);

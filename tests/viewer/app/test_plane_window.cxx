@@ -1,5 +1,6 @@
-// The three planes that the mouse drags, the slice of a volume, the cut through tets and the slice
-// of weights: a drag of one is a step of the history, Esc takes it back, and sessions keep it.
+// The three planes that the mouse can drag: the slice of a volume, the cut through tets and the
+// slice of weights. A drag is one step of the history, Esc cancels it, and sessions store the
+// plane.
 #include "window_test.h"
 
 #include "document/document.h"
@@ -41,7 +42,7 @@ namespace
 {
 struct PlaneCase
 {
-  const char* name; ///< its options begin like this
+  const char* name; ///< prefix of its options
   int panel;
   const char* move; ///< names of steps
   const char* turn;
@@ -70,7 +71,7 @@ vtkSmartPointer<vtkUnstructuredGrid> box()
   return grid;
 }
 
-/// The same box of samples.
+/// Return samples in the same box.
 vtkSmartPointer<vtkImageData> samples()
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
@@ -134,7 +135,7 @@ protected:
   void undo() { this->hand.trigger("edit.undo"); }
   void redo() { this->hand.trigger("edit.redo"); }
 
-  /// A drag of a plane across z, that does not end.
+  /// Begin a drag of a plane perpendicular to z, and do not end it.
   void begin_drag(double from, double to)
   {
     const QPoint start = this->pixel(Vec3(0.4, 0.3, from));
@@ -154,7 +155,7 @@ protected:
     this->hand.release(this->last, Qt::LeftButton);
     this->render();
   }
-  /// The arrow of a free plane, by so many pixels.
+  /// Turn a free plane by dragging its arrow by this number of pixels.
   void turn(const QPoint& by)
   {
     const Vec3 tip = this->plane()->origin() + 0.3 * std::sqrt(12.0) * this->plane()->normal();
@@ -249,14 +250,14 @@ TEST_P(PlaneWindow, EscDuringADragTakesItBack)
   this->end_drag();
   this->expect_place(0.2, "the button is let go");
   EXPECT_EQ(this->steps(), 1);
-  // So does undo, which takes the step before back, too.
+  // Undo also ends the drag, and reverts the step before it.
   this->begin_drag(0.2, 0.6);
   this->undo();
   this->end_drag();
   this->expect_place(0.0, "undo");
   EXPECT_EQ(this->steps(), 0);
   EXPECT_EQ(this->window.history()->count(), this->begin + 1) << "the step can be done again";
-  // And who saves in the middle of a drag saves what was before it.
+  // Saving during a drag saves the state before the drag.
   this->begin_drag(0.0, 0.5);
   ASSERT_TRUE(
     this->window.sessions()->write(QString::fromStdString(this->folder / "half.bindpose")));
@@ -287,7 +288,7 @@ TEST_P(PlaneWindow, TheSliderIsOneStepUntilItIsLetGo)
   EXPECT_EQ(slider->value(), 700);
   this->undo();
   this->expect_place(0.0, "undo of all");
-  // A tour says the share.
+  // A tour specifies the position as a fraction.
   EXPECT_EQ(this->hand.choose(this->key("place"), 0.25), QString());
   this->expect_place(-0.5, "a tour");
 }
@@ -316,7 +317,7 @@ TEST_P(PlaneWindow, AFreePlaneIsTurnedInOneStep)
   {
     EXPECT_EQ(kept[k].toDouble(), turned[k]);
   }
-  // An axis, and back by undo: the free plane is as it was turned to.
+  // Choose an axis, then undo: the free plane has its previous orientation.
   EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::y_axis), QString());
   EXPECT_EQ(this->plane()->normal(), Vec3(0, 1, 0));
   this->undo();
@@ -360,7 +361,7 @@ TEST_P(PlaneWindow, SessionsKeepThePlane)
     EXPECT_EQ(other.history()->count(), 0) << "to open a session is no step";
     EXPECT_FALSE(other.isWindowModified());
   }
-  // One from before there were such options: the plane is as in a new window.
+  // A session from before these options existed: the plane is as in a new window.
   std::ifstream file(path);
   nlohmann::json old = nlohmann::json::parse(file);
   for (const char* of : { "place", "normal", "orientation" })

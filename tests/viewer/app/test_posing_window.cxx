@@ -1,4 +1,5 @@
-// Posing in the window: every method live, comparisons, motion, kept poses and key frames, exports.
+// Posing in the window: all methods live, comparisons, motion, stored poses and key frames,
+// exports.
 #include "body_motion.h"
 #include "unclipped.h"
 #include "window_test.h"
@@ -77,7 +78,7 @@ using test::wait_for;
 
 namespace
 {
-/// A pole along z with bones along it and points at its sides, with weights.
+/// Return a pole along z. The tests put bones along it and points at its sides.
 TriangleMesh pole(int levels)
 {
   TriangleMesh mesh = test::sphere(levels);
@@ -144,7 +145,7 @@ protected:
       { return this->posing()->deformation()->is_settled() || !this->window.error().isEmpty(); });
   }
 
-  /// The window's own handles, in this pose; as undo or playback would put them.
+  /// Set the pose of the window's handles, as undo and playback do.
   void put(const Pose& pose)
   {
     Q_EMIT this->posing()->pose_changed(pose);
@@ -157,7 +158,8 @@ protected:
     pose[3].transform.leftCols<3>() = turn;
     pose[3].transform.col(3) = this->list[3].head - turn * this->list[3].head;
     pose[0].transform.col(3) = Vec3(-0.1 * amount, 0, 0.1 * amount);
-    // All is held: points alone, on one line, leave the spin about it open.
+    // All handles are constrained. Points alone, on one line, would leave the rotation about it
+    // undetermined.
     for (HandlePose& handle : pose)
     {
       handle.mode = HandleMode::full;
@@ -166,7 +168,7 @@ protected:
   }
   Points points() { return to_points(this->window.shown()).view(); }
 
-  /// Where the top of the pole is in the window, in VTK's pixels.
+  /// Return the pixel of a handle's head or tail in the window, in VTK's coordinates.
   Eigen::Vector2i pixel_of(vtkIdType cell, bool tail)
   {
     auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
@@ -220,7 +222,7 @@ TEST_F(PosingWindow, EveryMethodGivesWhatItsPoserGives)
     EXPECT_GT((this->points() - source->points).cwiseAbs().maxCoeff(), 0.05) << method;
     if (is_slow(static_cast<PoseMethod>(method)))
     {
-      continue; // in slices, see Poser.ASolveInSlicesIsTheFilterRunInSlices
+      continue; // solved in slices, see Poser.ASolveInSlicesIsTheFilterRunInSlices
     }
     ExecutionContext context;
     const PoseOptions options = this->panel()->options();
@@ -260,7 +262,7 @@ TEST_F(PosingWindow, DragsDoNotBindAgain)
     ASSERT_TRUE(this->settle());
     EXPECT_EQ(this->posing()->deformation()->binds(), binds) << method;
   }
-  // Coming back to a method binds nothing either.
+  // Returning to a method does not bind again.
   const Index binds = this->posing()->deformation()->binds();
   this->choose(PoseMethod::reduced_arap);
   this->choose(PoseMethod::linear_blend);
@@ -271,7 +273,7 @@ TEST_F(PosingWindow, DragsDoNotBindAgain)
 
 TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
 {
-  this->open(5); // 20480 triangles: a slice takes a while
+  this->open(5); // 20480 triangles, so that a slice takes a while
   this->choose(PoseMethod::full_arap);
   ASSERT_TRUE(this->settle());
   Deformation* deformation = this->posing()->deformation();
@@ -282,7 +284,7 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
     clock.start();
     this->put(this->bent(0.05 * move));
     longest = std::max(longest, 1e-6 * static_cast<double>(clock.nsecsElapsed()));
-    // Rests, so that slices grow, and moves on.
+    // Rest, so that slices grow, then move on.
     const Points before = deformation->points();
     EXPECT_TRUE(wait_for([&] { return deformation->points() != before; }, 20));
     if (move % 2 == 0)
@@ -295,11 +297,11 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
   }
   std::printf(
     "longest call of a drag %.2f ms, %d solves started again\n", longest, deformation->restarts());
-  EXPECT_LT(longest, 200.0); // an iteration is not waited for
+  EXPECT_LT(longest, 200.0); // the call does not wait for an iteration
   EXPECT_GT(deformation->restarts(), 0);
   ASSERT_TRUE(this->settle());
   EXPECT_TRUE(deformation->status().usable());
-  // Wherever it started from, it ends near where a fresh solve does.
+  // Whatever its start, the solve ends near the result of a fresh solve.
   auto source = std::make_shared<PoseSource>();
   ASSERT_TRUE(to_pose_source(this->surface, nullptr, this->handles, *source).ok());
   ExecutionContext context;
@@ -318,7 +320,7 @@ TEST_F(PosingWindow, CentresAreMadeBesideTheWindowAndCanBeStopped)
   this->choose(PoseMethod::rotation_centres);
   EXPECT_TRUE(this->posing()->deformation()->is_binding());
   EXPECT_TRUE(this->find<QPushButton>("Stop")->isVisible());
-  EXPECT_EQ(this->points(), before); // the shape stays meanwhile
+  EXPECT_EQ(this->points(), before); // the shape does not change during the bind
   this->find<QPushButton>("Stop")->click();
   EXPECT_FALSE(this->posing()->deformation()->is_binding());
   EXPECT_EQ(this->window.error(), QString());
@@ -357,7 +359,7 @@ TEST_F(PosingWindow, OnlyTheOptionsOfTheMethodAreShown)
   this->choose(PoseMethod::reduced_arap);
   EXPECT_FALSE(shown("pose.pseudo_edges"));
   EXPECT_TRUE(shown("pose.extra_weights"));
-  EXPECT_FALSE(shown("pose.extra_kind")); // of none
+  EXPECT_FALSE(shown("pose.extra_kind")); // without extra weights they have no kind
   this->option<ValueRow>("pose.extra_weights")->field()->setValue(5);
   EXPECT_TRUE(shown("pose.extra_kind"));
   EXPECT_EQ(this->panel()->options().extra_weights, 5);
@@ -379,7 +381,8 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
     this->option<QComboBox>("pose.rotations")->setCurrentIndex(what);
     this->render();
   };
-  EXPECT_FALSE(this->option<QWidget>("pose.rotations")->isVisible()); // linear blends fit none
+  // Linear blends fit no rotations.
+  EXPECT_FALSE(this->option<QWidget>("pose.rotations")->isVisible());
   this->choose(PoseMethod::reduced_arap);
   EXPECT_TRUE(this->option<QWidget>("pose.rotations")->isVisible());
   Pose pose(4);
@@ -397,7 +400,7 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   ASSERT_NE(found, nullptr);
   ASSERT_EQ(static_cast<Index>(found->of_point->size()), drawn->GetNumberOfPoints());
   ASSERT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(on_cells())));
-  // Triangles within a cluster have one colour, which is no other cluster's.
+  // All triangles within a cluster have one color, which no other cluster has.
   std::map<Index, double> colour_of;
   const TrianglesView triangles = viewport->shaded()->triangles();
   for (Index t = 0; t < triangles.rows(); ++t)
@@ -422,9 +425,9 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   const vtkSmartPointer<vtkDataArray> clusters = on_cells();
   this->put(pose);
   this->render();
-  EXPECT_EQ(on_cells(), clusters); // a pose makes none anew
+  EXPECT_EQ(on_cells(), clusters); // a new pose does not create a new array
 
-  // All of the pole follows the one handle that is turned.
+  // The whole pole follows the only handle that is turned.
   show(2);
   ASSERT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(on_points())));
   for (vtkIdType v = 0; v < drawn->GetNumberOfPoints(); ++v)
@@ -437,14 +440,15 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   this->put(pose);
   ASSERT_TRUE(this->settle());
   this->render();
-  EXPECT_EQ(on_points(), angles); // written in place: the scale ends at 45 degrees as before
+  EXPECT_EQ(on_points(), angles); // written in place: the scale still ends at 45 degrees
   EXPECT_NEAR(angles->GetComponent(7, 0), 35.0, 1.0);
   this->posing()->look_at_rest(true);
   this->render();
   EXPECT_EQ(on_points()->GetComponent(7, 0), 0.0);
   this->posing()->look_at_rest(false);
 
-  // Other panels have their own colours; methods without rotations have none; undo brings back.
+  // Other panels show their own colors. Methods without rotations show none. Undo restores the
+  // rotations.
   this->window.panels()->show_panel(PanelColumn::weights);
   this->render();
   EXPECT_FALSE(viewport->shows(vtkDoubleArray::SafeDownCast(angles)));
@@ -468,7 +472,7 @@ TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
   this->choose(PoseMethod::full_arap);
   EXPECT_TRUE(this->option<QWidget>("pose.rotations")->isVisible());
   this->option<QComboBox>("pose.rotations")->setCurrentIndex(2);
-  // All of it is turned as one.
+  // Turn the whole shape rigidly.
   Pose pose(4);
   for (HandlePose& handle : pose)
   {
@@ -489,13 +493,14 @@ TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
   {
     EXPECT_NEAR(angles()->GetComponent(v, 0), 40.0, 1e-3) << v;
   }
-  // They stay while the next pose is solved beside the window, and are there as soon as it came.
+  // The angles stay while the next pose is solved in the background, and are updated when it is
+  // solved.
   pose[3].transform(2, 3) += 0.2;
   Q_EMIT this->posing()->pose_changed(pose);
   EXPECT_NE(this->posing()->rotations(), nullptr);
   ASSERT_TRUE(this->settle());
   EXPECT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(angles())));
-  // Each vertex is a cluster; touching ones differ.
+  // Each vertex is a cluster; touching clusters differ in color.
   this->option<QComboBox>("pose.rotations")->setCurrentIndex(1);
   this->render();
   ASSERT_TRUE(viewport->shows(
@@ -528,7 +533,7 @@ TEST_F(PosingWindow, ABodyThatMovesShowsItsOwnRotations)
 
 TEST_F(PosingWindow, ABodyOfAnotherShapeFollowsTheOneThatWasBeingBound)
 {
-  this->open(5); // too large to be bound at once
+  this->open(5); // too large to be bound immediately
   this->option<QCheckBox>("pose.moves")->setChecked(true);
   BodyMotion* motion = this->posing()->motion();
   ASSERT_FALSE(motion->has_started());
@@ -585,8 +590,7 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
 {
   this->open();
   this->put(this->bent());
-  this->window.show_outlines(
-    false); // how near they are to the surface depends on the depth in view
+  this->window.show_outlines(false); // their depth offset depends on the view
   const QImage alone = this->picture();
   auto* with = this->option<QComboBox>("pose.compared");
   with->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
@@ -603,7 +607,7 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   ASSERT_TRUE(poser->bind(context, options).usable());
   ASSERT_TRUE(poser->solve(context, this->bent(), options, 0, expected).usable());
   EXPECT_EQ(this->posing()->compared()->points(), expected);
-  // What is said of the difference is the difference.
+  // The displayed difference equals the computed difference.
   const double largest = (expected - this->points()).rowwise().norm().maxCoeff();
   const double diagonal = bounding_box(source->points).diagonal();
   bool said = false;
@@ -614,7 +618,7 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   }
   EXPECT_TRUE(said);
   EXPECT_NE(this->picture(), alone);
-  // Beside it: both halves from the same place.
+  // Side by side: both halves use the same camera.
   this->find<QPushButton>("Beside it")->click();
   this->render();
   EXPECT_EQ(this->posing()->ghost()->renderer()->GetActiveCamera(),
@@ -623,7 +627,7 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   with->setCurrentIndex(0);
   this->render();
   EXPECT_EQ(this->window.viewport()->renderer()->GetViewport()[2], 1.0);
-  // But for what lies on the surface: how near that is depends on the depth in view.
+  // Lines on the surface may differ, because their depth offset depends on the view.
   const QImage again = this->picture();
   ASSERT_EQ(again.size(), alone.size());
   int apart = 0;
@@ -671,11 +675,12 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
   EXPECT_EQ(viewport->legend(Viewport::weight_legend), "Distance (% of diagonal)");
   this->put(this->bent(0.5));
   expect_distances("less bent");
-  // Shapes that coincide have one color, which is the lowest of the scale.
+  // Shapes that coincide have one color, the lowest of the scale.
   this->put(Pose(4));
   expect_distances("at rest");
   EXPECT_LT(colors()->GetRange()[1], 1e-6);
-  // Rotations and other panels come after it, and are back when it is gone.
+  // Other panels show their own colors. The distances return with the panel and end with the
+  // comparison.
   this->put(this->bent());
   this->window.panels()->show_panel(PanelColumn::weights);
   EXPECT_NE(viewport->legend(Viewport::weight_legend), "Distance (% of diagonal)");
@@ -695,8 +700,8 @@ TEST(DistanceScale, EndsAtARoundNumberThatHoldsTheLargest)
   }
 }
 
-/// Two methods that give one shape: which of the two surfaces would be in front at a pixel is a
-/// matter of round-off, so that both colors made speckles.
+/// If two methods give the same shape, round-off decides at each pixel which surface is in front.
+/// Drawing both colors would therefore cause speckles.
 TEST_F(PosingWindow, WhereTwoShapesCoincideThereAreNoSpeckles)
 {
   this->open(4);
@@ -709,7 +714,7 @@ TEST_F(PosingWindow, WhereTwoShapesCoincideThereAreNoSpeckles)
     ->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
   ASSERT_EQ(this->posing()->ghost()->place(), PoseGhost::over);
   EXPECT_LE(blue(), alone + 20) << "at rest";
-  // By half a turn about its axis the pole is itself, with all points elsewhere.
+  // After half a turn about its axis, the pole coincides with itself, but all points are elsewhere.
   const Points points = this->points();
   Points turned = points;
   turned.leftCols<2>() *= -1.0;
@@ -735,7 +740,8 @@ TEST_F(PosingWindow, NoMethodIsComparedWithItself)
   EXPECT_NE(hand.choose("pose.compared", 1), QString());
   ASSERT_EQ(hand.choose("pose.compared", 2), QString());
   EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::in_colors);
-  // The shape becomes that of the compared method: there is nothing to compare, and that is said.
+  // If the method of the shape becomes the compared one, there is nothing to compare. A label says
+  // so.
   hand.press_key("2");
   ASSERT_EQ(this->window.document()->number("pose.method"), 1);
   EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::hidden);
@@ -770,14 +776,14 @@ TEST_F(PosingWindow, TheBodyMovesPausesAndReplaysBitByBit)
   const std::size_t steps = body->run().steps.size();
   const Points paused = this->points();
   EXPECT_NE(paused, start);
-  // Paused, nothing moves.
+  // While paused, nothing moves.
   this->render();
   QElapsedTimer rest;
   rest.start();
   wait_for([&] { return rest.elapsed() > 300; });
   EXPECT_EQ(body->run().steps.size(), steps);
   EXPECT_EQ(this->points(), paused);
-  // The run again: the same bits.
+  // Playing the recorded run again gives the same bits.
   auto source = std::make_shared<PoseSource>();
   ASSERT_TRUE(to_pose_source(this->surface, nullptr, this->handles, *source).ok());
   Body other(source);
@@ -923,7 +929,7 @@ TEST_F(PosingWindow, PosesAreStoredNamedAppliedAndBlended)
   slider->setValue(100);
   EXPECT_EQ(this->points(), posed);
   slider->setValue(50);
-  EXPECT_EQ(this->points(), half); // from where it began, however it got there
+  EXPECT_EQ(this->points(), half); // depends on the starting pose, not on the path of the slider
   Q_EMIT slider->sliderReleased();
   EXPECT_EQ(slider->value(), 0);
   EXPECT_EQ(this->points(), half);
@@ -948,7 +954,7 @@ TEST_F(PosingWindow, UndoTakesTheFirstKeptPoseBack)
 TEST_F(PosingWindow, CurvesOfTheRestShapeAreSeenWithItAlone)
 {
   this->open();
-  vtkNew<vtkPolyData> circle; // a boundary, say
+  vtkNew<vtkPolyData> circle; // for example a boundary
   vtkNew<vtkPoints> places;
   vtkNew<vtkCellArray> lines;
   const vtkIdType ids[] = { 0, 1, 2 };
@@ -1010,7 +1016,7 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
   EXPECT_EQ(this->window.error(), QString());
   EXPECT_TRUE(texts().contains("lower   (tail)")) << texts().join(", ").toStdString();
   EXPECT_TRUE(texts().contains("upper   (ends)"));
-  // They can be chosen for bones, and for these alone.
+  // These modes can be chosen for bones only.
   for (QComboBox* box : this->window.panel()->findChildren<QComboBox*>())
   {
     const int ends = box->findText("a bone's ends");
@@ -1051,7 +1057,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   this->render();
   auto* fields = this->window.findChild<HandleFields*>();
   EXPECT_TRUE(fields->layer()->isVisible());
-  // Seen from the front: where both halves are, the one in front has its colour.
+  // Seen from the front: where the halves overlap, the color is that of the half in front.
   vtkRenderer* renderer = this->window.viewport()->renderer();
   const auto right_is_seen = [&]
   {
@@ -1065,7 +1071,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
     this->render();
     const QImage seen = this->window.viewport()->grabFramebuffer();
     const QColor middle = seen.pixelColor(seen.width() / 2, seen.height() / 2);
-    return middle.blue() > middle.red() + 20; // weight 1 is deep blue, 0 pale
+    return middle.blue() > middle.red() + 20; // weight 1 is deep blue, 0 is pale
   };
   EXPECT_TRUE(right_is_seen()) << "of equal layers the later handle is in front";
   const Points posed = this->points();
@@ -1078,7 +1084,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   this->window.history()->undo();
   EXPECT_EQ(fields->layer()->value(), 0.0) << "both numbers are one step";
   EXPECT_TRUE(right_is_seen());
-  // Nothing is bound anew for it: a body that moves goes on.
+  // A change of the layer does not bind again: a moving body continues.
   this->option<QCheckBox>("pose.moves")->setChecked(true);
   const Body* body = this->posing()->motion()->body();
   ASSERT_NE(body, nullptr);
@@ -1089,7 +1095,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   EXPECT_EQ(fields->layer()->value(), 0.0);
   EXPECT_EQ(this->posing()->motion()->body(), body);
   this->option<QCheckBox>("pose.moves")->setChecked(false);
-  // A session keeps them with the handles; of solids there are none.
+  // A session stores the layers with the handles. Solid shapes have no layers.
   this->open();
   this->window.panel()->select_handle(1);
   EXPECT_FALSE(fields->layer()->isVisible());
@@ -1112,15 +1118,15 @@ TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)
   const Points half = this->points();
   EXPECT_NE(half, posed);
   Q_EMIT strip->scrubbed(0.5);
-  EXPECT_EQ(this->points(), posed); // the key, to the bit
+  EXPECT_EQ(this->points(), posed); // exactly the key pose
   Q_EMIT strip->scrub_ended();
-  // It plays, stops at its end without loop, and nothing goes on afterwards.
+  // Without loop, playback stops at its end, and nothing moves afterward.
   Q_EMIT strip->loop_chosen(false);
   this->posing()->keeper()->play(true);
   EXPECT_TRUE(this->posing()->keeper()->is_playing());
   ASSERT_TRUE(wait_for([this] { return !this->posing()->keeper()->is_playing(); }, 20));
   EXPECT_EQ(this->points(), posed);
-  // With loop until it is stopped; a drag stops it.
+  // With loop, it plays until it is stopped. A drag stops it.
   Q_EMIT strip->loop_chosen(true);
   this->posing()->keeper()->play(true);
   QElapsedTimer clock;
@@ -1129,7 +1135,7 @@ TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)
   EXPECT_TRUE(this->posing()->keeper()->is_playing());
   this->drag_handle(1, { 20, 10 });
   EXPECT_FALSE(this->posing()->keeper()->is_playing());
-  // A key is dragged to another time by the mouse.
+  // The mouse drags a key to another time.
   this->render();
   KeyTrack* track = strip->track();
   const int y = track->height() - 12;
@@ -1169,7 +1175,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
       << this->posing()->sequence_export()->said().toStdString();
     return path;
   };
-  // A pose file, which the filters read.
+  // A pose file, which the filters can read.
   const std::string json = write("bow.json");
   vtkNew<vtkPoseHandles> poses;
   poses->SetInputData(0, this->handles);
@@ -1182,7 +1188,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
   filter->SetInputConnection(1, poses->GetOutputPort());
   filter->Update();
   EXPECT_LT((Points(to_points(filter->GetOutput()).view()) - posed).cwiseAbs().maxCoeff(), 1e-12);
-  // Datasets and their collection.
+  // Datasets and their collection file.
   Sequence sequence;
   write("bow.vtp");
   ASSERT_TRUE(read_collection(folder / "bow.pvd", sequence).ok());
@@ -1191,7 +1197,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
   reader->SetFileName(sequence.files.back().c_str());
   reader->Update();
   EXPECT_EQ(Points(to_points(vtkDataSet::SafeDownCast(reader->GetOutput())).view()), posed);
-  // A rig that moves.
+  // An animated rig.
   const std::string rig = write("bow.glb");
   vtkNew<vtkGLTFSkinReader> rigs;
   rigs->SetFileName(rig.c_str());
@@ -1204,8 +1210,8 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
   if (check_ffmpeg().ok())
   {
     EXPECT_GT(std::filesystem::file_size(write("bow.gif")), 1000U);
-    // A film is encoded beside the window, and can be called off there; the shape is drawn as it
-    // is.
+    // A film is encoded in the background, where it can be canceled. The shown shape does not
+    // change.
     SequenceExport* film = this->posing()->sequence_export();
     const std::string unwanted = folder / "unwanted.webm";
     int taken = 0;
@@ -1224,7 +1230,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
     EXPECT_FALSE(std::filesystem::exists(unwanted));
     EXPECT_EQ(this->points(), posed);
   }
-  // What cannot be written is said, and nothing is lost.
+  // A failed export is reported, and nothing is lost.
   this->posing()->export_to("/no/such/folder/bow.vtp");
   EXPECT_TRUE(wait_for([this] { return !this->window.error().isEmpty(); }));
   EXPECT_TRUE(this->window.error().contains("Cannot export"));
@@ -1235,7 +1241,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
   std::filesystem::remove_all(folder);
 }
 
-/// No word is cut off, whatever is open, however small the window is.
+/// No text is clipped, whatever is open and however small the window is.
 TEST_F(PosingWindow, NoTextIsClipped)
 {
   this->open();
@@ -1273,8 +1279,8 @@ TEST_F(PosingWindow, NoTextIsClipped)
   }
 }
 
-/// What the window looks like in each of its states: none is empty or like the one before. For
-/// people BINDPOSE_PICTURES names a folder that the pictures go to.
+/// Each state of the window has its own picture: it is not empty and differs from the one before.
+/// The pictures are saved in the folder BINDPOSE_PICTURES, if that is set.
 TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
 {
   const char* folder = std::getenv("BINDPOSE_PICTURES");
@@ -1329,8 +1335,8 @@ TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
   save("poses");
 }
 
-/// A drag that a key began goes on without a button. Whatever else poses the shape ends it: its Esc
-/// would bring back what was before both.
+/// A drag that was started by a key continues without a button. Any other change of the pose ends
+/// the drag, because Esc would otherwise restore the state before both changes.
 TEST_F(PosingWindow, AScrubEndsADragWithoutAButton)
 {
   this->open();
@@ -1349,13 +1355,13 @@ TEST_F(PosingWindow, AScrubEndsADragWithoutAButton)
   EXPECT_TRUE(same_pose(document->pose(), Pose(4)));
 }
 
-/// A drag frame of a large shape, printed part by part.
-/// The numbers of the README.
+/// Measures a drag frame of a large shape and prints the time of each part. The README uses these
+/// numbers.
 class DragFrame : public PosingWindow, public testing::WithParamInterface<int>
 {
 protected:
-  /// Moves twenty handles, most of them free, and tells what each part of a frame takes.
-  /// @return the median of all together, milliseconds
+  /// Move twenty handles, most of them free, and print the time of each part of a frame.
+  /// @return median of the total time in milliseconds
   double drag(const TriangleMesh& mesh, const char* what)
   {
     double solve = 0.0, skin = 0.0, normals = 0.0, upload = 0.0;
@@ -1410,7 +1416,7 @@ TEST_P(DragFrame, TakesMilliseconds)
   }
   const auto data = to_polydata(mesh.points, mesh.triangles);
   Weights weights = weights_of(mesh.points, twenty);
-  weights = weights.array().pow(3.0).matrix(); // local, as bounded weights are
+  weights = weights.array().pow(3.0).matrix(); // local, like bounded weights
   weights = (weights.array() < 1e-3 * weights.maxCoeff()).select(0.0, weights);
   weights = (weights.array().colwise() / weights.rowwise().sum().array()).matrix();
   data->GetPointData()->AddArray(to_weights_array("Weights", weights, twenty));
@@ -1419,7 +1425,8 @@ TEST_P(DragFrame, TakesMilliseconds)
   this->choose(PoseMethod::reduced_arap);
   ASSERT_TRUE(this->settle());
   this->render();
-  constexpr double busy = 50.0; // what a busy machine allows; a free one takes a tenth
+  constexpr double busy = 50.0; // limit in milliseconds on a busy machine; an idle one needs a
+                                // tenth
   EXPECT_LT(this->drag(mesh, ""), busy);
   this->option<QComboBox>("pose.rotations")->setCurrentIndex(2);
   this->render();

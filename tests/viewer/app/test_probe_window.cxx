@@ -1,5 +1,5 @@
-// What is read under the mouse: every number is checked against the data at the place that is
-// named.
+// The reading of the data under the mouse. Every number is checked against the data at the reported
+// position.
 #include "window_test.h"
 
 #include "deformation.h"
@@ -37,8 +37,8 @@ namespace
 class ProbeWindow : public test::WindowTest
 {
 protected:
-  /// What is read at a pixel. The screen is shared with other tests, whose windows may cover this
-  /// one: then the mouse has left it, and comes again.
+  /// Return the reading at a pixel. Windows of other tests on the same screen may cover this
+  /// window. Then the mouse has left it, so the function moves the mouse again.
   std::string read(const QPoint& at)
   {
     for (int attempt = 0; attempt < 20; ++attempt)
@@ -61,7 +61,7 @@ protected:
       this->window.set_mesh(to_polydata(this->ball.points, this->ball.triangles), "ball"));
     this->resize({ 1000, 700 });
   }
-  /// Of two handles, linear along z.
+  /// Set weights of two handles, linear along z.
   void weigh()
   {
     ASSERT_TRUE(this->window.set_handles(test::two_points(), "points"));
@@ -117,7 +117,7 @@ TEST(RayCast, FindsWhatATwinThatTestsEveryTriangleFinds)
     ray.direction = (Vec3(0.01 * k, 0.3, -0.2) - ray.origin).normalized();
     SightHit hit;
     ASSERT_TRUE(first_triangle(ray, ball.points, ball.triangles, hit));
-    // Solve for where the ray's line meets each triangle's plane.
+    // Intersect the ray's line with each triangle's plane.
     double nearest = 1e300;
     for (Index t = 0; t < ball.triangles.rows(); ++t)
     {
@@ -141,7 +141,7 @@ TEST(RayCast, FindsWhatATwinThatTestsEveryTriangleFinds)
   SightHit hit;
   EXPECT_FALSE(first_triangle({ Vec3(0, 0, 3), Vec3::UnitZ() }, ball.points, ball.triangles, hit))
     << "it lies behind";
-  // A vertex, an edge: no gap where triangles meet.
+  // At a vertex there is no gap between triangles.
   for (Index v = 0; v < 40; ++v)
   {
     const Vec3 p = ball.points.row(v);
@@ -160,7 +160,8 @@ TEST_F(ProbeWindow, ASurfaceIsReadWithTriangleVertexAndPlace)
     SurfaceReading reading;
     const std::string text = this->read(at);
     ASSERT_TRUE(parse(text, reading)) << text;
-    // The place is under the mouse, on the near side, in that triangle, and that is its vertex.
+    // The position is under the mouse, on the near side, in the reported triangle, and next to the
+    // reported vertex.
     EXPECT_LE((this->pixel(reading.place) - at).manhattanLength(), 2) << text;
     ASSERT_LT(reading.triangle, this->ball.triangles.rows());
     double least = 1e300;
@@ -211,11 +212,11 @@ TEST_F(ProbeWindow, WeightsAreReadWithTheStrongestHandle)
       above ? top : 1.0 - top, 2e-3)
       << text;
   }
-  // By colours, the class has a name.
+  // In colors by handle, the reading names the handle.
   this->choose("weights.column", 0);
   EXPECT_NE(this->read(Vec3(0.3, 0.2, 0.7)).find("Handle: top"), std::string::npos)
     << this->window.reading().toStdString();
-  // With no colours on, the strongest is told all the same.
+  // Without colors, the reading still contains the strongest handle.
   this->window.panels()->show_panel(PanelColumn::bind_and_pose);
   this->render();
   EXPECT_NE(this->read(Vec3(0.3, 0.2, 0.7)).find("Strongest handle: top"), std::string::npos);
@@ -246,9 +247,9 @@ TEST_F(ProbeWindow, TheDifferenceOfTwoMethodsIsReadInUnitsAndShares)
   this->open_ball();
   this->weigh();
   Pose pose = this->window.document()->pose();
-  pose[1].transform << 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0; // top turned by 90 degrees about z
+  pose[1].transform << 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0; // top is turned by 90 degrees about z
   this->window.document()->set_pose(pose, "turn");
-  this->choose("pose.compared", 2); // dual quaternions, which keep the waist
+  this->choose("pose.compared", 2); // dual quaternions, which preserve the waist
   this->render();
   Posing* posing = this->window.posing();
   const Points& a = posing->points();
@@ -269,7 +270,7 @@ TEST_F(ProbeWindow, TheDifferenceOfTwoMethodsIsReadInUnitsAndShares)
       (this->ball.points.colwise().maxCoeff() - this->ball.points.colwise().minCoeff()).norm();
     EXPECT_NEAR(share, 100.0 * units / diagonal, 0.06) << text;
     EXPECT_LE(units, largest * 1.001);
-    // About as far as at the vertex beside it.
+    // The distance is near that at the nearest vertex.
     EXPECT_NEAR(units, (a.row(reading.vertex) - b.row(reading.vertex)).norm(), 0.15 * largest);
     ++seen;
   }
@@ -281,7 +282,7 @@ TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
   ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/figure_tets.vtu"));
   this->resize({ 1000, 700 });
   this->choose("tets.shown", true);
-  this->choose("tets.colours", 1); // by something else than quality
+  this->choose("tets.colours", 1); // not by quality
   TetView* view = this->window.inspection()->tet_view();
   ASSERT_TRUE(view->is_shown());
   const PointsView points = view->input().points.view();
@@ -305,7 +306,7 @@ TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
       EXPECT_TRUE(view->kept()[static_cast<std::size_t>(tet)]);
       const auto corner = [&](int k) { return Vec3(points.row(tets(tet, k))); };
       EXPECT_NEAR(angle, min_dihedral_angle(corner(0), corner(1), corner(2), corner(3)), 0.06);
-      // The place is within the tet.
+      // The position is within the tet.
       const Vec3 place(
         number_after(text, "x "), number_after(text, "   y "), number_after(text, "   z "));
       Eigen::Matrix4d system;
@@ -362,7 +363,7 @@ TEST_F(ProbeWindow, ADefectIsReadByItsName)
   ASSERT_TRUE(
     test::wait_for([this] { return this->window.inspection()->defect_view().is_shown(); }));
   this->resize({ 1000, 700 });
-  // The ends of an edge that only one triangle has.
+  // The ends of an edge with only one triangle.
   vtkPolyData* defects = this->window.inspection()->defect_view().defects();
   ASSERT_GT(defects->GetNumberOfLines(), 0);
   const Vec3 a(defects->GetPoint(defects->GetCell(0)->GetPointId(0)));
@@ -390,7 +391,7 @@ TEST_F(ProbeWindow, NothingIsReadDuringADragAndTheLabelKeepsOutOfTheWay)
     this->render();
     EXPECT_TRUE(this->window.grab().save(QString(folder) + "/reading.png"));
   }
-  // Enlarged until the corner shows the ball, too.
+  // Enlarge the view until the corner also shows the ball.
   for (int k = 0; k < 12; ++k)
   {
     WindowHand(&this->window).wheel(middle, 1.0);
@@ -419,6 +420,6 @@ TEST_F(ProbeWindow, AMoveIsCheapOnAHundredThousandTriangles)
     taken[taken.size() / 2], taken.front());
   if (!test::sanitized)
   {
-    EXPECT_LT(taken.front(), 2.0); // the least: others share the machine
+    EXPECT_LT(taken.front(), 2.0); // use the minimum, because other processes share the machine
   }
 }

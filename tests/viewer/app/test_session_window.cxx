@@ -1,4 +1,5 @@
-// What the window keeps over its end, a crash or a mistake: sessions, recovery, recent files, undo.
+// State that the window keeps after it was closed, a crash or a mistake: sessions, recovery, recent
+// files, undo.
 #include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
@@ -94,7 +95,7 @@ protected:
     RecentFiles::clear();
   }
 
-  /// Mesh with weights and handles from files.
+  /// Open a mesh with weights and handles from files.
   void open_files()
   {
     test::write_with<vtkXMLPolyDataWriter>(column(true), this->folder / "column.vtp");
@@ -127,7 +128,7 @@ protected:
     return nullptr;
   }
 
-  /// Answers the question that comes up; true when one came.
+  /// Close the window and answer the question. Return true if the question was shown.
   bool close_and_answer(QMessageBox::StandardButton answer, bool* closed)
   {
     bool asked = false;
@@ -207,7 +208,7 @@ TEST_F(SessionWindow, TheTitleMarksWhatIsNotSaved)
 {
   this->open_files();
   EXPECT_TRUE(this->window.windowTitle().startsWith("column.vtp"));
-  EXPECT_FALSE(this->window.isWindowModified()); // only looked at so far
+  EXPECT_FALSE(this->window.isWindowModified()); // nothing has been changed so far
   this->pose();
   EXPECT_TRUE(this->window.isWindowModified());
   ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "work.bindpose")));
@@ -234,7 +235,7 @@ TEST_F(SessionWindow, ClosingAsksWhenSomethingWouldBeLost)
   ASSERT_TRUE(read_session(text(this->folder / "work.bindpose"), saved).ok());
   EXPECT_EQ(saved.work.pose[0].mode, HandleMode::position);
   this->window.show();
-  EXPECT_FALSE(this->close_and_answer(QMessageBox::Cancel, &closed)); // nothing to lose
+  EXPECT_FALSE(this->close_and_answer(QMessageBox::Cancel, &closed)); // no unsaved changes
   EXPECT_TRUE(closed);
   this->window.show();
   this->window.set_mode(0, 2);
@@ -347,7 +348,7 @@ TEST_F(SessionWindow, ARebindIsOfferedAndPosingGoesOn)
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }
-  EXPECT_NE(this->window.rebind_bar()->sentence(), ""); // still good for something
+  EXPECT_NE(this->window.rebind_bar()->sentence(), ""); // a new bind is still offered
 }
 
 // ---- After a crash -----------------------------------------------------------------------------
@@ -385,19 +386,19 @@ TEST_F(SessionWindow, AKilledProgramsWorkIsOfferedAndRestored)
   }
   ASSERT_TRUE(is_saved());
   this->window.sessions()->offer_recovery(root);
-  EXPECT_EQ(this->window.recovery_bar()->sentence(), ""); // it lives
+  EXPECT_EQ(this->window.recovery_bar()->sentence(), ""); // the program is still running
   program.kill();
   program.waitForFinished();
 
   this->window.sessions()->offer_recovery(root);
   EXPECT_NE(this->window.recovery_bar()->sentence().indexOf("did not end as it should"), -1);
-  EXPECT_TRUE(this->window.is_empty()); // never silently
+  EXPECT_TRUE(this->window.is_empty()); // work is never restored without a question
   button_of(this->window.recovery_bar(), "&Restore")->click();
   EXPECT_EQ(this->window.recovery_bar()->sentence(), "");
   EXPECT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   EXPECT_EQ(this->window.document()->handles().size(), 2u);
   EXPECT_TRUE(this->window.isWindowModified());
-  EXPECT_EQ(RecoveredWork::find(root), nullptr); // it is this window's now
+  EXPECT_EQ(RecoveredWork::find(root), nullptr); // it belongs to this window now
 }
 
 TEST_F(SessionWindow, DiscardedWorkIsGoneAndTheNextIsOffered)
@@ -441,7 +442,7 @@ TEST_F(SessionWindow, EveryKindOfMeshCanBeDropped)
 
 TEST_F(SessionWindow, TetsRigsHandlesWeightsVolumesAndSessionsCanBeDropped)
 {
-  // A rig is mesh, weights and handles.
+  // A rig contains mesh, weights and handles.
   vtkNew<vtkGLTFSkinWriter> rig;
   rig->SetInputData(0, column(true));
   rig->SetHandlesData(two_points());
@@ -449,7 +450,7 @@ TEST_F(SessionWindow, TetsRigsHandlesWeightsVolumesAndSessionsCanBeDropped)
   ASSERT_EQ(rig->Write(), 1);
   this->drop(this->folder / "rig.glb");
   EXPECT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
-  // Weights, when they fit.
+  // Weights that fit the mesh.
   const Index points = this->window.document()->surface()->GetNumberOfPoints();
   Weights weights = Weights::Constant(points, 2, 0.5);
   ASSERT_TRUE(write_dmat(this->folder / "w.dmat", weights).ok());
@@ -478,14 +479,14 @@ TEST_F(SessionWindow, TetsRigsHandlesWeightsVolumesAndSessionsCanBeDropped)
   ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "s.bindpose")));
   this->drop(this->folder / "s.bindpose");
   EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
-  // What is none of these.
+  // A file of another type.
   this->folder.write("x.txt", "words");
   this->drop(this->folder / "x.txt");
   EXPECT_NE(this->window.error(), "");
   EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
 }
 
-/// Red on the left, blue on the right, transparent around them.
+/// Write a picture that is red on the left, blue on the right, and transparent around them.
 std::string write_picture(const test::Folder& folder)
 {
   QImage image(64, 48, QImage::Format_RGBA8888);
@@ -517,7 +518,7 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   EXPECT_TRUE(this->window.viewport()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
   const double* bounds = this->window.document()->surface()->GetBounds();
   EXPECT_NEAR(bounds[1] - bounds[0], 48, 2);
-  // It bends along: turned by 180 degrees about its middle, blue is on the left.
+  // The picture follows the pose: turned by 180 degrees about its center, blue is on the left.
   const auto middle_of_red = [&red](const QImage& image)
   {
     double sum = 0.0;
@@ -544,7 +545,7 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   {
     this->window.history()->undo();
   }
-  // The whole picture, when that is wanted.
+  // Use the whole picture, on request.
   button_of(this->window.note_bar(), "Take the whole picture")->click();
   ASSERT_EQ(this->window.error(), "");
   const double* whole = this->window.document()->surface()->GetBounds();
@@ -553,7 +554,7 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   this->window.history()->undo();
   EXPECT_FALSE(
     this->window.viewport()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
-  // In a session, too.
+  // A session restores it, too.
   this->window.history()->redo();
   ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "flag.bindpose")));
   ASSERT_TRUE(this->window.open(text(this->folder / "flag.bindpose")));
@@ -592,11 +593,11 @@ TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
   const QString lost = "character.gltf: Bindpose does not keep 2 materials.";
   EXPECT_TRUE(this->window.note_bar()->sentence().startsWith(lost))
     << this->window.note_bar()->sentence().toStdString();
-  // The search for defects ends later and does not take the sentence away.
+  // The search for defects ends later and does not remove the sentence.
   ASSERT_TRUE(
     test::wait_for([this] { return this->window.note_bar()->sentence().contains("not clean"); }));
   EXPECT_TRUE(this->window.note_bar()->sentence().startsWith(lost));
-  // Another mesh has lost nothing.
+  // Another mesh has no such loss.
   const TriangleMesh other = test::open_cube();
   test::write_with<vtkXMLPolyDataWriter>(
     to_polydata(other.points, other.triangles), this->folder / "other.vtp");

@@ -1,5 +1,5 @@
-// Two methods side by side: each shape lies in its half, as large as it was in the whole, from one
-// place; handles are those of the left half.
+// Two methods side by side. Each shape is in its half, as large as in the whole picture, with one
+// common camera. The handles belong to the left half.
 #include "window_test.h"
 
 #include "document/document.h"
@@ -30,7 +30,7 @@ namespace
 class SplitWindow : public test::WindowTest
 {
 protected:
-  /// An ellipsoid, long along x, with a point at each end.
+  /// Open an ellipsoid, long along x, with a point at each end.
   void SetUp() override
   {
     this->resize({ 1100, 700 });
@@ -69,7 +69,8 @@ protected:
   }
   void beside() { this->choose("pose.ghost", 1); }
 
-  /// The largest coordinate of the shape in the view of a renderer, which goes from -1 to 1.
+  /// Return the largest absolute coordinate of the shape in the view of a renderer, which is from
+  /// -1 to 1.
   static double extent(vtkRenderer* renderer, PointsView points)
   {
     double largest = 0.0;
@@ -84,7 +85,7 @@ protected:
   }
   double extent_left() { return extent(this->left(), to_points(this->window.shown()).view()); }
   double extent_right() { return extent(this->right(), this->posing()->compared()->points()); }
-  /// Both lie in their halves, and use them.
+  /// Expect that both shapes are within their halves and fill them.
   void expect_both_in_view(const char* when)
   {
     const double first = this->extent_left();
@@ -92,7 +93,7 @@ protected:
     EXPECT_LT(std::max(first, second), 1.0) << when;
     EXPECT_GT(std::max(first, second), 0.65) << when;
     EXPECT_EQ(this->right()->GetActiveCamera(), this->camera()) << when;
-    // Nothing of either is clipped away.
+    // Neither shape is clipped by depth.
     double range[2];
     this->camera()->GetClippingRange(range);
     const Vec3 eye(this->camera()->GetPosition());
@@ -105,8 +106,8 @@ protected:
       EXPECT_LT(depths.maxCoeff(), range[1]) << when;
     }
   }
-  /// Pixels that are none of the background's, in the columns from one share of the width to
-  /// another.
+  /// Count the pixels that differ from the background, in the columns between two fractions of the
+  /// width.
   int drawn(double from, double to)
   {
     const QImage image = this->picture();
@@ -138,13 +139,13 @@ TEST_F(SplitWindow, EachShapeFitsIntoItsHalf)
   this->expect_both_in_view("beside");
   EXPECT_NEAR(this->extent_left(), whole, 0.12) << "as much of the half as of the whole";
   EXPECT_LT((Vec3(this->camera()->GetDirectionOfProjection()) - sight).norm(), 1e-9);
-  // Nothing goes over the border between them, and both are there, equally large.
+  // Nothing crosses the border between the halves, and both shapes have the same size.
   EXPECT_EQ(this->drawn(0.498, 0.502), 0);
   const int left = this->drawn(0.0, 0.5);
   const int right = this->drawn(0.5, 1.0);
   EXPECT_GT(left, 2000);
-  EXPECT_NEAR(left, right, 0.15 * left); // handles stand before the left one
-  // Back to one picture: what was seen before.
+  EXPECT_NEAR(left, right, 0.15 * left); // handles are in front of the left one
+  // After a return to one picture, the view is as before.
   this->hand.trigger("edit.undo");
   this->render();
   EXPECT_FALSE(this->window.viewport()->is_split());
@@ -164,7 +165,7 @@ TEST_F(SplitWindow, AnotherSizeAndAnotherViewKeepBothInTheirHalves)
     this->resize(size);
     this->expect_both_in_view("resized");
   }
-  // A turn in the right half turns both.
+  // A turn in the right half turns both halves.
   const Vec3 sight(this->camera()->GetDirectionOfProjection());
   this->drag(this->hand.place(0.9, 0.1), this->hand.place(0.8, 0.15));
   EXPECT_GT((Vec3(this->camera()->GetDirectionOfProjection()) - sight).norm(), 0.05);
@@ -172,7 +173,7 @@ TEST_F(SplitWindow, AnotherSizeAndAnotherViewKeepBothInTheirHalves)
   this->hand.press_key("Home");
   this->render();
   this->expect_both_in_view("home");
-  // One that comes out of its half by its pose is there again after Home, wherever it is.
+  // If a pose moves a shape out of its half, Home shows it again.
   Pose pose(2);
   pose[1].transform.col(3) = Vec3(1.5, 0, 3.0);
   this->window.document()->set_pose(pose, "far");
@@ -183,7 +184,7 @@ TEST_F(SplitWindow, AnotherSizeAndAnotherViewKeepBothInTheirHalves)
 
 TEST_F(SplitWindow, AZoomStaysAndAShiftedShapeComesBack)
 {
-  // Zoomed in to a detail: so it is beside, by as much.
+  // A view zoomed in to a detail stays zoomed in side by side.
   this->compare();
   this->camera()->Dolly(3.0);
   const double detail = this->extent_left();
@@ -191,7 +192,8 @@ TEST_F(SplitWindow, AZoomStaysAndAShiftedShapeComesBack)
   EXPECT_GT(this->extent_left(), 0.6 * detail);
   this->choose("pose.ghost", 0);
   EXPECT_NEAR(this->extent_left(), detail, 1e-6 * detail);
-  // Moved to the side, but seen whole: then it is seen whole beside, too.
+  // A shape that is moved to the side, but visible as a whole, is also visible as a whole side by
+  // side.
   this->window.viewport()->reset_view();
   this->camera()->Dolly(0.5);
   vtkCamera* camera = this->camera();
@@ -214,7 +216,7 @@ TEST_F(SplitWindow, HandlesAreTakenHoldOfInTheLeftHalfAlone)
   const int half = this->window.viewport()->width() / 2;
   ASSERT_LT(at.x(), half);
   auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
-  // At the same place of the right half there is none.
+  // The same position in the right half has no handle.
   this->hover(at + QPoint(half, 0));
   EXPECT_LT(drawn->GetHoveredHandle(), 0);
   // The widget is turned off and on while the mouse is in the right half.
@@ -234,7 +236,7 @@ TEST_F(SplitWindow, HandlesAreTakenHoldOfInTheLeftHalfAlone)
   EXPECT_NEAR(now.y(), at.y() - 60, 2);
   EXPECT_GT((this->posing()->compared()->points() - before).cwiseAbs().maxCoeff(), 0.1)
     << "the other method has the same pose";
-  // A handle that lies beyond the border is not caught in the other half, where it is not drawn.
+  // A handle beyond the border cannot be picked in the other half, where it is not drawn.
   this->camera()->Dolly(2.0);
   this->left()->ResetCameraClippingRange();
   this->render();

@@ -1,5 +1,5 @@
-// Tets and defects in the window, as a person inspects them; what is asserted are counts by brute
-// force, places, and what vtkSurfaceDefects says.
+// Tets and defects in the window, as a user inspects them. The tests assert counts by brute force,
+// positions, and the results of vtkSurfaceDefects.
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -46,7 +46,7 @@ using namespace bindpose;
 
 namespace
 {
-/// A box around 0 of n^3 cells of six tets each.
+/// Return a box around the origin of n^3 cells with six tets each.
 TetMesh box_of(int n)
 {
   return test::tet_box(n, n, n, Vec3(-1, -1, -1), Vec3(1, 1, 1));
@@ -83,7 +83,7 @@ protected:
   Inspection* inspection() { return this->window.inspection(); }
   TetView* view() { return this->inspection()->tet_view(); }
   TetPanel* panel() { return this->window.panels()->tet(); }
-  /// The rows of the panel: position, size.
+  /// Return a row of the panel: 0 position, 1 size.
   ValueRow* row(int which) { return this->panel()->findChildren<ValueRow*>()[which]; }
   QComboBox* list(const QString& item)
   {
@@ -106,7 +106,7 @@ protected:
     this->render();
   }
 
-  /// Until no job is running.
+  /// Wait until no job is running.
   void wait()
   {
     QElapsedTimer clock;
@@ -131,14 +131,14 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
   EXPECT_LT(this->view()->shown_count(), mesh.tets.rows());
   EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
   const QImage image = this->picture();
-  // The plane lies in the middle of a layer of cells; what is laid open is within one of them.
+  // The plane is in the middle of a layer of cells. The exposed sides are within one cell of it.
   EXPECT_GT(count(image, is_cut), 5000);
   EXPECT_TRUE(is_cut(image.pixelColor(this->pixel(Vec3(0.11, 0.23, 0.0)))));
-  // Whole, there is no cut to be seen.
+  // Without the cut, no exposed sides are visible.
   this->find<QCheckBox>("Cut them open")->setChecked(false);
   EXPECT_EQ(this->view()->shown_count(), mesh.tets.rows());
   EXPECT_LT(count(this->picture(), is_cut), 20);
-  // The other half, and the whole add up, but for centres on the plane.
+  // The two sides add up to the whole, except for centers on the plane.
   this->find<QCheckBox>("Cut them open")->setChecked(true);
   const Index behind = this->view()->shown_count();
   this->find<QCheckBox>("Keep the other side")->setChecked(true);
@@ -147,8 +147,8 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
     count_behind(mesh, this->view()->plane()->origin(), -this->view()->plane()->normal()));
 }
 
-/// One that is looked at along x: the cut across z, which it began with whatever the view, turned
-/// its back on the eye.
+/// The first cut depends on the view. A cut perpendicular to z would show its back side if the
+/// shape is viewed along x.
 TEST_F(TetWindow, TheFirstCutShowsTheInside)
 {
   for (const Vec3& size : { Vec3(0.5, 1, 1), Vec3(1, 1, 0.5), Vec3(0.3, 1, 0.6) })
@@ -164,13 +164,13 @@ TEST_F(TetWindow, TheFirstCutShowsTheInside)
     const Vec3 sight(other.viewport()->renderer()->GetActiveCamera()->GetDirectionOfProjection());
     EXPECT_EQ(std::abs(normal.dot(sight)), sight.cwiseAbs().maxCoeff()) << size.transpose();
     EXPECT_GT(count(other.viewport()->grabFramebuffer(), is_cut), 5000) << size.transpose();
-    // Through the middle: about half of them stay.
+    // The cut is through the middle: about half of the tets stay.
     const double kept = static_cast<double>(tets->shown_count());
     EXPECT_NEAR(kept / static_cast<double>(mesh.tets.rows()), 0.5, 0.15) << size.transpose();
   }
 }
 
-/// An orientation that a person has chosen stays.
+/// An orientation that the user has chosen is kept.
 TEST_F(TetWindow, AChosenCutStaysForOtherTets)
 {
   this->open(tets_of(test::tet_box(3, 3, 3, Vec3(-1, -1, -0.5), Vec3(1, 1, 0.5))));
@@ -180,7 +180,7 @@ TEST_F(TetWindow, AChosenCutStaysForOtherTets)
   EXPECT_EQ(this->view()->plane()->orientation(), PlaneHandle::y_axis);
 }
 
-/// Of posed tets with weights: tets and defects lie in the shape at rest, and everything with them.
+/// Tets and defects are located in the shape at rest, so nothing around them is posed.
 TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
 {
   const auto grid = tets_of(box_of(4));
@@ -219,7 +219,7 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
   this->window.panels()->show_panel(PanelColumn::tets);
   ASSERT_GT(this->view()->shown_count(), 0);
   expect(true, "tets");
-  // Handles at rest are not dragged; a click selects.
+  // Handles at rest cannot be dragged; a click selects them.
   this->drag(this->pixel(Vec3(0, 0, 0.9)), this->pixel(Vec3(0.5, 0, 0.9)));
   expect(true, "a drag");
   this->find<QCheckBox>("Show the tets")->setChecked(false);
@@ -233,7 +233,7 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
   expect(true, "T");
   this->window.posing()->look_at_rest(false);
   expect(false, "T again");
-  // What is exported and what the history has is the pose, whatever is inspected.
+  // Exports and the history use the pose, whatever is inspected.
   this->window.panels()->show_panel(PanelColumn::tets);
   double bounds[6];
   this->window.shown()->GetBounds(bounds);
@@ -261,7 +261,7 @@ TEST_F(TetWindow, TheMouseDragsThePlane)
     EXPECT_EQ(this->view()->shown_count(),
       count_behind(mesh, this->view()->plane()->origin(), Vec3::Unit(axis)));
   }
-  // At the lower end nothing is left, and that is said.
+  // At the lower end no tet is left, and a label says so.
   this->row(0)->slider()->setValue(0);
   EXPECT_EQ(this->view()->shown_count(), 0);
   EXPECT_NE(this->find<QLabel>("No tet is on this side."), nullptr);
@@ -295,7 +295,7 @@ TEST_F(TetWindow, ShrunkTetsStandApart)
   this->find<QCheckBox>("Cut them open")->setChecked(false);
   const auto backgrounds = [this]
   {
-    // Where the front stands: z = 1, seen obliquely.
+    // Position of the front side: z = 1, seen obliquely.
     const QImage image = this->picture();
     int bright = 0;
     for (int i = 1; i < 100; ++i)
@@ -335,7 +335,7 @@ TEST_F(TetWindow, ColoursAreThoseOfTheLegend)
   const QColor right = image.pixelColor(this->pixel(Vec3(0.66, 0.13, 1.0)));
   EXPECT_GT(left.blue(), left.red() + 20) << "outside: blue";
   EXPECT_GT(right.red(), right.blue() + 30) << "inside: orange";
-  // What the tets do not have is said, and the colours stay.
+  // If the tets lack the data, an error says so, and the colors do not change.
   const auto refused = [this](const char* item, const char* words)
   {
     this->choose(item);
@@ -374,7 +374,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
     all += seen[kind].count;
   }
   EXPECT_EQ(seen[2].count, 4) << "boundary edges";
-  // As a file of their own they are neither handles nor a surface.
+  // A file with defects contains neither handles nor a surface.
   const std::string path = testing::TempDir() + "bindpose_defects.vtp";
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(shown);
@@ -391,7 +391,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
   // The edge of the opening is green in the picture.
   const QColor edge = this->picture().pixelColor(this->pixel(Vec3(-1.0, -0.4, 1.0)));
   EXPECT_GT(edge.green(), edge.red() + 30);
-  // Another surface has other ones; in the other panel there are none.
+  // Another surface has its own defects. The other panel shows none.
   const TriangleMesh clean = test::cube();
   ASSERT_TRUE(this->window.set_mesh(to_polydata(clean.points, clean.triangles), "cube"));
   this->wait();
@@ -415,7 +415,7 @@ TEST_F(TetWindow, TetsAreMadeAndAFailureKeepsThem)
   EXPECT_GT(this->view()->shown_count(), 0);
   this->choose("By method");
   EXPECT_EQ(this->window.error(), QString());
-  // A flat surface encloses nothing.
+  // A flat surface encloses no volume.
   vtkUnstructuredGrid* before = this->view()->tets();
   this->choose("Automatic");
   this->find<QPushButton>("Make tets again")->click();
@@ -424,7 +424,7 @@ TEST_F(TetWindow, TetsAreMadeAndAFailureKeepsThem)
   EXPECT_EQ(this->window.error().count('\n'), 0);
   EXPECT_EQ(this->view()->tets(), before);
   EXPECT_GT(this->view()->shown_count(), 0);
-  // While another mesh is opened, work stops.
+  // Opening another mesh stops the work.
   this->choose("Embedding lattice");
   this->find<QPushButton>("Make tets again")->click();
   const TriangleMesh ball = test::sphere(2);

@@ -1,4 +1,4 @@
-// Tours as text: what is read, and the sentence for what is not.
+// Tours as text: the parsed content, and the error message for invalid text.
 #include "tour.h"
 
 #include "support/files.h"
@@ -21,7 +21,7 @@ Status parse_steps(const std::string& steps, Tour& tour)
   return parse_tour(with_steps(steps), tour);
 }
 
-/// The sentence for a tour of these steps.
+/// Return the error message for a tour of these steps.
 std::string refusal(const std::string& steps)
 {
   Tour tour;
@@ -185,10 +185,10 @@ TEST(Tour, AnotherFileIsRefused)
   const std::string bad = folder.write("bad.json", with_steps(R"({"wait": "x"})"));
   EXPECT_EQ(read_tour(bad, tour).message.find("tour '" + bad + "': step 1 (wait): "), 0u);
   ASSERT_TRUE(read_tour(folder.write("walk.json", with_steps(R"({"wait": 0})")), tour).ok());
-  EXPECT_EQ(tour.name, "walk"); // the file's, where it has none of its own
+  EXPECT_EQ(tour.name, "walk"); // the name of the file, if the tour has no name
 }
 
-/// Whatever a file holds, it is read or refused in a sentence.
+/// Any content of a file is either read or refused with one sentence.
 TEST(Tour, BrokenTextsNeverCrash)
 {
   const std::string whole = with_steps(

@@ -1,5 +1,5 @@
-// The tours of examples/tours, played by the program: every check of theirs holds, and their
-// pictures of the view are those in tours/, made small, where that says more than numbers do.
+// The tours of examples/tours, played by the program. All of their checks must pass. Where pictures
+// say more than numbers, reduced pictures of the view must equal those in tours/.
 #include "support/demo_meshes.h"
 #include "support/files.h"
 
@@ -24,18 +24,19 @@ namespace
 using Json = nlohmann::json;
 
 constexpr int small_width = 200;
-constexpr int level = 24; // of 255 in a channel: more than another driver's smoothing
-constexpr double most_different = 0.01; // share of the pixels
+constexpr int level = 24; // out of 255 in a channel; more than the difference between drivers'
+                          // smoothing
+constexpr double most_different = 0.01; // fraction of the pixels
 
 struct Outcome
 {
   int code = -1;
-  QString error; ///< what was said
+  QString error; ///< standard error
   Json record;
   double seconds = 0.0;
 };
 
-/// Plays a tour by the program, its pictures into the folder.
+/// Play a tour with the program and save its pictures in the folder.
 Outcome play(const std::string& tour, const std::string& folder, const QStringList& more = {},
   const std::string& from = {})
 {
@@ -53,8 +54,7 @@ Outcome play(const std::string& tour, const std::string& folder, const QStringLi
   outcome.code = program.exitStatus() == QProcess::NormalExit ? program.exitCode() : -1;
   for (const QByteArray& line : program.readAllStandardError().split('\n'))
   {
-    // What Qt says about displays without a window manager, and with windows side by side, is not
-    // ours.
+    // Ignore Qt's messages about displays without a window manager and about windows side by side.
     const bool of_qt = line.startsWith("QStandardPaths") || line.startsWith("qt.qpa") ||
       line.startsWith("QGestureManager");
     if (!line.isEmpty() && !of_qt)
@@ -77,7 +77,7 @@ QImage made_small(const QImage& picture)
     .scaledToWidth(small_width, Qt::SmoothTransformation);
 }
 
-/// Share of the pixels that differ by more than the level; 1 for other sizes.
+/// Return the fraction of the pixels that differ by more than the level; 1 for different sizes.
 double difference(const QImage& a, const QImage& b)
 {
   if (a.size() != b.size())
@@ -97,7 +97,8 @@ double difference(const QImage& a, const QImage& b)
   return static_cast<double>(different) / (static_cast<double>(a.width()) * a.height());
 }
 
-/// BINDPOSE_BLESS=tours makes what was drawn the reference.
+/// Compare with the reference picture. BINDPOSE_BLESS=tours replaces the reference by the drawn
+/// picture.
 void expect_reference(const QImage& drawn, const std::string& name)
 {
   const QString path = QString::fromStdString(BINDPOSE_TOUR_PICTURES + ("/" + name + ".png"));
@@ -128,9 +129,9 @@ void expect_reference(const QImage& drawn, const std::string& name)
 struct TourCase
 {
   const char* name;
-  std::vector<const char*> pictures; ///< that are compared
+  std::vector<const char*> pictures; ///< pictures to compare
   const char* needs = nullptr; ///< a mesh of libcgal-demo
-  std::vector<const char*> files = {}; ///< that are written besides
+  std::vector<const char*> files = {}; ///< other files that the tour writes
 };
 
 std::ostream& operator<<(std::ostream& out, const TourCase& tour)
@@ -168,7 +169,7 @@ TEST_P(Tours, Play)
   {
     const QImage picture(QString::fromStdString(pictures + "/" + name + ".png"));
     EXPECT_EQ(picture.width(), shot["width"]) << name;
-    if (shot["values"].value("points", 0) > 0) // else nothing is open
+    if (shot["values"].value("points", 0) > 0) // otherwise nothing is open
     {
       EXPECT_GT(shot["drawn_share"], 0.005) << name;
     }
@@ -203,8 +204,7 @@ INSTANTIATE_TEST_SUITE_P(Examples, Tours,
     TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
   [](const testing::TestParamInfo<TourCase>& tour) { return std::string(tour.param.name); });
 
-/// What the tutorial tells is what its tour says and does, and its pictures are there.
-/// With twice the pixels everything is finer and nothing larger: the legend, with its words, too.
+/// At twice the pixels everything is finer, but the legend and its text have the same size.
 TEST(Scaled, ALegendIsAsLargeAtTwiceThePixels)
 {
   const test::Folder folder;
@@ -223,6 +223,7 @@ TEST(Scaled, ALegendIsAsLargeAtTwiceThePixels)
   EXPECT_LT(share, 0.05);
 }
 
+/// The tutorial contains the texts and steps of its tour in order, and its pictures exist.
 TEST(Tutorial, TellsWhatItsTourDoes)
 {
   std::ifstream file(BINDPOSE_TOURS "/tutorial.json");
@@ -231,7 +232,7 @@ TEST(Tutorial, TellsWhatItsTourDoes)
   std::ifstream page_file(folder + "tutorial.md");
   const std::string page(
     (std::istreambuf_iterator<char>(page_file)), std::istreambuf_iterator<char>());
-  std::size_t at = 0; // in this order
+  std::size_t at = 0; // the texts must be in this order
   int said = 0;
   for (const Json& step : tour["steps"])
   {
@@ -277,11 +278,11 @@ TEST(Films, HaveAPictureForEveryMove)
   EXPECT_FALSE(std::filesystem::exists(pictures + "/turn_0003.png"));
 }
 
-// ---- What goes wrong ---------------------------------------------------------------------------
+// ---- Failures ----------------------------------------------------------------------------------
 
 namespace
 {
-/// The sentence of a tour with these steps, which fails.
+/// Return the error message of a tour with these steps, which must fail.
 std::string failure(const std::string& steps, int* code = nullptr, const QStringList& more = {})
 {
   const test::Folder folder;
@@ -323,7 +324,7 @@ TEST(FailedTours, EndWithASentenceThatNamesTheStep)
     "bindpose view: tour 'wrong', step 1 (click): there is no handle 'nose'");
   EXPECT_EQ(failure(R"({"option": "pose.methd", "value": 1})"),
     "bindpose view: tour 'wrong', step 1 (option 'pose.methd'): there is no option 'pose.methd'");
-  // Looking the other way there is nothing.
+  // After turning the view away, the picture is empty.
   EXPECT_EQ(failure(R"({"open": "data/figure.off"}, {"drag": [0.5, 0.5], "to": [0.9, 0.5],
     "button": "middle"}, {"drag": [0.1, 0.5], "to": [0.9, 0.5], "button": "middle"},
     {"drag": [0.1, 0.5], "to": [0.9, 0.5], "button": "middle"}, {"screenshot": "gone"})"),

@@ -1,5 +1,5 @@
-// Volumes in the window, as a person inspects them: real mouse events of Qt on the picture, sliders
-// and buttons of the panel; what is asserted are places, winding numbers and areas in closed form.
+// Volumes in the window, as a user inspects them: real Qt mouse events on the picture, sliders and
+// buttons of the panel. The tests assert positions, winding numbers and areas in closed form.
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -55,7 +55,7 @@ namespace
 {
 constexpr double pi = 3.14159265358979323846;
 
-/// The level w is a sphere of radius 1.5 - w.
+/// The isosurface of level w is a sphere of radius 1.5 - w.
 double cone(const Vec3& p)
 {
   return 1.5 - p.norm();
@@ -104,7 +104,7 @@ protected:
   VolumeView* view() { return this->window.volume_view(); }
   VolumePanel* panel() { return this->window.panels()->volume(); }
 
-  /// The rows of the panel: position, level.
+  /// Return a row of the panel: 0 position, 1 level.
   ValueRow* row(int which) { return this->panel()->findChildren<ValueRow*>()[which]; }
 
   void open(const vtkSmartPointer<vtkImageData>& image = volume())
@@ -113,8 +113,8 @@ protected:
     this->render();
   }
 
-  /// What is read at a place. The screen is shared with other tests, whose windows may cover this
-  /// one: then the mouse has left it, and comes again.
+  /// Return the reading at a position. Windows of other tests on the same screen may cover this
+  /// window. Then the mouse has left it, so the function moves the mouse again.
   QString reading_at(const Vec3& place)
   {
     for (int attempt = 0; attempt < 50; ++attempt)
@@ -130,7 +130,7 @@ protected:
   }
 };
 
-/// The coordinates of what is read.
+/// Return the part of a reading that contains the coordinates.
 const char* place_in(const std::string& reading)
 {
   const std::size_t begin = reading.find("  x ");
@@ -166,11 +166,11 @@ TEST_F(VolumeWindow, TheMouseDragsTheSliceAndTheStatusBarReadsTheField)
   const QPoint grip = this->pixel(Vec3(0.5, 0.4, 0));
   const QPoint there = this->pixel(Vec3(0.5, 0.4, 0.6));
   this->drag(grip, there);
-  // The slice has followed the mouse along its normal; the panel says where it is.
+  // The slice has followed the mouse along its normal. The panel shows its position.
   EXPECT_NEAR(this->view()->position(), 0.6, 0.08);
   EXPECT_EQ(this->view()->slice_normal(), Vec3(0, 0, 1));
   EXPECT_NEAR(this->row(0)->value(), this->view()->position(), 0.01);
-  // What is read under the mouse is the field there.
+  // The reading under the mouse equals the field at that position.
   int read = 0;
   for (const Vec3& place : { Vec3(0.3, 0.2, 0.6), Vec3(-0.9, 0.5, 0.6), Vec3(1.0, -1.0, 0.6) })
   {
@@ -203,14 +203,14 @@ TEST_F(VolumeWindow, ButtonsAndTheFieldPlaceTheSlice)
     EXPECT_NEAR(this->view()->position(), 0.4 - 0.5 * axis, 1e-9);
     EXPECT_NEAR(this->view()->slice_origin()[axis], 0.4 - 0.5 * axis, 1e-9);
   }
-  // Both ends, too, show a whole slice.
+  // Both ends also show a whole slice.
   for (const int end : { 0, 1000 })
   {
     this->row(0)->slider()->setValue(end);
     this->render();
     EXPECT_NE(this->reading_at(Vec3(0.1, 0.1, end ? 1.6 : -1.6)), QString()) << end;
   }
-  // Free: the arrow turns it. Before, there was no arrow to catch.
+  // The arrow of a free slice turns it. Other orientations have no arrow.
   this->row(0)->field()->setValue(0.0);
   this->find<QPushButton>("Free")->click();
   this->render();
@@ -237,7 +237,8 @@ TEST_F(VolumeWindow, TheLevelsSliderGivesTheSphereOfThatLevel)
   }
   this->row(1)->field()->setValue(0.5);
   EXPECT_NEAR(surface_area(this->view()->isosurface()), 4.0 * pi, 0.01 * 4.0 * pi);
-  // Before the slice stands the isosurface: it is read there, on its sphere; the slice beside it.
+  // The isosurface is in front of the slice, so the reading is on its sphere. Next to it, the slice
+  // is read.
   this->render();
   const std::string reading = this->reading_at(Vec3(0.2, 0.1, 0)).toStdString();
   Vec3 place;
@@ -281,7 +282,7 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   this->open();
   EXPECT_LT(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 0.5);
-  // The slice's orange shines through, and is read.
+  // The orange of the slice is visible through the surface, and the slice is read.
   const QColor seen = this->picture().pixelColor(this->pixel(Vec3(0.3, 0.1, 0)));
   EXPECT_GT(seen.red(), seen.blue() + 40);
   EXPECT_NE(this->reading_at(Vec3(0.3, 0.1, 0)), QString());
@@ -290,7 +291,7 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
   look->setCurrentIndex(Viewport::edges_only);
   EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
-  // Both panels can be had, and closing the volume leaves the surface as it was.
+  // Both panels are available. Closing the volume restores the appearance of the surface.
   this->find<QPushButton>("Pose")->click();
   EXPECT_TRUE(this->window.panel()->isVisible());
   this->find<QPushButton>("Close the volume")->click();
@@ -302,7 +303,7 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   EXPECT_EQ(this->reading_at(Vec3(0.3, 0.1, 0)).left(8), "Triangle");
 }
 
-/// Winding numbers are those of the shape at rest: it is never posed around them.
+/// Winding numbers belong to the shape at rest, so the shape is not posed around them.
 TEST_F(VolumeWindow, NoSliceLiesInAPosedShape)
 {
   const TriangleMesh ball = test::sphere(3, 1.2);
@@ -334,8 +335,8 @@ TEST_F(VolumeWindow, NoSliceLiesInAPosedShape)
   EXPECT_NEAR(top(), 1.2, 1e-3);
   EXPECT_NEAR(handles->GetBounds()[3], 0.0, 1e-9);
   EXPECT_EQ(this->window.viewport()->state_name(), "Rest shape: the winding numbers belong to it");
-  // Without anything of the volume in the picture the pose is back; so it is in the other panel,
-  // where the slice and its legend are not.
+  // The pose returns if nothing of the volume is shown. It also returns in the other panel, which
+  // shows neither the slice nor its legend.
   this->find<QCheckBox>("Show the slice")->setChecked(false);
   EXPECT_NEAR(top(), 2.2, 1e-3);
   this->find<QCheckBox>("Show the slice")->setChecked(true);
@@ -368,7 +369,7 @@ TEST_F(VolumeWindow, BoundaryCurvesAreDrawnAndAreNoBones)
   {
     EXPECT_TRUE(is_green(image.pixelColor(this->pixel(place)))) << place.transpose();
   }
-  // Lines of a mesh with faces are shown, too, unless curves were opened.
+  // Lines of a mesh with faces are also shown, unless curves were opened.
   MainWindow other;
   other.show();
   const TriangleMesh ball = test::sphere(2, 0.5);
@@ -400,7 +401,7 @@ TEST_F(VolumeWindow, WhatIsNoVolumeIsSaidAndTheWorkStays)
     "1681 of the 68921 values of 'WindingNumber' are not finite");
   vtkNew<vtkImageData> empty;
   refused(empty, "no samples");
-  // An empty image as a file.
+  // A file with an empty image.
   const std::string path = testing::TempDir() + "bindpose_empty.vti";
   vtkNew<vtkXMLImageDataWriter> writer;
   writer->SetInputData(empty);

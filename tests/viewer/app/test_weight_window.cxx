@@ -1,5 +1,5 @@
-// Weights in the window, as a person inspects them: numbers that are known at every point, counts,
-// places in the picture, and what the kernels say of another method.
+// Weights in the window, as a user inspects them. The tests assert numbers that are known at every
+// point, counts, positions in the picture, and results of the kernels for other methods.
 #include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
@@ -89,7 +89,7 @@ vtkSmartPointer<vtkPolyData> ball()
   return data;
 }
 
-/// A box around 0 of tets, with weights linear along z.
+/// Return a box of tets around the origin, with weights linear along z.
 vtkSmartPointer<vtkUnstructuredGrid> box()
 {
   const TetMesh mesh = test::tet_box(8, 8, 8, Vec3(-1, -1, -1), Vec3(1, 1, 1));
@@ -177,7 +177,8 @@ TEST_F(WeightWindow, AColumnHasBandsAndIsolinesAtEveryTenth)
 {
   this->open(ball());
   this->choose("top");
-  // Linear on every triangle: each line lies at its height, 0.1, …, 0.9 of the way up.
+  // The weights are linear on every triangle, so each isoline is at its height, at 0.1, …, 0.9 of
+  // the total.
   vtkPolyData* lines = this->view()->isolines();
   std::set<long> levels;
   for (vtkIdType v = 0; v < lines->GetNumberOfPoints(); ++v)
@@ -198,7 +199,7 @@ TEST_F(WeightWindow, AColumnHasBandsAndIsolinesAtEveryTenth)
   EXPECT_GT(lines->GetNumberOfPoints(), 0);
   this->find<QCheckBox>("Isolines")->setChecked(false);
   EXPECT_EQ(lines->GetNumberOfPoints(), 0);
-  // Without the panel the surface is shaded, as the other panel wants it.
+  // Without the panel, the surface is shaded as in the other panel.
   this->find<QPushButton>("Pose")->click();
   EXPECT_FALSE(this->surface()->GetMapper()->GetScalarVisibility());
 }
@@ -208,7 +209,7 @@ TEST_F(WeightWindow, AllShowsTheStrongestHandle)
   this->open(ball());
   this->choose("All: strongest handle");
   const std::vector<Category> handles = handle_categories({ "bottom", "top" });
-  // Along an axis across: one half each.
+  // Seen from the side, each handle has one half.
   this->window.viewport()->renderer()->GetActiveCamera()->Azimuth(90.0);
   const QImage image = this->picture();
   int of_bottom = 0;
@@ -243,7 +244,7 @@ TEST_F(WeightWindow, RowSumsNeedRawColumns)
   EXPECT_NEAR(this->view()->numbers().number("picture.row_sum.maximum", 0.0), 1.25, 1e-12);
   EXPECT_FALSE(this->list("top")->isEnabled());
   EXPECT_FALSE(this->button("Normalised")->isEnabled());
-  // Weights of a mesh without raw columns are weights again.
+  // A mesh without raw columns shows weights again.
   this->open(ball());
   EXPECT_TRUE(this->button("Weights")->isChecked());
   EXPECT_TRUE(this->view()->is_shown());
@@ -251,7 +252,7 @@ TEST_F(WeightWindow, RowSumsNeedRawColumns)
 
 TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
 {
-  // Of the raw column alone there is a bump, in the middle of the side that is seen.
+  // Only the raw column has a bump, in the middle of the visible side.
   const Vec3 place = Vec3(0.3, -0.5, 0.1).normalized();
   Vec3 bump = place;
   const auto mesh = ball();
@@ -272,7 +273,7 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
   this->open(mesh);
   this->choose("top");
   this->find<QCheckBox>("Extrema away from handles")->setChecked(true);
-  // At the poles the one is exactly 1, a handle; the other is 0 there, the least value.
+  // At its own pole a weight is exactly 1, a handle. At the other pole it is 0, the minimum.
   EXPECT_TRUE(this->says("Maxima: 0, minima: "));
   this->button("Raw")->click();
   EXPECT_TRUE(this->says("Maxima: 1, minima: "));
@@ -283,7 +284,7 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
       found || (extremum.maximum && (Vec3(mesh->GetPoint(extremum.vertex)) - bump).norm() < 0.1);
   }
   EXPECT_TRUE(found);
-  // The ball is seen where it is, and leaves with its box.
+  // The ball is visible at its position, and disappears with its check box.
   const Rgb red = extremum_categories()[1].colour;
   const auto reds = [&]
   {
@@ -341,13 +342,13 @@ TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
   EXPECT_NEAR(this->view()->plane()->position(), 0.4, 0.1);
   EXPECT_NEAR(this->row()->value(), this->view()->plane()->position(), 0.01);
   check(2, this->view()->plane()->position());
-  // One band of the legend, unlit, seen through the faint surface.
+  // The color is one band of the legend, unlit, seen through the faint surface.
   const ColourMap map = weight_map();
   const double z = this->view()->plane()->position();
   EXPECT_LT(
     hue_distance(this->colour_at(Vec3(0.1, 0.2, z)), colour_of(map, top_weight({ 0, 0, z }))),
     0.08);
-  // At both ends of its way it is harmless; of all handles it shows the strongest.
+  // Both ends of the slider are valid. For all handles, the slice shows the strongest one.
   for (const double end : { -1.0, 1.0 })
   {
     this->row()->field()->setValue(end);
@@ -356,7 +357,7 @@ TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
   this->button("X")->click();
   this->choose("All: strongest handle");
   EXPECT_GT(this->view()->slice()->GetNumberOfCells(), 100);
-  // In the other panel there is neither slice nor plane.
+  // The other panel shows neither slice nor plane.
   this->find<QPushButton>("Pose")->click();
   EXPECT_FALSE(this->view()->is_shown());
   EXPECT_EQ(this->surface()->GetProperty()->GetOpacity(), 1.0);
@@ -379,7 +380,7 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   this->wait_while([this] { return this->weights()->is_busy(); });
   EXPECT_EQ(this->window.error(), QString());
   EXPECT_TRUE(this->button("Difference")->isChecked());
-  // The same by the kernels.
+  // Compute the same weights with the kernels.
   const TriangleMesh mesh = test::sphere(4);
   Handles handles;
   ASSERT_TRUE(to_handles(two_points(), handles).ok());
@@ -413,28 +414,27 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   EXPECT_NEAR(numbers.number("picture.difference.largest", 0.0), largest, 1e-6);
   EXPECT_NEAR(numbers.number("picture.difference.rms", 0.0), std::sqrt(squares), 1e-6);
   EXPECT_TRUE(this->says(QString("largest %1").arg(largest, 0, 'g', 2)));
-  // Another column has another one; the slice says why it is not there.
+  // Another column has another difference. The slice is disabled.
   this->choose("bottom");
   EXPECT_TRUE(this->view()->is_shown());
   EXPECT_FALSE(this->find<QCheckBox>("Slice through the volume")->isEnabled());
   this->button("Weights")->click();
   EXPECT_EQ(this->view()->numbers().find("picture.difference.rms"), nullptr);
-  // Cancelled, the last one stays.
+  // A canceled comparison keeps the last one.
   this->choose("Monotone");
   this->button("Compare again")->click();
   this->button("Cancel")->click();
   this->wait_while([this] { return this->weights()->is_busy(); });
   EXPECT_TRUE(this->says("the last comparison stays"));
   EXPECT_TRUE(this->button("Difference")->isEnabled());
-  // Another mesh ends it.
+  // Opening another mesh ends the comparison.
   this->button("Compare again")->click();
   ASSERT_TRUE(this->window.set_mesh(box(), "box"));
   this->wait_while([this] { return this->weights()->is_busy(); });
   EXPECT_FALSE(this->button("Difference")->isEnabled());
 }
 
-/// A certificate stands below the name of the method that it is about, and no method is compared
-/// with itself.
+/// A certificate is shown below the name of its method, and no method is compared with itself.
 TEST_F(WeightWindow, CertificatesNameTheirMethod)
 {
   const auto mesh = ball();
@@ -454,7 +454,7 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   ASSERT_TRUE(this->window.is_bound());
   EXPECT_TRUE(this->says("Bounded biharmonic weights:"));
-  // In the panel Pose, where the next method is chosen.
+  // Certificates are also shown in the panel Pose, where the next method is chosen.
   const auto note = [this](const QString& words)
   {
     const auto labels = this->window.panel()->findChildren<QLabel*>();
@@ -468,7 +468,7 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
     note("Bound: bounded biharmonic. Optimal to within 2.0e-08. Bind again for monotone."));
   chosen->setCurrentIndex(0);
   EXPECT_TRUE(note("Bound: bounded biharmonic. Optimal to within 2.0e-08."));
-  // The other method is another one.
+  // By default the weights are compared with another method.
   auto* other = this->panel()->findChild<QComboBox*>("weights.compare_with");
   EXPECT_TRUE(this->button("Compare")->isEnabled());
   other->setCurrentIndex(0);
@@ -476,7 +476,7 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
   EXPECT_TRUE(this->button("Compare")->toolTip().contains("by this method already"));
   EXPECT_FALSE(other->model()->flags(other->model()->index(0, 0)) & Qt::ItemIsEnabled);
   EXPECT_TRUE(other->model()->flags(other->model()->index(1, 0)) & Qt::ItemIsEnabled);
-  // Weights without a report may be by any method.
+  // Weights without a report may come from any method.
   this->open(ball());
   EXPECT_TRUE(other->model()->flags(other->model()->index(0, 0)) & Qt::ItemIsEnabled);
 }
@@ -500,19 +500,19 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
   this->find<QCheckBox>("Slice through the volume")->setChecked(true);
   EXPECT_TRUE(this->view()->is_sliced());
   EXPECT_GT(this->view()->slice()->GetNumberOfCells(), 20);
-  // Inside and outside hang together: a weight of the slice is one of the column's.
+  // Interior and surface are connected: the slice's weights are within the range of the column.
   vtkDataArray* values = this->view()->slice()->GetPointData()->GetArray("bindpose.Colour");
   for (vtkIdType v = 0; v < values->GetNumberOfTuples(); ++v)
   {
     EXPECT_GE(values->GetComponent(v, 0), -1e-9);
     EXPECT_LE(values->GetComponent(v, 0), 1.0 + 1e-9);
   }
-  // Bound again, what was chosen stays.
+  // A new bind keeps the choices.
   this->window.binding()->start();
   this->wait_while([this] { return this->window.binding()->is_running(); });
   EXPECT_TRUE(this->view()->is_sliced());
   EXPECT_EQ(this->list("top")->currentText(), QString("top"));
-  // Saved and opened, all is there but the tets.
+  // After saving and opening, everything except the tets is restored.
   const std::string path = testing::TempDir() + "bindpose_weights.vtp";
   ASSERT_TRUE(write_shape(this->window.shown(), path).ok());
   EXPECT_TRUE(this->window.open(QString::fromStdString(path)));
@@ -548,7 +548,7 @@ TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
   this->window.set_method(0);
   EXPECT_NEAR(reach(this->view()->isolines()), 1.8, 1e-5);
   EXPECT_NEAR(reach(this->window.viewport()->drawn()), 2.0, 1e-5);
-  // Around a slice it is at rest.
+  // Around a slice, the shape is at rest.
   this->find<QCheckBox>("Slice through the volume")->setChecked(true);
   auto* handles = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
   EXPECT_NEAR(reach(this->window.viewport()->drawn()), 1.0, 1e-5);
@@ -623,7 +623,7 @@ TEST_F(WeightWindow, NoTextOfTheWeightPanelIsClipped)
     {
       if (!label->isVisible())
       {
-        continue; // of pictures
+        continue; // labels of pictures
       }
       EXPECT_LE(label->heightForWidth(label->width()), label->height())
         << label->text().toStdString();

@@ -1,5 +1,5 @@
-// What the window has room for: a small screen fits it whole, bars lie over the picture instead of
-// pushing it, the timeline comes with the first key, and domains and winding numbers are to be had.
+// Layout of the window: it fits a small screen, bars cover the picture instead of moving it, the
+// timeline appears with the first key, and domains and winding numbers are available.
 #include "window_test.h"
 
 #include "document/document.h"
@@ -67,7 +67,7 @@ protected:
   WindowHand hand{ &this->window };
 };
 
-/// Parts of the window that stick out of it.
+/// Return the names of the parts that extend beyond the window.
 QStringList outside(const QWidget& window, const QList<const QWidget*>& parts)
 {
   QStringList names;
@@ -109,7 +109,7 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
   this->window.show_error("Something has gone wrong.");
   expect_still("an error came");
   EXPECT_EQ(bars, 4);
-  // Each has a place of its own, below the title of a mode.
+  // The bars do not overlap, and are below the title of a mode.
   EXPECT_EQ(this->hand.press_key("A"), QString());
   expect_still("a mode began");
   QList<QRect> places;
@@ -131,10 +131,10 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
     bar->hide();
     expect_still("a notice left");
   }
-  // The status line says what the hand does.
+  // The status line shows a hint about the mouse.
   this->hover(seen);
   expect_still("a hint came");
-  // Where the bars were the mouse is the picture's again.
+  // After a bar is hidden, the picture receives the mouse there.
   this->window.error_bar()->hide();
   QApplication::processEvents();
   const QWidget* there = this->window.viewport()->childAt(this->window.viewport()->width() / 2, 60);
@@ -187,7 +187,7 @@ TEST_F(WindowRoom, AScreenOf1280By800FitsAllOfIt)
 {
   this->open_figure();
   EXPECT_EQ(this->hand.press_key("K"), QString());
-  // What a desktop leaves below its own bar and the window's title.
+  // The space that a desktop leaves below its own bar and the window's title.
   const QSize room(1280, 720);
   for (int panel = 0; panel < 4; ++panel)
   {
@@ -203,7 +203,7 @@ TEST_F(WindowRoom, AScreenOf1280By800FitsAllOfIt)
       QStringList())
       << panel;
     EXPECT_GT(this->window.viewport()->height(), 400) << panel;
-    // Panels are scrolled upwards only.
+    // Panels scroll vertically only.
     for (const QScrollArea* area : this->window.panels()->findChildren<QScrollArea*>())
     {
       if (area->isVisible())
@@ -249,7 +249,7 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   for (vtkIdType v = 0; v < volume->GetNumberOfPoints(); ++v)
   {
     const double radius = Vec3(volume->GetPoint(v)).norm();
-    if (radius < 0.8 || radius > 1.01) // the ball has corners
+    if (radius < 0.8 || radius > 1.01) // the ball is faceted
     {
       EXPECT_NEAR(values->GetComponent(v, 0), radius < 0.8, 1e-9) << radius;
       inside += radius < 0.8;
@@ -257,7 +257,7 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   }
   EXPECT_GT(inside, 1000);
   EXPECT_EQ(this->hand.choose("volume.isosurface", true), QString());
-  // No file holds it: a session does.
+  // No file contains the volume, so the session stores it.
   const test::Folder folder;
   const QString path = QString::fromStdString(folder / "ball.bindpose");
   SessionFile file;

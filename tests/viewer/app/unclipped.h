@@ -1,7 +1,8 @@
 #ifndef bindpose_tests_viewer_app_unclipped_h
 #define bindpose_tests_viewer_app_unclipped_h
 
-// No word is cut off: the widgets in another have the room that their texts need.
+// Tests that no text is clipped: the child widgets of a widget have the space that their texts
+// need.
 
 #include <QComboBox>
 #include <QPushButton>
@@ -14,7 +15,7 @@
 namespace bindpose::test
 {
 
-/// The buttons that are seen.
+/// Check the visible buttons.
 inline void expect_unclipped_buttons(const QWidget* in)
 {
   for (const QPushButton* button : in->findChildren<QPushButton*>())
@@ -27,14 +28,14 @@ inline void expect_unclipped_buttons(const QWidget* in)
   }
 }
 
-/// The items of the lists that drop down and are seen, when they are chosen.
+/// Check all items of the visible combo boxes, as if each were chosen.
 inline void expect_unclipped_items(const QWidget* in)
 {
   for (const QComboBox* box : in->findChildren<QComboBox*>())
   {
     if (!box->isVisible())
     {
-      continue; // it was not laid out
+      continue; // hidden boxes have no layout
     }
     QStyleOptionComboBox option;
     option.initFrom(box);

@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_viewer_app_window_test_h
 #define bindpose_tests_viewer_app_window_test_h
 
-// The window as a person uses it: real mouse events of Qt on the picture, buttons by their texts.
+// Operates the window like a user: real Qt mouse events on the picture, and buttons by their texts.
 
 #include "main_window.h"
 #include "panel_column.h"
@@ -27,7 +27,7 @@
 namespace bindpose::test
 {
 
-/// wait_until(), with a minute's patience.
+/// Call wait_until() with a time limit of one minute.
 template <typename Condition>
 bool wait_for(const Condition& condition, int seconds = 60)
 {
@@ -43,7 +43,7 @@ void write_with(vtkDataSet* data, const std::string& path)
   ASSERT_EQ(writer->Write(), 1) << path;
 }
 
-/// Handles at both ends of a shape along z from -1 to 1.
+/// Return two handles near the ends of a shape along z from -1 to 1.
 inline vtkSmartPointer<vtkPolyData> two_points()
 {
   Handles handles(2);
@@ -63,7 +63,7 @@ protected:
     QApplication::processEvents();
   }
 
-  /// The one with this text; when there are several, the visible one.
+  /// Return the widget with this text. If there are several, return the visible one.
   template <typename Widget>
   Widget* find(const QString& text)
   {
@@ -92,7 +92,7 @@ protected:
     EXPECT_EQ(this->window.size(), size);
   }
 
-  /// Where a place is in the picture, in Qt's pixels from the upper left.
+  /// Return the pixel of a position in the picture, in Qt's pixels from the upper left.
   QPoint pixel(const Vec3& place)
   {
     vtkRenderer* renderer = this->window.viewport()->renderer();

@@ -1,4 +1,4 @@
-"""The fixture that every test of the program takes."""
+"""The fixture that every test of the program uses."""
 
 import pytest
 from driver import Folder

@@ -1,4 +1,4 @@
-"""Runs the program in a folder of its own and looks at what it leaves there."""
+"""Run the program in a separate folder and check the files that it writes."""
 
 import json
 import os
@@ -11,7 +11,7 @@ PROGRAM = os.environ["BINDPOSE_PROGRAM"]
 
 
 class Run:
-    """One run: exit code, both outputs, and the report when it went to the standard output."""
+    """One run: exit code, both outputs, and the report if it was written to standard output."""
 
     def __init__(self, words, folder, environment=None):
         self.words = [str(word) for word in words]
@@ -31,7 +31,7 @@ class Run:
         return self
 
     def is_refused(self, *words, code=2):
-        """One clear sentence with these words, the exit code, nothing left behind."""
+        """Expect one sentence with these words, the exit code, and no new files."""
         assert self.code == code, (self.words, self.code, self.err)
         lines = [line for line in self.err.splitlines() if ": warning: " not in line]
         assert len(lines) == 1, self.err

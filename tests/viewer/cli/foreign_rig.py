@@ -1,13 +1,13 @@
-"""A character as another program exports it: a glTF file of 15 meshes on one skin with helper joints, dozens of
-animations whose scales are uneven by roundoff, materials with a texture, and a camera."""
+"""A character in the form that other programs export: a glTF file of 15 meshes on one skin with helper joints, dozens
+of animations whose scales are uneven by round-off, materials with a texture, and a camera."""
 
 import base64
 import json
 import math
 import struct
 
-# Joint, parent, place at rest. root and pelvis stand where hips does; target and pole, which control a foot in the other
-# program, have the same nearest point of the mesh.
+# Joint, parent, rest position. root and pelvis have the position of hips. target and pole, which control a foot in the
+# other program, have the same nearest point of the mesh.
 JOINTS = [("root", None, (0, 1, 0)), ("hips", "root", (0, 1, 0)), ("pelvis", "hips", (0, 1, 0)),
           ("spine", "hips", (0, 1.3, 0)), ("neck", "spine", (0, 1.7, 0)), ("head", "neck", (0, 1.9, 0)),
           ("upper_arm.L", "spine", (0.3, 1.6, 0)), ("forearm.L", "upper_arm.L", (0.7, 1.6, 0)),
@@ -17,7 +17,7 @@ JOINTS = [("root", None, (0, 1, 0)), ("hips", "root", (0, 1, 0)), ("pelvis", "hi
           ("thigh.R", "hips", (-0.15, 0.9, 0)), ("shin.R", "thigh.R", (-0.15, 0.5, 0)), ("foot.R", "shin.R", (-0.15, 0.1, 0)),
           ("target.L", "root", (0.6, -0.4, 0.6)), ("pole.L", "root", (0.8, -0.5, 0.7))]
 WITHOUT_WEIGHTS = ("root", "pelvis", "hand.L", "hand.R", "target.L", "pole.L")
-UNEVEN = (1.0, 1.0 + 2e-6, 1.0 - 1.8e-6)  # what single precision leaves of an even scale
+UNEVEN = (1.0, 1.0 + 2e-6, 1.0 - 1.8e-6)  # a uniform scale after rounding to single precision
 
 # A box per mesh: name, lower and upper corner, joint.
 BOXES = [("torso", (-0.3, 1.2, -0.15), (0.3, 1.65, 0.15), "spine"), ("hip", (-0.25, 0.85, -0.15), (0.25, 1.25, 0.15), "hips"),
@@ -33,7 +33,7 @@ for _side, _sign in (("L", 1), ("R", -1)):
 
 
 def _box(lower, upper, cuts=3):
-    """The surface of a box as a grid of triangles."""
+    """Return the surface of a box as a grid of triangles."""
     ids, points, triangles = {}, [], []
 
     def vertex(at):
@@ -78,7 +78,7 @@ class _Buffer:
 
 
 def write_foreign_rig(path, animations=76, keys=5, placeholder=False):
-    """Write the character as text (.gltf) with its numbers in it; with a placeholder all vertices hang on hips."""
+    """Write the character as text (.gltf) with embedded numbers. With a placeholder, all vertices belong to hips."""
     names = [name for name, _, _ in JOINTS]
     places = {name: place for name, _, place in JOINTS}
     buffer = _Buffer()

@@ -1,4 +1,4 @@
-"""Meshes and handles as text, small enough to know their numbers."""
+"""Meshes and handles as text, small enough to know their exact numbers."""
 
 import itertools
 import math
@@ -27,7 +27,7 @@ def doubled(mesh):
 
 
 def quads():
-    """The cube of six squares."""
+    """Return the cube as six squares."""
     return cube()[0], [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]]
 
 
@@ -40,7 +40,7 @@ def one_triangle():
 
 
 def bar(nx=12, ny=2, nz=2, size=(6.0, 1.0, 1.0)):
-    """The surface of a box from the origin along x, cut into squares of two triangles."""
+    """Return the surface of a box along x, with a corner at the origin, cut into squares of two triangles."""
     counts = (nx, ny, nz)
     ids, vertices, faces = {}, [], []
 
@@ -100,7 +100,7 @@ BENT = '{"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 90}}}}'
 
 
 def png(columns, rows, colour):
-    """A picture as the bytes of a PNG file; colour(x, y) is (red, green, blue, alpha), row 0 on top."""
+    """Return a picture as the bytes of a PNG file. colour(x, y) is (red, green, blue, alpha), row 0 is at the top."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 

@@ -1,4 +1,4 @@
-"""Every verb against every bad input: one sentence, exit code 2, nothing left behind."""
+"""Every verb against every bad input: one sentence, exit code 2, no new files."""
 
 import os
 
@@ -7,7 +7,7 @@ import shapes
 
 CUBE = shapes.off(shapes.cube())
 
-# What no verb can read, and words of the sentence about it.
+# Files that no verb can read, and words of the error message.
 UNREADABLE = {
     "missing.off": (None, ["missing.off", "No such file"]),
     "wrong.off": ("once upon a time\nthere was a mesh\n", ["wrong.off, line 1"]),
@@ -50,10 +50,10 @@ def test_unreadable_meshes(folder, verb, name):
 
 @pytest.mark.parametrize("verb", [verb for verb in OTHERS if OTHERS[verb]])
 def test_outputs_that_cannot_be_written(folder, verb):
-    """Said before the work: the mesh is not even there."""
+    """The path is checked before the work: the mesh does not even exist."""
     words = OTHERS[verb][:-1]
     ending = OTHERS[verb][-1][3:]
-    if verb == "deform":  # it must read the pose first to know its files
+    if verb == "deform":  # it must first read the pose to determine its files
         return
     folder.run(verb, "x.off", *words, f"no/such/out{ending}").is_refused("no/such/out", "No such file")
     os.mkdir(folder / f"dir{ending}")

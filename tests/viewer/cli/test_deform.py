@@ -1,4 +1,4 @@
-"""deform: poses whose result is known, sequences, and poses that cannot be."""
+"""deform: poses whose result is known, sequences, and invalid poses."""
 
 import json
 
@@ -14,7 +14,7 @@ METHODS = ["lbs", "dqs", "stbs", "cor", "reduced-arap", "full-arap", "mls"]
 
 @pytest.fixture
 def bar(folder):
-    """A bar with weights that blend linearly between the ends: no solver needed."""
+    """A bar with weights that blend linearly between the ends, so that no solver is needed."""
     mesh = to_dataset(shapes.bar())
     x = points_of(mesh)[:, 0] / 6
     add_point_array(mesh, "Weights", np.stack([1 - x, x], axis=1), ["b1", "b2"])
@@ -37,7 +37,7 @@ def test_children_follow_their_parents(bar):
     x, y, z = bar.points.T
     turned = np.stack([1 - y, x, z], axis=1)  # about (0.5, 0.5)
     assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(turned, abs=1e-12)
-    # In version 1 b2 does not follow; one warning says so, for a sequence as well.
+    # In version 1, b2 does not follow. One warning says so, also for a sequence.
     result = deform(bar, {"frames": [{"handles": {"b1": turn}}] * 3}, output="old.vtp").is_good()
     assert result.err.count("warning") == 1 and '"version": 2' in result.err
     ends = points_of(bindpose.read(bar / "old_0002.vtp"))[x == 6]
@@ -49,7 +49,7 @@ def test_rest_and_rigid_poses(bar, method):
     deform(bar, {"handles": {}}, method=method).is_good()
     assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(bar.points, abs=1e-8)
     turn = {"rotate": {"axis": [0, 0, 1], "degrees": 90}}
-    # Each about its own head, so the second has to move where the first takes its head.
+    # Each bone turns about its own head, so the second has to move to where the first moves its head.
     pose = {"handles": {"b1": turn, "b2": {**turn, "translate": [-2.5, 2.5, 0]}}}
     deform(bar, pose, "--overwrite", method=method).is_good()
     head = np.array([0.5, 0.5, 0.5])
@@ -72,7 +72,7 @@ def test_translated_handles_turn_freely(bar, method):
                                   abs=1e-12)
     sheared = posed({"version": 2, "handles": {"b1": full, "b2": {**full, **up, "space": "world"}}})
     assert abs(found - sheared).max() > 0.1
-    # Lengths along the bar change less than in the blend of translations.
+    # Lengths along the bar change less than with blended translations.
     def strain(points):
         steps = np.linalg.norm(points[1:] - points[:-1], axis=1) / np.linalg.norm(bar.points[1:] - bar.points[:-1], axis=1)
         return np.abs(steps - 1).max()
@@ -103,8 +103,8 @@ def test_an_ignored_stretch_is_said_once(bar, method):
     assert len(said) == (0 if method == "stbs" else 1), run.err
     if method == "lbs":
         run = deform(bar, {"version": 2, **frames[3]}, output="posed.glb").is_good()
-        assert run.err.count("stretches or twists bones") == 1  # glTF joints have neither
-    # Posed ends that keep the length up to roundoff stretch nothing.
+        assert run.err.count("stretches or twists bones") == 1  # glTF joints support neither
+    # Posed ends that preserve the length up to round-off cause no stretch.
     ends = {"handles": {"b1": {"mode": "full"}, "b2": {"head": [3, 0.5, 0.5], "tail": [3, 3, 0.5]}}}
     assert "stretches" not in deform(bar, {"version": 2, **ends}, "--overwrite", method=method).is_good().err
 
@@ -117,7 +117,7 @@ def test_sequences(bar, method):
     collection = (bar / "out.pvd").read_text()
     assert 'timestep="0.25" file="out_0001.vtp"' in collection
     assert json.loads((bar / "r.json").read_text())["counts"]["frames"] == 3
-    # The same as each pose alone; solves that begin elsewhere stop at their tolerance.
+    # The result equals that of each pose alone. Solves with different starts stop at their tolerance.
     deform(bar, frames[2], method=method, output="single.vtp").is_good()
     assert points_of(bindpose.read(bar / "single.vtp")) == pytest.approx(
         points_of(bindpose.read(bar / "out_0002.vtp")), abs={"reduced-arap": 5e-4, "full-arap": 1e-3}.get(method, 1e-12))
@@ -143,10 +143,10 @@ def test_a_variational_surface_needs_no_weights(folder):
         posed = points_of(bindpose.read(folder / "out.vtp"))
         assert posed[middle] == pytest.approx([0.5, 0.5, 1]) and np.array_equal(posed[depth < 2], points[depth < 2])
         heights[words[1] if len(words) > 1 else ""] = posed[middle + 1, 2]
-    assert heights["1"] < heights["tangent"] and heights["1"] < heights["3"]  # a membrane hangs
+    assert heights["1"] < heights["tangent"] and heights["1"] < heights["3"]  # a membrane sags
     deform(folder, pose, "--order", "4", method="variational").is_refused("4", code=1)
 
-    # Fairing needs no handles: the flat patch between fixed points, however it was bent.
+    # Fairing needs no handles: the patch between fixed points becomes flat, however it was bent.
     bent = points + np.where(depth >= 2, 0.3, 0)[:, None] * [0, 0, 1]
     mesh = to_dataset((bent, triangles))
     add_point_array(mesh, "Fixed", 1.0 * (depth < 2))
@@ -175,7 +175,7 @@ def test_single_precision_and_few_influences(bar):
 def test_poses_of_libigl(bar):
     x = points_of(bindpose.read(bar / "bar.vtp"))
     turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
-    block = np.vstack([turn.T, [1, 2, 3]])  # transposed: (p, 1) times it
+    block = np.vstack([turn.T, [1, 2, 3]])  # transposed, because the result is (p, 1) times the block
     pose = np.vstack([block, block])
 
     def dmat(name, matrix):
@@ -185,7 +185,7 @@ def test_poses_of_libigl(bar):
 
     dmat("pose.dmat", pose).is_good()
     assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(x @ turn.T + [1, 2, 3], abs=1e-12)
-    # Rotations of the two bones, the second after the first's: no rotation of its own moves it along.
+    # Rotations of the two bones. The second rotation includes the first, so the second bone is not moved along.
     half = np.sqrt(0.5)
     dmat("turns.dmat", np.array([[0, 0, half, half, 0, 0, 0, 1]]).T).is_good()
     head = [float(c) for c in (bar / "h.tgf").read_text().splitlines()[0].split()[1:4]]
@@ -199,7 +199,7 @@ def test_poses_of_libigl(bar):
 def test_a_sequence_is_there_whole_or_not_at_all(bar):
     frames = [{"handles": {}}, {"handles": {}}]
     bar.write("out_0001.vtp", "precious")
-    deform(bar, {"frames": frames})  # writes pose.json
+    deform(bar, {"frames": frames})  # also writes pose.json
     deform(bar, {"frames": frames}).is_refused("out_0001.vtp", "the file exists")
     assert (bar / "out_0001.vtp").read_text() == "precious"
     assert not (bar / "out_0000.vtp").exists()
@@ -209,7 +209,7 @@ def test_a_sequence_that_fails_leaves_what_was_there(bar):
     good = {"handles": {"b2": {"translate": [0, 1, 0]}}}
     deform(bar, {"frames": [good, good]}).is_good()
     before = (bar / "out_0000.vtp").read_bytes()
-    # The sequence's last frame cannot be written: a folder of its name appears in the middle.
+    # The last frame of the sequence cannot be written, because a folder has its name.
     (bar / "out_0001.vtp").unlink()
     (bar / "out_0001.vtp").mkdir()
     deform(bar, {"frames": [{"handles": {}}, {"handles": {}}]}, "--overwrite").is_refused("out_0001.vtp")
@@ -244,7 +244,7 @@ def test_tets_and_other_endings(bar):
     ('{"frames": []}', []),
 ])
 def test_poses_that_cannot_be(bar, pose, words):
-    deform(bar, {"handles": {}}, output="first.vtp").is_good()  # writes pose.json
+    deform(bar, {"handles": {}}, output="first.vtp").is_good()  # also writes pose.json
     deform(bar, pose).is_refused(*words)
 
 
@@ -290,14 +290,14 @@ def test_dynamics_falls_and_replays(bar):
     assert np.array_equal(points_of(bindpose.read(bar / "out_0003.vtp")), posed[3])
     deform(bar, pose, "--dynamics", "--gravity", "1,2", "--overwrite").is_refused("--gravity")
     deform(bar, pose, "--dynamics", "--time-step", "0", "--overwrite").is_refused("--time-step")
-    # A bad pose on the way is one sentence.
+    # A bad pose during the sequence gives one sentence.
     bad = {"handles": {"b2": {"translate": [0, "sqrt(0.15 - t)", 0]}}}
     deform(bar, bad, *fall, "--overwrite").is_refused("not a finite number at t = 0.2")
 
 
 def test_a_time_budget_is_repeated_by_its_iterations(bar):
     first = deform(bar, shapes.BENT, "--budget-us", "1", "--tolerance", "1e-15", "--report", "-", method="reduced-arap")
-    assert first.code == 3 and first.report["iterations"] == 2  # one in each precision
+    assert first.code == 3 and first.report["iterations"] == 2  # one iteration per precision
     expected = points_of(bindpose.read(bar / "out.vtp"))
     deform(bar, shapes.BENT, "--iterations", "2", "--tolerance", "0", "--overwrite", method="reduced-arap").is_good()
     assert np.array_equal(points_of(bindpose.read(bar / "out.vtp")), expected)
@@ -316,7 +316,7 @@ def test_pseudo_edges_turn_dragged_points(folder):
     add_point_array(mesh, "Weights", np.stack([1 - x, x], axis=1), ["p1", "p2"])
     bindpose.write(mesh, folder / "bar.vtp")
     folder.write("h.tgf", "1 0 0.5 0.5\n2 6 0.5 0.5\n#\n1 2 0 1 0\n")
-    drag = {"handles": {"p2": {"mode": "position", "translate": [-6, 6, 0]}}}  # a quarter about p1
+    drag = {"handles": {"p2": {"mode": "position", "translate": [-6, 6, 0]}}}  # a quarter turn about p1
     deform(folder, drag).is_good()
     turned = points_of(bindpose.read(folder / "out.vtp"))
     deform(folder, drag, "--overwrite", "--pseudo-edges", "auto").is_good()
@@ -331,10 +331,10 @@ def test_pseudo_edges_turn_dragged_points(folder):
 
 
 def test_what_is_stretched_is_in_the_report_and_a_cell_array(bar):
-    longer = {"handles": {"b2": {"translate": [18, 0, 0]}}}  # x becomes 4 x
+    longer = {"handles": {"b2": {"translate": [18, 0, 0]}}}  # x becomes 4 x at the end
     report = deform(bar, longer, "--report", "-", "--stretch-array").is_good().report
     assert report["counts"]["inverted_elements"] == 0
-    assert 0 < report["counts"]["stretched_elements"] < report["counts"]["elements"]  # not both ends
+    assert 0 < report["counts"]["stretched_elements"] < report["counts"]["elements"]  # some, but not all elements
     assert report["largest_stretch"] == pytest.approx(4)
     stretch = numpy_support.vtk_to_numpy(bindpose.read(bar / "out.vtp").GetCellData().GetArray("Stretch"))
     assert stretch.max() == pytest.approx(4) and stretch.min() == pytest.approx(1)
@@ -345,7 +345,7 @@ def test_what_is_stretched_is_in_the_report_and_a_cell_array(bar):
 
 
 def test_rotations_are_arrays_that_render_colours_by(bar):
-    """The bar follows its first bone, which turns by 40 degrees, while the second is free."""
+    """The bar follows its first bone, which turns by 40 degrees. The second bone is free."""
     turn = {"handles": {"b1": {"rotate": {"axis": [0, 0, 1], "degrees": 40}}, "b2": {"mode": "free"}}}
     for method, more in (("reduced-arap", []), ("full-arap", ["--iterations", 10000, "--tolerance", 0])):
         deform(bar, turn, "--overwrite", "--rotation-arrays", *more, method=method)

@@ -1,4 +1,4 @@
-"""The tables of options and keys in the viewer's pages are the program's own, and no page has a dead link."""
+"""The tables of options and keys in the viewer's pages match those of the program, and no page has a dead link."""
 
 import pathlib
 import re
@@ -23,7 +23,7 @@ def test_page_is_in_step(folder, verb, page, end):
 
 
 def pages():
-    """Every page of the project: beside the sources, not in what is built."""
+    """Return all pages of the project: those next to the sources, not those in the build folder."""
     folders = ("examples", "filters", "python", "tests", "viewer")
     return sorted([*ROOT.glob("*.md"), *(page for folder in folders for page in (ROOT / folder).rglob("*.md"))])
 

@@ -1,4 +1,4 @@
-"""What goes wrong around tetrahedralize: helper killed or missing, no room, no memory, Ctrl-C. Never half a file."""
+"""Failures of tetrahedralize: helper killed or missing, full disk, out of memory, Ctrl-C. No partial file is left."""
 
 import contextlib
 import os
@@ -18,7 +18,7 @@ needs_helper = pytest.mark.skipif(not HELPER.exists(), reason="built without bin
 
 
 def children(parent):
-    """Process ids of the children that are no zombies."""
+    """Return the process ids of the children that are not zombies."""
     found = []
     for entry in os.listdir("/proc"):
         with contextlib.suppress(OSError, ValueError):
@@ -30,7 +30,7 @@ def children(parent):
 
 
 def wait_for_helper(process, seconds=60):
-    """The first child of the process."""
+    """Wait for the first child of the process and return its id."""
     give_up = time.monotonic() + seconds
     while time.monotonic() < give_up:
         found = children(process.pid)
@@ -49,7 +49,7 @@ def runs(number):
 
 @pytest.fixture(autouse=True)
 def nothing_is_left(tmp_path_factory, monkeypatch):
-    """A folder for temporary files that stays empty."""
+    """Provide a folder for temporary files and check that it is empty at the end."""
     temporary = tmp_path_factory.mktemp("temporary")
     monkeypatch.setenv("TMPDIR", str(temporary))
     yield
@@ -62,7 +62,7 @@ def start(folder, *words, **more):
 
 
 def sleeping_helper(folder):
-    """A helper that does nothing for a minute, to be found in the environment."""
+    """Return an environment with a helper that does nothing for a minute."""
     os.mkdir(folder / "helper")
     folder.write("helper/bindpose-mesher", "#!/bin/sh\nexec sleep 60\n")
     os.chmod(folder / "helper/bindpose-mesher", 0o755)
@@ -74,7 +74,7 @@ def sleeping_helper(folder):
 
 @needs_helper
 def test_helper_can_leave_no_file(tmp_path):
-    # CGAL writes what it cannot mesh into the working folder.
+    # CGAL writes meshes that it cannot process into the working folder.
     with subprocess.Popen([HELPER, "refine"], cwd=tmp_path, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as helper:
         folder = pathlib.Path("/proc", str(helper.pid), "cwd")
         give_up = time.monotonic() + 60
@@ -99,7 +99,7 @@ def test_missing_helper(folder):
 
 @needs_helper
 def test_a_helper_killed_once(folder):
-    """The next attempt answers."""
+    """The next attempt succeeds."""
     folder.off("s.off", shapes.sphere(100, 60))
     process = start(folder, "s.off", "-o", "s.vtu", "--report", "-")
     os.kill(wait_for_helper(process), signal.SIGKILL)
@@ -111,7 +111,7 @@ def test_a_helper_killed_once(folder):
 @needs_helper
 @pytest.mark.parametrize("method, code", [("auto", 0), ("remesh", 0), ("cdt", 5)])
 def test_a_helper_killed_again_and_again(folder, method, code):
-    """The lattice needs none; cdt alone ends with one sentence, and tells all that it tried."""
+    """The lattice needs no helper. cdt alone ends with one sentence that lists all attempts."""
     folder.off("s.off", shapes.sphere(60, 40))
     process = start(folder, "s.off", "--method", method, "-o", "s.vtu", "--report", "r.json")
     stop = threading.Event()
@@ -139,7 +139,7 @@ def test_a_helper_killed_again_and_again(folder, method, code):
         assert err.count("\n") == 1 and "signal 9" in err
 
 
-# ---- No room ---------------------------------------------------------------------------------------
+# ---- Full disk -------------------------------------------------------------------------------------
 
 
 def limited(kind, size):
@@ -149,7 +149,7 @@ def limited(kind, size):
 @pytest.mark.parametrize("ending", ["vtu", "vtk", "mesh"])
 @pytest.mark.parametrize("size", [500, 20000])
 def test_a_full_disk(folder, ending, size):
-    """No file may grow beyond the limit, as if the disk were full then."""
+    """No file may grow beyond the limit, as if the disk became full."""
     folder.off("s.off", shapes.sphere())
     process = start(folder, "s.off", "--method", "embed", "-o", f"s.{ending}",
                     preexec_fn=limited(resource.RLIMIT_FSIZE, size))
@@ -161,7 +161,7 @@ def test_a_full_disk(folder, ending, size):
 
 @needs_helper
 def test_no_room_for_the_helper(folder):
-    """Its meshes are files in memory, under the same limit."""
+    """The helper's meshes are files in memory, under the same limit."""
     folder.off("s.off", shapes.sphere(60, 40))
     process = start(folder, "s.off", "--method", "cdt", "-o", "s.vtu",
                     preexec_fn=limited(resource.RLIMIT_FSIZE, 10000))
@@ -178,7 +178,7 @@ def test_a_report_that_nobody_can_read(folder):
     assert done.returncode == 2 and "cannot write the report" in done.stderr
 
 
-# ---- No memory -------------------------------------------------------------------------------------
+# ---- Out of memory ---------------------------------------------------------------------------------
 
 
 @needs_helper
@@ -193,7 +193,7 @@ def test_the_memory_limit_of_the_helper(folder):
 
 @pytest.mark.parametrize("mebibytes", [400, 700])
 def test_little_memory_for_all(folder, mebibytes):
-    """ulimit -v: tets or one sentence, and an end."""
+    """With ulimit -v, the program either makes tets or ends with one sentence."""
     folder.off("s.off", shapes.sphere(240, 160))
     process = start(folder, "s.off", "--method", "embed", "-o", "s.vtu",
                     preexec_fn=limited(resource.RLIMIT_AS, mebibytes << 20), env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
@@ -205,7 +205,7 @@ def test_little_memory_for_all(folder, mebibytes):
     assert process.returncode == 0 or err == "bindpose tetrahedralize: out of memory\n"
 
 
-# ---- Cancelled -------------------------------------------------------------------------------------
+# ---- Canceled --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -229,7 +229,7 @@ def test_cancel_kills_the_helper_at_once(folder, number):
 @needs_helper
 @pytest.mark.parametrize("age", [0.0, 0.001, 0.01, 0.3])
 def test_no_helper_outlives_the_program(folder, age):
-    """Killed when the helper has just been started, before its first line has run, and while it works."""
+    """The program is killed just after the helper was started, before its first line has run, and while it works."""
     folder.off("s.off", shapes.sphere(400, 240))
     process = start(folder, "s.off", "-o", "s.vtu")
     helper = wait_for_helper(process)

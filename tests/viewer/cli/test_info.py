@@ -41,7 +41,7 @@ def test_where_a_surface_is_unclean(folder):
 
 
 def test_numbers_are_those_of_the_legend(folder):
-    """Components, not their triangles; pairs and the triangles of these."""
+    """Inward components are counted as components, intersections as pairs and as the triangles of these pairs."""
     vertices, faces = [], []
     for k in range(3):
         cube = shapes.flipped(shapes.cube(3.0 * k, 3.0 * k + 1))

@@ -1,4 +1,4 @@
-"""Ctrl-C: exit code 4, soon, and nothing half-written."""
+"""Ctrl-C: exit code 4, a quick end, and no partial file."""
 
 import contextlib
 import os
@@ -22,12 +22,12 @@ if (pathlib.Path(PROGRAM).parent / "bindpose-mesher").exists():
 
 
 def wait_until_at_work(process):
-    """Returns a second after the program has a thread that waits for signals, which it blocks: before that its libraries
-    are loaded, from a slow disk perhaps."""
+    """Return one second after the program has started the thread that waits for the blocked signals. Before that, it
+    loads its libraries, possibly from a slow disk."""
     give_up = time.monotonic() + 60
     while time.monotonic() < give_up and process.poll() is None:
         threads = pathlib.Path(f"/proc/{process.pid}/task").glob("*/comm")
-        with contextlib.suppress(FileNotFoundError):  # threads come and go
+        with contextlib.suppress(FileNotFoundError):  # threads may end at any time
             if "signals\n" in [thread.read_text() for thread in threads]:
                 break
         time.sleep(0.02)
@@ -46,7 +46,7 @@ def test_cancel(folder, verb, number):
     asked = time.monotonic()
     _out, err = process.communicate(timeout=60)
     assert process.returncode == 4
-    assert time.monotonic() - asked < 10  # 200 ms on a machine that does nothing else, but for a factorisation
+    assert time.monotonic() - asked < 10  # 200 ms on an idle machine, except during a factorization
     assert err == f"bindpose {verb}: cancelled\n"
     assert sorted(os.listdir(folder.path)) == ["r.json", "sphere.off"]
     assert '"cancelled"' in (folder / "r.json").read_text()
@@ -77,7 +77,7 @@ def test_progress_is_for_terminals_only(folder):
         while True:
             try:
                 block = os.read(ours, 4096)
-            except OSError:  # the other side is closed
+            except OSError:  # the other side was closed
                 break
             if not block:
                 break
@@ -88,5 +88,5 @@ def test_progress_is_for_terminals_only(folder):
 
     shown = on_a_terminal()
     assert " %  " in shown and "winding" in shown and "evaluate" in shown
-    assert shown.endswith("\r\x1b[K")  # and is gone at the end
+    assert shown.endswith("\r\x1b[K")  # the line is erased at the end
     assert on_a_terminal("--quiet") == ""

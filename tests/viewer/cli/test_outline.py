@@ -1,4 +1,4 @@
-"""bindpose outline: images and curves become triangles."""
+"""bindpose outline: triangulation of images and curves."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The progress line on a terminal: it never goes back, names what runs, and follows the clock."""
+"""The progress line on a terminal: it never decreases, names the current phase, and is proportional to the time."""
 
 import os
 import pty
@@ -12,7 +12,7 @@ from driver import PROGRAM
 
 
 def progress_of(folder, *words):
-    """Seconds from the start, percent and text of every line that a terminal shows; the last row is the end."""
+    """Return seconds since the start, percent and text of every line shown on a terminal. The last row is the end."""
     master, slave = pty.openpty()
     start = time.monotonic()
     run = subprocess.Popen([PROGRAM, *map(str, words)], cwd=folder.path, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
@@ -22,7 +22,7 @@ def progress_of(folder, *words):
     while True:
         try:
             data = os.read(master, 65536)
-        except OSError:  # Linux ends a terminal this way
+        except OSError:  # Linux reports the end of a terminal this way
             break
         if not data:
             break
@@ -48,9 +48,9 @@ def test_progress_follows_the_clock(folder, words, names):
     assert not any(text.endswith(":") for text in texts)
     end = rows[-1][0]
     if end < 2.0:
-        return  # the start of the program is a large part of that
+        return  # the startup of the program is a large part of this time
     off = [abs(percent / 100 - seconds / end) for seconds, percent, _ in rows[:-1]]
     assert sum(off) / len(off) < 0.3
-    # Seconds with 98 % or more, up to the end.
+    # Duration in seconds of 98 % or more, until the end.
     late = end - min(seconds for seconds, percent, _ in rows if percent >= 98)
     assert late < 0.2 * end + 0.2

@@ -1,5 +1,4 @@
-"""render: pictures, without a display too; view without one. What pictures show is looked at in
-tests/render."""
+"""render: pictures, also without a display; view without a display. tests/render checks the content of pictures."""
 
 import os
 import shutil
@@ -44,7 +43,7 @@ def test_labels(folder):
 
 
 def test_a_scale_factor_and_a_transparent_background(folder):
-    """The same picture in three times as many pixels each way, and with alpha (colour type 6 of PNG, else 2)."""
+    """The same picture with three times as many pixels in each direction, and with alpha (PNG color type 6, else 2)."""
     folder.off("bar.off", shapes.bar())
     run = folder.run("render", "bar.off", "--size", "160x120", "--scale", "3", "--transparent", "-o", "b.png",
                      "--report", "-").is_good()
@@ -60,7 +59,7 @@ def test_a_scale_factor_and_a_transparent_background(folder):
 
 
 def test_without_a_display_or_xvfb_it_names_the_package(folder):
-    """VTK would end the process: the program must not let it come to that."""
+    """VTK would terminate the process. The program must prevent that."""
     folder.off("sphere.off", shapes.sphere(8, 4))
     nowhere = {"DISPLAY": "", "PATH": "/nowhere"}
     folder.run("render", "sphere.off", "-o", "s.png", environment=nowhere).is_refused("xvfb")
@@ -104,7 +103,7 @@ def test_isosurfaces_a_cloud_and_context(folder):
     assert run.err == "" and run.report["picture"]["isosurfaces"] == [0.25, 0.75]
     run = folder.run("render", "w.vti", "--volume", "--context", "sphere.off", "-o", "v.png", *small).is_good()
     assert run.err == "" and size_of(folder / "v.png") == (160, 120)
-    # A level that nothing reaches is no error: another tile may reach it.
+    # A level that no value reaches is not an error, because another tile may reach it.
     run = folder.run("render", "w.vti", "--isosurface", "0.5,7", "-o", "n.png", *small).is_good()
     assert "no isosurface at 7" in run.err
 
@@ -141,14 +140,14 @@ def test_volumes_that_have_no_isosurface(folder, values, size, sentence):
 
 
 def open_sphere():
-    """A sphere without its cap: 24 open edges."""
+    """Return a sphere without its cap: 24 open edges."""
     vertices, faces = shapes.sphere()
     return vertices, [face for face in faces if 0 not in face]
 
 
 @pytest.fixture
 def tets(folder):
-    """Lattice tets (no helper needed) of a sphere, as a file with arrays and one without."""
+    """Write lattice tets of a sphere (no helper needed) into a file with arrays and a file without."""
     folder.off("sphere.off", shapes.sphere())
     folder.off("open.off", open_sphere())
     for file in ("tets.vtu", "tets.mesh"):
@@ -161,7 +160,7 @@ def test_tets_inside_out(tets):
     whole = tets.run("render", "tets.vtu", "--section", "none", *small, "w.png").is_good().report["picture"]["tets"]
     counts = tets.run("info", "tets.vtu", "--report", "-").is_good().report["counts"]
     assert whole == counts["tets"]
-    # A plane and its other side, seen from the front and from behind, share the tets.
+    # A cut and the cut from its other side, seen from the front and from behind, partition the tets.
     front = tets.run("render", "tets.vtu", "--section", "z=0.01", *small, "f.png").is_good().report["picture"]["tets"]
     back = tets.run("render", "tets.vtu", "--section", "0,0,1@0,0,0.01", "--azimuth", "180", *small, "b.png")
     assert 0 < front < whole and front + back.is_good().report["picture"]["tets"] == whole
@@ -180,7 +179,7 @@ def test_defects_are_counted(tets):
     found = [{"name": "unreferenced vertex", "count": 1}, {"name": "boundary edge", "count": 24}]
     run = tets.run("render", "open.off", "--defects", *small, "d.png").is_good()
     assert run.report["picture"]["defects"] == found
-    # Over tets, by the surface they come from, or from a file; two tiles show it twice, and count it once.
+    # Defects over tets, from the surface in the context or from a file. Two tiles show them twice and count them once.
     run = tets.run("render", "tets.vtu", "tets.mesh", "--context", "open.off", "--defects", *small, "t.png").is_good()
     assert run.report["picture"]["defects"] == found
     tets.run("info", "open.off", "--defects", "d.vtp", "--quiet").is_good()
@@ -218,7 +217,7 @@ def test_what_tets_do_not_have(tets, file, words, sentence):
 
 
 def test_a_slice_through_the_weights_of_a_volume(folder):
-    """What `weights -o OUT.vtu` writes, cut through by a plane."""
+    """The output of `weights -o OUT.vtu`, cut by a plane."""
     folder.off("sphere.off", shapes.sphere())
     folder.write("h.tgf", "1 0 0 0.5 top\n2 0 0 -0.5 bottom\n#\n")
     folder.run("weights", "sphere.off", "--handles", "h.tgf", "--domain", "embedding", "--resolution", "8", "--raw",
@@ -237,7 +236,7 @@ def test_an_unknown_colour_is_usage(tets):
 
 
 def square(name_values, points=4):
-    """A flat square as a .vtp text with point arrays: name, component names, values by point."""
+    """Return a flat square as the text of a .vtp file with point arrays: name, component names, values by point."""
     arrays = "".join(
         f'<DataArray type="Float64" Name="{name}" NumberOfComponents="{len(words)}" format="ascii" '
         + " ".join(f'ComponentName{k}="{word}"' for k, word in enumerate(words)) + f">{values}</DataArray>"
@@ -253,7 +252,7 @@ def square(name_values, points=4):
 
 @pytest.fixture
 def weighted(folder):
-    """Biharmonic weights without bounds on a sphere, with their raw columns; a handle is a vertex."""
+    """Biharmonic weights without bounds on a sphere, with their raw columns. Each handle is a vertex."""
     folder.off("sphere.off", shapes.sphere())
     folder.write("h.tgf", "1 0 0 1 top\n2 0 0 -1 bottom\n3 1 0 0 side\n#\n")
     folder.run("weights", "sphere.off", "--handles", "h.tgf", "--domain", "surface", "--method", "biharmonic", "--raw",
@@ -280,7 +279,7 @@ def test_extrema_are_those_of_the_certificate(weighted):
                            "--size", "200x150", "-o", "e.png", "--overwrite", "--report", "-").is_good()
         (extrema,) = run.report["picture"]["extrema"]
         assert extrema["maxima"] + extrema["minima"] == extrema["drawn"] == handle["interior_extrema"]
-    # Weights is what is meant without --array; two tiles have numbers of their own.
+    # Without --array, Weights is used. Each of two tiles has its own numbers.
     run = weighted.run("render", "w.vtp", "w.vtp", "--extrema", "--size", "300x150", "-o", "f.png", "--report", "-").is_good()
     assert run.report["picture"]["array"] == "Weights" and len(run.report["picture"]["extrema"]) == 2
 

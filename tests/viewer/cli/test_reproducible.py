@@ -1,4 +1,4 @@
-"""Equal results are equal files: every verb, run again on another number of threads, writes the same bytes."""
+"""Equal results are equal files: every verb, run again with another number of threads, writes the same bytes."""
 
 import json
 import math
@@ -19,7 +19,7 @@ BEND = {"frames": [{"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 
 
 
 def expect_same_bytes(folder, verb, *words, outputs):
-    """`outputs`: names behind -o, or None for a verb that has others among its words."""
+    """`outputs` are the names after -o, or None for a verb whose words contain its outputs."""
     for output in outputs:
         files = []
         for threads in ("1", "1", "2"):
@@ -27,7 +27,7 @@ def expect_same_bytes(folder, verb, *words, outputs):
             assert run.code in (0, 3), run.err
             written = {name: (folder / name).read_bytes() for name in run.new_files if name != "r.json"}
             report = json.loads((folder / "r.json").read_text())
-            assert report["seconds"]["total"] > 0 and report["peak_memory_bytes"] > 0  # which the files have not
+            assert report["seconds"]["total"] > 0 and report["peak_memory_bytes"] > 0  # not contained in the files
             for name in run.new_files:
                 (folder / name).unlink()
             files.append(written)

@@ -1,4 +1,4 @@
-"""glTF: weights and deform write rigs, every verb reads them."""
+"""glTF: weights and deform write rigs, and every verb reads them."""
 
 import json
 
@@ -52,7 +52,7 @@ def test_a_sequence_is_an_animation(bar):
     assert report["counts"]["frames"] == 3
     assert report["gltf"]["animation"] == "joints" and report["gltf"]["animation_error"] < 1e-6
     assert "3 frames, 8 a second" in bar.run("info", "out.glb").is_good().out
-    # The file is mesh, handles and pose in one.
+    # The file contains mesh, handles and pose.
     deform(bar, output="a.vtp").is_good()
     deform(bar, mesh="out.glb", handles="out.glb", pose="out.glb", output="b.vtp").is_good()
     for frame in range(3):
@@ -64,7 +64,7 @@ def test_other_methods_are_morph_targets(bar):
     report = deform(bar, "--method", "full-arap", "--report", "-").is_good().report
     assert report["gltf"]["animation"] == "morph"
     report = deform(bar, "--method", "dqs", "--gltf-animation", "joints", "--overwrite", "--report", "-").is_good().report
-    assert 1e-3 < report["gltf"]["animation_error"] < 0.2  # how far linear blends are from dual quaternions
+    assert 1e-3 < report["gltf"]["animation_error"] < 0.2  # the difference between linear blending and dual quaternions
     bindpose.write(shapes.bar(), bar / "plain.off")
     deform(bar, "--method", "mls", "--overwrite", mesh="plain.off").is_good()
     deform(bar, "--overwrite", "--method", "mls", "--gltf-animation", "joints", mesh="plain.off").is_refused("morph")
@@ -91,10 +91,10 @@ def test_what_a_character_loses_is_one_warning(folder):
     foreign_rig.write_foreign_rig(folder / "c.gltf")
     run = folder.run("info", "c.gltf", "--report", "r.json").is_good()
     said = warnings_of(run)
-    assert len(said) == 1, said  # scales that are uneven by 2e-6 are no shear
+    assert len(said) == 1, said  # scales that are uneven by 2e-6 are not a shear
     assert said[0].startswith("c.gltf: ") and all(words in said[0] for words in LOST)
     assert len(json.loads((folder / "r.json").read_text())["not_kept"]) == 5
-    # Mesh, handles and pose of one file: still one warning.
+    # Mesh, handles and pose from one file still give one warning.
     folder.write("rest.json", '{"handles": {}}')
     deform = ("deform", "c.gltf", "--handles", "c.gltf", "-o")
     assert warnings_of(folder.run(*deform, "posed.vtp", "--pose", "rest.json").is_good()) == said
@@ -110,23 +110,23 @@ def test_a_character_is_bound_again_to_its_own_rig(folder):
     weights = point_array(mesh, "Weights")
     array = mesh.GetPointData().GetArray("Weights")
     names = [array.GetComponentName(k) for k in range(array.GetNumberOfComponents())]
-    assert sorted(names) == sorted(name for name, _, _ in foreign_rig.JOINTS)  # the rig stays whole
+    assert sorted(names) == sorted(name for name, _, _ in foreign_rig.JOINTS)  # the rig is complete
     idle = [name for k, name in enumerate(names) if not weights[:, k].any()]
     assert sorted(idle) == sorted(foreign_rig.WITHOUT_WEIGHTS)
     assert weights.sum(axis=1) == pytest.approx(np.ones(len(weights)))
-    # The animation of the file poses the new weights.
+    # The animation in the file poses the mesh with the new weights.
     folder.run("deform", "w.vtp", "--handles", "c.gltf", "--pose", "c.gltf", "-o", "moving.glb").is_good()
 
 
 def test_helper_joints_that_share_vertices_are_skipped(folder):
-    # The skin is a placeholder, so that every joint is bound: the target and the pole of a foot have one vertex.
+    # The skin is a placeholder, so every joint is bound. The target and the pole of a foot have the same vertex.
     foreign_rig.write_foreign_rig(folder / "c.gltf", animations=1, placeholder=True)
     run = folder.run("weights", "c.gltf", "--handles", "c.gltf", "-o", "w.vtp").is_good()
     skips = [line for line in warnings_of(run) if "skipped" in line]
     assert len(skips) == 1 and "'target.L'" in skips[0]
     weights = point_array(bindpose.read(folder / "w.vtp"), "Weights")
     assert weights.sum(axis=1) == pytest.approx(np.ones(len(weights)))
-    # The same handles from a file without that mark are refused as before.
+    # The same handles from a file without that mark are refused.
     handles = bindpose.read_handles(folder / "c.gltf")
     handles.GetCellData().RemoveArray("Ownership")
     bindpose.write(handles, folder / "h.vtp")

@@ -1,4 +1,4 @@
-"""bindpose smooth: data of a file with the extrema that are asked for."""
+"""bindpose smooth: data of a file with the requested extrema."""
 
 import math
 
@@ -8,7 +8,7 @@ SIDE = 12
 
 
 def square(scalars, extra=""):
-    """A square of SIDE x SIDE squares with the point scalars Height, as a legacy VTK file."""
+    """Return a square of SIDE x SIDE squares with the point scalars Height, as a legacy VTK file."""
     row = SIDE + 1
     points = [(i / SIDE, j / SIDE) for j in range(row) for i in range(row)]
     faces = []
@@ -29,7 +29,7 @@ def waves(x, y):
 
 
 def lists(**kinds):
-    """Arrays of whole numbers, 0 but at the vertices that are named."""
+    """Return arrays of integers that are 0 except at the given vertices."""
     count = (SIDE + 1) ** 2
     lines = [f"FIELD FieldData {len(kinds)}"]
     for name, its in kinds.items():

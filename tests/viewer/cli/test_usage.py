@@ -1,4 +1,4 @@
-"""Words that the program does not know, and what it says about itself."""
+"""Unknown words, and the program's help and version."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""weights: facts that hold for any good weights, on the surface's own points and on tets."""
+"""weights: properties of all valid weights, on the surface's own points and on tets."""
 
 import bindpose
 import numpy as np
@@ -29,7 +29,7 @@ def test_surface_through_tets(bar):
     assert run.new_files == ["w.vtp"]
     mesh = bindpose.read(bar / "w.vtp")
     points, weights = points_of(mesh), weights_of(bar / "w.vtp")
-    assert np.array_equal(points, np.array(shapes.bar()[0]))  # the surface's own points
+    assert np.array_equal(points, np.array(shapes.bar()[0]))  # the points have not changed
     check(weights, points)
     array = mesh.GetPointData().GetArray("Weights")
     assert [array.GetComponentName(i) for i in range(2)] == ["b1", "b2"]
@@ -79,7 +79,7 @@ def test_domain_surface(bar):
     weights = weights_of(bar / "w.vtp")
     check(weights, shapes.bar()[0])
     assert weights.shape == (len(shapes.bar()[0]), 4)
-    assert (weights.max(axis=0) == 1).all()  # handles lie on vertices
+    assert (weights.max(axis=0) == 1).all()  # handles are on vertices
     bar.run("weights", "bar.off", "--handles", "auto:4", "--domain", "surface", "-o", "w.vtu").is_refused("no tets")
 
 
@@ -163,7 +163,7 @@ def test_regions(bar):
         names = [array.GetComponentName(i) for i in range(array.GetNumberOfComponents())]
         assert names == ["p1", "r1", "r2"]
         check(weights, x)
-        # Only the point handle, which lies on the bar's end, shares the regions.
+        # Only the point handle, which is at the bar's end, overlaps with the regions.
         assert (weights[x > 5][:, 1] < 1e-9).all() and (weights[x < 1][:, 2] < 1e-9).all()
     bar.run("weights", "painted.vtp", "--handles", "auto:1", "--regions", "Nope", "-o", "w2.vtp").is_refused("'Nope'")
 
@@ -253,7 +253,7 @@ def test_embedding_and_preview(bar):
 
 
 def test_cage_of_a_tgf_file(folder):
-    """A closed cage around a flat square: weights are linear along its edges, which are the outline."""
+    """A closed cage around a flat square. Weights are linear along the cage's edges, which are the outline."""
     n = 8
     vertices = [[i / n, j / n, 0] for j in range(n + 1) for i in range(n + 1)]
     corners = [(j * (n + 1) + i, j * (n + 1) + i + 1, (j + 1) * (n + 1) + i + 1, (j + 1) * (n + 1) + i)
@@ -290,7 +290,7 @@ def test_terms_by_arrays_of_the_surface(bar):
     weights = weights_of(bar / "w.vtp")
     check(weights, points)
     assert weights[10, 0] == 0.9
-    assert block.sum() > 1 and np.ptp(weights[block], axis=0).max() == 0  # by its usual name
+    assert block.sum() > 1 and np.ptp(weights[block], axis=0).max() == 0  # by its default name
     assert run.report["relative_gap"] <= 1e-6
     bar.run(*words, "--partition", "coupled", "--bounds=-0.5,1.5", "--mirror", "x").is_refused("mirrored")
     bar.run(*words, "--domain", "embedding").is_refused("domain volume, not embedding")

@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_viewer_document_save_loop_h
 #define bindpose_tests_viewer_document_save_loop_h
 
-// What a process does that is going to be killed.
+// Programs that tests start and then kill.
 
 #include "work_test.h"
 
@@ -16,7 +16,8 @@
 namespace bindpose::test
 {
 
-/// Two states of the work, which are saved in turns: other weights, another pose, another name.
+/// Return one of two states of the work, which are saved in turns: different weights, poses and
+/// names.
 inline Work state_of_work(int which)
 {
   Document document;
@@ -28,7 +29,7 @@ inline Work state_of_work(int which)
   return work;
 }
 
-/// Saves to the session file until it is killed.
+/// Save to the session file until the process is killed.
 inline int save_for_ever(const char* path)
 {
   SessionFile file;
@@ -49,7 +50,7 @@ inline int save_for_ever(const char* path)
   }
 }
 
-/// Works with an autosave in the folder until it is killed.
+/// Run with an autosave in the folder until the process is killed.
 inline int autosave_for_ever(const char* root)
 {
   Session session;
@@ -65,7 +66,8 @@ inline double seconds_now()
   return 1e-3 * static_cast<double>(QDateTime::currentMSecsSinceEpoch() % (1LL << 40));
 }
 
-/// Changes the work every 20 ms, a number of which says when, with an autosave in the folder.
+/// Change the work every 20 ms, with an autosave in the folder. One number of the work is the
+/// current time.
 inline int change_for_ever(const char* root)
 {
   Session session;

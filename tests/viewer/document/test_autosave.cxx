@@ -1,4 +1,4 @@
-// Processes that are killed at any moment lose nothing that was saved, and leave no half file.
+// A process that is killed at any moment loses no saved work and leaves no partial file.
 #include "save_loop.h"
 
 #include "support/files.h"
@@ -56,9 +56,9 @@ TEST(Saving, AKillAtAnyMomentLeavesAWholeSession)
     ASSERT_TRUE(is == states[0] || is == states[1]);
     ++found[is == states[1]];
   }
-  EXPECT_GT(found[0], 5); // it was killed all over the place
+  EXPECT_GT(found[0], 5); // the kills hit both states
   EXPECT_GT(found[1], 5);
-  // What the killed ones left behind goes with the next whole save.
+  // The next complete save removes the files that the killed processes left behind.
   Session session;
   session.work = test::state_of_work(0);
   ASSERT_TRUE(SessionFile().write(QString::fromStdString(path), session).ok());
@@ -101,7 +101,7 @@ TEST(Autosaving, WhatAKilledProcessHadIsFoundOnce)
     EXPECT_LT(found->time().secsTo(QDateTime::currentDateTime()), 60);
     EXPECT_EQ(RecoveredWork::find(root), nullptr) << "somebody else has it already";
   }
-  // Whoever did not want it now finds it again; removed it is gone.
+  // Work that was not claimed is found again. After its removal it is gone.
   auto found = RecoveredWork::find(root);
   ASSERT_NE(found, nullptr);
   found->remove();
@@ -129,7 +129,7 @@ TEST(Autosaving, AnEndAsItShouldBeLeavesNothing)
   const QString root = QString::fromStdString(folder.path());
   {
     Autosave autosave([] { return Session(); }, root);
-    EXPECT_EQ(folder.number_of_files(), 0u); // nothing to keep yet
+    EXPECT_EQ(folder.number_of_files(), 0u); // there is no work to back up yet
     EXPECT_EQ(autosave.path(), "");
     ASSERT_TRUE(autosave.save().ok());
     EXPECT_EQ(folder.number_of_files(), 1u);
@@ -155,7 +155,7 @@ TEST(Autosaving, UnchangedWeightsAreNotWrittenAgain)
   ASSERT_TRUE(autosave.save().ok());
   EXPECT_EQ(own.entryList({ "work.surface-*" }), before);
   EXPECT_EQ(QFileInfo(own.filePath(before.front())).lastModified(), time);
-  // Other weights take their place.
+  // Other weights replace the files.
   session.work = test::state_of_work(1);
   ASSERT_TRUE(autosave.save().ok());
   const QStringList after = own.entryList({ "work.surface-*" });
@@ -174,7 +174,7 @@ TEST(Autosaving, AFolderThatCannotBeWrittenIsToldAboutOnce)
 
 namespace
 {
-/// 82,000 triangles and 20 handles, bound.
+/// Open a bound document with 82,000 triangles and 20 handles.
 void open_large(Document& document)
 {
   const TriangleMesh mesh = test::sphere(6);
@@ -196,7 +196,7 @@ void make_large(Session& session)
   session.work = document.work();
 }
 
-/// Says what was told.
+/// Record messages about failures in `told`.
 QString listen(Autosave& autosave, QString& told)
 {
   QObject::connect(&autosave, &Autosave::failed, [&told](const QString& text) { told = text; });
@@ -204,7 +204,8 @@ QString listen(Autosave& autosave, QString& told)
 }
 } // namespace
 
-/// The numbers of the README: what the window's thread is kept for is a small part of the writing.
+/// Measures the numbers in the README: the window's thread is blocked for a small part of the
+/// writing time.
 TEST(Autosaving, IsNotFelt)
 {
   const test::Folder folder;
@@ -226,7 +227,8 @@ TEST(Autosaving, IsNotFelt)
               "and %.1f ms\n",
     after_a_bind, written_after_a_bind, autosave.milliseconds(), autosave.writing_milliseconds());
   EXPECT_LT(after_a_bind, 0.5 * written_after_a_bind);
-  EXPECT_LT(autosave.writing_milliseconds(), 0.7 * written_after_a_bind); // weights stay
+  // The weights are not written again.
+  EXPECT_LT(autosave.writing_milliseconds(), 0.7 * written_after_a_bind);
 }
 
 TEST(Autosaving, WhatIsAskedForDuringACopyFollowsItAndTheLastStateIsKept)
@@ -248,7 +250,7 @@ TEST(Autosaving, WhatIsAskedForDuringACopyFollowsItAndTheLastStateIsKept)
   Session found;
   ASSERT_TRUE(read_session(autosave.path(), found).ok());
   EXPECT_EQ(test::fingerprint(found.work), test::fingerprint(session.work));
-  // The events of writers that were waited for come late, and join no other writer.
+  // Late events of writers that have already been waited for do not affect another writer.
   autosave.begin_save();
   QCoreApplication::processEvents();
   EXPECT_TRUE(autosave.wait().ok());
@@ -276,7 +278,7 @@ TEST(Autosaving, AWriterThatFailsIsToldAbout)
   listen(autosave, told);
   ASSERT_TRUE(autosave.save().ok());
   EXPECT_EQ(told, "");
-  // Its folder has become a file meanwhile.
+  // The folder has been replaced by a file.
   const QString own = QFileInfo(autosave.path()).absolutePath();
   ASSERT_TRUE(QDir(own).removeRecursively());
   folder.write(QFileInfo(own).fileName().toStdString(), "no folder");
@@ -286,7 +288,8 @@ TEST(Autosaving, AWriterThatFailsIsToldAbout)
   std::filesystem::remove(folder / QFileInfo(own).fileName().toStdString());
 }
 
-/// What a kill costs: work is noted every 20 ms, copies are made at most 0.2 s after a change.
+/// Measures the loss by a kill: the work changes every 20 ms, copies are made at most 0.2 s after a
+/// change.
 TEST(Autosaving, AKillLosesAtMostTheIntervalAndTheWriting)
 {
   const test::Folder folder;

@@ -1,4 +1,4 @@
-// Undo gives back the same work to the last bit, whatever was done; weights follow their handles.
+// Undo restores the work to the last bit, whatever was done. Weights follow their handles.
 #include "work_test.h"
 
 #include "document/autosave.h"
@@ -28,7 +28,7 @@ namespace
 class Editing : public testing::Test
 {
 protected:
-  /// The step is there, undo takes it back and redo brings it again, to the last bit.
+  /// Expect that the edit is one step, and that undo and redo restore the exact states.
   template <typename Edit>
   void check(const char* name, const Edit& edit)
   {
@@ -59,7 +59,7 @@ protected:
     this->names()->DataChanged();
   }
 
-  /// Handles as a widget would leave them after an edit.
+  /// Replace the handles, as a widget does in an edit.
   void replace_live(const Handles& handles)
   {
     this->document.editable_handles()->DeepCopy(to_polydata(handles));
@@ -81,7 +81,7 @@ TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
   this->check("move top",
     [&]
     {
-      // As the widget does it: in place, then commit.
+      // Edit in place, then commit, as the widget does.
       vtkDataArray* transforms = d.handle_data()->GetCellData()->GetArray("Transform");
       transforms->SetComponent(1, 3, 0.1);
       transforms->SetComponent(1, 7, 1.0 / 3.0);
@@ -173,7 +173,7 @@ TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
         d.set_weights(test::some_weights(d.surface()->GetNumberOfPoints(), 3, 2.0), "w.dmat").ok());
       EXPECT_TRUE(d.is_bound());
     });
-  // All the way back and forth.
+  // Undo all steps, then redo them.
   const std::string last = fingerprint(d);
   while (d.history()->canUndo())
   {
@@ -252,19 +252,19 @@ TEST_F(Editing, PaintedRegionsAreAStepAndARebindIsOffered)
       ASSERT_TRUE(d.commit_regions(labels, "paint region r1").ok());
     });
   EXPECT_TRUE(d.is_bound());
-  EXPECT_FALSE(d.rebind_reason().isEmpty()); // a new handle
+  EXPECT_FALSE(d.rebind_reason().isEmpty()); // because of the new handle
   test::bind(d, 2.0);
   EXPECT_TRUE(d.rebind_reason().isEmpty());
   labels->SetValue(4, 1);
   this->check(
     "paint region r1", [&] { ASSERT_TRUE(d.commit_regions(labels, "paint region r1").ok()); });
-  EXPECT_TRUE(d.rebind_reason().contains("painted")); // the handles are the same
+  EXPECT_TRUE(d.rebind_reason().contains("painted")); // the handles have not changed
   d.history()->undo();
   EXPECT_TRUE(d.rebind_reason().isEmpty());
   d.history()->redo();
   test::bind(d, 3.0);
   EXPECT_TRUE(d.rebind_reason().isEmpty());
-  // What is painted during a bind stays painted, and is not in the weights.
+  // Labels painted during a bind are kept, and the weights do not include them.
   d.begin_bind();
   const auto bound = test::with_weights(d.work().surface, d.bound_handles(), 4.0);
   labels->SetValue(5, 1);
@@ -272,7 +272,7 @@ TEST_F(Editing, PaintedRegionsAreAStepAndARebindIsOffered)
   ASSERT_TRUE(d.set_bound(bound, nullptr));
   EXPECT_EQ(d.surface()->GetPointData()->GetArray("RegionId")->GetComponent(5, 0), 1.0);
   EXPECT_TRUE(d.rebind_reason().contains("painted"));
-  // Labels of another mesh.
+  // Labels of a mesh with another number of points are refused.
   labels->SetNumberOfTuples(count + 1);
   const std::string before = fingerprint(d);
   EXPECT_FALSE(d.commit_regions(labels, "paint").ok());
@@ -300,7 +300,7 @@ TEST_F(Editing, AMovedSliderIsOneStep)
     this->document.set_option("tets.shrink", size);
   }
   EXPECT_EQ(history->count(), 1);
-  this->document.end_merge(); // let go, and moved again
+  this->document.end_merge(); // the slider is released, and moved again
   this->document.set_option("tets.shrink", 0.5);
   this->document.set_option("tets.shrink", 0.4);
   EXPECT_EQ(history->count(), 2);
@@ -308,7 +308,7 @@ TEST_F(Editing, AMovedSliderIsOneStep)
   EXPECT_EQ(this->document.option("tets.shrink").toDouble(), 0.7);
   history->undo();
   EXPECT_EQ(this->document.option("tets.shrink").toDouble(), 1.0);
-  // Choices do not merge.
+  // Changes of a choice do not merge.
   this->document.set_option("pose.method", 1);
   this->document.set_option("pose.method", 2);
   history->undo();
@@ -335,13 +335,13 @@ TEST_F(Editing, WhatIsNotedOfAnEqualNumberLeavesItsBits)
 {
   this->document.set_option("weights.place", 0.25);
   const QVariant before = this->document.option("weights.place");
-  const double worn = 0.25 + 4e-16; // what a panel gives back may be so
+  const double worn = 0.25 + 4e-16; // rounding in a panel can return this value
   ASSERT_NE(worn, before.toDouble());
   this->document.set_option("weights.place", worn);
   this->document.note_option("weights.place", worn);
   EXPECT_EQ(this->document.history()->count(), 1);
   EXPECT_EQ(this->document.option("weights.place").toDouble(), before.toDouble());
-  this->document.note_option("weights.place", 0.26); // but one that differs is taken
+  this->document.note_option("weights.place", 0.26); // a value that differs is accepted
   EXPECT_EQ(this->document.option("weights.place").toDouble(), 0.26);
 }
 
@@ -358,11 +358,11 @@ TEST_F(Editing, WhatAViewDoesDuringUndoAndRedoIsNoStep)
   QObject::connect(&d, &Document::changed, &d,
     [&d, &calls]
     {
-      d.set_option("pose.method", ++calls % 3); // as a widget that follows with a value of its own
+      d.set_option("pose.method", ++calls % 3); // like a widget that responds with its own value
       d.set_option("tets.shrink", 0.9);
     });
   d.history()->setIndex(0);
-  d.history()->setIndex(steps); // a step on the way would delete the one that is being redone
+  d.history()->setIndex(steps); // a new step during redo would delete the step being redone
   d.history()->undo();
   d.history()->redo();
   EXPECT_GT(calls, steps);
@@ -398,7 +398,7 @@ TEST_F(Editing, LayersColoursAndLocksAreHowHandlesLook)
   expect_looks("undo of all");
   EXPECT_EQ(fingerprint(this->document.work()), fingerprint(before));
   EXPECT_FALSE(this->document.handle_data()->GetCellData()->HasArray("Layer"));
-  // A place and a name are no looks.
+  // A moved point and a renamed handle are more than a change of appearance.
   this->rename(0, "foot");
   ASSERT_TRUE(this->document.commit_handles("rename").ok());
   EXPECT_TRUE(parts & handles_part);
@@ -408,7 +408,7 @@ TEST_F(Editing, AnEditThatCannotBeUsedIsTakenBack)
 {
   open_bound(this->document);
   const std::string before = fingerprint(this->document);
-  this->rename(0, "top"); // there is one already
+  this->rename(0, "top"); // this name exists already
   const Status status = this->document.commit_handles("rename");
   EXPECT_FALSE(status.ok());
   EXPECT_NE(status.message.find("top"), std::string::npos) << status.message;
@@ -437,7 +437,7 @@ TEST_F(Editing, WeightsFollowTheirHandlesByName)
   vtkNew<vtkDoubleArray> bound;
   bound->DeepCopy(this->document.surface()->GetPointData()->GetArray("Weights"));
   EXPECT_EQ(this->document.rebind_reason(), "");
-  // The first one renamed, one new, "top" gone.
+  // Rename the first handle, add a new one, and remove "top".
   const Handles before = three_handles();
   Handles now{ before[0], before[0], before[2] };
   now[0].parent = now[1].parent = now[2].parent = -1;
@@ -473,7 +473,7 @@ TEST_F(Editing, AMovedHandleKeepsItsWeightsAndARebindIsOffered)
   EXPECT_EQ(this->document.rebind_reason(), "Since the bind 1 handle was moved.");
   this->document.history()->undo();
   EXPECT_EQ(this->document.rebind_reason(), "");
-  // A pose or a name is no reason.
+  // A pose or a name does not require a new bind.
   this->rename(0, "foot");
   ASSERT_TRUE(this->document.commit_handles("rename").ok());
   this->document.set_mode(1, 2);
@@ -523,7 +523,7 @@ TEST_F(Editing, APreviewIsNoStepAndPosesWork)
   EXPECT_EQ(fingerprint(this->document), before);
 }
 
-// ---- A random day at work ----------------------------------------------------------------------
+// ---- Random edits ------------------------------------------------------------------------------
 
 TEST(FuzzDocument, UndoOfEverythingIsTheBeginningAndRedoTheEnd)
 {
@@ -537,7 +537,7 @@ TEST(FuzzDocument, UndoOfEverythingIsTheBeginningAndRedoTheEnd)
     document.set_mesh(ball(), "ball");
     document.set_handles(to_polydata(three_handles()), "handles");
     document.history()->clear();
-    std::vector<std::string> states{ fingerprint(document) }; // after each step
+    std::vector<std::string> states{ fingerprint(document) }; // state after each step
     for (int edit = 0; edit < 60; ++edit)
     {
       const int handles = static_cast<int>(document.handles().size());
@@ -564,7 +564,7 @@ TEST(FuzzDocument, UndoOfEverythingIsTheBeginningAndRedoTheEnd)
         case 6:
           document.set_mode(pick(handles), pick(3));
           break;
-        case 7: // a drag that ends, or is cancelled
+        case 7: // a drag that ends or is canceled
         {
           const Pose before = document.pose();
           vtkDataArray* transforms = document.handle_data()->GetCellData()->GetArray("Transform");
@@ -577,12 +577,12 @@ TEST(FuzzDocument, UndoOfEverythingIsTheBeginningAndRedoTheEnd)
           document.commit_pose("move");
           break;
         }
-        case 8: // moved at rest
+        case 8: // move a handle at rest
           document.handle_data()->GetPoints()->SetPoint(pick(handles), number(), number(), 9.0);
           document.handle_data()->GetPoints()->Modified();
           document.commit_handles("move at rest");
           break;
-        case 9: // one more
+        case 9: // add a handle
         {
           Handles more = document.handles();
           more.resize(more.size() + 1);
@@ -592,7 +592,7 @@ TEST(FuzzDocument, UndoOfEverythingIsTheBeginningAndRedoTheEnd)
           document.commit_handles("add");
           break;
         }
-        case 10: // there and back, in between
+        case 10: // undo some steps, then redo them
           for (int k = pick(4); k > 0 && document.history()->canUndo(); --k)
           {
             document.history()->undo();

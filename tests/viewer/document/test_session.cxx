@@ -1,4 +1,5 @@
-// Sessions come back to the last bit, on this machine and on another; broken ones give a sentence.
+// Sessions are restored to the last bit, on this machine and on another. Broken sessions give an
+// error message.
 #include "work_test.h"
 
 #include "document/opened_file.h"
@@ -49,7 +50,7 @@ void write(const std::string& path, const Session& session)
   ASSERT_TRUE(status.ok()) << status.message;
 }
 
-/// Of everything something.
+/// Return a work in which every part has content.
 Work full_work()
 {
   Document document;
@@ -62,7 +63,7 @@ Work full_work()
       pose[k].transform.data()[c] = std::cos(1.0 + 12.0 * k + c) / 3.0;
     }
     pose[k].stretch = 1.0 / 3.0;
-    pose[k].twist << -0.0, 1e-310; // neither is to become 0
+    pose[k].twist << -0.0, 1e-310; // neither may become 0
   }
   pose[1].mode = HandleMode::position;
   document.set_pose(pose, "pose");
@@ -79,12 +80,12 @@ Work full_work()
   document.set_option("pose.method", 2);
   document.set_option("tets.shrink", 1.0 / 3.0);
   document.set_option("weights.bands", false);
-  document.handle_data()->GetPoints()->SetPoint(0, 0.1, 0.2, -0.7); // after the bind
+  document.handle_data()->GetPoints()->SetPoint(0, 0.1, 0.2, -0.7); // moved after the bind
   document.commit_handles("move");
   return document.work();
 }
 
-/// A mesh file and a session that was saved with it, handles and a pose, unbound.
+/// Return a session that refers to a mesh file, with handles and a pose, unbound.
 Session with_file(const test::Folder& folder)
 {
   const std::string mesh = folder.write("corner.off", mesh_text);
@@ -122,7 +123,7 @@ TEST(Sessions, ComeBackToTheLastBit)
   EXPECT_EQ(back.view.camera->position, session.view.camera->position);
   EXPECT_EQ(back.view.camera->angle, 22.5);
   EXPECT_TRUE(back.view.camera->parallel);
-  // In a document they are what they were: bound, with the same reason to bind again.
+  // Documents of both are equal: bound, with the same reason to bind again.
   Document before;
   before.replace(session.work);
   Document after;
@@ -180,7 +181,7 @@ TEST(Sessions, AnotherFolderOpensTheSameWork)
   EXPECT_EQ(back.work.mesh_source.path, text(folder / "far/away/meshes/corner.off"));
   EXPECT_EQ(back.work.mesh_source.checksum, session.work.mesh_source.checksum);
 
-  // Companions go along, too.
+  // Companion files are also moved.
   Session bound;
   bound.work = full_work();
   std::filesystem::create_directories(folder / "one");
@@ -202,7 +203,7 @@ TEST(Sessions, OpenWithoutAMissingInputAndSaySo)
   EXPECT_EQ(back.lost[0].path, text(folder / "corner.off"));
   ASSERT_EQ(back.notes.size(), 1);
   EXPECT_EQ(back.notes[0], "corner.off is missing; the session is open without it.");
-  // What can no longer be read is as good as missing.
+  // A file that can no longer be read counts as missing.
   folder.write("corner.off", "OFF\n4 4");
   EXPECT_EQ(read(folder / "a.bindpose").notes.size(), 1);
   EXPECT_EQ(read(folder / "a.bindpose").lost.size(), 1u);
@@ -334,7 +335,7 @@ TEST(Sessions, KeepEveryMode)
   }
 }
 
-/// This text stands for all files that version 1 has written: it must be read for ever.
+/// This text represents all files that version 1 has written. It must be readable permanently.
 TEST(Sessions, SchemaOneIsRead)
 {
   const test::Folder folder;
@@ -401,7 +402,7 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
   {
     refused(whole.substr(0, size), "cut");
   }
-  // Every value in turn of every wrong type, and missing.
+  // Replace every value by every wrong type in turn, and remove it.
   const auto flat = good.flatten();
   const std::vector<json> wrong = { json("text"), json(-7.5e300), json(json::array()),
     json(json::object()), json(true), json() };
@@ -416,7 +417,7 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
       Session result;
       const Status status = read_session(text(folder / "maybe.bindpose"), result);
       ++tried;
-      // Some are as good as what was there; what is read can be used.
+      // Some replacements are valid. Work that is read must be usable.
       if (status.ok())
       {
         Document document;

@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_viewer_document_work_test_h
 #define bindpose_tests_viewer_document_work_test_h
 
-// A small bound shape, and the fingerprint of a document: every byte that a person could miss.
+// A small bound shape, and fingerprints of a document that cover every byte of the user's work.
 
 #include "document/document.h"
 
@@ -35,7 +35,7 @@ inline vtkSmartPointer<vtkPolyData> ball()
   return to_polydata(mesh.points, mesh.triangles);
 }
 
-/// A bone and two points, the first of them below the bone.
+/// Return a bone and two points. The bone is the parent of the first point.
 inline Handles three_handles()
 {
   Handles handles(3);
@@ -51,7 +51,7 @@ inline Handles three_handles()
   return handles;
 }
 
-/// Any weights whose rows sum to one.
+/// Return arbitrary weights whose rows sum to one.
 inline Weights some_weights(Index points, Index columns, double phase)
 {
   Weights weights(points, columns);
@@ -84,7 +84,7 @@ inline void bind(Document& document, double phase)
     with_weights(document.work().surface, document.bound_handles(), phase), nullptr);
 }
 
-/// A document with the three handles, bound.
+/// Open a bound document with the three handles.
 inline void open_bound(Document& document)
 {
   document.set_mesh(ball(), "ball");
@@ -129,7 +129,7 @@ inline void print_data(std::ostream& out, vtkPolyData* data, bool pose_arrays = 
     { static_cast<vtkDataSetAttributes*>(data->GetPointData()),
       static_cast<vtkDataSetAttributes*>(data->GetCellData()) })
   {
-    std::map<std::string, std::string> arrays; // in any order
+    std::map<std::string, std::string> arrays; // the order does not matter
     for (int a = 0; a < attributes->GetNumberOfArrays(); ++a)
     {
       vtkAbstractArray* array = attributes->GetAbstractArray(a);
@@ -164,7 +164,7 @@ inline void print_data(std::ostream& out, vtkPolyData* data, bool pose_arrays = 
   out << '\n';
 }
 
-/// Minus zero is zero, as for same_pose().
+/// Print minus zero as zero, as same_pose() compares.
 inline void print_pose(std::ostream& out, const Pose& pose)
 {
   for (const HandlePose& handle : pose)
@@ -188,7 +188,7 @@ inline std::string digest(const std::string& text)
     .toStdString();
 }
 
-/// Of a work, as it is kept: a digest of each of its parts.
+/// Return a digest of each part of a work, in the form in which it is stored.
 inline std::map<std::string, std::string> fingerprints(const Work& work)
 {
   std::map<std::string, std::string> parts;
@@ -203,7 +203,7 @@ inline std::map<std::string, std::string> fingerprints(const Work& work)
   add("handles", [&](std::ostream& out) { print_data(out, work.handles, false); });
   add("bound handles", [&](std::ostream& out) { print_data(out, work.bound_handles, false); });
   add("pose", [&](std::ostream& out) { print_pose(out, work.pose); });
-  // In the order of their names, whatever order they were kept in.
+  // Sorted by name, whatever the order in which they are stored.
   add("key poses",
     [&](std::ostream& out)
     { out << nlohmann::json(to_json(work.key_poses ? *work.key_poses : PoseShelf())).dump(); });
@@ -236,7 +236,7 @@ inline std::string fingerprint(const Work& work)
   return digest(text);
 }
 
-/// Of a document: what is kept, and what the widget sees of it.
+/// Return the fingerprint of a document: the stored work, and the data that the widget uses.
 inline std::string fingerprint(const Document& document)
 {
   std::ostringstream out;

@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_viewer_posing_rigs_h
 #define bindpose_tests_viewer_posing_rigs_h
 
-// Shapes with made-up weights, as datasets for the filters and as the source of posers.
+// Shapes with artificial weights, as datasets for the filters and as the source of posers.
 
 #include "posing/pose_source.h"
 
@@ -22,7 +22,7 @@
 namespace bindpose::test
 {
 
-/// Shares that fall with the distance from the handles' middles.
+/// Return weights that decrease with the distance from the handles' centers.
 inline Weights made_up_weights(const Points& points, const Handles& handles)
 {
   Weights weights(points.rows(), static_cast<Index>(handles.size()));
@@ -55,7 +55,8 @@ struct Rig
   }
 };
 
-/// A beam of tets along x, its skin as surface; two points beside it and two bones along it.
+/// Return a beam of tets along x with its boundary as surface, two points next to it and two bones
+/// along it.
 inline Rig beam()
 {
   Rig rig;
@@ -76,7 +77,7 @@ inline Rig beam()
   return rig;
 }
 
-/// Something bent, turned, stretched and twisted; modes of points mixed.
+/// Return a pose that bends, turns, stretches and twists.
 inline Pose some_pose(const Handles& handles, double amount = 1.0)
 {
   Pose pose(handles.size());

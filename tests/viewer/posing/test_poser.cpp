@@ -1,4 +1,5 @@
-// Posers against the filters, which run the same kernels by another way: not one bit may differ.
+// Posers are compared with the filters, which call the same kernels in another way. All bits must
+// be equal.
 #include "posing/poser.h"
 #include "rigs.h"
 
@@ -26,7 +27,7 @@ Points points_of(vtkDataSet* data)
   return to_points(data).view();
 }
 
-/// What the filter makes of the rig in this pose.
+/// Return the filter's result for the rig in this pose.
 Points by_filter(vtkPoseAlgorithm* filter, const Rig& rig, const Pose& pose, vtkDataSet* mesh)
 {
   vtkNew<vtkPolyData> handles;
@@ -92,7 +93,7 @@ TEST(Poser, AnIgnoredStretchIsSaid)
     EXPECT_EQ(warnings(method, rest), 0) << to_string(method);
     EXPECT_EQ(warnings(method, rounded), 0) << to_string(method);
   }
-  // As-rigid-as-possible deformation puts both ends of a bone where its stretch takes them.
+  // As-rigid-as-possible deformation uses the stretch for the positions of both ends of a bone.
   stretched[3].mode = HandleMode::ends;
   EXPECT_EQ(warnings(PoseMethod::full_arap, stretched), 0);
   EXPECT_EQ(warnings(PoseMethod::linear_blend, stretched), 1);
@@ -153,7 +154,7 @@ TEST(Poser, ReducedArapGivesWhatTheFilterGives)
     PoseOptions options = with(PoseMethod::reduced_arap);
     options.extra_weights = extra;
     EXPECT_EQ(by_poser(rig, pose, options), by_filter(filter, rig, pose, rig.surface));
-    // In tets: the surface's points are the first of the tets' here, so they go where these do.
+    // In tets: the surface's points are the first points of the tets, and have the same positions.
     vtkNew<vtkReducedARAP> in_tets;
     in_tets->SetNumberOfExtraWeights(static_cast<int>(extra));
     options.in_tets = true;
@@ -189,7 +190,7 @@ TEST(Poser, RotationsAreTheFilters)
     for (Index v = 0; v < posed.rows(); ++v)
     {
       const Index cluster = (*found->of_point)[static_cast<std::size_t>(v)];
-      // In tets the surface's points are the first of the tets' here.
+      // The surface's points are the first points of the tets.
       EXPECT_EQ(
         static_cast<double>(cluster), arrays->GetArray("RotationCluster")->GetComponent(v, 0));
       EXPECT_EQ(rotation_vector(found->rotations[static_cast<std::size_t>(cluster)]),
@@ -197,7 +198,7 @@ TEST(Poser, RotationsAreTheFilters)
     }
     const auto clusters = found->of_point;
     ASSERT_TRUE(poser->solve(context, Pose(4), options, 0, posed).usable());
-    EXPECT_EQ(poser->rotations()->of_point, clusters); // of the bind
+    EXPECT_EQ(poser->rotations()->of_point, clusters); // the clusters of the bind
   }
   EXPECT_EQ(make_poser(PoseMethod::linear_blend, rig.source())->rotations(), nullptr);
 }
@@ -215,7 +216,7 @@ TEST(Poser, FullArapGivesWhatTheFilterGives)
   const Points all = by_filter(in_tets, rig, pose, rig.tets);
   const Points surface = by_poser(rig, pose, options);
   EXPECT_EQ(surface, all.topRows(surface.rows()));
-  // Each tet has a rotation; points have none of their own.
+  // Each tet has a rotation; points have none.
   ExecutionContext context;
   const auto poser = make_poser(options.method, rig.source());
   Points posed;
@@ -282,7 +283,7 @@ TEST(Poser, DragsDoNotBindAgain)
       Pose pose = some_pose(rig.list, 0.1 * drag);
       pose[2].mode = static_cast<HandleMode>(drag % 3);
       ASSERT_TRUE(poser->solve(context, pose, options, 5, posed).usable()) << method;
-      // What is chosen at pose time needs no bind either.
+      // Options that apply at pose time do not require a bind either.
       options.iterations += 1;
       options.budget_microseconds += 1.0;
     }
@@ -304,7 +305,7 @@ TEST(Poser, SkinningMethodsShareTheirBind)
     EXPECT_TRUE(poser->is_bound(options));
   }
   options.method = PoseMethod::rotation_centres;
-  EXPECT_FALSE(poser->is_bound(options)); // the centres are missing
+  EXPECT_FALSE(poser->is_bound(options)); // the centers of rotation are missing
   ASSERT_TRUE(poser->bind(context, options).usable());
   EXPECT_EQ(poser->binds(), 2);
   options.method = PoseMethod::linear_blend;
@@ -351,13 +352,13 @@ TEST(Poser, WhatCannotBePosedIsSaid)
   options = with(PoseMethod::linear_blend);
   poser = make_poser(options.method, rig.source());
   EXPECT_THAT(poser->bind(context, options).message, testing::HasSubstr("bind first"));
-  options = with(PoseMethod::full_arap); // needs none
+  options = with(PoseMethod::full_arap); // this method needs no weights
   poser = make_poser(options.method, rig.source());
   EXPECT_TRUE(poser->bind(context, options).usable());
   EXPECT_THAT(
     poser->solve(context, Pose(3), options, 0, posed).message, testing::HasSubstr("handles"));
 
-  // Stretchable bones without a bone are linear blending, and say so.
+  // Stretchable bones without a bone equal linear blending, and a warning says so.
   Rig points = beam();
   for (Handle& handle : points.list)
   {

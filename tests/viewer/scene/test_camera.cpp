@@ -1,4 +1,4 @@
-// The camera shows all of a shape, as large as can be, from the documented side.
+// The camera shows the whole shape, as large as possible, from the documented side.
 #include "scene/camera.h"
 #include "support/meshes.h"
 
@@ -15,7 +15,8 @@ using namespace bindpose;
 
 namespace
 {
-// Normalised device coordinates: the viewport is [-1, 1]^2, what is drawn lies in depth [-1, 1].
+// Return normalized device coordinates: the viewport is [-1, 1]^2, visible points have a depth in
+// [-1, 1].
 Points project(vtkCamera* camera, double aspect, const Points& points)
 {
   const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(
@@ -64,7 +65,7 @@ TEST(Camera, FitsTightlyFromEverywhereWithoutClipping)
         const Points seen = project(camera, aspect, points);
         const Eigen::Vector2d upper = seen.leftCols<2>().colwise().maxCoeff();
         const Eigen::Vector2d lower = seen.leftCols<2>().colwise().minCoeff();
-        // In one direction both margins are met exactly; in the other the shape is within.
+        // In one direction both margins are exact; in the other the shape is within them.
         const double tightest = std::max(upper[0] - lower[0], upper[1] - lower[1]);
         EXPECT_NEAR(tightest, 1.8, 1e-6);
         EXPECT_LE(upper.maxCoeff(), 0.9 + 1e-6);
@@ -84,15 +85,15 @@ TEST(Camera, LooksAtTheBroadSide)
     box.add(size);
     return view_direction(choose_frame(box, up), View());
   };
-  // y up; wide in x: from +z; wide in z: from +x; never from below.
+  // y up; wide in x: from +z; wide in z: from +x; always from above.
   EXPECT_GT(direction(Vec3(3, 2, 1), "auto")[2], 0.8);
   EXPECT_GT(direction(Vec3(1, 2, 3), "auto")[0], 0.8);
   EXPECT_GT(direction(Vec3(3, 2, 1), "auto")[1], 0.2);
-  // z up: from -y, or from +x for what is long in y.
+  // z up: from -y, or from +x if the shape is long in y.
   EXPECT_LT(direction(Vec3(3, 1, 2), "z")[1], -0.8);
   EXPECT_GT(direction(Vec3(1, 3, 2), "z")[0], 0.8);
   EXPECT_GT(direction(Vec3(3, 1, 2), "z")[2], 0.2);
-  // Flat shapes straight from the front.
+  // Flat shapes are seen straight from the front.
   EXPECT_NEAR(direction(Vec3(3, 2, 0), "auto")[2], 1.0, 1e-12);
   EXPECT_NEAR(direction(Vec3(3, 0, 2), "auto")[1], -1.0, 1e-12);
   EXPECT_NEAR(direction(Vec3(0, 3, 2), "auto")[0], 1.0, 1e-12);
@@ -157,11 +158,11 @@ TEST(Camera, WhoLooksAtAPartGoesOnLookingAtIt)
   fit_camera(camera, points, choose_frame(bounding_box(points), "auto"), View(), 2.0);
   const Vec3 focus(0.2, 0.3, 0.4);
   camera->SetFocalPoint(focus.data());
-  camera->SetPosition(Vec3(focus + Vec3(0.5, -0.6, 0.3)).data()); // within the shape's reach
+  camera->SetPosition(Vec3(focus + Vec3(0.5, -0.6, 0.3)).data()); // within the extent of the shape
   keep_in_view(camera, points, 2.0, 1.0);
   EXPECT_EQ(Vec3(camera->GetFocalPoint()), focus);
   EXPECT_GT(project(camera, 1.0, points).leftCols<2>().cwiseAbs().maxCoeff(), 1.0);
-  // Nothing to show and the same view change nothing.
+  // An empty shape and an unchanged view have no effect.
   const Vec3 place(camera->GetPosition());
   keep_in_view(camera, points, 1.0, 1.0);
   keep_in_view(camera, Points(0, 3), 1.0, 2.0);
@@ -182,11 +183,11 @@ TEST(Plane, IsFoundWhateverItIs)
   EXPECT_LT((normal - Vec3(0, -1, 0)).norm(), 1e-9);
   ASSERT_TRUE(find_plane(Points(square * tilted.transpose()), normal));
   EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
-  Points lopsided = square; // the middle of its box lies in no plane of its own
+  Points lopsided = square; // the center of its box is not in its plane
   lopsided.col(1) += square.col(0).cwiseAbs2();
   ASSERT_TRUE(find_plane(Points(lopsided * tilted.transpose()), normal));
   EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
-  // Single precision, as files have it, is near enough; a shape is none; nor is a line.
+  // Points in single precision, as in files, count as planar. Solid shapes and lines do not.
   const Points rounded = Points(1e4 * square * tilted.transpose()).cast<float>().cast<double>();
   EXPECT_TRUE(find_plane(rounded, normal));
   EXPECT_FALSE(find_plane(test::sphere(2).points, normal));

@@ -1,4 +1,4 @@
-// Colour maps keep their promises in numbers.
+// Color maps have the documented properties.
 #include "scene/colours.h"
 
 #include "vtkMath.h"
@@ -28,8 +28,8 @@ double lab_distance(const Rgb& a, const Rgb& b)
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
-// What eyes without one kind of cone see: matrices of Machado, Oliveira and Fernandes 2009,
-// severity 1, applied to linear light.
+// Return the color as seen with color blindness of one type: matrices of Machado, Oliveira and
+// Fernandes 2009, severity 1, applied to linear light.
 Rgb seen_by(const std::array<std::array<double, 3>, 3>& matrix, const Rgb& colour)
 {
   const auto to_linear = [](double c)
@@ -93,7 +93,7 @@ TEST(Colours, WindingNumbersOfFiveKindsAreToldApartByAllEyes)
       }
     }
   }
-  // Rounding around 0 and 1 does not show, the next hundredths do.
+  // Rounding around 0 and 1 is invisible; a deviation of 0.03 is visible.
   EXPECT_LT(lab_distance(winding_colour(-1e-9), winding_colour(1e-9)), 1e-3);
   EXPECT_LT(lab_distance(winding_colour(1.0 - 1e-9), winding_colour(1.0 + 1e-9)), 1e-3);
   EXPECT_GT(lab_distance(winding_colour(-0.03), winding_colour(0.0)), 15.0);

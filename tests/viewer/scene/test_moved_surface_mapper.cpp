@@ -26,7 +26,7 @@ using namespace bindpose;
 
 namespace
 {
-/// A window with one surface in it.
+/// A window with one surface.
 template <class Mapper>
 class Scene
 {
@@ -64,7 +64,7 @@ class MovedSurface : public testing::Test
 protected:
   MovedSurface() { this->scene.picture(); }
 
-  /// Compares with a mapper of VTK that draws the surface for the first time.
+  /// Compare with the picture of a new VTK mapper.
   void expect_right_picture()
   {
     Scene<vtkOpenGLPolyDataMapper> fresh(this->shaded.polydata());
@@ -118,7 +118,7 @@ TEST_F(MovedSurface, SeesNewColorsTrianglesAndMaterials)
   EXPECT_EQ(this->scene.mapper->moves(), 0);
 }
 
-/// Fraction of the bytes of two pictures that differ by more than rounding.
+/// Return the fraction of the bytes of two pictures that differ by more than rounding.
 double difference(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b)
 {
   if (a.size() != b.size())
@@ -184,7 +184,7 @@ TEST(MovedSurfaceMapper, AShapeMayBeMovedFarAwayAndBack)
 
 TEST(MovedSurfaceMapper, ShapesFarFromTheOriginKeepTheirPlaces)
 {
-  // Floats are a tenth apart there.
+  // Adjacent floats differ by about 0.06 there.
   const TriangleMesh mesh = test::sphere(3);
   Points far = mesh.points;
   far.rowwise() += Eigen::RowVector3d(1e6, 0, 0);
@@ -209,7 +209,7 @@ TEST(MovedSurfaceMapper, BoundsAreThoseOfWhatIsDrawn)
   TriangleMesh mesh = test::sphere(5, 2.0); // more points than a block of threads
   const Index count = mesh.points.rows();
   mesh.points.conservativeResize(count + 1, 3);
-  mesh.points.row(count) << 100.0, 100.0, 100.0; // of no triangle
+  mesh.points.row(count) << 100.0, 100.0, 100.0; // used by no triangle
   ShadedSurface shaded(to_polydata(mesh.points, mesh.triangles));
   EXPECT_EQ(shaded.polydata()->GetNumberOfPoints(), count);
   vtkNew<MovedSurfaceMapper> mapper;

@@ -1,5 +1,5 @@
-// Colours of rotation clusters: touching ones differ, every cell has the cluster of most of its
-// points, and numbers that are none are refused.
+// Colors of rotation clusters: touching clusters differ, every cell has the cluster of most of its
+// points, and invalid numbers are refused.
 #include "scene/rotation_colours.h"
 
 #include "conversion.h"
@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// A sphere in so many slices around its axis, each a cluster.
+/// Return a sphere with `count` slices around its axis, each a cluster.
 vtkSmartPointer<vtkPolyData> slices(const TriangleMesh& ball, int count)
 {
   auto data = to_polydata(ball.points, ball.triangles);
@@ -55,8 +55,8 @@ TEST(RotationColours, ACellHasTheClusterOfMostOfItsPoints)
   data->GetPointData()->AddArray(clusters);
   const auto of_cells = clusters_of_cells(data);
   EXPECT_EQ(of_cells->GetValue(0), 2.0);
-  EXPECT_EQ(of_cells->GetValue(1), 1.0); // of equals the lowest
-  EXPECT_EQ(of_cells->GetValue(2), 1.0); // those that follow none do not vote
+  EXPECT_EQ(of_cells->GetValue(1), 1.0); // the lowest of equally frequent clusters
+  EXPECT_EQ(of_cells->GetValue(2), 1.0); // points without a cluster do not count
   clusters->Fill(-1);
   EXPECT_EQ(clusters_of_cells(data)->GetValue(0), -1.0);
 }
@@ -64,7 +64,7 @@ TEST(RotationColours, ACellHasTheClusterOfMostOfItsPoints)
 TEST(RotationColours, ClustersThatTouchDiffer)
 {
   const TriangleMesh ball = test::sphere(4);
-  for (const int count : { 2, 5, 24, 25, 49 }) // the last begins again where the first is
+  for (const int count : { 2, 5, 24, 25, 49 }) // the last one reuses the first color
   {
     const auto data = slices(ball, count);
     ASSERT_TRUE(check_clusters({ data }).ok());

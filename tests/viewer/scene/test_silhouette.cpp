@@ -1,5 +1,5 @@
-// Silhouettes against what is known of convex shapes, and against a twin that asks every pair of
-// triangles.
+// Silhouettes are compared with the known results for convex shapes, and with a brute-force twin
+// that tests every pair of triangles.
 #include "scene/silhouette.h"
 
 #include "scene/outline.h"
@@ -36,7 +36,7 @@ std::vector<Silhouette::Edge> found(const TriangleMesh& mesh, const Eye& eye)
   return edges;
 }
 
-/// As pairs of points, the lower first.
+/// Return the edges as pairs of points, the lower one first.
 std::set<std::pair<Index, Index>> as_set(const std::vector<Silhouette::Edge>& edges)
 {
   std::set<std::pair<Index, Index>> result;
@@ -54,7 +54,7 @@ bool faces(const TriangleMesh& mesh, Index t, const Eye& eye)
   return normal.dot(eye.parallel ? Vec3(-eye.direction) : Vec3(eye.place - corner(0))) >= 0.0;
 }
 
-/// Of a surface whose neighbours are turned the same way and whose edges have two triangles.
+/// Return the silhouette of a surface with consistent orientation and two triangles per edge.
 std::set<std::pair<Index, Index>> by_twin(const TriangleMesh& mesh, const Eye& eye)
 {
   std::map<std::pair<Index, Index>, std::set<bool>> facing;
@@ -96,12 +96,12 @@ TEST(Silhouette, OfASphereIsTheCircleThatTheEyeSees)
   {
     for (const Index end : edge)
     {
-      EXPECT_NEAR(ball.points(end, 2), 1.0 / distance, 0.05); // where tangents meet the eye
+      EXPECT_NEAR(ball.points(end, 2), 1.0 / distance, 0.05); // where tangents pass through the eye
     }
     length += (ball.points.row(edge[0]) - ball.points.row(edge[1])).norm();
   }
   const double circle = 2.0 * EIGEN_PI * std::sqrt(1.0 - 1.0 / (distance * distance));
-  EXPECT_GT(length, circle); // it zigzags
+  EXPECT_GT(length, circle); // because the silhouette zigzags
   EXPECT_LT(length, 1.5 * circle);
 }
 
@@ -118,7 +118,7 @@ TEST(Silhouette, IsThatOfATwin)
   along.direction = Vec3(0.3, -0.5, -0.8).normalized();
   const auto edges = as_set(found(ring, along));
   EXPECT_EQ(edges, by_twin(ring, along));
-  along.place = Vec3(100, 100, 100); // does not matter
+  along.place = Vec3(100, 100, 100); // a parallel view ignores the position
   EXPECT_EQ(as_set(found(ring, along)), edges);
 }
 
@@ -141,12 +141,12 @@ TEST(Silhouette, OpenEdgesAreAlwaysThere)
 {
   const TriangleMesh sheet = test::grid(4, 3);
   const auto edges = found(sheet, from(Vec3(0.3, 0.2, 5.0)));
-  EXPECT_EQ(edges.size(), 14u); // all around, none within
+  EXPECT_EQ(edges.size(), 14u); // all edges around the sheet, none inside it
   Silhouette nothing(Points(0, 3), Triangles(0, 3));
   std::vector<Silhouette::Edge> none = edges;
   nothing.find(Points(0, 3), Eye(), none);
   EXPECT_TRUE(none.empty());
-  // A triangle without area has no side of its own, and three at an edge are no trouble.
+  // A triangle without area and an edge with three triangles are harmless.
   TriangleMesh bad = sheet;
   bad.triangles.conservativeResize(bad.triangles.rows() + 2, 3);
   bad.triangles.bottomRows(2) << 0, 0, 1, 0, 1, 7;
@@ -156,7 +156,8 @@ TEST(Silhouette, OpenEdgesAreAlwaysThere)
 TEST(Outline, FollowsShapeAndView)
 {
   const TriangleMesh cube = test::cube();
-  ShadedSurface shape(to_polydata(cube.points, cube.triangles)); // its points are parted
+  // Its points are split along the edges.
+  ShadedSurface shape(to_polydata(cube.points, cube.triangles));
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
@@ -167,14 +168,14 @@ TEST(Outline, FollowsShapeAndView)
   vtkCamera* camera = renderer->GetActiveCamera();
   camera->SetPosition(0, 0, 10);
   window->Render();
-  EXPECT_TRUE(outline.edges().empty()); // it is not shown
+  EXPECT_TRUE(outline.edges().empty()); // it is hidden
   outline.show(true, 2.0);
   window->Render();
-  EXPECT_EQ(outline.edges().size(), 4u); // of the side in front
+  EXPECT_EQ(outline.edges().size(), 4u); // edges of the front side
   camera->SetPosition(6, 7, 8);
   window->Render();
-  EXPECT_EQ(outline.edges().size(), 6u); // from a corner
-  shape.move(Points(cube.points * 100.0)); // the eye is within: no side faces it from outside
+  EXPECT_EQ(outline.edges().size(), 6u); // seen from a corner
+  shape.move(Points(cube.points * 100.0)); // the eye is inside, so no side faces it
   window->Render();
   EXPECT_TRUE(outline.edges().empty());
   outline.set_shape(nullptr);
@@ -198,5 +199,5 @@ TEST(Silhouette, IsCheap)
   std::printf("silhouette of %d triangles: %.1f ms once, %.2f ms a picture, %d edges\n",
     static_cast<int>(ring.triangles.rows()), first.count(), each.count() / times,
     static_cast<int>(edges.size()));
-  EXPECT_LT(each.count() / times, 20.0); // what a busy machine allows
+  EXPECT_LT(each.count() / times, 20.0); // limit in milliseconds on a busy machine
 }

@@ -1,4 +1,4 @@
-// Cut and shrunk tets against what they are by definition.
+// Cut and shrunk tets are compared with their definitions.
 #include "scene/tet_cut.h"
 
 #include "support/meshes.h"
@@ -27,7 +27,7 @@ std::vector<std::array<Index, 3>> sorted(const Triangles& triangles)
   std::vector<std::array<Index, 3>> result;
   for (Index f = 0; f < triangles.rows(); ++f)
   {
-    // Turned alike: from the lowest id on.
+    // Rotate each face so that it begins with its lowest id. This preserves the orientation.
     std::array<Index, 3> face{ triangles(f, 0), triangles(f, 1), triangles(f, 2) };
     std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
     result.push_back(face);
@@ -70,7 +70,7 @@ TEST(TetCut, SidesAreTheBoundaryOfTheKeptTets)
     }
     EXPECT_EQ(cut.kept_count(), count);
     kept.conservativeResize(count, 4);
-    // Outside and laid open together are the boundary, turned outwards, and nothing else.
+    // The outside and the exposed sides together are exactly the boundary, oriented outward.
     Triangles all(cut.outside().triangles.rows() + cut.laid_open().triangles.rows(), 3);
     all << cut.outside().triangles, cut.laid_open().triangles;
     EXPECT_EQ(sorted(all), sorted(boundary_triangles(kept)));
@@ -127,7 +127,7 @@ TEST(TetCut, ShrunkTetsKeepTheirShapeAndCentre)
   {
     const Index t = shrunk.tets[4 * i];
     EXPECT_EQ(t, 3 * i);
-    // Its sides are closed and turned outwards: the divergence theorem gives its volume.
+    // Its sides are closed and oriented outward, so the divergence theorem gives its volume.
     const Triangles sides = shrunk.triangles.middleRows(4 * i, 4);
     EXPECT_NEAR(signed_volume(shrunk.points, sides), std::pow(factor, 3.0) * volumes[t], 1e-15);
     const Eigen::RowVector3d center = shrunk.points.middleRows(4 * i, 4).colwise().mean();

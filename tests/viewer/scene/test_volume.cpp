@@ -1,4 +1,5 @@
-// What is taken out of a volume, against closed forms; what is refused, and how it says so.
+// Isosurfaces, slices and other parts of volumes are compared with closed forms. Invalid input is
+// refused.
 #include "scene/colours.h"
 #include "scene/curves.h"
 #include "scene/volume.h"
@@ -183,7 +184,7 @@ TEST(Volume, TheOutsideIsClearAndWhatIsWrongIsNot)
       EXPECT_EQ(winding_opacity(outside, step), 0.0);
     }
     const double inside = winding_opacity(1.0, step);
-    // Over a unit of length, whatever the grid, 3 % are held back.
+    // Over a unit of length, 3 % of the light is absorbed on every grid.
     EXPECT_NEAR(std::pow(1.0 - inside, 1.0 / step), 0.97, 1e-12);
     EXPECT_NEAR(winding_opacity(0.5, step), 0.6, 1e-12);
     for (const double wrong : { -1.0, 2.0 })
@@ -191,7 +192,7 @@ TEST(Volume, TheOutsideIsClearAndWhatIsWrongIsNot)
       EXPECT_GT(winding_opacity(wrong, step), 4.0 * inside);
       EXPECT_EQ(winding_opacity(wrong, step), winding_opacity(7.0 * wrong, step));
     }
-    for (double w = -1.0; w < 2.0; w += 0.001) // no jump that a grid would show as a step
+    for (double w = -1.0; w < 2.0; w += 0.001) // no jump that would be visible as a step
     {
       EXPECT_NEAR(winding_opacity(w, step), winding_opacity(w + 0.001, step), 0.005) << w;
     }
@@ -212,7 +213,7 @@ TEST(Volume, ALegendOfLevelsNamesEachInItsColour)
       EXPECT_NEAR(field_colour[k], expected[k], 0.02);
     }
   }
-  // 0.5 gives way to 0.45, the others stay.
+  // 0.45 replaces 0.5; the other ticks are kept.
   EXPECT_THAT(
     with_levels(map, { 0.45 }).ticks, testing::UnorderedElementsAre(0.45, -1.0, 0.0, 1.0, 2.0));
 }

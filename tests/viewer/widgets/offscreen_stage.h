@@ -1,7 +1,7 @@
 #ifndef offscreen_stage_h
 #define offscreen_stage_h
 
-// A window for a widget, and a hand that sends it events as a mouse and keyboard would.
+// A window for a widget, with functions that send mouse and keyboard events.
 
 #include "base/mesh.h"
 
@@ -30,7 +30,7 @@ namespace bindpose::test
 
 constexpr double pixel = 0.0134; // world length of a pixel at z = 0: 2 * 10 * tan(15°) / 400
 
-// A window of 400 x 400 whose camera looks along -z from 10 away.
+// A window of 400 x 400 pixels whose camera looks along -z from a distance of 10.
 class OffscreenStage
 {
 public:
@@ -53,7 +53,7 @@ public:
       { ++static_cast<OffscreenStage*>(self)->events[event]; });
   }
 
-  /// Switches the widget on and counts what it says.
+  /// Enable the widget and count its events.
   void put_on(vtkInteractorObserver* observer, std::initializer_list<unsigned long> counted)
   {
     observer->SetEnabled(1);
@@ -96,7 +96,7 @@ public:
     }
     this->release(to);
   }
-  /// Keys that are held at the next mouse events.
+  /// Set the modifier keys for the next mouse events.
   void hold(bool with_shift, bool with_control = false, bool with_alt = false)
   {
     this->shift = with_shift;
@@ -136,7 +136,7 @@ public:
   bool alt = false;
 };
 
-/// To be looked at: BINDPOSE_PICTURES names a folder.
+/// Save a picture for inspection in the folder BINDPOSE_PICTURES, if that is set.
 inline void keep(vtkImageData* image, const std::string& name)
 {
   if (const char* folder = std::getenv("BINDPOSE_PICTURES"))

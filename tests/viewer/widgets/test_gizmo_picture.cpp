@@ -1,5 +1,6 @@
-// The gizmo as it is seen: every part has pixels of its colour, what the mouse is on is lighter,
-// the colours of the axes are told apart by everyone, and 2x is the same picture twice as large.
+// The drawn gizmo: every part has pixels of its color, the part under the mouse is lighter, all
+// viewers can distinguish the colors of the axes, and at scale 2 the picture is the same, twice as
+// large.
 #include "widget_stage.h"
 #include "widgets/gizmo.h"
 
@@ -24,7 +25,7 @@ Vec3 pixel_of(vtkImageData* image, const Eigen::Vector2d& at)
   return colour;
 }
 
-// Pixels of an image that differ from its corner.
+// Return the number of pixels that differ from the corner of the image.
 int drawn_pixels(vtkImageData* image)
 {
   const Vec3 ground = pixel_of(image, Eigen::Vector2d(0, 0));
@@ -134,7 +135,7 @@ TEST(GizmoPicture, ManyHandlesAreTwoActors)
 
 TEST(GizmoPicture, AxesAreToldApartByAllEyes)
 {
-  // What eyes without one kind of cone see (Machado, Oliveira and Fernandes 2009, severity 1).
+  // Color blindness of each type (Machado, Oliveira and Fernandes 2009, severity 1).
   Eigen::Matrix3d eyes[4];
   eyes[0].setIdentity();
   eyes[1] << 0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116,

@@ -1,4 +1,4 @@
-// Edit modes: what a click makes, where, and that the dataset is a valid one after every step.
+// Edit modes: the effect of a click and its position. The dataset is valid after every step.
 #include "widget_stage.h"
 
 #include "support/meshes.h"
@@ -12,7 +12,7 @@ using namespace bindpose::test;
 
 namespace
 {
-// No handle yet, and a ball of radius 1 around the origin, seen from +z.
+// A stage without handles by default, with a ball of radius 1 around the origin, seen from +z.
 class EditStage : public Stage
 {
 public:
@@ -36,7 +36,7 @@ public:
     this->press(at);
     this->release(at);
   }
-  // What filters make of the dataset.
+  // Return the handles that filters read from the dataset.
   Handles list()
   {
     Handles result;
@@ -47,7 +47,7 @@ public:
   vtkSmartPointer<vtkPolyData> surface;
 };
 
-const double shot = 2.5 * pixel; // a pixel, and the facets of the ball
+const double shot = 2.5 * pixel; // tolerance for a pixel and the facets of the ball
 } // namespace
 
 TEST(HandleEditing, PointsGoToMidThickness)
@@ -58,7 +58,7 @@ TEST(HandleEditing, PointsGoToMidThickness)
   ASSERT_EQ(handles.size(), 1u);
   EXPECT_EQ(handles[0].name, "p1");
   EXPECT_EQ(handles[0].kind, HandleKind::point);
-  // From the side of the eye the middle of the chord is nearest to the centre.
+  // Seen from the eye, the middle of the chord is its point nearest to the center.
   const Vec3 sight = (handles[0].head - Vec3(0, 0, 10)).normalized();
   EXPECT_LT(std::abs(handles[0].head.dot(sight)), 0.02) << "in the centre plane across the ray";
   EXPECT_LT((stage.display(handles[0].head) - stage.display(Vec3(0.3, 0.2, 0))).norm(), 1.0);
@@ -144,8 +144,8 @@ TEST(HandleEditing, BonesAreDrawnAndContinueChains)
   EXPECT_EQ(handles[0].parent, -1);
   EXPECT_LT((stage.display(handles[0].head) - stage.display(Vec3(-0.6, 0, 0))).norm(), 1.0);
   EXPECT_LT((stage.display(handles[0].tail) - stage.display(Vec3(0, 0.1, 0))).norm(), 1.0);
-  // The next drag begins at the tail, a little beside it: the child hangs there exactly. It leaves
-  // the shape: its tail is at its head's depth then.
+  // The next drag begins near the tail. The child's head is exactly at the tail. The drag leaves
+  // the shape, so the child's tail is at the depth of its head.
   const Vec3 tail = handles[0].tail;
   stage.drag(tail + Vec3(2 * pixel, 0, 0), Vec3(1.6, 0.4, tail[2]));
   handles = stage.list();
@@ -153,7 +153,7 @@ TEST(HandleEditing, BonesAreDrawnAndContinueChains)
   EXPECT_EQ(handles[1].parent, 0);
   EXPECT_EQ(handles[1].head, tail);
   EXPECT_LT((handles[1].tail - Vec3(1.6, 0.4, tail[2])).norm(), shot);
-  // And from the joint a second child; from the root's head one, too.
+  // Add a second child at the joint, and a child at the root's head.
   stage.drag(tail, Vec3(0, -0.6, 0));
   stage.drag(handles[0].head, Vec3(-0.6, 0.5, 0));
   handles = stage.list();
@@ -163,7 +163,7 @@ TEST(HandleEditing, BonesAreDrawnAndContinueChains)
   EXPECT_EQ(handles[3].parent, 0);
   EXPECT_EQ(handles[3].head, handles[0].head);
   EXPECT_EQ(stage.representation()->GetInteractionName(), "add bone");
-  // A click is no bone.
+  // A click adds no bone.
   stage.click(Vec3(0.4, -0.4, 0));
   EXPECT_EQ(stage.list().size(), 4u);
   EXPECT_TRUE(stage.widget->GetCancelled());
@@ -175,7 +175,7 @@ TEST(HandleEditing, ATailSnapsToOtherEndsWithCtrl)
   stage.hold(false, true);
   stage.press(Vec3(-0.4, 0, 0));
   stage.hold(false, false);
-  stage.release(Vec3(-0.4, 0, 0)); // nothing: a click
+  stage.release(Vec3(-0.4, 0, 0)); // a click adds nothing
   stage.press(Vec3(-0.4, 0, 0));
   stage.hold(false, true);
   stage.move(Vec3(0.4, 0.4, 0.3) + Vec3(3 * pixel, 0, 0));
@@ -186,7 +186,7 @@ TEST(HandleEditing, ATailSnapsToOtherEndsWithCtrl)
 
 TEST(HandleEditing, PosesColoursAndSelectionFollowTheirHandles)
 {
-  // A point is added before the bone in the order of cells.
+  // A point precedes the bone in the order of the cells.
   EditStage stage(Widget::ADD_POINTS, { bone("b", Vec3(-0.5, 0, 0), Vec3(0.2, 0, 0)) });
   const double t[3] = { 0.5, 0.25, 0 };
   stage.representation()->SetHandleTranslation(0, t);
@@ -256,7 +256,7 @@ TEST(HandleEditing, EscapeDropsVerticesAndEnterLeavesACageOpen)
   EXPECT_FALSE(stage.representation()->IsMakingCage());
   EXPECT_EQ(stage.list().size(), 3u);
   EXPECT_EQ(stage.handles->GetNumberOfLines(), 2);
-  // It goes on from any vertex; a second click of a double click ends it.
+  // Continue from any vertex; a double click ends the cage.
   stage.click(Vec3(0, 1.5, 0));
   EXPECT_TRUE(stage.representation()->IsMakingCage());
   stage.click(Vec3(-1.5, 1.0, 0));
@@ -294,7 +294,7 @@ TEST(HandleEditing, RestPlacesMoveUnderTheMouse)
 {
   EditStage stage(Widget::MOVE_REST, { point("p", Vec3(0.5, 0.5, 0.2)) });
   const double t[3] = { 0, -1, 0 };
-  stage.representation()->SetHandleTranslation(0, t); // posed elsewhere: the rest is what is seen
+  stage.representation()->SetHandleTranslation(0, t); // posed elsewhere, but shown at rest
   stage.drag(Vec3(0.5, 0.5, 0.2), Vec3(-0.5, 0.75, 0.2));
   EXPECT_LT((stage.list()[0].head - Vec3(-0.5, 0.75, 0.2)).norm(), shot);
   EXPECT_NEAR(stage.list()[0].head[2], 0.2, 1e-9);
@@ -316,7 +316,7 @@ TEST(HandleEditing, JointsMoveTogetherAndBodiesWhole)
   EXPECT_EQ(handles[0].tail, handles[1].head);
   EXPECT_EQ(handles[0].head, Vec3(-1, 0, 0));
   EXPECT_EQ(handles[1].tail, Vec3(1, 0, 0));
-  stage.drag(Vec3(0, 1, 0), Vec3(0.2, 1.3, 0)); // the body of the other one
+  stage.drag(Vec3(0, 1, 0), Vec3(0.2, 1.3, 0)); // the body of the other bone
   handles = stage.list();
   EXPECT_LT((handles[2].head - Vec3(-0.8, 1.3, 0)).norm(), shot);
   EXPECT_LT((handles[2].tail - Vec3(1.2, 1.3, 0)).norm(), shot);
@@ -336,7 +336,7 @@ TEST(HandleEditing, CancelledRestMovesKeepEveryBitAndTheBind)
   EXPECT_EQ(bind_objects(stage.handles), before) << "the very same arrays";
   EXPECT_EQ(stage.list()[0].head, Vec3(0.5, 0.5, 0.2));
   EXPECT_TRUE(stage.widget->GetCancelled());
-  stage.press(Vec3(0.5, 0.5, 0.2)); // a click changes nothing either
+  stage.press(Vec3(0.5, 0.5, 0.2)); // a click also changes nothing
   stage.release(Vec3(0.5, 0.5, 0.2));
   EXPECT_EQ(bind_objects(stage.handles), before);
   EXPECT_TRUE(stage.widget->GetCancelled());
@@ -355,7 +355,7 @@ TEST(HandleEditing, RestMovesAreHeldSnappedAndLocked)
   EXPECT_EQ(stage.list()[0].head.tail<2>(), Eigen::Vector2d(0.5, 0.2));
   EXPECT_NEAR(stage.list()[0].head[0], 1.0, shot);
   stage.escape();
-  // Ctrl: in steps, or onto another handle's end.
+  // With Ctrl, the move is in steps, or snaps to another handle's end.
   stage.representation()->SetLengthStep(0.25);
   stage.hold(false, true);
   stage.drag(Vec3(0.5, 0.5, 0.2), Vec3(0.8, 0.2, 0.2));
@@ -366,7 +366,7 @@ TEST(HandleEditing, RestMovesAreHeldSnappedAndLocked)
   set_handle_locked(stage.handles, 1, true);
   stage.drag(Vec3(-0.5, -0.5, 0), Vec3(0, 0, 0));
   EXPECT_EQ(stage.list()[1].head, Vec3(-0.5, -0.5, 0));
-  // Onto one of its own kind it cannot go: it stays where it last could be.
+  // A point cannot move onto another point. It keeps its last valid position.
   set_handle_locked(stage.handles, 1, false);
   stage.hold(false, true);
   stage.drag(Vec3(-1, 1, 0.3), Vec3(-0.5, -0.5, 0), 2);
@@ -405,7 +405,7 @@ TEST(HandleEditing, APreviewIsDrawnAndChangesNothing)
   stage.window->Render();
   EXPECT_EQ(stage.handles->GetNumberOfCells(), 0);
   EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 0);
-  stage.widget->SetEditMode(Widget::POSE); // lets go of it
+  stage.widget->SetEditMode(Widget::POSE); // cancels the unfinished bone
   EXPECT_FALSE(stage.widget->IsDragging());
   stage.release(Vec3(0.5, 0.3, 0));
   EXPECT_EQ(stage.handles->GetNumberOfCells(), 0);
@@ -413,7 +413,7 @@ TEST(HandleEditing, APreviewIsDrawnAndChangesNothing)
 
 TEST(HandleEditing, UndoByEventsIsExact)
 {
-  // As the application does it: a copy at the start of each interaction, put back later.
+  // Store a copy at the start of each interaction and restore it later, as the application does.
   EditStage stage(Widget::ADD_BONES, { point("p", Vec3(0.4, 0.4, 0)) });
   struct Memory
   {
@@ -468,8 +468,8 @@ TEST(HandleEditing, CageVerticesTakeTheirEdgesAlong)
 
 TEST(HandleEditing, RandomEventsLeaveAValidDataset)
 {
-  // A monkey with a mouse and a keyboard, in every mode. Whatever it does, filters can read the
-  // handles, every transform is finite, and nothing hangs on to the mouse in the end.
+  // Send random mouse and key events in every mode. Filters can always read the handles, every
+  // transform is finite, and no interaction is left at the end.
   EditStage stage(Widget::POSE,
     { point("p", Vec3(0.4, 0.4, 0.3)), bone("b", Vec3(-0.5, 0, 0), Vec3(0.2, 0.1, 0)),
       bone("c", Vec3(0.2, 0.1, 0), Vec3(0.8, 0, 0), 1) });
@@ -480,7 +480,7 @@ TEST(HandleEditing, RandomEventsLeaveAValidDataset)
   for (int i = 0; i < 1500; ++i)
   {
     const Eigen::Vector2d at(random.uniform(-10, 410), random.uniform(-10, 410));
-    // often where something is
+    // Often choose the position of a handle.
     const vtkIdType count = stage.handles->GetNumberOfCells();
     const bool aimed = count > 0 && random.uniform() < 0.4;
     Vec3 place = Vec3::Zero();
@@ -518,7 +518,7 @@ TEST(HandleEditing, RandomEventsLeaveAValidDataset)
     if (i % 25 == 0 && count > 0)
     {
       stage.list();
-      // not so many that the screen is full of them
+      // Limit the number of handles, so that free space is left on the screen.
       if (count > 40)
       {
         stage.widget->SetHandles(nullptr);

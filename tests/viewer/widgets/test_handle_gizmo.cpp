@@ -1,4 +1,5 @@
-// Posing with the gizmo, keys and numbers: where handles are after it, exactly, and what stays.
+// Posing with the gizmo, keys and numbers: the exact positions of handles afterward, and what does
+// not change.
 #include "widget_stage.h"
 
 #include "support/sanitized.h"
@@ -20,8 +21,8 @@ using namespace bindpose::test;
 
 namespace
 {
-// A stage whose first handle is selected and has the gizmo; seen from the side, so that all axes
-// are free.
+// A stage whose first handle is selected and has the gizmo. The view is oblique, so that all axes
+// are usable.
 class GizmoStage : public Stage
 {
 public:
@@ -33,13 +34,13 @@ public:
     this->representation()->SetSelectedHandle(0);
     this->window->Render();
   }
-  // Drags a part by so many pixels.
+  // Drag a part by a number of pixels.
   void pull(int part, const Eigen::Vector2d& by, int steps = 5)
   {
     const Eigen::Vector2d from = this->grip(part);
     this->drag_pixels(from, from + by, steps);
   }
-  // The direction of an axis on the screen, per unit of the world.
+  // Return the direction of an axis on the screen, per world unit.
   Eigen::Vector2d on_screen(const Vec3& axis)
   {
     return this->display(this->head(0) + axis) - this->display(this->head(0));
@@ -97,7 +98,8 @@ TEST(HandleGizmo, EveryPartIsFoundWhereItIsGrabbed)
 
 TEST(HandleGizmo, ArrowsAndBoxesAndPlatesComeBeforeHandles)
 {
-  // A ball exactly where the arrow's cone is: the arrow; without gizmo: the ball.
+  // A ball is exactly at the arrow's cone. The arrow is picked; without the gizmo, the ball is
+  // picked.
   GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_MOVE);
   const Eigen::Vector2d cone = stage.grip(Widget::MOVE_X);
   stage.renderer->SetDisplayPoint(cone[0], cone[1], 0.5);
@@ -118,13 +120,13 @@ TEST(HandleGizmo, AnArrowMovesAlongItsAxisOnly)
   {
     GizmoStage stage({ point("a", Vec3(0.2, 0.1, 0)) }, Widget::GIZMO_MOVE);
     const Vec3 axis = Vec3::Unit(k);
-    // The mouse goes along the axis as the screen shows it, and strays.
+    // The mouse follows the axis on the screen, with deviations.
     const Eigen::Vector2d way = 0.8 * stage.on_screen(axis);
     stage.pull(Widget::MOVE_X + k, way);
     const Vec3 moved = stage.head(0) - Vec3(0.2, 0.1, 0);
     EXPECT_EQ(moved[(k + 1) % 3], 0.0);
     EXPECT_EQ(moved[(k + 2) % 3], 0.0);
-    // In perspective 0.8 units farther on are not the same pixels.
+    // Because of the perspective, 0.8 units farther away are a different number of pixels.
     EXPECT_NEAR(moved[k], 0.8, 0.12);
     EXPECT_EQ(linear(stage.transform(0)), Eigen::Matrix3d::Identity());
     EXPECT_EQ(stage.representation()->GetInteractionName(), "move");
@@ -133,7 +135,7 @@ TEST(HandleGizmo, AnArrowMovesAlongItsAxisOnly)
 
 TEST(HandleGizmo, TheGrabbedPlaceOfAnArrowStaysUnderTheMouse)
 {
-  // Parallel projection: pixels are lengths, so the way along the axis is known exactly.
+  // In a parallel projection, pixels are lengths, so the distance along the axis is known exactly.
   GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_MOVE);
   stage.renderer->GetActiveCamera()->ParallelProjectionOn();
   stage.renderer->GetActiveCamera()->SetParallelScale(2.0);
@@ -142,7 +144,7 @@ TEST(HandleGizmo, TheGrabbedPlaceOfAnArrowStaysUnderTheMouse)
   const Eigen::Vector2d from = stage.grip(Widget::MOVE_X).array().round();
   const Eigen::Vector2d to = (from + 60.0 * unit.normalized()).array().round();
   stage.drag_pixels(from, to);
-  // The foot of the mouse on the axis: what a mouse beside the axis means is where it is nearest.
+  // The result is the projection of the mouse onto the axis, its nearest point.
   EXPECT_NEAR(stage.head(0)[0], (to - from).dot(unit) / unit.squaredNorm(), 1e-9);
 }
 
@@ -152,7 +154,7 @@ TEST(HandleGizmo, APlateMovesInItsPlaneUnderTheMouse)
   {
     GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_MOVE);
     const Eigen::Vector2d from = stage.grip(Widget::MOVE_YZ + k).array().round();
-    // where the plate's grabbed place is, and a goal in the plane
+    // The grabbed position in the plate's plane, and a goal in the plane.
     Vec3 goal = Vec3::Zero();
     goal[(k + 1) % 3] = 0.6;
     goal[(k + 2) % 3] = -0.4;
@@ -184,7 +186,7 @@ TEST(HandleGizmo, ARingTurnsByTheAngleUnderTheMouse)
     GizmoStage stage({ point("a", Vec3(0.3, -0.2, 0.1)) }, Widget::GIZMO_TURN);
     const Vec3 center(0.3, -0.2, 0.1);
     const Eigen::Vector2d from = stage.grip(Widget::TURN_X + k).array().round();
-    // the grabbed place of the ring's plane, 70 degrees on
+    // The grabbed position in the ring's plane, turned by 70 degrees.
     const auto hit = [&](const Eigen::Vector2d& display)
     {
       Vec3 ends[2];
@@ -247,7 +249,7 @@ TEST(HandleGizmo, SeveralTurnsAreCounted)
 
 TEST(HandleGizmo, ARingSeenFromTheSideRolls)
 {
-  // From +z: the ring about x is a line; a way of its radius is one radian.
+  // Seen from +z, the ring about x is a line. Mouse motion by its radius is a turn by 1 radian.
   GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_TURN);
   stage.renderer->GetActiveCamera()->SetPosition(0, 0, 10);
   stage.window->Render();
@@ -258,7 +260,7 @@ TEST(HandleGizmo, ARingSeenFromTheSideRolls)
   const Eigen::AngleAxisd turned(linear(stage.transform(0)));
   EXPECT_NEAR(turned.angle(), 1.0, 0.02);
   EXPECT_NEAR(std::abs(turned.axis()[0]), 1.0, 1e-9);
-  // the near side went down: +z moved towards -y
+  // The near side moved down: +z moved toward -y.
   EXPECT_LT((linear(stage.transform(0)) * Vec3::UnitZ())[1], 0.0);
 }
 
@@ -286,7 +288,7 @@ TEST(HandleGizmo, BoxesScaleAlongTheirAxisAndTheKnobEvenly)
 
 TEST(HandleGizmo, LocalAxesAreTheHandlesOwn)
 {
-  // Turned by 30 degrees about z; of a bone y is along it.
+  // The handle is turned by 30 degrees about z. For a bone, y is along the bone.
   GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_MOVE);
   stage.representation()->SetSpace(Widget::LOCAL);
   const double axis[3] = { 0, 0, 1 };
@@ -296,7 +298,7 @@ TEST(HandleGizmo, LocalAxesAreTheHandlesOwn)
   EXPECT_LT(stage.head(0).cross(own).norm(), 1e-12);
   EXPECT_NEAR(stage.head(0).dot(own), 0.7, 0.1);
 
-  // A local scale is no shear: R S with S diagonal.
+  // A local scale causes no shear: the result is R S with S diagonal.
   stage.representation()->SetGizmo(Widget::GIZMO_SCALE);
   stage.pull(Widget::SCALE_X, 30.0 * stage.on_screen(own).normalized());
   double factors[3];
@@ -334,8 +336,8 @@ TEST(HandleGizmo, KeysHoldADragToAnAxisOrPlane)
   EXPECT_EQ(stage.head(0)[2], 0.0);
   EXPECT_NE(stage.head(0)[0], 0.0);
   EXPECT_NE(stage.head(0)[1], 0.0);
-  stage.key("Z", true); // the other space: the same axes here
-  stage.key("Z", true); // none
+  stage.key("Z", true); // the other space, which has the same axes here
+  stage.key("Z", true); // no constraint
   EXPECT_LT((stage.head(0) - unheld).norm(), 1e-12);
   stage.escape();
   EXPECT_EQ(stage.transform(0), identity_affine());
@@ -345,7 +347,7 @@ TEST(HandleGizmo, KeysAgainTakeTheOtherSpace)
 {
   GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_NONE);
   const double axis[3] = { 0, 1, 0 };
-  stage.representation()->SetHandleRotation(0, axis, 90.0); // own x is -z
+  stage.representation()->SetHandleRotation(0, axis, 90.0); // its own x axis is -z
   const Eigen::Vector2d from = stage.display(Vec3::Zero());
   stage.send(vtkCommand::MouseMoveEvent, from);
   stage.send(vtkCommand::LeftButtonPressEvent, from);
@@ -371,14 +373,14 @@ TEST(HandleGizmo, NumbersCanBeTyped)
   }
   EXPECT_FALSE(stage.widget->IsDragging());
   EXPECT_EQ(stage.head(0), Vec3(0.5, -0.7, 0));
-  // R Z 9 0: about the handle's own place
+  // R Z 9 0: the turn is about the handle's own position.
   for (const char* key : { "r", "z", "9", "0", "KP_Enter" })
   {
     stage.key(key);
   }
   EXPECT_LT((linear(stage.transform(0)) * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-12);
   EXPECT_LT((stage.head(0) - Vec3(0.5, -0.7, 0)).norm(), 1e-12);
-  // S 2, then another thought
+  // S 2, then cancel
   for (const char* key : { "s", "2" })
   {
     stage.key(key);
@@ -411,7 +413,7 @@ TEST(HandleGizmo, KeysStartDragsThatFollowTheMouse)
   stage.send(vtkCommand::RightButtonPressEvent, away);
   EXPECT_TRUE(stage.widget->GetCancelled());
   EXPECT_EQ(linear(stage.transform(0)), Eigen::Matrix3d::Identity());
-  // Without a selection, or when told not to, keys are others'.
+  // Without a selection, or with StartKeys off, the keys are not handled.
   stage.widget->StartKeysOff();
   stage.key("g");
   EXPECT_FALSE(stage.widget->IsDragging());
@@ -490,7 +492,7 @@ TEST(HandleGizmo, TheStretchBoxWritesStretch)
   EXPECT_EQ(linear(stage.transform(1)), Eigen::Matrix3d::Identity()) << "below it, moved";
   EXPECT_EQ(stage.stretch(1), 1.0);
   EXPECT_EQ(stage.representation()->GetInteractionName(), "stretch");
-  // Escape gives it back.
+  // Escape restores the stretch.
   const double stretched = stage.stretch(0);
   const Eigen::Vector2d knob = stage.grip(Widget::STRETCH);
   stage.send(vtkCommand::MouseMoveEvent, knob);
@@ -554,7 +556,7 @@ TEST(HandleGizmo, TwistRingsWriteTwist)
 
 TEST(HandleGizmo, ATwistByTheMouseIsTheAngleAroundTheBone)
 {
-  // Along the line of sight the ring is round: a quarter of its way is 90 degrees.
+  // Seen along the bone, the ring is a circle. A quarter of it is 90 degrees.
   GizmoStage stage({ bone("b", Vec3(0, 0, -1), Vec3(0.0, 0, 1)) }, Widget::GIZMO_TURN);
   vtkCamera* camera = stage.renderer->GetActiveCamera();
   camera->ParallelProjectionOn();
@@ -569,8 +571,8 @@ TEST(HandleGizmo, ATwistByTheMouseIsTheAngleAroundTheBone)
 
 TEST(HandleGizmo, StretchableBonesReadWhatTheWidgetWrites)
 {
-  // A mesh that one bone owns: what is at its tail goes where the widget draws the tail, turned by
-  // the tail's twist; what is at its head turns with the head's.
+  // One bone owns the mesh. Points at its tail move to the drawn tail and turn by the tail's twist.
+  // Points at its head turn by the head's twist.
   GizmoStage stage({ bone("b", Vec3(-0.6, 0, 0), Vec3(0.8, 0, 0)) });
   const Eigen::Vector2d knob = stage.grip(Widget::STRETCH);
   stage.drag_pixels(knob, knob + 0.4 * stage.on_screen(Vec3::UnitX()));
@@ -634,14 +636,14 @@ TEST(HandleGizmo, SeveralSelectedHandlesMoveTogether)
   EXPECT_EQ(stage.representation()->GetNumberOfSelectedHandles(), 3) << "d came and went";
   EXPECT_FALSE(stage.representation()->IsSelected(3));
   EXPECT_EQ(stage.representation()->GetSelectedHandle(), 2);
-  stage.handles->GetCellData()->GetArray("Mode")->SetComponent(2, 0, 2); // c is free
+  stage.handles->GetCellData()->GetArray("Mode")->SetComponent(2, 0, 2); // make c free
   stage.drag(Vec3(1, 0, 0), Vec3(1.4, 0.3, 0));
   EXPECT_EQ(stage.representation()->GetNumberOfSelectedHandles(), 3) << "a drag keeps them";
   EXPECT_LT((stage.head(0) - Vec3(0.4, 0.3, 0)).norm(), 2 * pixel);
   EXPECT_LT((stage.head(1) - stage.head(0) - Vec3(1, 0, 0)).norm(), 1e-12);
   EXPECT_EQ(stage.transform(2), identity_affine()) << "free handles stay";
   EXPECT_EQ(stage.transform(3), identity_affine());
-  // A click on one of them selects it alone.
+  // A click on one of several selected handles selects it alone.
   stage.press(stage.head(1));
   stage.release(stage.head(1));
   EXPECT_EQ(stage.representation()->GetNumberOfSelectedHandles(), 1);
@@ -683,7 +685,7 @@ TEST(HandleGizmo, PositionHandlesOnlyMove)
   }
   EXPECT_FALSE(stage.widget->StartDrag(Widget::GIZMO_TURN));
   stage.representation()->SetGizmo(Widget::GIZMO_NONE);
-  stage.drag(Vec3(1, 0, 0), Vec3(1, 0.5, 0)); // its tail
+  stage.drag(Vec3(1, 0, 0), Vec3(1, 0.5, 0)); // drag its tail
   EXPECT_EQ(linear(stage.transform(0)), Eigen::Matrix3d::Identity());
   EXPECT_GT(stage.head(0)[1], 0.3);
 }
@@ -736,7 +738,7 @@ TEST(HandleGizmo, NumbersAreExact)
   rep->GetHandleScale(0, numbers);
   EXPECT_LT((Vec3(numbers) - Vec3(s)).norm(), 1e-12);
 
-  // A bone's y is along it; those below go along.
+  // A bone's y axis is along it. Handles below it move with it.
   EXPECT_TRUE(rep->SetHandleStretch(1, 1.5));
   EXPECT_TRUE(rep->SetHandleTwist(1, 10.0, 90.0));
   EXPECT_EQ(rep->GetHandleStretch(1), 1.5);
@@ -858,7 +860,7 @@ TEST(HandleGizmo, HoveringOverFiveHundredHandlesIsQuick)
     handles.push_back(bone("b" + std::to_string(i), at, at + Vec3(0.1, 0.1, 0)));
   }
   GizmoStage stage(handles);
-  double best = 1e9; // of several rounds: other processes run here, too
+  double best = 1e9; // the minimum of several rounds, because other processes run on the machine
   for (int round = 0; round < 5; ++round)
   {
     const auto start = std::chrono::steady_clock::now();

@@ -1,5 +1,4 @@
-// The widget driven by synthetic events, as a mouse would: what moves, by how much, and what must
-// not.
+// The widget under synthetic mouse events: which handles move, by how much, and which do not.
 #include "widget_stage.h"
 
 #include <sstream>
@@ -9,7 +8,7 @@ using namespace bindpose::test;
 
 TEST(HandleSetWidget, HoverFindsHandlesByPriority)
 {
-  // A point sits on the bone's tail: the point wins; the bone's head and body are free.
+  // A point is at the bone's tail: the point wins. The bone's head and body are unobstructed.
   Stage stage({ point("p", Vec3(1, 0, 0)), bone("b", Vec3(-1, 0, 0), Vec3(1, 0, 0)) });
   stage.move(Vec3(1, 0, 0));
   EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::ON_POINT);
@@ -28,7 +27,8 @@ TEST(HandleSetWidget, HoverFindsHandlesByPriority)
 
 TEST(HandleSetWidget, OfTwoPointsTheNearerWins)
 {
-  // On one spot of the screen: the one in front; side by side: the one nearer to the mouse.
+  // At the same screen position, the one in front wins. Next to each other, the nearest to the
+  // mouse wins.
   Stage stage({ point("back", Vec3(0, 0, 0)), point("front", Vec3(0, 0, 2)),
     point("left", Vec3(1.00, 1, 0)), point("right", Vec3(1.08, 1, 0)) });
   stage.move(Vec3(0, 0, 0));
@@ -61,7 +61,7 @@ TEST(HandleSetWidget, DragMovesAPointInTheCameraPlane)
   EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 4);
   EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
   EXPECT_EQ(stage.representation()->GetSelectedHandle(), 0);
-  // Transforms are absolute: a second drag continues from there.
+  // Transforms are absolute: a second drag continues from the posed position.
   stage.drag(stage.head(0), Vec3(0.5, 0, 1));
   EXPECT_LT((stage.head(0) - Vec3(0.5, 0, 1)).norm(), 2 * pixel);
 }
@@ -82,7 +82,7 @@ TEST(HandleSetWidget, DraggingATailTurnsTheBoneAboutItsHead)
 {
   Stage stage({ bone("b", Vec3(0.2, 0.1, 0), Vec3(1.2, 0.1, 0)) });
   stage.drag(Vec3(1.2, 0.1, 0), Vec3(0.2, 1.6, 0), 10);
-  // A quarter turn, whatever the length of the way of the mouse.
+  // A quarter turn, whatever the length of the mouse's path.
   EXPECT_LT((stage.head(0) - Vec3(0.2, 0.1, 0)).norm(), 1e-12);
   EXPECT_NEAR((stage.tail(0) - stage.head(0)).norm(), 1.0, 1e-12);
   EXPECT_LT((stage.tail(0) - Vec3(0.2, 1.1, 0)).norm(), pixel);
@@ -145,12 +145,12 @@ TEST(HandleSetWidget, EscapeRestoresEveryBit)
   EXPECT_EQ(stage.transform(1), before[1]);
   EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 2) << "one move, one restoring";
   EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
-  // The button is still down: moves and its release do nothing more.
+  // The button is still down. Further moves and its release have no effect.
   stage.move(tail + Vec3(0.8, 0.8, 0));
   stage.release(tail + Vec3(0.8, 0.8, 0));
   EXPECT_EQ(stage.transform(0), before[0]);
   EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
-  // And the next drag is an ordinary one.
+  // The next drag works as usual.
   stage.drag(tail, tail + Vec3(0.2, 0.2, 0));
   EXPECT_FALSE(stage.widget->GetCancelled());
   EXPECT_NE(stage.transform(0), before[0]);
@@ -275,7 +275,7 @@ TEST(HandleSetWidget, HundredsOfHandlesAreEachFound)
 
 TEST(HandleSetWidget, TakesPlainPolydataAndOddFiles)
 {
-  // No arrays at all; a cage element; a parent that is its own ancestor.
+  // A dataset without arrays; a cage element; a parent that is its own ancestor.
   vtkNew<vtkPoints> points;
   points->InsertNextPoint(0, 0, 0);
   points->InsertNextPoint(1, 0, 0);

@@ -1,4 +1,5 @@
-// The brush on surfaces where distances are known: what a stroke labels, and what it leaves.
+// The brush on surfaces with known distances: the labels that a stroke changes and those that it
+// keeps.
 #include "conversion.h"
 #include "offscreen_stage.h"
 #include "support/meshes.h"
@@ -92,7 +93,7 @@ TEST(RegionBrush, AFastStrokeHasNoGaps)
 {
   BrushStage stage(flat());
   stage.brush()->SetRadius(0.2);
-  stage.drag(Vec3(-1.5, 0.5, 0), Vec3(1.5, 0.5, 0), 1); // one event for the whole way
+  stage.drag(Vec3(-1.5, 0.5, 0), Vec3(1.5, 0.5, 0), 1); // one event for the whole path
   for (vtkIdType v = 0; v < stage.surface->GetNumberOfPoints(); ++v)
   {
     const Vec3 p(stage.surface->GetPoint(v));
@@ -136,13 +137,13 @@ TEST(RegionBrush, CtrlErasesAndEscapeGivesEveryLabelBack)
   EXPECT_EQ(erased, stage.brush()->GetNumberOfChangedPoints());
   EXPECT_GT(erased, 100);
   EXPECT_EQ(stage.widget->GetInteractionName(), "erase region");
-  stage.drag(Vec3(0, 0, 0), Vec3(0, 0, 0), 1); // there is nothing left to erase
+  stage.drag(Vec3(0, 0, 0), Vec3(0, 0, 0), 1); // no labels are left to erase
   EXPECT_TRUE(stage.widget->GetCancelled());
 }
 
 TEST(RegionBrush, TheGeodesicBrushDoesNotReachThroughWalls)
 {
-  // A thin plate of two sheets, closed by nothing: only the one towards the eye is painted.
+  // A thin plate of two disconnected sheets: only the sheet toward the eye is painted.
   const TriangleMesh sheet = flat();
   const TriangleMesh both =
     test::join(sheet, test::flipped(test::translated(sheet, Vec3(0, 0, -0.05))));
@@ -186,7 +187,7 @@ TEST(RegionBrush, RadiusByKeysAndWheelAndTheCameraElsewhere)
   EXPECT_NEAR(stage.brush()->GetDiscRadius(), 1.15 * start, 1e-12);
   EXPECT_LT(stage.renderer->GetActiveCamera()->GetDistance(), away) << "the camera's wheel";
   EXPECT_EQ(stage.events[vtkCommand::StateChangedEvent], 3);
-  // Beside the surface: the camera's.
+  // Next to the surface, mouse events go to the camera.
   const Vec3 before(stage.renderer->GetActiveCamera()->GetPosition());
   stage.drag(Vec3(-1.7, 1.7, 0), Vec3(-1.2, 1.7, 0), 3);
   EXPECT_GT((Vec3(stage.renderer->GetActiveCamera()->GetPosition()) - before).norm(), 0.1);
@@ -263,7 +264,7 @@ TEST(RegionBrush, TheDiscIsSeen)
   stage.drag(Vec3(-0.5, -0.2, 0), Vec3(0.4, 0.3, 0), 5);
   const auto with = stage.picture();
   test::keep(with, "brush");
-  stage.move(Vec3(-2, -2, 0)); // away
+  stage.move(Vec3(-2, -2, 0)); // away from the surface
   const auto without = stage.picture();
   int different = 0;
   for (int y = 0; y < 400; ++y)

@@ -61,7 +61,7 @@ public:
 
   Widget* representation() { return this->widget->GetHandleSetRepresentation(); }
 
-  /// From where a part of the gizmo is grabbed by pixels.
+  /// Return the display position at which a part of the gizmo can be grabbed.
   Eigen::Vector2d grip(int part)
   {
     Eigen::Vector2d at(-1, -1);

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Inside or outside? Of any triangle mesh, with numpy arrays and VTK datasets.
+"""Test whether points are inside or outside of any triangle mesh, with numpy arrays and VTK datasets.
 
     examples/quickstart.sh                                                # once: installs and builds
     PYTHONPATH=build/lib/python3/dist-packages /usr/bin/python3 examples/01_inside_outside.py [MESH]
 
-Asks of random points whether they lie inside of an elephant full of holes (or of MESH), next to what
-vtkSelectEnclosedPoints says, which is what PyVista's select_enclosed_points calls; then what else the winding
-number can do. Ends with a picture and its numbers in --output. Runs without a display, too.
+The script tests random points against an elephant full of holes (or against MESH), and compares with
+vtkSelectEnclosedPoints, which PyVista's select_enclosed_points calls. Then it shows the other uses of the winding
+number. It writes a picture and its numbers to --output, and also runs without a display.
 
-PyVista's meshes are VTK datasets: wherever `surface` stands below, a pyvista.PolyData does as well, and
-pyvista.wrap(result) makes what comes back one of PyVista's.
+PyVista's meshes are VTK datasets: a pyvista.PolyData can be used in place of `surface`, and pyvista.wrap(result)
+converts results to PyVista's classes.
 """
 
 import argparse
@@ -45,14 +45,14 @@ from vtkmodules.vtkRenderingCore import (
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  draws texts
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
 
-import quickstart  # beside this file: finds the demo meshes
+import quickstart  # next to this file: finds the demo meshes
 
 
-# ---- Next to vtkSelectEnclosedPoints -----------------------------------------------------------
+# ---- Comparison with vtkSelectEnclosedPoints ---------------------------------------------------
 
 
 def select_enclosed_points(surface, points, check):
-    """What VTK's own filter says: (#P,) bool; None where it refuses (with `check`, open surfaces)."""
+    """Return the result of VTK's own filter: (#P,) bool; None if `check` rejects an open surface."""
     cloud = vtkPolyData()
     cloud.SetPoints(vtkPoints())
     for point in points:
@@ -63,13 +63,13 @@ def select_enclosed_points(surface, points, check):
     selection.SetCheckSurface(check)
     selection.AddObserver("ErrorEvent", lambda *_: None)
     if check and not selection.IsSurfaceClosed(surface):
-        return None  # it would leave its output without an answer
+        return None  # the filter would leave its output without a result
     selection.Update()
     return vtk_to_numpy(selection.GetOutput().GetPointData().GetArray("SelectedPoints")).astype(bool)
 
 
 def compare(title, surface, points, numbers, truth=None):
-    """One line: who says inside, on how many points they disagree, who is wrong where that is known."""
+    """Print one line: number of points inside, number of different results, and errors where the truth is known."""
     ours = bindpose.contains(surface, points)
     theirs = select_enclosed_points(surface, points, check=False)
     refused = select_enclosed_points(surface, points, check=True) is None
@@ -106,7 +106,7 @@ def joined(*surfaces):
 
 
 def winding_colours():
-    """Blue outside, orange inside, white in between; violet below 0, brown above 1."""
+    """Return a color map: blue outside, orange inside, white in between; violet below 0, brown above 1."""
     table = vtkLookupTable()
     table.SetNumberOfTableValues(300)
     table.SetTableRange(-1, 2)
@@ -181,7 +181,7 @@ def legend(table):
 
 
 def field_on(surface, box, table):
-    """The field on a box without thickness (x0, x1, y0, y1, z0, z1), where it is not about 0."""
+    """Return the field on a flat box (x0, x1, y0, y1, z0, z1), where it is not about 0."""
     samples = [1 if a == b else max(2, round(500 * (b - a) / max(box[1] - box[0], box[3] - box[2], box[5] - box[4])))
                for a, b in zip(box[::2], box[1::2])]
     image = bindpose.winding_number(surface, samples, bounds=box)  # a grid one sample thick
@@ -199,7 +199,7 @@ def field_on(surface, box, table):
 
 
 def write_picture(path, surface, points, ours, theirs):
-    """Left the surface with a corner taken out and the field on its two cuts; right the points as answered."""
+    """Left: the surface with a corner cut out and the field on the two cuts. Right: the points with their results."""
     x0, x1, y0, y1, z0, z1 = surface.GetBounds()
     size = float(np.linalg.norm([x1 - x0, y1 - y0, z1 - z0]))
     pad = 0.05 * size
@@ -226,7 +226,7 @@ def write_picture(path, surface, points, ours, theirs):
         side.SetAmbient(0.25)
         side.SetDiffuse(0.8)
     glass.GetProperty().SetOpacity(0.22)
-    # Both sides of a cut are the same: a hair apart, so that the surface's rim stays before them.
+    # Both sides of a cut coincide. Shift them slightly apart, so that the surface's rim stays in front of them.
     hair = 1e-4 * size
     cuts = [field_on(surface, [x0 - pad, x, y0 - pad, y1 + pad, z - hair, z - hair], table),
             field_on(surface, [x + hair, x + hair, y0 - pad, y1 + pad, z, z1 + pad], table)]
@@ -272,21 +272,21 @@ def write_picture(path, surface, points, ours, theirs):
         raise OSError(f"cannot write {path}")
 
 
-# ---- The page ----------------------------------------------------------------------------------
+# ---- The examples ------------------------------------------------------------------------------
 
 
 def main(options):
     numbers = {}
     demo = options.mesh is None
     mesh = options.mesh or quickstart.demo_mesh(options.output / "meshes")
-    surface = bindpose.read(mesh)  # a vtkPolyData; arrays (vertices #V x 3, triangles #F x 3) do as well
+    surface = bindpose.read(mesh)  # a vtkPolyData; arrays (vertices #V x 3, triangles #F x 3) also work
     if not surface.IsA("vtkPolyData"):
         raise bindpose.InvalidInput(f"{mesh} holds a {surface.GetClassName()}, not a surface")
     bounds = np.reshape(surface.GetBounds(), (3, 2))
     random = np.random.default_rng(1)
     points = random.uniform(*bounds.T, (1000 if options.small else 20000, 3))
 
-    # Yes or no, and the number behind it.
+    # The boolean result, and the winding number.
     inside = bindpose.contains(surface, points)
     values = bindpose.winding_number(surface, points)
     counts = values.report["counts"]
@@ -294,7 +294,7 @@ def main(options):
     print(f"{inside.sum()} of {len(points)} points are inside; winding numbers from {values.min():.2f} to {values.max():.2f};")
     print(f"method {values.report['method']}: {values.report['method_reason']}\n")
 
-    # What VTK's own test makes of the same points. The demo mesh comes without holes, too: that one knows.
+    # VTK's own test on the same points. The demo mesh also exists without holes, which gives the true result.
     print(f"  {'surface':<16} {'inside':>7} {'by VTK':>7} {'disagree':>9}    vtkSelectEnclosedPoints")
     closed = bindpose.read(quickstart.demo_mesh(options.output / "meshes", "elephant.off")) if demo else None
     truth = bindpose.contains(closed, points, method="exact") if demo else None
@@ -306,7 +306,7 @@ def main(options):
     if demo:
         compare("without holes", closed, points, numbers, truth)
 
-    # Accuracy is a parameter, and is kept.
+    # The accuracy is a parameter and is guaranteed.
     few = points[:1000]
     exact = bindpose.winding_number(surface, few, method="exact")
     print(f"\n  exact: {1e6 * exact.report['seconds']['evaluate'] / len(few):8.2f} µs a point ({exact.report['method']})")
@@ -317,7 +317,7 @@ def main(options):
         print(f"  within {tolerance:.0e}: {1e6 * fast.report['seconds']['evaluate'] / len(few):8.2f} µs a point, "
               f"errs by {np.abs(fast - exact).max():.1e}")
 
-    # The gradient, next to differences of the field.
+    # The gradient, compared with differences of the field.
     _, gradient = bindpose.winding_number(surface, few, gradient=True, method="exact")
     step = 1e-5 * length
     beside = [bindpose.winding_number(surface, few + s * step * np.eye(3)[0], method="exact") for s in (-1, 1)]
@@ -327,7 +327,7 @@ def main(options):
     numbers["gradient"] = float(error)
     print(f"\n  gradient: differs from differences by {error:.1e} of itself (median)")
 
-    # A grid: a vtkImageData. Any other vtkDataSet will do, too: values come at its points.
+    # A grid: a vtkImageData. Any other vtkDataSet can be used, too: the field is evaluated at its points.
     start = time.perf_counter()
     grid = bindpose.winding_number(surface, 32 if options.small else 128)  # samples along the longest side
     report = bindpose.report(grid)
@@ -338,8 +338,8 @@ def main(options):
     print(f"  at its own vertices on average "
           f"{vtk_to_numpy(at_vertices.GetPointData().GetArray('WindingNumber')).mean():.3f}")
 
-    # Triangles that look the wrong way subtract, unless they are turned first.
-    cut = vtkTriangleFilter()  # polygons, where there are any
+    # Triangles with the wrong orientation subtract, unless they are turned first.
+    cut = vtkTriangleFilter()  # triangulates polygons, if any
     cut.SetInputData(surface)
     cut.PassVertsOff()
     cut.PassLinesOff()
@@ -353,11 +353,11 @@ def main(options):
         numbers[f"flipped, orient_patches={orient}"] = int((answer != inside).sum())
         print(f"  a tenth of the triangles flipped, orient_patches={orient}: {(answer != inside).sum()} answers change")
 
-    # Where the surface is open: the second output of the VTK class, which fits into any pipeline.
+    # The open boundary of the surface: the second output of the VTK class, which can be used in any pipeline.
     field = bindpose.vtkWindingNumberField()
     field.SetInputData(surface)
     field.SetDimensions(2, 2, 2)
-    bindpose.run(field)  # Update() and exceptions
+    bindpose.run(field)  # Update() with exceptions
     boundary = field.GetBoundaryOutput()
     numbers["boundary_lines"] = boundary.GetNumberOfLines()
     numbers["open_edges"] = counts["open_edges"]
@@ -379,7 +379,7 @@ def arguments():
 
 if __name__ == "__main__":
     given = arguments()
-    if not os.environ.get("DISPLAY"):  # VTK would end the process
+    if not os.environ.get("DISPLAY"):  # otherwise VTK ends the process
         if not shutil.which("xvfb-run"):
             print("01_inside_outside.py: there is no display; install the Debian package xvfb", file=sys.stderr)
             sys.exit(2)

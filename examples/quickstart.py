@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The main job of examples/quickstart.sh: a mesh the whole way to posed shapes.
+"""The main part of examples/quickstart.sh: from a mesh to posed shapes.
 
-Runs the `bindpose` program step by step, telling each command, so that every line can be typed by
-hand; afterwards collects the reports in report.json. All files are written to a folder of another
-name, which takes the output's place when everything is done.
+The script runs the `bindpose` program step by step and prints each command, so that users can repeat it. Then it
+collects the reports in report.json. All files are written to a temporary folder, which replaces the output folder at
+the end.
 """
 
 import argparse
@@ -27,7 +27,7 @@ DEMO_MESH = "elephant-with-holes.off"
 
 
 class Stop(Exception):
-    """Ends the quickstart with a sentence and an exit code."""
+    """Ends the quickstart with a message and an exit code."""
 
     def __init__(self, message, code=2):
         super().__init__(message)
@@ -35,7 +35,7 @@ class Stop(Exception):
 
 
 def demo_mesh(folder, name=DEMO_MESH):
-    """A mesh, taken out of the installed package's archive of example data."""
+    """Return a mesh from the installed package's archive of example data."""
     target = folder / name
     if target.exists():
         return target
@@ -44,7 +44,7 @@ def demo_mesh(folder, name=DEMO_MESH):
     archives = [line for line in listed.stdout.splitlines() if line.endswith("data.tar.gz")]
     with tempfile.TemporaryDirectory() as scratch:
         if archives and not os.path.exists(archives[0]):
-            # Slim systems leave out /usr/share/doc, where the package keeps its data.
+            # Minimal systems leave out /usr/share/doc, which contains the package's data.
             subprocess.run(["apt-get", "download", DEMO_PACKAGE], cwd=scratch, check=False,
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             for package in pathlib.Path(scratch).glob("*.deb"):
@@ -63,7 +63,7 @@ def demo_mesh(folder, name=DEMO_MESH):
 
 
 class Program:
-    """Runs `bindpose` commands, tells them, keeps their reports."""
+    """Runs `bindpose` commands, prints them, and stores their reports."""
 
     def __init__(self, build, folder):
         self.path = build / "bin" / "bindpose"
@@ -92,7 +92,7 @@ class Program:
 
 
 def handle_list(bindpose, path):
-    """(name, kind, head, tail) of the handles in a file, in the order of the weights' columns."""
+    """Return (name, kind, head, tail) of the handles in a file, in the order of the weights' columns."""
     data = bindpose.read_handles(path)
     names = data.GetCellData().GetAbstractArray("HandleName")
     kinds = data.GetCellData().GetArray("HandleKind")
@@ -106,8 +106,8 @@ def handle_list(bindpose, path):
 
 
 def invented_poses(handles, diagonal, frames=10):
-    """A swaying for handles nobody has posed: points move outwards and back, one after the other;
-    bones swing about their heads, each in the frame of its parent."""
+    """Return a swaying motion for handles without a pose: points move outwards and back, one after the other; bones
+    swing about their heads, each in the frame of its parent."""
     middle = [sum(h[2][k] for h in handles) / len(handles) for k in range(3)]
     poses = []
     for frame in range(frames):
@@ -137,7 +137,7 @@ def write_json(path, content):
 
 
 def spread(count, wanted):
-    """At most `wanted` numbers out of range(count), evenly spread."""
+    """Return at most `wanted` numbers of range(count), evenly spread."""
     if count <= wanted:
         return list(range(count))
     return sorted({round(k * (count - 1) / (wanted - 1)) for k in range(wanted)})
@@ -244,7 +244,7 @@ def main():
     staging = pathlib.Path(tempfile.mkdtemp(prefix=f".{options.output.name}-", dir=options.output.absolute().parent))
     staging.chmod(0o755)
     program = Program(options.build, staging)
-    # Ctrl-C reaches the child, too, which ends in order; so do we.
+    # Ctrl-C also reaches the child process, which ends in an orderly way; so does this program.
     signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
     try:
         mesh, pictures = main_job(options, program, bindpose)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# One command from a fresh clone to a bent mesh: installs what is missing, builds, and runs the whole
-# way (winding number, tets, weights, poses) on a real, unclean mesh. See --help.
+# From a fresh clone to a bent mesh in one command: installs missing packages, builds, and runs the
+# whole pipeline (winding number, tets, weights, poses) on a real, unclean mesh. See --help.
 set -euo pipefail
 program=quickstart.sh
 

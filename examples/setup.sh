@@ -1,6 +1,8 @@
-# Sourced by examples/quickstart.sh and the scripts of tests: what to install and how to build. Not a command.
+# Sourced by examples/quickstart.sh and the scripts of tests: packages to install, and how to build.
+# Not a command.
 
-# Package and what it is for, asked of dpkg one by one: nothing is installed twice or for fun.
+# Packages and their purposes. dpkg is queried for each package, so that only missing packages are
+# installed.
 build_packages="
 g++:compiler
 cmake:configures_the_build
@@ -54,7 +56,8 @@ is_installed()
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
 }
 
-# install_packages "LIST": says what is missing and why, then installs it (unless --no-install).
+# install_packages "LIST": print missing packages and their purposes, then install them (unless
+# --no-install).
 install_packages()
 {
   local entry name missing=""
@@ -87,14 +90,14 @@ install_packages()
     >"$log_dir/apt.log" 2>&1 || { tail -5 "$log_dir/apt.log" >&2; die "apt-get install failed; the log is $log_dir/apt.log"; }
 }
 
-# build [CMAKE OPTIONS…]: configures once and when options are given, builds what has changed: all of it, or the targets
-# in $build_targets.
+# build [CMAKE OPTIONS…]: configure on the first run and if options are given, then build changed
+# files: all targets, or those in $build_targets.
 build_targets=""
 build()
 {
   local jobs
   jobs=$(nproc)
-  # CGAL and VTK want about 1.5 GB a compiler: fewer at once where memory is short.
+  # CGAL and VTK need about 1.5 GB per compiler process: run fewer processes if memory is short.
   local gigabytes
   gigabytes=$(awk '/MemAvailable/ { print int($2 / 1572864) }' /proc/meminfo)
   if [ "$gigabytes" -lt "$jobs" ]; then

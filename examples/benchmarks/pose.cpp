@@ -1,8 +1,8 @@
-// Pose time, one thread: reduced ARAP by handles, clusters and energies (the mesh does not matter:
-// three sizes show it), with bind, memory and change of modes; full ARAP (by the mesh alone);
-// skinning of 100k vertices; stretch; a crowd. Weights are made up (inverse distances), so that no
-// solver is waited for; those of the crowd, and of skinning where it says so, are bounded
-// biharmonic. pose_table.py makes the tables of README.md from it.
+// Pose time on one thread: reduced ARAP by handles, clusters and energies (independent of the mesh,
+// as three sizes show), with bind, memory and change of modes; full ARAP (by the mesh only);
+// skinning of 100k vertices; stretch; a crowd. Weights are inverse distances, which need no solver.
+// Those of the crowd, and of skinning where stated, are bounded biharmonic. pose_table.py creates
+// the tables of README.md from the results.
 #include "surfaces.h"
 
 #include "base/memory.h"
@@ -38,7 +38,7 @@ struct Rig
   Weights weights;
 };
 
-/// 1 / distance^4, normalised: 1 at the own handle.
+/// Return weights 1 / distance^4, normalized: 1 at the handle itself.
 Weights distance_weights(const Points& points, const Handles& handles)
 {
   Weights weights(points.rows(), static_cast<Index>(handles.size()));
@@ -52,7 +52,7 @@ Weights distance_weights(const Points& points, const Handles& handles)
   return (weights.array().colwise() / weights.rowwise().sum().array()).matrix();
 }
 
-/// A closed surface and point handles at farthest points, without weights.
+/// Return a closed surface and point handles at farthest points, without weights.
 Rig make_bare_rig(Index triangles, Index count)
 {
   Rig rig;
@@ -77,7 +77,7 @@ Rig make_rig(Index triangles, Index count)
   return rig;
 }
 
-/// Bounded biharmonic weights, by a lattice around the surface.
+/// Add bounded biharmonic weights, computed in a lattice around the surface.
 Status add_bounded_weights(Rig& rig)
 {
   ExecutionContext context;
@@ -93,7 +93,7 @@ Status add_bounded_weights(Rig& rig)
   return status;
 }
 
-/// Every second handle dragged by its position, the others free.
+/// Return a pose in which every second handle is dragged by its position and the others are free.
 Pose dragged(const Handles& handles, double by)
 {
   Pose pose(handles.size());
@@ -105,7 +105,8 @@ Pose dragged(const Handles& handles, double by)
   return pose;
 }
 
-/// Processor time, which others on the machine do not add to: a call's median of several, seconds.
+/// Return the median of the processor time of several calls, in seconds. It is independent of other
+/// processes.
 template <typename Call>
 double processor_seconds(int calls, const Call& call)
 {
@@ -120,14 +121,14 @@ double processor_seconds(int calls, const Call& call)
   return seconds[static_cast<std::size_t>(calls / 2)];
 }
 
-/// Linux: the peak that peak_memory() tells begins anew.
+/// Reset the peak of peak_memory() (Linux only).
 void forget_peak()
 {
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
-/// One row of the table: bind, iterations without and with acceleration, a cold solve to
-/// convergence, a change of modes. Google's own time is that of the cold solve.
+/// Measure one row of the table: bind, iterations without and with acceleration, a cold solve to
+/// convergence, a change of modes. Google Benchmark's own time is that of the cold solve.
 template <typename Elements>
 void measure_reduced(benchmark::State& state, const Points& points, const Elements& elements,
   const Weights& weights, const Handles& handles, const ReducedArapOptions& options)
@@ -146,7 +147,7 @@ void measure_reduced(benchmark::State& state, const Points& points, const Elemen
   Pose pose = dragged(handles, 0.3);
   const bool large = handles.size() >= 100;
   const int calls = large ? 5 : 15, solves = large ? 5 : 100;
-  // From rest, so few that they do not come to an end; the first and the last are left out.
+  // The iterations start at rest and end before convergence. The first and the last are excluded.
   const auto seconds = [&](Index iterations, Index window, bool mixed)
   {
     const ReducedArap::SolveOptions solve{ 0.0, iterations, ReducedArap::Start::rest, window, 0.0,
@@ -210,7 +211,7 @@ BENCHMARK(reduced_arap)
   ->Iterations(1)
   ->Unit(benchmark::kMillisecond);
 
-/// Kuhn's tets in a box, six a cube.
+/// Return Kuhn's tets in a box, six per cube.
 TetMesh tet_box(Index side)
 {
   TetMesh mesh;
@@ -241,7 +242,7 @@ TetMesh tet_box(Index side)
 void reduced_arap_of_tets(benchmark::State& state)
 {
   const TetMesh mesh = tet_box(34);
-  // Handles all over the box: a sparse walk through its vertices.
+  // Handles are spread over the box: a sparse walk through its vertices.
   Handles handles;
   const Index count = state.range(0);
   benchmarks::Random random;
@@ -269,7 +270,8 @@ BENCHMARK(reduced_arap_of_tets)
   ->Iterations(1)
   ->Unit(benchmark::kMillisecond);
 
-/// Iterations of a solve, whose energies after half-steps these are, until they are as low as that.
+/// Return the number of iterations of a solve until its energies, given after half-steps, are at
+/// most `energy`.
 Index iterations_until(const std::vector<double>& energies, double energy)
 {
   Index iterations = 0;
@@ -281,8 +283,8 @@ Index iterations_until(const std::vector<double>& energies, double energy)
   return iterations;
 }
 
-/// Arguments: handles, clusters, iterates that acceleration looks back on, drag in tenths of the
-/// radius. A cold solve to within 1e-4 of the least energy that thousands of iterations reach.
+/// Arguments: handles, clusters, number of iterates used by the acceleration, drag in tenths of the
+/// radius. A cold solve to within 1e-4 of the lowest energy that thousands of iterations reach.
 void reduced_arap_to_energy(benchmark::State& state)
 {
   const Rig rig = make_rig(20000, state.range(0));
@@ -319,7 +321,7 @@ BENCHMARK(reduced_arap_to_energy)
   ->ArgsProduct({ { 50 }, { 150 }, { 0, 5, 10 }, { 3, 10, 20 } })
   ->Unit(benchmark::kMicrosecond);
 
-/// Arguments: triangles, iterates that acceleration looks back on.
+/// Arguments: triangles, number of iterates used by the acceleration.
 void full_arap_iteration(benchmark::State& state)
 {
   const Rig rig = make_rig(state.range(0), 20);
@@ -349,13 +351,13 @@ BENCHMARK(full_arap_iteration)
   ->Args({ 86000, 0 })
   ->Unit(benchmark::kMillisecond);
 
-/// Arguments: handles, 0 linear blend, 1 dual quaternions or 2 stretchable bones, 1 for single
-/// precision, 1 for bounded biharmonic weights (else none is zero). 100k vertices; weights up to
-/// 1e-6 are dropped, and what is lost by it is told.
+/// Arguments: handles; 0 linear blend, 1 dual quaternions or 2 stretchable bones; 1 for single
+/// precision; 1 for bounded biharmonic weights (otherwise no weight is zero). 100k vertices.
+/// Weights up to 1e-6 are dropped, and the loss is reported.
 void skinning(benchmark::State& state)
 {
   const Index count = state.range(0);
-  // The handles and their weights are kept from row to row: a minute for all three.
+  // Handles and weights are cached between rows: they take a minute for all three.
   static std::map<std::pair<Index, bool>, Rig> rigs;
   Rig& rig = rigs[{ count, state.range(3) != 0 }];
   if (rig.handles.empty())
@@ -435,7 +437,8 @@ BENCHMARK(skinning)
   ->ArgsProduct({ { 5, 20, 50 }, { 0, 1, 2 }, { 0, 1 }, { 0, 1 } })
   ->Unit(benchmark::kMillisecond);
 
-/// What the report says of elements after each pose; a bend, so that few elements are alike.
+/// Measure the report of elements after each pose. The pose is a bend, so that few elements are
+/// alike.
 template <typename Elements>
 void measure(benchmark::State& state, const Points& rest, const Elements& elements)
 {
@@ -470,9 +473,9 @@ void stretch_of_tets(benchmark::State& state)
 }
 BENCHMARK(stretch_of_tets)->Unit(benchmark::kMillisecond);
 
-/// Arguments: triangles, handles, clusters. 100 instances, each with a pose of its own that moves
-/// on from frame to frame: solved warm with at most 10 iterations, and all vertices. Weights are
-/// bounded biharmonic, those up to 1e-6 dropped.
+/// Arguments: triangles, handles, clusters. 100 instances, each with its own pose that changes from
+/// frame to frame. A frame consists of a warm solve with at most 10 iterations and the motion of
+/// all vertices. Weights are bounded biharmonic; those up to 1e-6 are dropped.
 void crowd(benchmark::State& state)
 {
   Rig rig = make_bare_rig(state.range(0), state.range(1));

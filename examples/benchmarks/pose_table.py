@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Runs the benchmarks of pose time and prints them as the tables of README.md.
+"""Run the benchmarks of pose time and print them as the tables of README.md.
 
-With --readme the tables replace the text between `<!-- pose -->` and `<!-- end -->` in the README.md beside this file.
+With --readme the tables replace the text between `<!-- pose -->` and `<!-- end -->` in the README.md next to this
+file.
 """
 
 import argparse
@@ -24,14 +25,14 @@ def table(head, rows):
 
 
 def number(value):
-    """Three digits, no exponent."""
+    """Return a number with three digits and without an exponent."""
     if value >= 100:
         return f"{value:,.0f}"
     return f"{value:.3g}"
 
 
 def arguments(row):
-    """Name and numbers of a row: reduced_arap/triangles:86000/handles:5 …"""
+    """Return name and numbers of a row: reduced_arap/triangles:86000/handles:5 …"""
     name, *words = row["name"].split("/")
     return name, {key: int(value) for key, value in (word.split(":") for word in words if ":" in word)}
 

@@ -8,7 +8,7 @@ namespace bindpose::benchmarks
 
 namespace
 {
-/// Rings of latitude with one vertex at each pole.
+/// Return a sphere of rings of latitude with one vertex at each pole.
 TriangleMesh rings(Index triangles)
 {
   const Index across = std::max<Index>(4, std::llround(std::sqrt(0.25 * triangles)));

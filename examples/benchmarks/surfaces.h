@@ -1,7 +1,7 @@
 #ifndef bindpose_examples_benchmarks_surfaces_h
 #define bindpose_examples_benchmarks_surfaces_h
 
-// Surfaces of any size for benchmarks, made on the spot: no files needed.
+// Surfaces of any size for benchmarks, generated without files.
 
 #include "base/mesh.h"
 
@@ -10,14 +10,16 @@
 namespace bindpose::benchmarks
 {
 
-/// A closed, bumpy sphere of about the given number of triangles.
+/// Return a closed, bumpy sphere with about the given number of triangles.
 TriangleMesh bumpy_sphere(Index triangles);
-/// The same without the triangles of one cap: `open_edges` grows with the square root of the size.
+/// Return the sphere without the triangles of one cap: `open_edges` grows with the square root of
+/// the size.
 TriangleMesh open_bumpy_sphere(Index triangles);
-/// The same cut into patches that do not touch: a soup with about one open edge in four triangles.
+/// Return the sphere cut into patches that do not touch: a soup with about one open edge per four
+/// triangles.
 TriangleMesh patches(Index triangles);
 
-/// The same numbers on every machine, unlike std's (splitmix64).
+/// Random numbers that are the same on every machine, unlike those of std (splitmix64).
 class Random
 {
 public:
@@ -32,7 +34,7 @@ private:
   std::uint64_t state_;
 };
 
-/// #count x 3 points in a box around the unit sphere, the same ones each time.
+/// Return #count x 3 points in a box around the unit sphere; the points are always the same.
 Points scattered_points(Index count);
 
 } // namespace bindpose::benchmarks

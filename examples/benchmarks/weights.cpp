@@ -1,5 +1,5 @@
-// Weights on boxes of tets with ten point handles: seconds for all handles, and what they are made
-// of. F is one factorisation of Q on the same mesh in the same run: the unit that travels between
+// Weights on boxes of tets with ten point handles: seconds for all handles, and their parts. F is
+// one factorization of Q on the same mesh in the same run: a unit that is comparable between
 // machines.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
@@ -17,7 +17,7 @@ namespace
 {
 using namespace bindpose;
 
-/// n^3 cells of six tets, sheared and stretched a little so that no angle is special.
+/// Return n^3 cells of six tets, sheared and stretched a little so that no angle is special.
 Domain tet_box(Index n)
 {
   Domain domain;
@@ -61,7 +61,7 @@ Domain tet_box(Index n)
   return domain;
 }
 
-/// Farthest points among the vertices, so that handles are spread.
+/// Return farthest points among the vertices as evenly spread handles.
 Handles spread_handles(const Domain& domain, int count)
 {
   Handles handles(static_cast<std::size_t>(count));
@@ -88,8 +88,8 @@ WeightsProblem problem_of(Index cells, int handles)
   return problem;
 }
 
-/// One factorisation of the biharmonic form's free block by CHOLMOD, in double precision: the unit
-/// of time.
+/// Return the seconds of one factorization of the biharmonic form's free block by CHOLMOD, in
+/// double precision: the unit of time.
 double seconds_of_f(const WeightsProblem& problem)
 {
   const SplitForm form(harmonic_energy(problem.stiffness, problem.mass, 2), problem.fixed);
@@ -156,7 +156,7 @@ void monotone(benchmark::State& state)
   run<MonotoneWeightsOptions>(state, monotone_weights);
 }
 
-/// All of a preview in F, which is what counts for a first look, and how far it is from clamped.
+/// Measure the time of a whole preview in F, because this is the time until a user sees weights.
 void preview(benchmark::State& state)
 {
   const WeightsProblem problem = problem_of(state.range(0), static_cast<int>(state.range(1)));

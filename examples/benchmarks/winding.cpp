@@ -1,14 +1,15 @@
-// Winding numbers: builds, grids, scattered points and points near the surface, of closed, open and
-// orderless surfaces. Every row tells its median and spread over five repetitions, nanoseconds a
-// point, and the same in yardsticks (`Y`): what one term of the textbook sum costs in this very
-// run. Compare yardsticks, not machines. `error` is the largest difference from the plain sum in
-// double on 10,000 of the row's own points, on fewer for surfaces of more than 100,000 triangles.
+// Winding numbers: builds, grids, scattered points and points near the surface, for closed and open
+// surfaces and triangle soups. Every row reports median and spread of five repetitions, in
+// nanoseconds per point and in yardsticks (`Y`). A yardstick is the cost of one term of the
+// textbook sum, measured in the same run. Compare yardsticks rather than machines. `error` is the
+// largest difference from the plain sum in double precision on 10,000 of the row's own points, or
+// on fewer for surfaces of more than 100,000 triangles.
 //
 //   build/bin/bindpose_benchmarks --benchmark_filter=winding
 //
-// With BINDPOSE_BENCHMARK_MESHES=FOLDER the rows named elephant take refined_elephant.off, and
-// those named holes elephant-with-holes.off from there (see the Debian package libcgal-demo);
-// without, they are left out.
+// With BINDPOSE_BENCHMARK_MESHES=FOLDER the rows named elephant use refined_elephant.off, and those
+// named holes elephant-with-holes.off, from that folder (see the Debian package libcgal-demo).
+// Without it these rows are left out.
 #include "surfaces.h"
 
 #include "base/parallel.h"
@@ -30,7 +31,7 @@ namespace
 using namespace bindpose;
 using benchmarks::Random;
 
-/// Nanoseconds a triangle of the formula as textbooks print it, measured once.
+/// Return the nanoseconds per triangle of the textbook formula, measured once.
 double yardstick()
 {
   static const double nanoseconds = []
@@ -67,7 +68,8 @@ double yardstick()
   return nanoseconds;
 }
 
-/// Triangles of no order: `count` of them, an edge long what a surface of so many would have.
+/// Return `count` unordered triangles. Their edge length is that of a surface with this number of
+/// triangles.
 TriangleMesh orderless(Index count)
 {
   Random random(3);
@@ -89,7 +91,8 @@ TriangleMesh orderless(Index count)
   return mesh;
 }
 
-/// A surface come apart: each triangle moved by about its own size, every other one turned over.
+/// Return a disconnected surface: each triangle is moved by about its own size, and about half of
+/// them, chosen at random, are turned over.
 TriangleMesh soup(Index count)
 {
   const TriangleMesh sphere = benchmarks::bumpy_sphere(count);
@@ -114,8 +117,8 @@ TriangleMesh soup(Index count)
   return mesh;
 }
 
-/// A surface by its name: closed, open, patches, soup, orderless, each with its number of
-/// triangles, or one of the files. Made once.
+/// Return a surface by its name: closed, open, patches, soup or orderless, each with its number of
+/// triangles, or one of the files. Surfaces are generated once.
 const TriangleMesh& surface(const std::string& name, Index triangles)
 {
   static std::map<std::pair<std::string, Index>, TriangleMesh> made;
@@ -159,8 +162,8 @@ enum Where
 {
   grid,
   scattered,
-  near, ///< 1e-4 diagonals off the surface
-  far_from_origin ///< scattered, everything moved by 1e6 diagonals
+  near, ///< 1e-4 diagonals away from the surface
+  far_from_origin ///< scattered, with everything moved by 1e6 diagonals
 };
 
 struct Row
@@ -168,7 +171,7 @@ struct Row
   const char* surface;
   Index triangles; ///< 0: a file
   Where where;
-  Index samples; ///< of the grid's longest side
+  Index samples; ///< along the grid's longest side
   WindingMethod method;
   double tolerance;
   int threads;
@@ -219,7 +222,7 @@ SampleGrid grid_for(Index samples, const Box& box)
   return cells;
 }
 
-/// On all cores: the time is over.
+/// Return the largest error. All cores are used, because this part is not timed.
 double largest_error(Index count, Index triangles, const std::function<double(Index)>& error_at)
 {
   const Index tried = std::min<Index>(10000, 1000000000 / std::max<Index>(1, triangles));
@@ -256,7 +259,8 @@ void evaluate(benchmark::State& state, const Row& row)
   const SampleGrid cells = grid_for(std::max<Index>(row.samples, 2), box);
   const Points queries = queries_for(row, mesh, box);
   const Index count = row.where == grid ? cells.count() : queries.rows();
-  Eigen::VectorXd values = Eigen::VectorXd::Constant(count, -1.0); // memory that is there
+  // Constant values, so that the memory is allocated before the timing.
+  Eigen::VectorXd values = Eigen::VectorXd::Constant(count, -1.0);
   double seconds = 0.0;
   for (auto _ : state)
   {
@@ -267,7 +271,7 @@ void evaluate(benchmark::State& state, const Row& row)
     state.SetIterationTime(spent.count());
     seconds += spent.count();
   }
-  // Every repetition has the same values.
+  // All repetitions have the same values.
   static std::map<const Row*, double> errors;
   const auto [found, is_new] = errors.emplace(&row, 0.0);
   if (is_new)
@@ -345,7 +349,7 @@ const bool registered = []
     { "open", 39000, scattered, 0, M::exact, 1e-3, 1 },
     { "patches", 4800, grid, 128, M::fast, 1e-3, 1 },
     { "patches", 4800, grid, 128, M::fast, 1e-4, 1 },
-    // Orderless: along a surface, and all over space.
+    // Unordered triangles: along a surface, and throughout space.
     { "soup", 86000, grid, 128, M::fast, 2e-3, 1 },
     { "soup", 86000, scattered, 0, M::fast, 2e-3, 1 },
     { "orderless", 86000, grid, 128, M::fast, 2e-3, 1 },

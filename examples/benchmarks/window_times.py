@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measure what a person waits for in the window: the first picture of a sphere of 100,000 and of 500,000 triangles, and
+"""Measure waiting times of the window: the first picture of a sphere of 100,000 and of 500,000 triangles, and
 the time from a click on Auto-rig until the shape can be dragged and until its weights are certified.
 
 The machine must be quiet. Without a display the window runs under xvfb-run.
@@ -15,8 +15,8 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CAMEL = ROOT / "build" / "tests" / "demo_meshes" / "data" / "meshes" / "camel.off"
-LOOKS = 100  # of the window while it binds
-PAUSE = 0.2  # between looks, seconds
+LOOKS = 100  # number of looks at the window during the bind
+PAUSE = 0.2  # between looks, in seconds
 
 
 def write_sphere(path, rings):

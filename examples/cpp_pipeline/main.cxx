@@ -1,5 +1,6 @@
-// The whole way in one pipeline: a capsule becomes tets, gets bounded weights for two bones, and is
-// bent at the middle. Prints what each stage reports; exits non-zero when one fails.
+// The complete pipeline: a capsule is filled with tets, gets bounded weights for two bones, and is
+// bent at the middle. The program prints the report of each stage and exits with a nonzero code if
+// one fails.
 #include <vtkBoundedBiharmonicWeights.h>
 #include <vtkPoseHandles.h>
 #include <vtkSkinningDeformation.h>

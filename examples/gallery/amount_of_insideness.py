@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Closed surfaces that overlap: how many times is a point inside?
+"""Winding numbers of overlapping closed surfaces: how many times is a point inside?
 
-Three spheres that overlap pairwise and all together, and one tube that runs through itself. Point-in-polygon
-tests by parity say that the overlap of two is outside; the winding number counts 2 and 3.
+Three spheres overlap pairwise and all together, and one tube passes through itself. Parity-based inside tests report
+that the overlap of two spheres is outside; the winding number counts 2 and 3.
 
-Numbers: exact integers (the largest distance from one); all points agree with the count of spheres that hold
-them, each asked by itself by the planes of its faces; the tube's values with the plain sum of solid angles.
+Numbers: distance from integers (the largest one); whether all points agree with the number of spheres that contain
+them, determined from the planes of the faces; the tube's values against the plain sum of solid angles.
 """
 
 import common
@@ -17,7 +17,7 @@ import meshes
 
 
 def spheres_around(spheres, points):
-    """How many of these convex polyhedra hold each point."""
+    """Return how many of these convex polyhedra contain each point."""
     count = np.zeros(len(points), dtype=int)
     for vertices, triangles in spheres:
         a, b, c = np.moveaxis(vertices[triangles], 1, 0)
@@ -37,7 +37,7 @@ def make(options):
     for shape, name in zip(shapes, ("spheres", "tube")):
         reach = 1.1 * np.abs(shape[0][:, :2]).max()
         wide = 64 if options.small else 480
-        # Not on a plane of symmetry, where samples would fall on edges.
+        # Avoid planes of symmetry, where samples would be on edges.
         field = bindpose.winding_number(shape, (wide, wide, 1), bounds=[-reach, reach, -reach, reach, 0.0123, 0.0123])
         random = np.random.default_rng(7).uniform(-reach, reach, (500 if options.small else 5000, 3))
         random[:, 2] *= 0.3
@@ -61,7 +61,7 @@ def make(options):
 
 
 def distance_off_surface(field):
-    """Largest distance from an integer of the samples that no triangle touches."""
+    """Return the largest distance from an integer among the samples that no triangle touches."""
     values = point_array(field, "WindingNumber")[point_array(field, "OnSurface") == 0]
     return np.abs(values - np.rint(values)).max()
 

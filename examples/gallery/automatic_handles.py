@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""From a mesh to a bent mesh without a hand: handles are found, weights bound, a pose applied.
+"""Automatic rigging: handles are found, weights are bound, and a pose is applied.
 
-Mean curvature flow contracts the armadillo to a curve, which becomes bones: limbs, hands, ears and tail. Beside it, the
-same with bounded biharmonic weights of those bones, bent at every joint. Below, an elephant full of holes, whose inside
-by winding number has a skeleton as well; and points, spread along the surface and moved into the middle of the shape.
+Mean curvature flow contracts the armadillo to a curve, which becomes bones: limbs, hands, ears and tail. Next to it
+is the same shape with bounded biharmonic weights of those bones, bent at every joint. Below are an elephant full of
+holes, whose inside by winding number also has a skeleton, and points that are spread along the surface and moved into
+the middle of the shape.
 
-Numbers: bones, junctions, joints that are outside; cycles cut (the elephant's trunk and tusks touch its head);
-processor seconds from mesh to bones; the largest error of a row sum of the weights; and of points on the surface, far
-apart straight through space, the smallest distance of two by the largest one of a vertex from them, which is at least 1.
+Numbers: bones, junctions, joints that are outside; cut cycles (the elephant's trunk and tusks touch its head);
+processor seconds from mesh to bones; the largest error of a row sum of the weights. For points on the surface that
+are spread by straight distance: the smallest distance between two points divided by the largest distance of a vertex
+from the points, which is at least 1.
 """
 
 import os
@@ -20,16 +22,16 @@ from bindpose.meshes import point_array, points_of
 
 
 def processor_seconds():
-    """Of this process and of the helpers that have ended."""
+    """Return the processor seconds of this process and of terminated helpers."""
     spent = os.times()
     return spent.user + spent.system + spent.children_user + spent.children_system
 
 
 def found(mesh, numbers, name, **how):
-    """Handles of a mesh, and what is to be told of them."""
+    """Return the handles of a mesh, and add their numbers."""
     begun = processor_seconds()
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", bindpose.BindposeWarning)  # says that cycles were cut, as the numbers do
+        warnings.simplefilter("ignore", bindpose.BindposeWarning)  # cut cycles, which the numbers contain
         handles = bindpose.automatic_handles(mesh, **how)
     numbers[f"{name}: processor seconds"] = processor_seconds() - begun
     counts = bindpose.report(handles)["counts"]
@@ -40,7 +42,7 @@ def found(mesh, numbers, name, **how):
 
 
 def bent(handles, degrees):
-    """Every bone that has a parent turns beside it, to either side in turn."""
+    """Rotate every bone with a parent sideways, alternately to the left and right."""
     pose = {}
     for cell in range(handles.GetNumberOfCells()):
         if handles.GetCellData().GetArray("Parent").GetValue(cell) >= 0:

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""A bent elbow: linear blend gets thin, dual quaternions bulge, centers of rotation do neither as much.
+"""A bent elbow: linear blend becomes thin, dual quaternions bulge, centers of rotation have less of both artifacts.
 
-The cylinder of candy_wrapper.py, its right half bent about the middle by 60 and 120 degrees: linear blend, dual
-quaternions and centers of rotation, from left to right. Where both bones weigh 1/2, linear blend pulls the skin to the
-joint; dual quaternions turn everything about the joint, so that what was beside it swings outwards; about its own
-center, in the middle of its slice, a point keeps its distance from the axis.
+The right half of the cylinder of candy_wrapper.py is bent about the middle by 60 and 120 degrees: linear blend, dual
+quaternions and centers of rotation, from left to right. Where both bones weigh 1/2, linear blend pulls the skin
+towards the joint. Dual quaternions rotate everything about the joint, so that points beside it swing outwards. With
+its own center, in the middle of its slice, a point keeps its distance from the axis.
 
-Numbers: how near to the bent axis the skin comes on the outside of the bend and how far from it, where both are 1 at
-rest; the volume, of that at rest; tets inside out.
+Numbers: smallest and largest distance of the skin from the bent axis on the outside of the bend, where both are 1 at
+rest; the volume, relative to rest; inverted tets.
 """
 
 import warnings
@@ -24,7 +24,7 @@ JOINT = np.array([LENGTH / 2, 0, 0])
 
 
 def bend(degrees):
-    """The right bone about the joint: about its own head, and the head's way."""
+    """Rotate the right bone about the joint: about its own head, plus the translation of the head."""
     angle = np.radians(degrees)
     from_joint = np.array([3.5, 0, 0]) - JOINT
     moved = np.array([np.cos(angle), np.sin(angle), 0]) * np.linalg.norm(from_joint)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Furniture as people model it, bent: loose parts, open and crossing surfaces, triangles that are there twice.
+"""Bending real furniture models: loose parts, open and crossing surfaces, duplicate triangles.
 
-Four models of the Debian package sweethome3d-furniture (from BlendSwap, CC0) are bound as they are, with points spread
-on them as handles, and every handle moves as the bend of the whole piece moves it.
+Four models of the Debian package sweethome3d-furniture (from BlendSwap, CC0) are bound unchanged, with points spread
+over them as handles. Every handle moves with the bend of the whole piece.
 
-Numbers of each piece: triangles; open edges, edges of three triangles or more, pairs of triangles that cross, and
-triangles that are there twice; the largest relative gap of a certificate; and the largest distance between two vertices
-of different components that were nearer than 1/500 of the diagonal before the bend, of the diagonal.
+Numbers of each piece: triangles; open edges, edges of three triangles or more, pairs of crossing triangles, and
+duplicate triangles; the largest relative gap of a certificate; and the largest distance after the bend, relative to
+the diagonal, between two vertices of different components that were nearer than 1/500 of the diagonal before.
 """
 
 import math
@@ -30,7 +30,7 @@ DEFECTS = ("boundary_edges", "nonmanifold_edges", "self_intersections", "duplica
 
 
 def piece(options, name):
-    """A model of the package, of height 1 and on the floor, as a vtkPolyData."""
+    """Return a model of the package as a vtkPolyData, with height 1 and on the floor."""
     with zipfile.ZipFile(ARCHIVE) as archive:
         (member,) = [entry for entry in archive.namelist() if entry.endswith(f"/{name}.obj")]
         path = options.scratch / f"{name}.obj"
@@ -44,7 +44,7 @@ def piece(options, name):
 
 
 def bend(points, box, degrees):
-    """Points of a piece that bends about z, from the floor up: where they go, and how far each has turned."""
+    """Bend points of a piece about z, from the floor up. Return their positions and rotation angles."""
     (left, floor, _), (right, top, _) = box
     angle = math.radians(degrees) * (points[:, 1] - floor) / (top - floor)
     middle, radius = (left + right) / 2, (top - floor) / math.radians(degrees)
@@ -64,7 +64,7 @@ def pose_of(handles, box, degrees):
 
 
 def touching(mesh, points):
-    """Pairs of vertices of different components that are nearer than 1/500 of the diagonal."""
+    """Return pairs of vertices of different components that are nearer than 1/500 of the diagonal."""
     clean = vtkCleanPolyData()
     clean.SetInputData(mesh)
     clean.PointMergingOn()
@@ -101,7 +101,7 @@ def make(options):
         handles = bindpose.automatic_handles(mesh, points=HANDLES // (2 if options.small else 1),
                                               place_inside=False, distance="straight")
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", bindpose.BindposeWarning)  # what is unclean, as the numbers say
+            warnings.simplefilter("ignore", bindpose.BindposeWarning)  # surface defects, which the numbers contain
             weighted = bindpose.weights(mesh, handles, domain="auto")
         report = bindpose.report(weighted)
         posed = bindpose.deform(weighted, handles, pose_of(handles, box, degrees))

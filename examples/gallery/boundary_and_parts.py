@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""What is wrong with a surface: its parts and the curves along which it is open.
+"""Diagnosis of a surface: its components and its open boundary curves.
 
-Six parts in one mesh: a closed tube through itself, a sphere with holes, one with a cap looking inwards, one
-inside out, three pages on one spine, a bowl that is there twice. The second output of vtkWindingNumberField
-(`bindpose winding --boundary FILE`) has an edge wherever the directions of the triangles do not cancel, with
-its multiplicity: 1 at a hole, 2 around the turned cap and the double bowl, 3 along the spine; and a table of the
-parts: triangles, open edges (by their multiplicities), volume.
+Six parts in one mesh: a closed tube through itself, a sphere with holes, a sphere with an inward cap, an inside-out
+sphere, three pages on one spine, and a duplicated bowl. The second output of vtkWindingNumberField (`bindpose winding
+--boundary FILE`) has an edge wherever the directions of the triangles do not cancel, with its multiplicity: 1 at a
+hole, 2 around the inward cap and the double bowl, 3 along the spine. It also has a table of the parts: triangles,
+open edges (with multiplicities), volume.
 
-Numbers: the table; at how many points the curves do not close (0: a boundary has no boundary); and that the
-curves are all that matters: the winding number of the surface and that of a fan of triangles over the curves
-differ by whole numbers (largest distance from one).
+Numbers: the table; the number of points at which the curves do not close (0: a boundary has no boundary); and that
+the field depends only on the curves: the winding numbers of the surface and of a fan of triangles over the curves
+differ by integers (largest distance from an integer).
 """
 
 import common
@@ -38,20 +38,20 @@ APART = 3.1
 
 
 def pages(count=8):
-    """Three half discs on one spine, all going up along it."""
+    """Return three half discs on one spine, all oriented upwards along it."""
     angle = np.pi * (np.arange(count + 1) / count - 0.5)
     rim = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     parts = []
     for turn in (0.5, 2.1, 3.6):
         x, y = rim.T
         vertices = np.vstack([[[0, 0, 0]], np.stack([x * np.cos(turn), y, x * np.sin(turn)], axis=1)])
-        vertices[np.abs(vertices) < 1e-12] = 0  # ends of the spine are the same to the bit
+        vertices[np.abs(vertices) < 1e-12] = 0  # makes the ends of the spine identical to the bit
         parts.append((vertices, np.array([[0, 1 + i, 2 + i] for i in range(count)])))
     return meshes.joined(*parts)
 
 
 def unclean(times):
-    """The parts one beside the other, and their names."""
+    """Return the parts next to each other, and their names."""
     ball = meshes.sphere(times)
     x, y, z = meshes.centers(ball).T
     bowl = meshes.without(ball, y > 0.1)
@@ -113,7 +113,7 @@ def text(words, x, y, size, colour=INK, bold=False):
 
 
 def draw(path, surface, boundary, lines, multiplicity, columns):
-    """The surface, its curves coloured by multiplicity, below each part a column of texts."""
+    """Draw the surface, its curves colored by multiplicity, and below each part a column of texts."""
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     normals = vtkPolyDataNormals()
@@ -180,12 +180,12 @@ def make(options):
         times, edges = np.unique(multiplicity[component == k], return_counts=True)
         row = [int(table["Triangles"][k]), int(table["OpenEdges"][k]), float(table["Volume"][k])]
         counted = " + ".join(f"{e} x {t}" if t > 1 else str(e) for e, t in zip(edges, times)) or "no"
-        volume = round(row[2], 3) + 0.0  # no -0
+        volume = round(row[2], 3) + 0.0  # avoids -0
         columns.append((name, [f"{row[0]:,} triangles", f"{counted} open edges", f"volume {volume:.3f}"]))
         numbers[f"{name}: triangles, open edges, volume"] = row
         numbers[f"{name}: multiplicities"] = times.tolist()
 
-    # What comes in at a point goes out; by coordinates, as the same point may be there several times.
+    # Incoming and outgoing edges cancel at every point; compare coordinates, because a point may occur several times.
     points = points_of(boundary)
     _, same = np.unique(points, axis=0, return_inverse=True)
     ends = np.bincount(same[lines[:, 1]], multiplicity, same.max() + 1)

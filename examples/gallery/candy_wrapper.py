@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Twisted by linear blend a joint closes like a candy wrapper; by dual quaternions and centers of rotation it does not.
+"""Twisting: linear blend closes a joint like a candy wrapper; dual quaternions and centers of rotation do not.
 
-A cylinder of tets with a bone in each half. The right bone turns about its own axis by 90, 120 and 180 degrees, from
-left to right; above linear blend skinning, in the middle dual quaternions, below centers of rotation. Halfway both
-bones weigh 1/2: the mean of a ring and the ring turned by t has the radius cos(t / 2), while rotations that are blended
-keep it.
+A cylinder of tets has a bone in each half. The right bone rotates about its own axis by 90, 120 and 180 degrees, from
+left to right. Above is linear blend skinning, in the middle dual quaternions, below centers of rotation. Halfway both
+bones weigh 1/2: the mean of a ring and the ring rotated by t has the radius cos(t / 2), while blended rotations keep
+the radius.
 
-Numbers: the radius of the ring halfway, of what it is at rest; tets that the pose turns inside out; the largest stretch.
+Numbers: the radius of the ring halfway, relative to rest; tets that the pose inverts; the largest stretch.
 """
 
 import warnings
@@ -24,15 +24,15 @@ LENGTH = 6
 
 
 def cylinder(along, across):
-    """Tets of a cylinder of radius 1 about x, from 0 to LENGTH; `along` and `across` are even."""
+    """Return tets of a cylinder of radius 1 about x, from 0 to LENGTH; `along` and `across` are even."""
     points, tets = bar(along, across)
     x, u, v = points[:, 0] * LENGTH / 6, 2 * points[:, 1] - 1, 2 * points[:, 2] - 1
-    # A square onto a disc: its rim onto the circle.
+    # Map a square to a disc, with its rim on the circle.
     return np.stack([x, u * np.sqrt(1 - v ** 2 / 2), v * np.sqrt(1 - u ** 2 / 2)], axis=1), tets
 
 
 def weighted_cylinder(small):
-    """With the weights of two bones along its axis that leave the middle free, and these."""
+    """Return the cylinder with the weights of two bones along its axis that leave the middle free, and the bones."""
     handles = bindpose.handles(bones=[[(0, 0, 0), (2.5, 0, 0)], [(3.5, 0, 0), (LENGTH, 0, 0)]])
     mesh = to_dataset(cylinder(24, 6) if small else cylinder(36, 8))
     return bindpose.weights(mesh, handles), handles

@@ -24,7 +24,7 @@ def _column(name, values):
 
 
 def _ticks(axis, lower, upper, logarithmic, names):
-    """Numbers at powers of ten for logarithms; `names` (value to text) where they say more."""
+    """Numbers at powers of ten for logarithmic axes; `names` (value to text) replace them if given."""
     if not logarithmic:
         axis.SetBehavior(vtkAxis.FIXED)
         axis.SetRange(lower, upper)
@@ -42,7 +42,7 @@ def _ticks(axis, lower, upper, logarithmic, names):
 
 
 class Panel:
-    """One plot. `x` and `y` are (label, lower, upper); with log, both axes show powers of ten."""
+    """One plot. `x` and `y` are (label, lower, upper); with log, both axes have powers of ten."""
 
     def __init__(self, title, x, y, log=False, x_names=None, y_names=None):
         self.title, self.x, self.y, self.log = title, x, y, log
@@ -50,7 +50,7 @@ class Panel:
         self.series = []
 
     def line(self, label, xs, ys, colour, width=3.0, dots=False, dashed=False):
-        """A line, with a dot at each value; without a label it is not in the legend."""
+        """Add a line, with dots at its values; without a label it is not in the legend."""
         if self.log:
             pairs = [(math.log10(x), math.log10(y)) for x, y in zip(xs, ys) if x > 0 and y > 0]
         else:
@@ -92,8 +92,8 @@ class Panel:
 
 
 def draw(path, panels, size=(1600, 640), text_size=18, legends=None, left=110):
-    """Writes the panels as one PNG. `legends`: for each a pair of vtkChartLegend's alignments.
-    `left`: pixels for the names along the first panel's upright axis."""
+    """Write the panels as one PNG. `legends`: for each panel a pair of vtkChartLegend's alignments. `left`: pixels
+    for the names along the first panel's vertical axis."""
     view = vtkContextView()
     window = view.GetRenderWindow()
     window.SetOffScreenRendering(True)

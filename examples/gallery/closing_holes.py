@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""As holes close, the winding number tends to the indicator function of the inside.
+"""As holes close, the winding number converges to the indicator function of the inside.
 
-A closed elephant loses 70 % of its triangles at random and gets them back in steps: the field, smeared at
-first, sharpens until it is 1 inside and 0 outside.
+A closed elephant loses 70 % of its triangles at random and gets them back in steps. The field is blurred at first and
+becomes sharper until it is 1 inside and 0 outside.
 
-Number: the mean of |winding number - indicator| over a grid, where the indicator comes from the plain sum of
-solid angles of the whole surface. It falls with every step, to 0.
+Number: the mean of |winding number - indicator| over a grid, where the indicator is the plain sum of solid angles of
+the whole surface. It decreases with every step, to 0.
 """
 
 import common
@@ -15,7 +15,7 @@ from bindpose.meshes import point_array
 
 import meshes
 
-MISSING = (0.7, 0.4, 0.15, 0.05, 0.0)  # of the triangles
+MISSING = (0.7, 0.4, 0.15, 0.05, 0.0)  # fraction of the triangles
 
 
 def make(options):

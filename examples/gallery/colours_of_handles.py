@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""The weights that bend a shape also colour it.
+"""Colors blended by the weights that bend a shape.
 
-Each bone of a cat has a colour; a point's colour is the sum of its weights times the handles' colours. Blended as
-amounts of light, strong colours stay bright where they meet; blended as the screen's numbers they darken. Right a
-drawing by curves with a colour on either side (diffusion curves): the mesh is cut open along the curves, and each
-side is a handle of its own.
+Each bone of a cat has a color; a point's color is the sum of its weights times the handles' colors. Blended in linear
+light, saturated colors stay bright where they meet; blended as sRGB values they darken. On the right is a drawing by
+curves with a color on each side (diffusion curves): the mesh is cut along the curves, and each side is a separate
+handle.
 
-Numbers: points out of the gamut, and beyond the handles' colours, which bounded weights never make, blended as light
-and as numbers; difference from a handle's colour on it; what red and green make half-way, both ways; and of the
-drawing the difference from each side's colour along the curves: nothing leaks through.
+Numbers: points out of the gamut and outside the range of the handles' colors, which bounded weights never produce,
+blended as light and as sRGB values; the difference from a handle's color on the handle; the color halfway between red
+and green, both ways; and for the drawing the difference from each side's color along the curves, which shows that no
+color leaks through.
 """
 
 import common
@@ -25,7 +26,7 @@ COLOURS = {"body": (0.98, 0.80, 0.25), "head": (0.95, 0.30, 0.20), "arm": (0.20,
 
 
 def along(points, closed=False):
-    """Bones from point to point."""
+    """Return bones from point to point."""
     ends = list(zip(points, [*points[1:], points[0]] if closed else points[1:]))
     return [[[*a, 0.0], [*b, 0.0]] for a, b in ends]
 
@@ -35,12 +36,12 @@ def mix(a, b, share):
 
 
 def drawing(few):
-    """Bones and the colours of their sides: a sun, two ridges; on the unit square."""
+    """Return bones and the colors of their sides: a sun and two ridges, on the unit square."""
     bones, left, right = [], [], []
     turns = 8 if few else 16
     angle = 2 * np.pi * np.arange(turns) / turns
     sun = np.stack([0.66 + 0.13 * np.cos(angle), 0.70 + 0.13 * np.sin(angle)], axis=1)
-    bones += along([tuple(p) for p in sun], closed=True)  # counter-clockwise: left is inside
+    bones += along([tuple(p) for p in sun], closed=True)  # counter-clockwise: the left side is inside
     left += [(1.0, 0.93, 0.45)] * turns
     right += [mix((0.98, 0.55, 0.25), (0.97, 0.78, 0.45), 0.5 + 0.5 * np.sin(a)) for a in angle]
     steps = 5 if few else 10
@@ -114,7 +115,7 @@ def make(options):
 
 
 def scaled(data, factors):
-    """A copy with scaled points."""
+    """Return a copy with scaled points."""
     copy = data.NewInstance()
     copy.ShallowCopy(data)
     copy.SetPoints(to_vtk_points(points_of(data) * factors))

@@ -1,7 +1,7 @@
-"""What every script of the gallery does besides its claim: options, the package, the program, its numbers.
+"""The common parts of the gallery scripts: options, the package, the program, numbers.
 
-A script holds `make(options)`, which draws `options.picture` and returns its numbers; `common.main` calls it.
-`import common` comes before `import bindpose`: it knows where the build lies.
+A script defines `make(options)`, which draws `options.picture` and returns its numbers; `common.main` calls it.
+`import common` must precede `import bindpose`, because it finds the build.
 """
 
 import argparse
@@ -16,7 +16,7 @@ import tempfile
 EXAMPLES = pathlib.Path(__file__).resolve().parent.parent
 BUILD = EXAMPLES.parent / "build"
 sys.path.insert(0, str(EXAMPLES))
-# PYTHONPATH and an installed package come first.
+# PYTHONPATH and an installed package take precedence.
 sys.path.append(str(BUILD / "lib" / "python3" / "dist-packages"))
 
 try:
@@ -32,11 +32,11 @@ from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter  # noqa: E402
 
 
 class Stop(Exception):
-    """Ends a script with a sentence."""
+    """Ends a script with a message."""
 
 
 def program():
-    """Path of the program `bindpose`: of BINDPOSE_PROGRAM, the build, or the PATH."""
+    """Return the path of the program `bindpose`: from BINDPOSE_PROGRAM, the build, or the PATH."""
     named = os.environ.get("BINDPOSE_PROGRAM")
     found = named or shutil.which("bindpose", path=f"{BUILD / 'bin'}:{os.environ.get('PATH', '')}")
     if not found:
@@ -45,8 +45,8 @@ def program():
 
 
 def render(options, *words, picture=None):
-    """Draws `options.picture`, or another one, by `bindpose render`, from files in `options.scratch`; what it reports
-    of the picture."""
+    """Draw `options.picture`, or another picture, by `bindpose render`, from files in `options.scratch`; return the
+    report of the picture."""
     words = ["render", *map(str, words), "-o", str(picture or options.picture), "--overwrite", "--quiet", "--report", "-"]
     done = subprocess.run([program(), *words], cwd=options.scratch, capture_output=True, text=True, check=False)
     if done.returncode:
@@ -55,7 +55,7 @@ def render(options, *words, picture=None):
 
 
 def write_picture(window, path):
-    """What a render window shows, drawn anew, as a PNG."""
+    """Render a window again and write it as a PNG."""
     window.Render()
     image = vtkWindowToImageFilter()
     image.SetInput(window)
@@ -69,10 +69,10 @@ def write_picture(window, path):
 
 
 def side_by_side(options, pictures, columns):
-    """Pictures of equal size, row by row, as `options.picture`."""
+    """Combine pictures of equal size, row by row, into `options.picture`."""
     rows = vtkImageAppend()
     rows.SetAppendAxis(1)
-    for first in reversed(range(0, len(pictures), columns)):  # images begin below
+    for first in reversed(range(0, len(pictures), columns)):  # image rows start at the bottom
         row = vtkImageAppend()
         row.SetAppendAxis(0)
         for picture in pictures[first:first + columns]:
@@ -89,12 +89,12 @@ def side_by_side(options, pictures, columns):
 
 
 def demo_mesh(options, name):
-    """A mesh of the Debian package libcgal-demo, by its file name, as a vtkPolyData."""
+    """Return a mesh of the Debian package libcgal-demo, by its file name, as a vtkPolyData."""
     return bindpose.read(quickstart.demo_mesh(options.output / "meshes", name))
 
 
 def display_or_again():
-    """Starts this very command again under xvfb-run where there is no display: VTK ends the process."""
+    """Run this command again under xvfb-run if there is no display, because VTK would end the process."""
     if os.environ.get("DISPLAY"):
         return
     xvfb = shutil.which("xvfb-run")
@@ -104,17 +104,17 @@ def display_or_again():
 
 
 def number(value):
-    """A number as the README writes it."""
+    """Return a number in the format of the README."""
     if isinstance(value, list):
         return " ".join(map(number, value))
     return f"{value:.3g}" if isinstance(value, float) else str(value)
 
 
 def main(file, text, make):
-    """Runs a script: `make(options)` draws options.picture and returns {name: number}.
+    """Run a script: `make(options)` draws options.picture and returns {name: number}.
 
-    options.output is the folder, options.scratch one that goes away, options.small asks for a quick
-    run on less data. The numbers are printed and written to NAME.json beside NAME.png.
+    options.output is the folder, options.scratch a temporary folder; options.small requests a quick run on less data.
+    The numbers are printed and written to NAME.json next to NAME.png.
     """
     name = pathlib.Path(file).stem
     parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)

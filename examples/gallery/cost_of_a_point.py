@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""What the winding number of a point costs, of surfaces of all kinds, in one run of the benchmarks.
+"""Cost of the winding number per point, for surfaces of all types, in one run of the benchmarks.
 
-Every row of `bindpose_benchmarks --benchmark_filter=winding` on one thread: grids, scattered points, points
-within 1e-4 diagonals of the surface, points 1e6 diagonals from the origin. The unit Y is what one triangle of
-the textbook sum costs in the same run: compare those, not machines. Bars are medians of five repetitions, the
-dots one standard deviation more. Surfaces: refined_elephant.off (closed) and elephant-with-holes.off of the
-Debian package libcgal-demo; bumpy spheres, whole, open, cut into patches, and come apart (every triangle
-moved by its own size, every other one turned over); and triangles all over space.
+Every row of `bindpose_benchmarks --benchmark_filter=winding` runs on one thread: grids, scattered points, points
+within 1e-4 diagonals of the surface, points 1e6 diagonals from the origin. The unit Y is the cost of one triangle of
+the textbook sum in the same run: compare Y rather than machines. Bars are medians of five repetitions, and the dots
+are one standard deviation higher. Surfaces: refined_elephant.off (closed) and elephant-with-holes.off of the Debian
+package libcgal-demo; bumpy spheres that are closed, open, cut into patches, or disconnected (every triangle moved by
+its own size, and about half of them turned over); and triangles throughout space.
 
-Numbers: Y a row, nanoseconds a row, and the largest error beyond what the row's tolerance allows.
+Numbers: Y per row, nanoseconds per row, and the largest error beyond the row's tolerance.
 """
 
 import json
@@ -26,7 +26,7 @@ SURFACES = {"elephant": ("closed", "elephant"), "closed": ("closed", "closed"), 
 
 
 def run(options):
-    """The benchmark's rows as {name: {"median": counters, "stddev": counters, …}}."""
+    """Return the benchmark's rows as {name: {"median": counters, "stddev": counters, …}}."""
     program = common.BUILD / "bin" / "bindpose_benchmarks"
     if not program.exists():
         raise common.Stop(f"{program} is not there; configure with -DBINDPOSE_BUILD_BENCHMARKS=ON and build")
@@ -50,7 +50,7 @@ def run(options):
 
 
 def label(name, row):
-    """The row's group, and what a reader calls it."""
+    """Return the row's group and its label."""
     where, surface, *rest = name.split("/")
     group, surface = SURFACES[surface.split(":")[0]]
     tolerance = next((float(word.split(":")[1]) for word in rest if word.startswith("tolerance")), None)
@@ -71,7 +71,7 @@ def make(options):
         numbers[f"{text}: Y"] = median["Y"]
         numbers[f"{text}: ns"] = median["ns"]
     numbers["largest error beyond what is allowed"] = beyond
-    rows.reverse()  # the first at the top
+    rows.reverse()  # the first row at the top
     panel = charts.Panel("What a point costs, in triangles of the textbook sum", ("Y = one triangle of the textbook sum, about 20 ns", 0.05, 300),
                          ("", 10 ** -0.7, 10 ** (len(rows) - 0.3)), log=True,
                          x_names={0.1: "0.1", 1: "1", 10: "10", 100: "100"},

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What weights cost as the tets of an elephant become finer: seconds a handle, their parts, and memory.
+"""Cost of weights for increasingly fine tets of an elephant: seconds per handle, their parts, and memory.
 
-One thread, each solve a process of its own, medians of repeated runs with bars from the fastest to the slowest (one
-run of the finest tets). Analysis (ordering and symbolic factor, once for all handles) is divided among the handles;
-factorisations and iterations are the handles' own. Every column keeps its certificate: relative gap and natural
-residual of at most 1e-6, or the script stops. The preview is what is shown until then.
+Each solve is a separate process with one thread. Values are medians of repeated runs with bars from the fastest to
+the slowest (a single run for the finest tets). The analysis (ordering and symbolic factor, once for all handles) is
+divided among the handles; factorizations and iterations belong to the handles. Every column reaches its certificate:
+relative gap and natural residual of at most 1e-6, otherwise the script stops. The preview is shown until then.
 
-Numbers: vertices and tets; seconds a handle, by number of handles; exponents p of time ~ vertices^p; MiB at the
+Numbers: vertices and tets; seconds per handle, by number of handles; exponents p of time ~ vertices^p; MiB at the
 peak and as estimated beforehand; the worst gap and residual.
 """
 
@@ -25,7 +25,7 @@ PARTS = {"whole": charts.DARK, "factor": charts.ORANGE, "iterate": charts.GREEN,
 
 
 def solve(tets, handles, *words):
-    """The report of `bindpose weights`."""
+    """Return the report of `bindpose weights`."""
     done = subprocess.run([common.program(), "weights", tets, "--handles", f"auto:{handles}", "--threads", "1",
                            *words, "-o", tets.with_name("weights.vtu"), "--overwrite", "--quiet", "--report", "-"],
                           capture_output=True, text=True, check=False)
@@ -35,7 +35,7 @@ def solve(tets, handles, *words):
 
 
 def seconds_of(report, handles):
-    """Seconds a handle."""
+    """Return the seconds per handle."""
     seconds = report["seconds"]
     return {"whole": seconds["weights"] / handles, "analyse": seconds["analyse"] / handles,
             "factor": seconds["factor"] / handles,

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""A hundred elephants, each in a pose of its own.
+"""A hundred elephants, each in its own pose.
 
-One elephant is bound: its weights, clusters and projected matrices are there once. A hundred instances stand in a
-square; in each the ends of trunk, legs, ears and tail are dragged to places of their own, and all other handles find
-themselves. Then the crowd moves on, frame by frame, from where it was.
+One elephant is bound, so weights, clusters and projected matrices exist once. A hundred instances form a square. In
+each instance the ends of trunk, legs, ears and tail are dragged to individual positions, and the transforms of all
+other handles are computed. Then the crowd moves frame by frame, starting from its last poses.
 
-Numbers: triangles of an elephant, handles, clusters; seconds of the bind; of a frame of the whole crowd, the quickest of
-twenty and on one thread: milliseconds of all solves, and of moving all points; frames a second of both together; iterations an
-instance; how far an instance is from what vtkReducedARAP makes of its pose, of the diagonal.
+Numbers: triangles of an elephant, handles, clusters; seconds of the bind. For a frame of the whole crowd, the fastest
+of twenty on one thread: milliseconds of all solves, and of moving all points; frames per second of both together;
+iterations per instance; distance of an instance from the result of vtkReducedARAP for its pose, relative to the
+diagonal.
 """
 
 import colorsys
@@ -32,7 +33,7 @@ def array_of(name, values):
 
 
 def places(size):
-    """Points that the instances stand at."""
+    """Return the positions of the instances."""
     column, row = np.meshgrid(np.arange(SIDE), np.arange(SIDE))
     points = vtkPoints()
     points.SetData(numpy_to_vtk(np.stack([column.ravel() * 0.72, 0 * row.ravel(), -row.ravel() * 0.8], axis=1) * size,
@@ -43,7 +44,7 @@ def places(size):
 
 
 def tell(instances, names, dragged, size, frame):
-    """Where the dragged handles of each instance are in a frame: all to and fro, each in its own way."""
+    """Return the positions of each instance's dragged handles in a frame; all oscillate differently."""
     rng = np.random.default_rng(1)
     for name in names[:dragged]:
         phase, speed = rng.uniform(0, 2 * np.pi, (SIDE * SIDE, 3)), rng.uniform(0.5, 1.5, (SIDE * SIDE, 3))
@@ -53,7 +54,7 @@ def tell(instances, names, dragged, size, frame):
 
 
 def draw(options, crowd, labels):
-    """All instances, in colours around the circle."""
+    """Draw all instances, in colors around the color wheel."""
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     for k in range(SIDE * SIDE):
@@ -125,7 +126,7 @@ def make(options):
     reports = []
     for frame in range(1, 6 if options.small else 21):
         tell(instances, names, dragged, size, frame)
-        crowd.Update()  # not all need converge within ten iterations: they go on in the next frame
+        crowd.Update()  # some instances do not converge within ten iterations and continue in the next frame
         reports.append(bindpose.report(crowd))
     solve, skin = (1e3 * float(min(report["seconds"][part] for report in reports)) for part in ("solve", "skin"))
     assert crowd.GetNumberOfBinds() == 1

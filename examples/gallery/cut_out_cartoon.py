@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""A cut-out cartoon bends as what it shows, not as the rectangle around it.
+"""A cut-out cartoon bends like the drawn shape, not like the rectangle around it.
 
-A picture with alpha, drawn by code, becomes a mesh of its opaque part: outline, holes and all, with every bone
-a row of edges. Weights and a pose then carry the picture along. Left the picture; in the middle the mesh and its
-bones; right the posed mesh with the picture as its texture.
+A generated picture with alpha becomes a mesh of its opaque part with outline and holes. Every bone is a chain of
+edges. Weights and a pose then deform the picture. Left: the picture. Middle: the mesh and its bones. Right: the posed
+mesh with the picture as its texture.
 
-Numbers: how far the mesh's outline is from what was drawn, in pixels; its smallest angle; the seconds of outline
-and mesh; the largest difference from the picture of the
-unposed mesh drawn pixel on pixel; triangles that the pose turns over.
+Numbers: distance of the mesh's outline from the drawn outline, in pixels; the smallest angle; the seconds of outline
+and mesh; the largest difference between the picture and the unposed mesh drawn pixel on pixel; triangles that the
+pose turns over.
 """
 
 import time
@@ -22,7 +22,7 @@ POSE = {"arm": 18, "hand": 30, "head": -14, "other arm": 0, "left leg": -12, "ri
 
 
 def farthest_from_drawing(points, edges, size):
-    """Largest distance of the outline from where the drawing's distance function is 0, in pixels."""
+    """Return the largest distance of the outline from the zeros of the drawing's distance function, in pixels."""
     share = np.linspace(0, 1, 9)[:, None, None]
     along = ((1 - share) * points[edges[:, 0]] + share * points[edges[:, 1]]).reshape(-1, 2)
     x, y = ((along + 0.5) / size).T
@@ -43,7 +43,7 @@ def make(options):
 
     weighted = bindpose.weights(cut_out, handles, domain="surface")
     turned = {name: {"rotate": {"axis": [0, 0, 1], "degrees": degrees}} for name, degrees in POSE.items()}
-    # The hand goes where its arm goes, the tip where the tail goes.
+    # The hand follows its arm, the tip follows the tail.
     for child, parent in (("hand", "arm"), ("tip", "tail")):
         at, joint = (np.array([x, y]) * size - 0.5 for x, y in (planar.BONES[child][0], planar.BONES[parent][0]))
         angle = np.radians(POSE[parent])

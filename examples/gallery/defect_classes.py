@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What keeps meshers from filling a surface - and tets all the same.
+"""Defects that keep meshers from filling a surface, and tets of the same surfaces.
 
-Crossing triangles, edges of three and more triangles, open boundaries, several components: a scan with a hole
-and a cone through it, an elephant full of holes, and a house made by code that has all four, with counts that
-are known beforehand. Above the surfaces with their defects, below their tets, cut open.
+Crossing triangles, edges of three and more triangles, open boundaries, several components: a scan with a hole and a
+cone through it, an elephant full of holes, and a generated house with all four defects, whose counts are known in
+advance. Above are the surfaces with their defects, below their tets, cut open.
 
-Numbers: how many of each kind (vtkSurfaceDefects; crossings by pairs of triangles), and that tets come out: how many, by which method, their
-volume beside the one that the winding number encloses, and the smallest of all tets' volumes, which is positive.
+Numbers: the number of defects of each type (vtkSurfaceDefects; crossings by pairs of triangles); number and method of
+the tets, their volume and the volume of the winding number, and the smallest volume of a tet, which is positive.
 """
 
 import warnings
@@ -24,12 +24,12 @@ KINDS = {"self-intersections": "self_intersections", "non-manifold edges": "nonm
 
 
 def house(around):
-    """A box with a wall inside and a window in its roof, and a ring that runs through it."""
-    box = meshes.subdivided(meshes.cube(), 4)  # 16 x 16 squares a side
+    """Return a box with a wall inside and a window in its roof, and a ring that passes through it."""
+    box = meshes.subdivided(meshes.cube(), 4)  # 16 x 16 squares per side
     middle = meshes.centers(box)
     window = (middle[:, 1] > 0.99) & (np.abs(middle[:, 0] - 0.5) < 0.25) & (np.abs(middle[:, 2] - 0.5) < 0.25)
-    square = meshes.cube()[0] * [0, 1, 1], meshes.cube()[1][:2]  # of the side at x = -1, now at 0
-    # With equal vertices welded the 64 edges around the wall have three triangles each; the window has 16 edges.
+    square = meshes.cube()[0] * [0, 1, 1], meshes.cube()[1][:2]  # the side at x = -1, moved to 0
+    # With equal vertices merged the 64 edges around the wall have three triangles each; the window has 16 edges.
     vertices, triangles = meshes.joined(meshes.without(box, window), meshes.subdivided(square, 4))
     vertices, ids = np.unique(vertices[triangles].reshape(-1, 3), axis=0, return_inverse=True)
     ring = meshes.tube(meshes.circle(1.1, 2 * around), 0.3, around)
@@ -37,7 +37,7 @@ def house(around):
 
 
 def to_unit_size(mesh):
-    """In a box around 0, as large as the others: one camera sees them all."""
+    """Scale to a box around 0 of the same size as the others, so that one camera shows them all."""
     vertices, triangles = mesh
     lower, upper = vertices.min(axis=0), vertices.max(axis=0)
     return (vertices - (lower + upper) / 2) / (upper - lower).max(), triangles
@@ -55,7 +55,7 @@ def make(options):
         for words, key in KINDS.items():
             numbers[f"{name}: {words}"] = counts[key]
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", bindpose.BindposeWarning)  # of patches that were turned
+            warnings.simplefilter("ignore", bindpose.BindposeWarning)  # patches that were turned
             tets = bindpose.tetrahedralize(surface)
         report = bindpose.report(tets)
         numbers[f"{name}: method"] = report["method"]

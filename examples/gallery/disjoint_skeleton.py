@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""Bones without a hierarchy: a few are given, the others find themselves.
+"""Bones without a hierarchy: a few transforms are given, the others are computed.
 
-The cat's nine bones are not connected and have no parents. The feet stay, the hand and the tip of the tail are put
-somewhere; body, head, both arms and the tail are free. With linear blend skinning what is free stays where it was, and
-the arm stretches like rubber; reduced as-rigid-as-possible finds transforms for the free bones by which the shape
-stays itself, with 15 extra weights for bends where no bone is.
+The cat's nine bones are not connected and have no parents. The feet are fixed, and the hand and the tip of the tail
+are placed. Body, head, both arms and the tail are free. With linear blend skinning the free bones do not move, and
+the arm stretches like rubber. Reduced as-rigid-as-possible computes transforms for the free bones that preserve the
+shape, with 15 extra weights for bends between the bones.
 
-Numbers: free bones; how far the arm's end is from the hand's beginning, where they meet at rest, in parts of the
-picture's size, skinned and found; triangles turned over; the turn that the arm found, in degrees; the length of the
-found bones, of that at rest, smallest and largest; iterations of the solve, and microseconds of one.
+Numbers: free bones; distance between the arm's end and the hand's start, which coincide at rest, relative to the
+picture's size, for skinning and for reduced as-rigid-as-possible; triangles turned over; the computed rotation of the
+arm, in degrees; the smallest and largest length of the computed bones, relative to rest; iterations of the solve, and
+microseconds per iteration.
 """
 
 import warnings
@@ -22,7 +23,7 @@ import planar
 import posing
 
 FREE = ("body", "head", "arm", "other arm", "tail")
-HAND, TIP = np.array([-0.02, -0.24]), np.array([0.05, -0.05])  # how far they go, of the picture
+HAND, TIP = np.array([-0.02, -0.24]), np.array([0.05, -0.05])  # displacements, as fractions of the picture
 
 
 def make(options):
@@ -40,7 +41,7 @@ def make(options):
 
     results, numbers = {}, {"free bones": len(FREE)}
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", bindpose.BindposeWarning)  # skinning says that free counts as identity
+        warnings.simplefilter("ignore", bindpose.BindposeWarning)  # skinning warns that free handles count as identity
         results["skinned"] = bindpose.deform(weighted, handles, {"handles": pose})
     found = posing.posed(bindpose.vtkReducedARAP(), weighted, handles, pose, NumberOfExtraWeights=15,
                          MaximumIterations=5000, Tolerance=1e-8)

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Points that are only dragged: the turns are found.
+"""Handles that are only translated: reduced as-rigid-as-possible finds the rotations.
 
-Seven points hold a cat; paw, head and tail are dragged, the others stay. Nobody says how the shape turns there. With
-linear blend skinning points that only move do not turn anything, and limbs are sheared; reduced as-rigid-as-possible
-gets places alone and finds the rest.
+Seven points constrain a cat; paw, head and tail are dragged, the others are fixed. No rotations are given. With
+linear blend skinning translated points do not rotate anything, and limbs are sheared. Reduced as-rigid-as-possible
+gets only positions and computes the rotations.
 
-Numbers: the mean stretch or squeeze of the area (of a triangle the larger singular value or the inverse of the smaller
-one, less one), and what a hundredth of the area exceeds; the turn found at each dragged point, in degrees; how far the places are missed,
-of the diagonal; iterations of the solve, and microseconds of one.
+Numbers: the mean stretch or compression over the area (for a triangle the larger of the larger singular value and the
+inverse of the smaller one, minus one), and the value that a hundredth of the area exceeds; the computed rotation at
+each dragged point, in degrees; the largest deviation from the positions, relative to the diagonal; iterations of the
+solve, and microseconds per iteration.
 """
 
 import common
@@ -24,7 +25,7 @@ DRAGGED = {"paw": (0.02, -0.30), "head": (0.10, -0.02), "tail": (0.06, 0.14)}
 
 
 def stretches(rest, posed, triangles):
-    """Of each triangle: what it is stretched or squeezed by, and its area at rest."""
+    """Return the stretch or compression of each triangle, and its area at rest."""
     def sides(points):
         a, b, c = (points[triangles[:, k]] for k in range(3))
         return np.stack([b - a, c - a], axis=2)

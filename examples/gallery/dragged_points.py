@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Points that are only dragged: who turns them?
+"""Sources of rotation for points that are only translated: none, pseudo-edges, reduced as-rigid-as-possible.
 
-A strip with four points, which are dragged to an arc of 150 degrees and not turned. From left to right: translations
-blended as they are shear the strip; pseudo-edges between neighbours tell how far each point turns; reduced
-as-rigid-as-possible finds the turns that bend the strip least. Pseudo-edges cost nothing and need no iteration; they
-see chords, so that the ends turn as their only edge does.
+A strip with four points, which are translated to an arc of 150 degrees without rotations. From left to right:
+blending the translations shears the strip; pseudo-edges between neighbors determine the rotation of each point;
+reduced as-rigid-as-possible finds the rotations that bend the strip least. Pseudo-edges cost nothing and need no
+iteration. They use chords, so the end points rotate like their only edge.
 
-Numbers: degrees by which each point turns, where the arc has -75, -25, 25 and 75; the strip's area, of that at rest;
-its largest and smallest stretch; triangles inside out.
+Numbers: the rotation of each point in degrees, where the arc has -75, -25, 25 and 75; the strip's area, relative to
+rest; its largest and smallest stretch; inverted triangles.
 """
 
 import common
@@ -22,7 +22,7 @@ WAYS = {"translations": ("lbs", "none"), "pseudo-edges": ("lbs", "auto"), "reduc
 
 
 def strip(along, across):
-    """A rectangle of LENGTH by 1 about the x axis."""
+    """Return a rectangle of LENGTH by 1 about the x axis."""
     x, y = np.meshgrid(np.linspace(0, LENGTH, along + 1), np.linspace(-0.5, 0.5, across + 1))
     points = np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1)
     corner = (np.arange(across)[:, None] * (along + 1) + np.arange(along)).ravel()
@@ -37,7 +37,7 @@ def area(points, triangles):
 
 
 def turns(posed):
-    """Degrees of each handle's transform."""
+    """Return the rotations of the handles' transforms in degrees."""
     transforms = vtk_to_numpy(posed.GetFieldData().GetArray("HandleTransforms")).reshape(-1, 3, 4)
     return [float(np.degrees(np.arctan2(t[1, 0] - t[0, 1], t[0, 0] + t[1, 1]))) for t in transforms]
 
@@ -47,7 +47,7 @@ def make(options):
     places = np.array([[x, 0, 0] for x in np.linspace(0, LENGTH, 4)])
     handles = bindpose.handles(points=places)
     weighted = bindpose.weights(to_dataset((points, triangles)), handles, domain="surface")
-    # The arc is as long as the strip, its middle where the strip's is.
+    # The arc has the length of the strip, and its middle is the strip's middle.
     angles = np.radians(ARC) * (places[:, 0] / LENGTH - 0.5)
     radius = LENGTH / np.radians(ARC)
     arc = np.stack([LENGTH / 2 + radius * np.sin(angles), radius * (1 - np.cos(angles)), 0 * angles], axis=1)

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""What weights beside the handles' are good for: none, 15 bumps, 15 skinning eigenmodes.
+"""Effect of extra weights: none, 15 bumps, 15 skinning eigenmodes.
 
-A bar whose end faces are moved; nothing says what happens between them. Above it is bent into an S, below squeezed. The
-more deformations the weights span, the less of the bar has to stretch.
+Only the end faces of a bar are moved. Above, it is bent into an S; below, it is compressed. The more deformations the
+weights span, the less the bar has to stretch.
 
-Numbers: the energy without extra weights, with 15 of either kind, and with every vertex on its own (in the squeeze it
-buckles into a worse minimum than smooth weights do); the energies with 0 to 15 of each kind in the squeeze.
+Numbers: the energy without extra weights, with 15 of each type, and with every vertex as an unknown (in the
+compression it buckles into a worse minimum than smooth weights do); the energies with 0 to 15 of each type in the
+compression.
 """
 
 import json
@@ -25,7 +26,7 @@ POSES = {
 
 
 def with_regions(mesh, places, *others):
-    """The mesh with labels, and region handles p1, p2, … for the places (index arrays of points), then points."""
+    """Return the mesh with labels, and region handles p1, p2, … for `places` (index arrays), then points."""
     points, _ = mesh
     data = to_dataset(mesh)
     labels = np.zeros(len(points))
@@ -42,7 +43,7 @@ def with_regions(mesh, places, *others):
 
 
 def bend(mesh, handles, pose, count, kind):
-    """The posed mesh from scratch."""
+    """Return the posed mesh, solved without a warm start."""
     poser = bindpose.vtkPoseHandles()
     poser.SetInputData(handles)
     poser.SetPoseJSON(json.dumps({"handles": pose}))

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""One pose, four energies: which edges share a rotation.
+"""One pose with four energies: sets of edges that share a rotation.
 
-A bar of tets, its ends bent towards each other: a rotation for each tet, for the edges around each vertex (spokes and
-rims), for the edges at it (spokes); and the bar's skin alone with a rotation for each triangle, which is flatter where
-it bends, as nothing inside resists. Handles, weights and subspace are the same. Colours: the distance from where the
-first has a point, of the bar's diagonal.
+The ends of a bar of tets are bent towards each other: one rotation per tet, per edges around a vertex (spokes and
+rims), and per edges at a vertex (spokes). The fourth energy is that of the bar's skin with one rotation per triangle.
+It is flatter where it bends, because nothing inside resists. Handles, weights and subspace are the same. Colors: the
+distance from the position with the first energy, relative to the bar's diagonal.
 
-Numbers: the energies; distances from the first, of the diagonal, root mean square; the largest error of the energies
-of a unit cube blown up to double size, which must be 3/2 (tets) and 6 (its skin).
+Numbers: the energies; root mean square distances from the first, relative to the diagonal; the largest error of the
+energies of a unit cube scaled to double size, which must be 3/2 (tets) and 6 (its skin).
 """
 
 import common
@@ -21,7 +21,7 @@ ENERGIES = {"tetrahedra": "tets", "spokes-and-rims": "tets", "spokes": "tets", "
 
 
 def energy_of(mesh, energy, linear):
-    """Of a mesh that one handle takes as a whole."""
+    """Return the energy of a mesh that one handle transforms as a whole."""
     data = to_dataset(mesh)
     add_point_array(data, "Weights", np.ones((len(mesh[0]), 1)), ["p1"])
     handles = bindpose.handles(points=[(0, 0, 0)])

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""As rigid as possible, every vertex on its own or in the space of smooth weights.
+"""As-rigid-as-possible deformation with every vertex as an unknown, and in the space of smooth weights.
 
 A bump, a bend by 120° and a twist by 135°, from left to right; above with reduced as-rigid-as-possible and 15 extra
-weights, below with full. They minimise the same energy under the same handles: full has more freedom and gets lower,
-reduced takes microseconds an iteration, whatever the mesh.
+weights, below with full. Both minimize the same energy with the same handles. The full method has more freedom and
+reaches a lower energy; the reduced method takes microseconds per iteration for any mesh.
 
-Numbers, reduced and full: the energy; iterations and microseconds each (the least of three); the sharpest fold between
-neighbouring triangles, in degrees; the root mean square of the vertices' differences, of the shape's diagonal.
+Numbers, reduced and full: the energy; iterations and microseconds per iteration (the least of three); the sharpest
+fold between neighboring triangles, in degrees; the root mean square difference of the vertices, relative to the
+shape's diagonal.
 """
 
 import itertools
@@ -24,7 +25,7 @@ MIDDLE = np.array([3, 0.5, 0.5])
 
 
 def bend(method, mesh, handles, pose):
-    """The posed mesh from scratch."""
+    """Return the posed mesh, solved without a warm start."""
     extra = {"NumberOfExtraWeights": EXTRA_WEIGHTS} if method == "reduced" else {}
     return posing.posed(METHODS[method](), mesh, handles, pose, MaximumIterations=5000, **extra)
 
@@ -32,7 +33,7 @@ def bend(method, mesh, handles, pose):
 def make(options):
     small = options.small
     square, box = posing.plane(16 if small else 48, 5.0, MIDDLE), posing.bar(18 if small else 48, 4 if small else 8)
-    # From two opposite corners: a bone whose head is another's tail would have that one as parent.
+    # The bones start at opposite corners: a bone whose head is another bone's tail would have it as its parent.
     corners = {c: 2.5 * np.array([*c, 0]) + MIDDLE for c in itertools.product((-1, 1), repeat=2)}
     rim = [(corners[k, k], corners[c]) for k in (-1, 1) for c in ((-1, 1), (1, -1))]
     on_plane = bindpose.handles(points=[MIDDLE], bones=rim)

@@ -1,19 +1,20 @@
 #!/usr/bin/env python3
-"""What a point costs as a mesh is subdivided: the plain sum grows with its triangles, ours hardly.
+"""Cost per point as a mesh is subdivided: the plain sum grows with the triangles, Bindpose's methods hardly.
 
-Each triangle of a dinosaur is cut into 4, 16 and 64: the surface, and so its field, stay the same. It is
-closed, or has a few or many holes; open edges double with each step. Random points, processor time of one
-thread, without the time to build; medians of repeated measurements, bars from the fastest to the slowest.
+Each triangle of a dinosaur is cut into 4, 16 and 64, which does not change the surface and its field. The surface is
+closed, or has a few or many holes; the number of open edges doubles with each step. The points are random. The time
+is processor time of one thread, without the build; medians of repeated measurements, bars from the fastest to the
+slowest.
 
-- The plain sum over all triangles is the package's own, compiled: the triangles shrunk a little, so that no
-  two share an edge, for which `exact` takes the sum ("direct" in its report); in blocks of 8,192, so that
-  they stay in the processor's cache.
-- `exact` chooses: crossings of a ray and a sum over open edges ("crossings"), or where those are many the
-  tree of Jacobson et al. 2013 ("hierarchical"). The legend tells what it chose.
+- The plain sum over all triangles is the package's own compiled code. The triangles are shrunk a little, so that no
+  two share an edge; `exact` then uses the sum ("direct" in its report). They are in blocks of 8,192, which
+  stay in the processor's cache.
+- `exact` chooses between crossings of a ray with a sum over open edges ("crossings") and, if there are many open edges,
+  the tree of Jacobson et al. 2013 ("hierarchical"). The legend contains its choice.
 - `fast` keeps within its tolerance of 1e-3; for closed surfaces it is `exact`.
 
-Numbers: exponents p of time ~ triangles^p, fitted over all sizes; microseconds a point; the largest ratio of
-slowest to fastest; the largest difference of all three from the textbook sum in numpy.
+Numbers: exponents p of time ~ triangles^p, fitted over all sizes; microseconds per point; the largest ratio of
+slowest to fastest; the largest difference of all three methods from the textbook sum in numpy.
 """
 
 import time
@@ -33,7 +34,7 @@ COLOURS = {"plain sum": charts.VIOLET, "exact": charts.BLUE, "fast": charts.ORAN
 
 
 class Field:
-    """A surface built once, evaluated on one thread. A list of surfaces counts as their union."""
+    """A surface that is built once and evaluated on one thread. A list of surfaces counts as their union."""
 
     def __init__(self, surfaces, method):
         self.filters = []
@@ -47,7 +48,7 @@ class Field:
         self.seconds(np.zeros((1, 3)))  # builds
 
     def seconds(self, points):
-        """Processor seconds for these points, the pipeline's share included; what came out is in `values`, `chosen` and `open_edges`."""
+        """Return the processor seconds for these points; store `values`, `chosen` and `open_edges`."""
         cloud = vtkPolyData()
         cloud.SetPoints(to_vtk_points(points))
         self.values, seconds = 0.0, 0.0
@@ -56,14 +57,14 @@ class Field:
             start = time.process_time()
             field.Update()
             seconds += time.process_time() - start
-            report = bindpose.run(field)  # says whether something went wrong
+            report = bindpose.run(field)  # raises an exception on failure
             self.values = self.values + point_array(field.GetOutput(), "WindingNumber")
         self.chosen, self.open_edges = report["method"], report["counts"]["open_edges"]
         return seconds
 
 
 def apart(mesh, block=8192):
-    """The triangles shrunk a little, so that nothing is shared, in blocks."""
+    """Return the triangles, shrunk a little so that no edges are shared, in blocks."""
     corners = mesh[0][mesh[1]]
     corners = corners + 1e-3 * (corners.mean(axis=1, keepdims=True) - corners)
     return [(part.reshape(-1, 3), np.arange(3 * len(part)).reshape(-1, 3))
@@ -71,7 +72,7 @@ def apart(mesh, block=8192):
 
 
 def with_holes(mesh, every):
-    """A hole about every so many vertices, two rings of triangles wide."""
+    """Cut a hole per `every` vertices, two rings of triangles wide."""
     marked = np.arange(0, len(mesh[0]), every)
     for _ in range(2):
         gone = np.isin(mesh[1], marked).any(axis=1)
@@ -103,7 +104,7 @@ def make(options):
                 truth = meshes.plain_winding_number(meshes.joined(*surfaces), textbook)
                 differences.append(np.abs(field.values - truth).max() - (TOLERANCE if method == "fast" else 0))
                 count = max(10, count // less)
-                # A structure that pays only for many points is built once they have come; until then a point costs more.
+                # Some structures are built only after many points; until then a point costs more.
                 for _ in range(0 if name == "plain sum" else 60 if name == "exact" else 3):
                     field.seconds(random.uniform(*box, (count, 3)))
                 seconds = [field.seconds(random.uniform(*box, (count, 3))) / count for _ in range(repeats)]

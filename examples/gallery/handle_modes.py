@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""From handles that say everything to handles that say little: full, position, free.
+"""Handle modes from fully to partially prescribed transforms: full, position, free.
 
-A bar held by five points along its middle line. On the left each has its whole transform: reduced as-rigid-as-possible
-has nothing to decide and is linear blend skinning. To the right the three in the middle keep their places only and find
-their turns, then let go altogether; at last the ends give up their turns, too. What is not said, is found so that the
-bar bends least: the energy falls with every freedom.
+A bar is constrained by five points along its middle line. On the left each has its whole transform: reduced
+as-rigid-as-possible has no unknowns and is linear blend skinning. To the right the three points in the middle have
+only positions, and then are free. Finally the rotations of the ends are free, too. The unknowns are computed so that
+the bar bends least: the energy decreases with every freedom.
 
 Numbers: how many numbers of the transforms are given; the energy; the largest distance of the first from linear blend
-skinning, of the diagonal; how far given places are missed.
+skinning, relative to the diagonal; the largest deviation from given positions.
 """
 
 import common
@@ -21,7 +21,7 @@ PLACES = (0.0, 1.5, 3.0, 4.5, 6.0)
 
 
 def bent(mode_inside, mode_ends):
-    """Handles lifted along an arch; ends turned up by 60 degrees."""
+    """Return handles lifted along an arch, with the ends rotated up by 60 degrees."""
     pose = {}
     for k, x in enumerate(PLACES):
         end = k in (0, len(PLACES) - 1)

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Tets of the convex hull, told apart by their winding numbers: from an open surface to its inside.
+"""Segmentation of the convex hull's tets by winding numbers: from an open surface to its inside.
 
-Every triangle of an elephant full of holes becomes a side of tets that fill its convex hull. The winding number
-of each tet is nearly 1 inside, nearly 0 outside, and in between beside the holes; a graph cut then decides for
-all tets together, so that the boundary follows the surface and is small across holes.
+Every triangle of an elephant full of holes becomes a face of tets that fill its convex hull. The winding number of
+each tet is nearly 1 inside, nearly 0 outside, and in between near the holes. A graph cut then labels all tets
+together, so that the boundary follows the surface and is small across holes.
 
-Numbers: tets of the hull and those kept; the kept ones' volume beside the one that the winding number encloses;
-the energy of the cut and of the plain threshold at one half, both also summed up here from their definition
-(numpy, from the tets alone); tets whose decision the cut has changed.
+Numbers: tets of the hull and kept tets; the volume of the kept tets and that of the winding number; the energy of the
+cut and of the plain threshold at one half, both also computed here from their definition (numpy, from the tets
+alone); tets whose label the cut has changed.
 """
 
 import common
@@ -24,7 +24,7 @@ SMOOTHNESS, SIGMA, THRESHOLD = 1.0, 0.1, 0.5  # the defaults
 
 
 def energy(points, tets, winding, inside):
-    """Of a decision: what each tet costs, and the smooth part of the boundary between inside and outside."""
+    """Return the energy of a labeling: the cost of each tet, and the smooth part of the inside-outside boundary."""
     costs = np.where(inside, np.maximum(1 - winding, 0), np.maximum(winding, 0)).sum()
     sides = np.sort(np.vstack([tets[:, [1, 2, 3]], tets[:, [0, 2, 3]], tets[:, [0, 1, 3]], tets[:, [0, 1, 2]]]), axis=1)
     owner = np.tile(np.arange(len(tets)), 4)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""A whole image as a rectangle that bends.
+"""A whole image as a deformable rectangle.
 
-The same filter takes the image's rectangle when it has no alpha, or when asked to. Points become vertices of the
-mesh, wherever they are; moved, they warp the picture smoothly, and those at the border hold it. Left the mesh and
-its points; right the warped picture.
+The same filter uses the image's rectangle if it has no alpha, or on request. Points become vertices of the mesh at
+any position. Moved points warp the picture smoothly, and the points at the border fix it. Left: the mesh and its
+points. Right: the warped picture.
 
-Numbers: the mesh's area against that of the pixels; its smallest angle; points that are no vertices; the largest
-difference from the picture of the unposed mesh drawn pixel on pixel; triangles that the warp turns over.
+Numbers: the mesh's area relative to that of the pixels; its smallest angle; points that are not vertices; the largest
+difference between the picture and the unposed mesh drawn pixel on pixel; triangles that the warp turns over.
 """
 
 import common
@@ -15,7 +15,7 @@ import numpy as np
 
 import planar
 
-# Where a point is and how far it goes, as parts of the picture; those that stay hold the rest.
+# Positions and displacements of points, as fractions of the picture; the points that do not move constrain the rest.
 MOVES = {"eye": ((0.438, 0.76), (-0.035, 0.02)), "other eye": ((0.562, 0.76), (0.035, 0.02)),
          "mouth": ((0.5, 0.645), (0.0, -0.035)), "hand": ((0.13, 0.80), (0.03, -0.07)), "belly": ((0.5, 0.33), (0.0, 0.0)),
          "hip": ((0.66, 0.36), (0.05, 0.02)), "tail": ((0.82, 0.45), (-0.03, 0.09))}
@@ -23,7 +23,7 @@ HOLD = [(x / 6, y / 6) for x in range(7) for y in range(7) if x in (0, 6) or y i
 
 
 def landscape(size):
-    """The cat before sky and meadow, with lines to see the warp by; no alpha."""
+    """Draw the cat in front of sky and meadow, with lines that show the warp; without alpha."""
     x, y = planar.pixel_centers(size)
     sky = (1 - y)[..., None] * np.array((215, 235, 250)) + y[..., None] * np.array((120, 180, 235))
     hill = 0.22 + 0.05 * np.sin(5 * x + 1)

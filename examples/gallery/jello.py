@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""A jelly that wobbles: dynamics in the space of skinning weights.
+"""A wobbling jelly: dynamics in the space of skinning weights.
 
-A block stands on a plate, its foot held. A handle draws its top aside and lets go after a quarter of a second; gravity
-pulls. Two handles and ten eigenmodes, 96 steps of implicit Euler a second.
+A block stands on a plate and its foot is fixed. A handle pulls its top sideways and is released after a quarter of a
+second, under gravity. The simulation uses two handles, ten eigenmodes and 96 steps of implicit Euler per second.
 
-Numbers: how far the top is aside at each picture, of the block's height; how often it turns back in 1.75 seconds; the
-largest kinetic energy in three periods of two thirds of a second, of the first; iterations a step, microseconds an
-iteration.
+Numbers: the sideways displacement of the top in each picture, relative to the block's height; number of reversals in
+1.75 seconds; the largest kinetic energy in three periods of two thirds of a second, relative to the first; iterations
+per step, microseconds per iteration.
 """
 
 import common
@@ -18,12 +18,12 @@ from posing import bar
 
 STEP = 1 / 96
 FRAMES = 193
-HELD = 24  # frames until the handle lets go
+HELD = 24  # frames until the handle is released
 SHOWN = (24, 32, 40, 48, 56, 72, 88, 192)
 
 
 def block(along, across):
-    """The bar of the gallery, upright and half as high."""
+    """Return the bar of the gallery, upright and half as high."""
     points, tets = bar(along, across)
     return points[:, [1, 2, 0]] * [1.5, 1.5, 0.5], tets
 
@@ -40,7 +40,7 @@ def make(options):
     top = int(np.argmin(np.linalg.norm(points - [0.75, 0.75, 3], axis=1)))
     aside = np.array([points_of(frame)[top, 0] - points[top, 0] for frame in frames])
     reports = [bindpose.report(frame) for frame in frames]
-    # Kinetic energy is zero where it turns: the largest of a period counts.
+    # The kinetic energy is zero at reversals, so the maximum of a period is used.
     kinetic = np.array([report.get("kinetic_energy", 0.0) for report in reports])
     largest = [kinetic[first:first + 64].max() for first in (HELD, HELD + 64, FRAMES - 64)]
     swing = np.sign(np.diff(aside[HELD:]))

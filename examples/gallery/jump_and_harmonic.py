@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Across the surface the winding number jumps by 1; everywhere else it is harmonic.
+"""The winding number jumps by 1 across the surface and is harmonic everywhere else.
 
-Left: along a line through a closed and an open sphere. Right: how far the field is from harmonic beside the
-surface: the mean over a small sphere against the value in its middle, and the discrete Laplacian, which is
-0 up to h^2 of its step.
+Left: along a line through a closed and an open sphere. Right: deviation of the field from a harmonic function near
+the surface: the mean over a small sphere against the value at its center, and the discrete Laplacian, which is 0 up
+to h^2 of its step.
 
-Numbers: the largest |jump - 1| over all crossings, found by intersecting the line with each triangle, 1e-13
-before and after; the largest mean value error; the order at which the discrete Laplacian falls (2); and that
-the field of two surfaces is the sum of theirs, so that sums of harmonic functions are all there is to it.
+Numbers: the largest |jump - 1| over all crossings, found by intersecting the line with each triangle, 1e-13 before
+and after; the largest mean value error; the order at which the discrete Laplacian decreases (2); and that the field
+of two surfaces is the sum of their fields.
 """
 
 import common
@@ -27,7 +27,7 @@ def field(mesh, points, **options):
 
 
 def crossings(mesh):
-    """Where the line START + t ALONG meets triangles: t, and +1 where it enters, -1 where it leaves."""
+    """Return t and +1 (enters) or -1 (leaves) for intersections of the line START + t ALONG with triangles."""
     a, b, c = np.moveaxis(mesh[0][mesh[1]], 1, 0)
     normal = np.cross(b - a, c - a)
     facing = normal @ ALONG
@@ -42,7 +42,7 @@ def crossings(mesh):
 
 
 def sphere_mean(mesh, middle, radius):
-    """Mean over a sphere by Gauss-Legendre x trapezoid nodes, exact for harmonic polynomials up to degree 31."""
+    """Return the mean over a sphere by Gauss-Legendre x trapezoid nodes, exact up to harmonic degree 31."""
     z, weight = np.polynomial.legendre.leggauss(16)
     angle = 2 * np.pi * (np.arange(32) + 0.5) / 32
     ring = np.sqrt(1 - z ** 2)[:, None]
@@ -72,13 +72,13 @@ def make(options):
         where, sign = crossings(mesh)
         before, after = (field(mesh, START + (where + side)[:, None] * ALONG) for side in (-BESIDE, BESIDE))
         jumps += list(sign * (after - before))
-        # Samples right at the jumps make them upright.
+        # Samples directly at the jumps make them vertical in the plot.
         at = np.concatenate([t, where - BESIDE, where + BESIDE])
         values = np.concatenate([field(mesh, line), before, after])
         order = np.argsort(at, kind="stable")
         left.line(name, at[order] - 2, values[order], colour)
 
-    # A point inside, its nearest triangle 0.3 away and more.
+    # A point inside, at least 0.3 away from its nearest triangle.
     middle = np.array([0.31, 0.12, 0.2])
     radii = [0.2 / 2 ** k for k in range(5)]
     means = [abs(sphere_mean(opened, middle, r) - float(field(opened, [middle])[0])) for r in radii]

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Weights say which limb is in front.
+"""Depth order of limbs by weights.
 
-A cat bends its arm over its face. In the plane nothing says what is nearer; a layer for each bone, spread by the
-same weights that carry the pose, does: smooth over the shape and different on limbs that cross. Left the depth at
-rest; then the arm with its layer in front, behind, and with equal layers, where the later bone wins.
+A cat bends its arm over its face. In the plane the depth is undefined. A layer for each bone, blended by the same
+weights as the pose, defines it: smooth over the shape and different on limbs that cross. On the left is the depth at
+rest, then the arm with its layer in front, behind, and with equal layers, where the later bone is in front.
 
-Numbers: pixels of the arm that are seen in front and behind; depths with equal layers, lowest and highest; pixels
-of the whole that change with the layer; weights and pose are the same throughout.
+Numbers: visible pixels of the arm in front and behind; lowest and highest depth with equal layers; pixels of the
+whole picture that change with the layer. Weights and pose are always the same.
 """
 
 import common
@@ -23,7 +23,7 @@ DEGREES = {"arm": -38, "hand": -62}  # over the face
 
 
 def pose_of(size):
-    """The arm about its shoulder, the hand about its wrist and along with the arm."""
+    """Rotate the arm about its shoulder, and the hand about its wrist and with the arm."""
     turned = {}
     for name in LIMB:
         turned[name] = {"rotate": {"axis": [0, 0, 1], "degrees": DEGREES[name]}}
@@ -36,8 +36,8 @@ def pose_of(size):
 
 
 def seen(shape, is_arm, box, size):
-    """Which pixels show the arm: drawn in two colours, without lights, through the depth buffer. Returns the window,
-    too: while one is open, a virtual display does not start anew."""
+    """Return the pixels that show the arm: drawn in two colors, without lights, through the depth buffer. Also return
+    the window, because a virtual display does not restart while a window is open."""
     flags = vtkPolyData()
     flags.ShallowCopy(shape)
     colours = np.where(is_arm[:, None], np.array([[255, 0, 0]]), np.array([[0, 0, 255]])).astype(np.uint8)

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Weights belong to the shape, not to its mesh.
+"""Weights depend on the shape, not on its mesh.
 
-One square with five points on two meshes: the second is four times finer on its right half. The biharmonic energy
-of the graph of vertices (L'L, without areas) takes the fine half for a larger one and gives other weights; the one of
-the shape, with each vertex's area (Jacobson, Tosun, Sorkine, Zorin 2010), hardly changes. Right: the difference.
+One square with five points has two meshes: the right half of the second mesh is four times finer. The biharmonic
+energy of the graph of vertices (L'L, without areas) treats the fine half as a larger one and gives other weights. The
+energy of the shape, with each vertex's area (Jacobson, Tosun, Sorkine, Zorin 2010), hardly changes. Right: the
+difference.
 
-Numbers: largest and rms difference over the common vertices; and the bar between two handles, where the weight of
-the far one at a quarter must be 0.15625 whatever the mesh.
+Numbers: largest and rms difference over the common vertices; and the bar between two handles, where the weight of the
+far handle at a quarter must be 0.15625 for any mesh.
 """
 
 import common
@@ -19,7 +20,7 @@ METHODS = {"graph": "graph-biharmonic", "areas": "biharmonic"}
 
 
 def grid_at(x, y):
-    """Rectangles between the given coordinates, cut along the same diagonal."""
+    """Return rectangles between the given coordinates, cut along the same diagonal."""
     columns, rows = len(x) - 1, len(y) - 1
     first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
     right, up = first + 1, first + columns + 1
@@ -29,7 +30,7 @@ def grid_at(x, y):
 
 
 def unequal(count, times):
-    """0 to 1 in `count` steps, those of the second half in `times` smaller ones each."""
+    """Return 0 to 1 in `count` steps; each step of the second half is divided into `times` smaller ones."""
     half = np.linspace(0, 0.5, count // 2 + 1)
     return np.concatenate([half[:-1], 0.5 + np.linspace(0, 0.5, times * count // 2 + 1)])
 
@@ -54,7 +55,7 @@ def make(options):
         difference = found["fine on the right"][common_vertices["fine on the right"]] - found["even"]
         numbers[f"{method}: largest difference"] = float(abs(difference).max())
         numbers[f"{method}: rms difference"] = float(np.sqrt((difference ** 2).mean()))
-        # At the common vertices: what render subtracts.
+        # At the common vertices, which render subtracts.
         for file, values in ((f"{method}-a.vtp", found["fine on the right"][common_vertices["fine on the right"]]),
                              (f"{method}-b.vtp", found["even"])):
             mesh = to_dataset(meshes["even"])

@@ -1,10 +1,10 @@
-"""Surfaces made by code, as pairs of arrays (vertices #V x 3, triangles #F x 3), and the textbook sum."""
+"""Generated surfaces as pairs of arrays (vertices #V x 3, triangles #F x 3), and the textbook sum."""
 
 import numpy as np
 
 
 def cube(lower=-1.0, upper=1.0):
-    """Twelve triangles, counter-clockwise seen from outside."""
+    """Return twelve triangles, counter-clockwise seen from outside."""
     vertices = [[upper if v >> k & 1 else lower for k in range(3)] for v in range(8)]
     triangles = [[0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5], [0, 1, 5], [0, 5, 4],
                  [2, 6, 7], [2, 7, 3], [0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6]]
@@ -12,7 +12,7 @@ def cube(lower=-1.0, upper=1.0):
 
 
 def tube(curve, radius, around=24):
-    """A closed tube of the given radius about a closed plane curve (#C x 3, z = 0)."""
+    """Return a closed tube of the given radius about a closed plane curve (#C x 3, z = 0)."""
     curve = np.asarray(curve, dtype=float)
     along = np.roll(curve, -1, axis=0) - np.roll(curve, 1, axis=0)
     along /= np.linalg.norm(along, axis=1)[:, None]
@@ -27,13 +27,13 @@ def tube(curve, radius, around=24):
 
 
 def circle(radius, count=64):
-    """A plane curve for `tube`."""
+    """Return a plane curve for `tube`."""
     angle = 2 * np.pi * np.arange(count) / count
     return np.stack([radius * np.cos(angle), radius * np.sin(angle), 0 * angle], axis=1)
 
 
 def subdivided(mesh, times):
-    """Each triangle cut into four at the middles of its edges, `times` over: the same surface."""
+    """Return the mesh with each triangle cut into four at its edge midpoints, `times` over: the same surface."""
     vertices, triangles = map(np.asarray, mesh)
     for _ in range(times):
         edges = np.sort(np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
@@ -47,7 +47,7 @@ def subdivided(mesh, times):
 
 
 def sphere(times=3, radius=1.0, center=(0.0, 0.0, 0.0)):
-    """20 x 4^times triangles, an icosahedron subdivided and blown up."""
+    """Return a sphere of 20 x 4^times triangles: a subdivided icosahedron, projected to the sphere."""
     g = (1 + 5 ** 0.5) / 2
     vertices = np.array([[-1, g, 0], [1, g, 0], [-1, -g, 0], [1, -g, 0], [0, -1, g], [0, 1, g], [0, -1, -g], [0, 1, -g],
                          [g, 0, -1], [g, 0, 1], [-g, 0, -1], [-g, 0, 1]], dtype=float)
@@ -59,7 +59,7 @@ def sphere(times=3, radius=1.0, center=(0.0, 0.0, 0.0)):
 
 
 def centers(mesh):
-    """Barycentres of the triangles, #F x 3."""
+    """Return the barycenters of the triangles, #F x 3."""
     return mesh[0][mesh[1]].mean(axis=1)
 
 
@@ -68,24 +68,24 @@ def moved(mesh, shift):
 
 
 def without(mesh, which):
-    """The triangles where `which` (#F, bool) is false."""
+    """Return the triangles where `which` (#F, bool) is false."""
     return mesh[0], mesh[1][~np.asarray(which)]
 
 
 def flipped(mesh, which=True):
-    """The triangles where `which` is true turned over."""
+    """Turn over the triangles where `which` is true."""
     return mesh[0], np.where(np.broadcast_to(which, len(mesh[1]))[:, None], mesh[1][:, ::-1], mesh[1])
 
 
 def joined(*meshes):
-    """All of them as one mesh."""
+    """Return all meshes as one mesh."""
     firsts = np.cumsum([0, *[len(mesh[0]) for mesh in meshes[:-1]]])
     return (np.vstack([mesh[0] for mesh in meshes]),
             np.vstack([mesh[1] + first for mesh, first in zip(meshes, firsts)]))
 
 
 def triangles_of(surface):
-    """A vtkPolyData of triangles as arrays."""
+    """Return a vtkPolyData of triangles as arrays."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     vertices = np.array(vtk_to_numpy(surface.GetPoints().GetData()), dtype=float)
@@ -93,7 +93,7 @@ def triangles_of(surface):
 
 
 def tet_volumes(tets):
-    """Of a vtkUnstructuredGrid of tets, #T, in its own order."""
+    """Return the volumes of a vtkUnstructuredGrid of tets, #T, in its own order."""
     from bindpose.meshes import points_of, tets_of
 
     a, b, c, d = np.moveaxis(points_of(tets)[tets_of(tets)], 1, 0)
@@ -101,8 +101,8 @@ def tet_volumes(tets):
 
 
 def plain_winding_number(mesh, points):
-    """The definition: the sum of all triangles' signed solid angles / 4 pi, at #P points (Van Oosterom and
-    Strackee, 1983). The yardstick that the package's numbers are held against."""
+    """Return the winding number by its definition: the sum of all triangles' signed solid angles / 4 pi, at #P points
+    (Van Oosterom and Strackee, 1983). It is the reference for the package's results."""
     values = np.zeros(len(points))
     for number, point in enumerate(np.asarray(points, dtype=float)):
         for first in range(0, len(mesh[1]), 4096):  # blocks that stay in the cache

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Weights that know the shape do not leak across gaps.
+"""Shape-aware weights do not leak across gaps.
 
-A hand whose fingers are near but not connected is held by points at the wrist and the fingertips; one fingertip is
-pulled aside. Moving least squares (Schaefer et al. 2006) and inverse distances measure through the gap, so the
-neighbours go along; bounded biharmonic weights measure through the hand. Colours: how far each place moves, as a
-part of what the fingertip does.
+A hand has fingers that are near but not connected. Points at the wrist and the fingertips constrain it, and one
+fingertip is pulled sideways. Moving least squares (Schaefer et al. 2006) and inverse distances measure through the
+gap, so the neighboring fingers move too; bounded biharmonic weights measure through the hand. Colors: the
+displacement of each point, relative to that of the fingertip.
 
-Numbers: how far the neighbouring finger moves half-way up, as a part of what the pulled fingertip does. And the slit
-square of the literature, where they are known: the weight of a point on one side of the slit at a probe on the other.
+Numbers: displacement of the neighboring finger halfway up, relative to that of the pulled fingertip. For the slit
+square of the literature, where it is known: the weight of a point on one side of the slit at a probe on the other
+side.
 """
 
 import common
@@ -16,7 +17,7 @@ import numpy as np
 
 import planar
 
-# From, to, radii; the drawing is 1 wide and 1 high.
+# Start, end, radii; the drawing is 1 wide and 1 high.
 FINGERS = {"thumb": ((0.34, 0.32), (0.13, 0.50), 0.055, 0.042), "index": ((0.37, 0.52), (0.35, 0.84), 0.046, 0.040),
            "middle": ((0.475, 0.53), (0.475, 0.91), 0.047, 0.041), "ring": ((0.58, 0.52), (0.60, 0.85), 0.046, 0.040),
            "little": ((0.675, 0.47), (0.715, 0.74), 0.042, 0.036)}
@@ -28,7 +29,7 @@ SKIN, GAP = (245, 205, 170), (200, 140, 100)
 
 
 def hand(size):
-    """The hand as size x size x 4 bytes, with rings that show how it bends."""
+    """Return the hand as size x size x 4 bytes, with rings that show its deformation."""
     x, y = planar.pixel_centers(size)
     limbs = [*FINGERS.values(), *PALM]
     distance = np.min([planar.capsule(x, y, *limb) for limb in limbs], axis=0)
@@ -41,7 +42,7 @@ def hand(size):
 
 
 def slit_square(n):
-    """Grid of the unit square without (0.4, 0.6) x (0.3, 1], as the literature has it."""
+    """Return a grid of the unit square without (0.4, 0.6) x (0.3, 1], as in the literature."""
     at = np.linspace(0, 1, n + 1)
     x, y = np.meshgrid(at, at)
     first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
@@ -70,7 +71,7 @@ def make(options):
         weighted = bindpose.weights(shape, handles, method=method, domain="surface")
         ways[caption] = bindpose.deform(weighted, handles, pose)
 
-    # What of the neighbour is half-way up its finger.
+    # The part of the neighboring finger that is halfway up.
     start, end = (np.array(place) * size for place in FINGERS[NEIGHBOUR][:2])
     halfway = np.linalg.norm(rest - (start + end) / 2, axis=1) < 0.05 * size
     triangles = planar.triangles_of(shape)

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Biharmonic colours without bounds bring hues that nobody asked for.
+"""Unbounded biharmonic color blending produces spurious hues.
 
-Five points of a square have a colour each, and weights blend them. Unconstrained biharmonic weights (the thin-plate
-splines of Finch et al. 2011) go below 0 and above 1: their blend leaves what can be shown, and invents colours that
-no point has. Bounded biharmonic weights stay within the points' colours and are as smooth; monotone ones do not even
-have a bump between the points. Hatched: out of the gamut.
+Five points of a square have a color each, and weights blend the colors. Unconstrained biharmonic weights (the
+thin-plate splines of Finch et al. 2011) go below 0 and above 1: their blend leaves the gamut and contains colors that
+no point has. Bounded biharmonic weights stay within the points' colors and are equally smooth; monotone ones do not
+have a bump between the points either. Hatched: out of the gamut.
 
-Numbers: lowest and highest weight; part of the square that leaves the gamut, and how far it does; part with more or
-less of a primary than any point, how far; and the black and white bar of three handles, where the unconstrained blend
-must reach -1/9 at two thirds.
+Numbers: lowest and highest weight; fraction of the square outside the gamut, and the largest violation; fraction with
+more or less of a primary than any point, and the largest excess; and the black and white bar of three handles, where
+the unconstrained blend must reach -1/9 at two thirds.
 """
 
 import common
@@ -21,14 +21,14 @@ from vtkmodules.vtkFiltersCore import vtkProbeFilter
 
 import planar
 
-# The five points whose weights the tests of the kernels know, and their colours.
+# The five points whose weights are used in the tests of the kernels, and their colors.
 POINTS = [((0.20, 0.20), (0.95, 0.75, 0.10)), ((0.80, 0.20), (0.10, 0.35, 0.75)), ((0.50, 0.50), (0.85, 0.15, 0.20)),
           ((0.25, 0.80), (0.10, 0.55, 0.25)), ((0.80, 0.75), (0.95, 0.90, 0.80))]
 METHODS = {"unconstrained": "biharmonic", "bounded": "bounded-biharmonic", "monotone": "monotone"}
 
 
 def grid(columns, rows, width, height):
-    """Squares cut along the same diagonal."""
+    """Return squares cut along the same diagonal."""
     x, y = np.meshgrid(np.linspace(0, width, columns + 1), np.linspace(0, height, rows + 1))
     first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
     right, up = first + 1, first + columns + 1
@@ -37,7 +37,7 @@ def grid(columns, rows, width, height):
 
 
 def hatched(mesh, lines=90, steps=700):
-    """Lines over what is out of the gamut, as an actor in a list."""
+    """Return lines over the area out of the gamut, as an actor in a list."""
     along = np.linspace(0.004, 0.996, steps)
     places = np.concatenate([np.stack([along, along + offset, 0 * along], axis=1) for offset in np.linspace(-1, 1, lines)])
     cloud = vtkPolyData()

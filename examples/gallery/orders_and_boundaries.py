@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
-"""How smooth a patch is depends on its order and on what is fixed at its boundary.
+"""Smoothness of a patch, by its order and boundary condition.
 
-A disc whose middle is lifted. From left to right the patch between is a membrane (Laplacian = 0), a thin plate (its
-square) and of order 3. Above the rim and the middle are regions, bands of three layers that the patch continues: with
-its place, then with its slope, then with its curvature. Below them the middle is a ring of single points, with a patch
-on both sides. Then the edges' places alone: nothing to tell the orders by, each is the membrane. At the bottom the
-rim's tangents are given as well, down at 45°, which a membrane cannot meet.
+The middle of a disc is lifted. From left to right the patch between is a membrane (Laplacian = 0), a thin plate (its
+square) and of order 3. Above, the rim and the middle are regions, bands of three layers that the patch continues:
+with its position, then with its slope, then with its curvature. Below, the middle is a ring of single points, with a
+patch on both sides. Then only the edges' positions are fixed, which does not distinguish the orders: each is the
+membrane. At the bottom the rim's tangents are given as well, down at 45°, which a membrane cannot satisfy.
 
-Numbers, by order: the patch's slope and curvature right at the rim, from its own rings: zero is what a flat region
-continues with, -1 the slope that is given at the bottom; the largest difference of the edges' surfaces from the
-membrane.
+Numbers, by order: the patch's slope and curvature directly at the rim, from its own rings: a flat region continues
+with zero, and the slope given at the bottom is -1; the largest difference of the edges' surfaces from the membrane.
 """
 
 import warnings
@@ -24,7 +23,7 @@ INNER, OUTER, HEIGHT = 0.25, 1.0, 0.6
 
 
 def disc(rings):
-    """The unit disc and a band of three rings beyond it, by rings of equally many vertices; #V radii."""
+    """Return the unit disc and a band of three rings beyond it, as rings of equally many vertices; #V radii."""
     around = 6 * rings
     radii = np.arange(1, rings + 4) / rings
     angle = 2 * np.pi * (np.arange(around)[None] + 0.5 * (np.arange(len(radii)) % 2)[:, None]) / around
@@ -66,11 +65,11 @@ def make(options):
             mesh = (lifted, triangles)
             words = dict(settings)
             if name == "tangents":
-                # The plateau's edge is flat, and the band beyond the rim would hide what the tangents do.
+                # The plateau's edge is flat, and the band beyond the rim would hide the effect of the tangents.
                 words["tangents"] = tangents + np.where(ring[:, None], -outwards, 0)
                 mesh = (lifted, triangles[~beyond[triangles].any(axis=1)])
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore", bindpose.BindposeWarning)  # conditions that say less than they seem
+                warnings.simplefilter("ignore", bindpose.BindposeWarning)  # weak boundary conditions
                 posed = np.asarray(bindpose.fair(mesh, order=order, parameters=points, **words))
             z = [posed[ring_of, 2].mean() for ring_of in profile]
             heights.append(posed[:, 2])

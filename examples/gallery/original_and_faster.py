@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Original weights sum to one by constraint, faster ones are divided by their sums: how far apart are they?
+"""Partition of unity by constraint (original) and by division of rows (faster): difference of the weights.
 
-Bounded biharmonic weights of points on a square. Original: all handles are one quadratic program, with a row sum as
-constraint at every vertex. Faster: one program a handle, then a division. Left a weight of the original, in the
-middle the faster one, right the difference of both, in the largest of all weights' scale.
+Bounded biharmonic weights of points on a square. Original: all handles form one quadratic program, with a row sum as
+constraint at every vertex. Faster: one program per handle, then a division. Left: a weight of the original. Middle:
+the faster one. Right: the difference of both, on the scale of the largest difference of all weights.
 
-Numbers: largest and rms difference over all weights; how far rows are from one before the division; the gaps that
-certify both; the seconds that each took.
+Numbers: largest and rms difference over all weights; deviation of the row sums from one before the division; the gaps
+that certify both; the seconds of both.
 """
 
 import time

@@ -1,4 +1,4 @@
-"""A cartoon drawn by code, and tiles that show pictures as meshes in the plane."""
+"""A generated cartoon, and tiles that show pictures as meshes in the plane."""
 
 import bindpose
 import numpy as np
@@ -20,7 +20,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkWindowToImageFilter,
 )
 
-# The cat's limbs: from, to, radii at both ends; the drawing is 1 wide and 1 high, y upwards.
+# The cat's limbs: start, end, radii at both ends; the drawing is 1 wide and 1 high, y upwards.
 TAIL = [(0.64, 0.20), (0.78, 0.16), (0.87, 0.25), (0.88, 0.38), (0.82, 0.46)]
 LIMBS = [((0.50, 0.30), (0.50, 0.50), 0.155, 0.12), ((0.50, 0.73), (0.50, 0.73), 0.155, 0.155),  # belly, head
          ((0.41, 0.81), (0.355, 0.93), 0.07, 0.012), ((0.59, 0.81), (0.645, 0.93), 0.07, 0.012),  # ears
@@ -35,7 +35,7 @@ BONES = {"body": [(0.50, 0.28), (0.50, 0.55)], "head": [(0.50, 0.62), (0.50, 0.8
 
 
 def capsule(x, y, start, end, first, last):
-    """Signed distance from a disc that moves from start to end and changes its radius."""
+    """Return the signed distance from a disc that moves from start to end and changes its radius."""
     a, along = np.array(start), np.subtract(end, start)
     length = along @ along
     share = np.clip(((x - a[0]) * along[0] + (y - a[1]) * along[1]) / length, 0, 1) if length else 0.0
@@ -43,7 +43,7 @@ def capsule(x, y, start, end, first, last):
 
 
 def cat_distance(x, y):
-    """Below 0 inside of the cat; its zeros are the outline."""
+    """Return a function that is negative inside of the cat; its zeros are the outline."""
     return np.min([capsule(x, y, *limb) for limb in LIMBS], axis=0)
 
 
@@ -53,7 +53,7 @@ def pixel_centers(size):
 
 
 def cat(size):
-    """The cat as size x size x 4 bytes."""
+    """Return the cat as size x size x 4 bytes."""
     x, y = pixel_centers(size)
     pixel = 1 / size
     colour = np.zeros((size, size, 3)) + (240, 150, 60)
@@ -81,7 +81,7 @@ def cat(size):
 
 
 def bones_of(size):
-    """Handles in pixels, for the mesh of a picture of this size."""
+    """Return the handles in pixels, for the mesh of a picture of this size."""
     ends = [[[(x * size - 0.5), (y * size - 0.5), 0] for x, y in bone] for bone in BONES.values()]
     return bindpose.handles(bones=ends, names=list(BONES), parents=[-1] * len(ends))
 
@@ -96,7 +96,7 @@ def to_image(pixels):
 
 
 def write_png(pixels, path):
-    """A picture as a file; its path."""
+    """Write a picture to a file and return its path."""
     writer = vtkPNGWriter()
     writer.SetInputData(to_image(pixels))
     writer.SetFileName(str(path))
@@ -105,7 +105,7 @@ def write_png(pixels, path):
 
 
 def to_texture(pixels):
-    """An opaque texture of the picture's colours."""
+    """Return an opaque texture of the picture's colors."""
     texture = vtkTexture()
     texture.SetInputData(to_image(pixels[..., :3]))
     texture.InterpolateOn()
@@ -127,7 +127,7 @@ def flat_actor(data, colour=None, width=1.0):
 
 
 def painted(data, name="Color"):
-    """Points in colours of their own: an array of three bytes."""
+    """Color the points individually by an array of three bytes."""
     actor = flat_actor(data)
     mapper = actor.GetMapper()
     mapper.ScalarVisibilityOn()
@@ -138,7 +138,7 @@ def painted(data, name="Color"):
 
 
 def bands(data, values, colours, levels=10):
-    """Values from 0 to 1 at the points, as bands between colours ((value, (r, g, b)), …)."""
+    """Draw values from 0 to 1 at the points as bands between colors ((value, (r, g, b)), …)."""
     shown = vtkPolyData()
     shown.ShallowCopy(data)
     array = numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=True)
@@ -163,7 +163,7 @@ def bands(data, values, colours, levels=10):
 
 
 def dots(places, colours, radius, height=1.0):
-    """Discs with a dark rim at points, each in its colour (numbers 0 to 1)."""
+    """Draw discs with a dark rim at points, each in its color (numbers 0 to 1)."""
     actors = []
     for place, colour in zip(places, colours):
         for size, shade, up in ((1.0, (0.12, 0.12, 0.12), 0.0), (0.72, colour, 0.1)):
@@ -183,7 +183,7 @@ def textured(data, texture):
 
 
 def wires(data, colour=(0.1, 0.2, 0.5), opacity=0.6, width=1.0):
-    """The triangles' edges, a little above."""
+    """Draw the triangles' edges, slightly above."""
     actor = flat_actor(data, colour, width)
     actor.GetProperty().SetRepresentationToWireframe()
     actor.GetProperty().SetOpacity(opacity)
@@ -192,7 +192,7 @@ def wires(data, colour=(0.1, 0.2, 0.5), opacity=0.6, width=1.0):
 
 
 def handle_actors(handles, radius):
-    """Bones as bars, their ends and points as balls."""
+    """Draw bones as bars, their ends and points as balls."""
     tube = vtkTubeFilter()
     tube.SetInputData(handles)
     tube.SetRadius(0.45 * radius)
@@ -214,7 +214,7 @@ def handle_actors(handles, radius):
 
 
 def posed_points(handles, moved):
-    """The handle dataset with other points."""
+    """Return the handle dataset with other points."""
     copy = vtkPolyData()
     copy.DeepCopy(handles)
     for number, point in enumerate(moved):
@@ -223,15 +223,15 @@ def posed_points(handles, moved):
 
 
 def paper(size, square=32):
-    """Grey and white squares behind what is transparent."""
+    """Draw gray and white squares behind transparent parts."""
     y, x = np.mgrid[:size, :size] * (1024 // square) // size
     return np.where(((x + y) % 2)[..., None], 255, 225).astype(np.uint8) * np.ones(3, np.uint8)
 
 
 def show(tiles, box, tile=(620, 620), title=""):
-    """Draws tiles side by side, each a caption and actors; all show the same box (x0, x1, y0, y1).
+    """Draw tiles side by side, each with a caption and actors; all show the same box (x0, x1, y0, y1).
 
-    Returns the window, not drawn yet.
+    Return the window, which has not been rendered yet.
     """
     head, foot = (46 if title else 0), 40
     width, height = tile[0] * len(tiles), tile[1] + head + foot
@@ -269,7 +269,7 @@ def show(tiles, box, tile=(620, 620), title=""):
 
 
 def look_at(renderer, box, tile):
-    """Along -z, the box as large as the tile."""
+    """Look along -z, with the box as large as the tile."""
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
     middle = ((box[0] + box[1]) / 2, (box[2] + box[3]) / 2)
@@ -281,7 +281,7 @@ def look_at(renderer, box, tile):
 
 
 def snapshot(renderer, size):
-    """What a renderer draws without antialiasing, as an array of rows from below up, and the window that it is in."""
+    """Return a renderer's picture without antialiasing, as an array of rows from bottom to top, and its window."""
     window = vtkRenderWindow()
     window.SetOffScreenRendering(True)
     window.SetMultiSamples(0)
@@ -296,7 +296,7 @@ def snapshot(renderer, size):
 
 
 def difference(shape, pixels, inside):
-    """Largest difference of the shape drawn with its texture, pixel on pixel, from the picture, of 255."""
+    """Return the largest difference (of 255) of the picture from the textured shape drawn pixel on pixel."""
     size = pixels.shape[0]
     renderer = vtkRenderer()
     renderer.AddActor(textured(shape, to_texture(pixels)))
@@ -319,7 +319,7 @@ def signed_areas(points, triangles):
 
 
 def outline_of(triangles):
-    """Edges with one triangle only, as they run."""
+    """Return the edges with only one triangle, in their direction."""
     edges = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
     key = edges.min(axis=1) * (triangles.max() + 1) + edges.max(axis=1)
     _unique, first, count = np.unique(key, return_index=True, return_counts=True)
@@ -327,7 +327,7 @@ def outline_of(triangles):
 
 
 def edges(posed, shape, colour=(0.25, 0.15, 0.1), width=2.0):
-    """The outline of a shape where a pose has taken it, as an actor in a list."""
+    """Return the outline of a posed shape as an actor in a list."""
     pairs = outline_of(triangles_of(shape))
     lines = vtkCellArray()
     for a, b in pairs:

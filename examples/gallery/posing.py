@@ -1,4 +1,4 @@
-"""A plane and a bar to bend, and filters that pose them from scratch."""
+"""A plane and a bar to bend, and filters that pose them without a warm start."""
 
 import itertools
 import json
@@ -9,7 +9,7 @@ from bindpose.meshes import points_of
 
 
 def plane(count, size=2.0, middle=(0.0, 0.0, 0.0)):
-    """A square in z = 0, count by count squares of two triangles."""
+    """Return a square in z = 0, count by count squares of two triangles."""
     x, y = np.meshgrid(np.linspace(-1, 1, count + 1), np.linspace(-1, 1, count + 1))
     points = np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1) * size / 2 + np.asarray(middle, dtype=float)
     corner = (np.arange(count)[:, None] * (count + 1) + np.arange(count)).ravel()
@@ -18,7 +18,7 @@ def plane(count, size=2.0, middle=(0.0, 0.0, 0.0)):
 
 
 def bar(along, across, length=6.0):
-    """A bar of length by 1 by 1, six tets a cell."""
+    """Return a bar of length by 1 by 1, six tets per cell."""
     shape = (along + 1, across + 1, across + 1)
     i = np.stack(np.meshgrid(*map(np.arange, shape), indexing="ij"), axis=-1).reshape(-1, 3)
     cells = i[(i < np.array(shape) - 1).all(axis=1)]
@@ -33,14 +33,14 @@ def bar(along, across, length=6.0):
 
 
 def skin_of(tets):
-    """Triangles of the boundary of tets (#T x 4), outwards, with the tets' vertex ids."""
+    """Return the triangles of the boundary of tets (#T x 4), outwards, with the tets' vertex ids."""
     facets = np.concatenate([tets[:, [0, 2, 1]], tets[:, [0, 1, 3]], tets[:, [1, 2, 3]], tets[:, [0, 3, 2]]])
     _, first, count = np.unique(np.sort(facets, axis=1), axis=0, return_index=True, return_counts=True)
     return facets[first[count == 1]]
 
 
 def posed(bender, mesh, handles, pose, **settings):
-    """What a filter makes of a mesh (with weights) in a pose, from scratch; settings are its parameters."""
+    """Pose a mesh (with weights) by a filter without a warm start; settings are the filter's parameters."""
     poser = bindpose.vtkPoseHandles()
     poser.SetInputData(handles)
     poser.SetPoseJSON(json.dumps({"handles": pose}))
@@ -53,7 +53,7 @@ def posed(bender, mesh, handles, pose, **settings):
 
 
 def sharpest_fold(points, triangles):
-    """Degrees between the normals of triangles that share an edge."""
+    """Return the largest angle in degrees between the normals of triangles that share an edge."""
     a, b, c = (points[triangles[:, k]] for k in range(3))
     normals = np.cross(b - a, c - a)
     normals /= np.linalg.norm(normals, axis=1)[:, None]
@@ -66,6 +66,6 @@ def sharpest_fold(points, triangles):
 
 
 def rms_apart(rest, one, other):
-    """Root mean square distance of the points of two posed meshes, in diagonals of the mesh at rest (#V x 3)."""
+    """Return the rms distance of the points of two posed meshes, in diagonals of the mesh at rest (#V x 3)."""
     apart = points_of(one) - points_of(other)
     return float(np.sqrt((apart ** 2).sum(axis=1).mean()) / np.linalg.norm(np.ptp(rest, axis=0)))

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Weights to begin with and weights to keep: how far they are from each other.
+"""Preview weights and certified weights: how different are they?
 
-One column of an elephant's weights from three ways: a preview (biharmonic, clamped, in a lattice that holds the
-surface), the certified bounded biharmonic ones of the same lattice, and those of tets that have the surface's own
-triangles as their boundary. Below what each step changes: `bindpose render --minus`.
-This elephant is small and fills at once, so that its conforming tets are even the fastest; a lattice is for surfaces
-that are dense or cannot be filled, and a preview for their waiting time.
+One column of an elephant's weights, computed in three ways: a preview (biharmonic, clamped, in a lattice that
+contains the surface), the certified bounded biharmonic weights of the same lattice, and those of tets that have the
+surface's own triangles as their boundary. Below are the differences between the steps: `bindpose render --minus`.
+This elephant is small and is filled immediately, so its conforming tets are even the fastest. A lattice is for
+surfaces that are dense or cannot be filled, and a preview for the time until it is solved.
 
-Numbers: seconds; largest and rms difference over all points, of the shown column by the program and of all columns;
-share of points where the strongest handle is another one.
+Numbers: seconds; largest and rms difference over all points, for the shown column by the program and for all columns;
+fraction of points whose strongest handle differs.
 """
 
 import time

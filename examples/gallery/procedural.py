@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Handles that follow formulas instead of a hand: a wave through a worm.
+"""Handles that are moved by formulas: a wave through a worm.
 
-Five points along a bar are sent up and down by an expression in the time t, each a little later than the one before;
-reduced as-rigid-as-possible finds everything else. The pose is a file as any other, with texts where numbers stand.
+An expression in the time t moves five points along a bar up and down, each a little later than the previous one.
+Reduced as-rigid-as-possible computes everything else. The pose is an ordinary file with strings in place of numbers.
 
-Numbers: the largest miss of what the formulas say, of the bar's length, over all times; volume at its least, of the
-volume at rest.
+Numbers: the largest deviation from the formulas over all times, relative to the bar's length; the smallest volume,
+relative to rest.
 """
 
 import common

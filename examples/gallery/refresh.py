@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Runs the page and the whole gallery, and puts pictures and numbers where the README shows them.
+"""Run the examples and the whole gallery, and update the pictures and numbers of the README.
 
-Pictures go to examples/pictures, shrunk to less than 200 kB each; numbers replace what stands in
+Pictures are written to examples/pictures, shrunk to less than 200 kB each. Numbers replace the text in
 gallery/README.md between `<!-- NAME -->` and `<!-- end -->`. Needs the Debian package sweethome3d-furniture.
 """
 
@@ -36,7 +36,7 @@ SCRIPTS = ("../01_inside_outside.py", "open_crossing_flipped.py", "boundary_and_
 
 
 def shrink(source, target):
-    """The picture as wide as fits into LARGEST bytes, at most 1400 pixels."""
+    """Shrink the picture to the largest width that fits into LARGEST bytes, at most 1400 pixels."""
     reader = vtkPNGReader()
     reader.SetFileName(str(source))
     reader.Update()
@@ -57,7 +57,7 @@ def shrink(source, target):
 
 
 def rows(numbers, prefix=""):
-    """Lines of a table, one a number; nested names joined by commas."""
+    """Return the lines of a table, one per number; nested names are joined by commas."""
     lines = []
     for key, value in numbers.items():
         if isinstance(value, dict):

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""A rig as a glTF file: what the file holds of the shape that linear blends make.
+"""A rig as a glTF file, read back: accuracy of the stored animation.
 
-Handles spread over an elephant swing, each its own way; the strip shows frames of the animation as they come back from
-the file: mesh, joints, weights and poses, all from one .glb. Below each frame how far the file with the four largest
-weights of each vertex, which is what many programs take, moves a vertex from where all weights do, at most, as a
-fraction of the diagonal.
+Handles spread over an elephant swing, each in a different way. The strip shows frames of the animation as read from
+the file: mesh, joints, weights and poses, all from one .glb. Below each frame is the error of the file with the four
+largest weights of each vertex, which many programs require: the largest distance of a vertex from its position with
+all weights, as a fraction of the diagonal.
 
-Numbers: bytes of the files; sets of four weights; the largest part of a vertex's weights that four leave out; the
-largest error of both files over all frames, as the writer measured it and as it comes back.
+Numbers: bytes of the files; sets of four weights; the largest fraction of a vertex's weights that four leave out; the
+largest error of both files over all frames, as measured by the writer and as read back.
 """
 
 import common
@@ -19,7 +19,7 @@ FRAMES = 5
 
 
 def poses(handles, size):
-    """Handles swing about the middle, each its own way, more from frame to frame."""
+    """Return poses in which handles swing about the middle, each in a different way, with increasing amplitude."""
     count = handles.GetNumberOfCells()
     names = [handles.GetCellData().GetAbstractArray("HandleName").GetValue(k) for k in range(count)]
     frames = []
@@ -36,7 +36,7 @@ def poses(handles, size):
 
 
 def largest(a, b, size):
-    """Largest distance of vertices, as a fraction of the diagonal."""
+    """Return the largest distance of vertices, as a fraction of the diagonal."""
     return float(np.linalg.norm(points_of(a) - points_of(b), axis=1).max() / size)
 
 

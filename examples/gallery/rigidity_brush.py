@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""A brush of rigidity: where it was painted, weights hardly vary and the shape hardly stretches.
+"""Painted rigidity: in painted areas weights hardly vary and the shape hardly stretches.
 
-Three points pull a bar apart and up. Two blocks of it are painted; from top to bottom nothing, 0.1 and 1. As weights
-of points blend translations, a part whose weights are constant moves as one.
+Three points pull a bar apart and up. Two blocks of it are painted; from top to bottom with nothing, 0.1 and 1.
+Weights of points blend translations, so a part with constant weights moves as one.
 
-Numbers: the largest stretch of a painted triangle's edges, which falls with 1 / what is painted; the same with
+Numbers: the largest stretch of a painted triangle's edges, which decreases with 1 / the painted value; the same with
 both blocks as rigid sets, where it is round-off; the largest of the relative gaps that certify the weights.
 """
 
@@ -20,7 +20,7 @@ SHOWN = (0, 0.1, 1)
 
 
 def grid(across, up):
-    """A bar of 4 by 1, two triangles a square."""
+    """Return a bar of 4 by 1, two triangles per square."""
     x, y = np.meshgrid(np.linspace(0, 4, across + 1), np.linspace(0, 1, up + 1))
     points = np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1)
     corner = (np.arange(up)[:, None] * (across + 1) + np.arange(across)).ravel()
@@ -29,7 +29,7 @@ def grid(across, up):
 
 
 def largest_stretch(before, after, triangles, inside):
-    """Of the edges of triangles all of whose corners are painted."""
+    """Return the largest stretch of the edges of triangles all of whose corners are painted."""
     chosen = triangles[inside[triangles].all(axis=1)]
     worst = 0.0
     for a, b in ((0, 1), (1, 2), (2, 0)):

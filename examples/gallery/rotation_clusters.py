@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""How many rotations a bend needs: as many as there are handles, not as there are triangles.
+"""Number of rotations that a bend needs: about the number of handles, not that of triangles.
 
-A bar of tets with five handles, two of them given: one rotation for all, then more, for vertices with similar weights,
-and at last one for each tet. The energy shown is that of the finest, for what each choice has found. A few rotations
-for each handle are as good as all, in a fraction of the time.
+A bar of tets has five handles, two of them given. It is solved with one rotation for all, then with more, for
+vertices with similar weights, and finally with one for each tet. The shown energy is that of one rotation per tet for
+each result. A few rotations per handle are as good as all, in a fraction of the time.
 
-Numbers: clusters; microseconds an iteration; the distance from the pose with all rotations, of the diagonal.
+Numbers: clusters; microseconds per iteration; the distance from the pose with all rotations, relative to the
+diagonal.
 """
 
 import common

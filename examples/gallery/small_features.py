@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Extrema of weights distort small features; monotone weights keep them.
+"""Extrema of weights distort small features; monotone weights preserve them.
 
-A plate with two antennas and three points, none on an antenna; the point in the middle is pulled. Along an antenna
-unconstrained weights run on as they left the plate, above 1, with bounds up to 1: the tip is an extremum, runs ahead of
-its foot, and the antenna stretches. Where only handles may be extrema, nothing can change along a dead end: monotone
-weights are all but constant there, and the antenna moves as it is.
+A plate has two antennas and three points, none on an antenna; the point in the middle is pulled. Along an antenna
+unconstrained weights continue with their slope on the plate, above 1, or with bounds up to 1. The tip is an extremum
+and moves more than its foot, so the antenna stretches. If only handles may be extrema, weights cannot change along a
+dead end: monotone weights are nearly constant there, and the antenna keeps its shape.
 
-Numbers: weight of the middle point at the foot and the tip of the left antenna; how far the tip runs ahead of the foot, as
-a part of the pull; the largest stretch of an antenna's edge; extrema of the middle column away from handles.
+Numbers: weight of the middle point at the foot and the tip of the left antenna; displacement of the tip relative to
+the foot, as a fraction of the pull; the largest stretch of an antenna's edge; extrema of the middle column away from
+handles.
 """
 
 import common
@@ -23,7 +24,7 @@ METHODS = {"unconstrained": "biharmonic", "bounded": "bounded-biharmonic", "mono
 
 
 def antenna_plate(step):
-    """3 wide and 1 high, with two antennas 0.8 high on top."""
+    """Return a plate 3 wide and 1 high, with two antennas 0.8 high on top."""
     columns, rows = round(3 / step), round(1.8 / step)
     x, y = np.meshgrid(np.linspace(0, 3, columns + 1), np.linspace(0, 1.8, rows + 1))
     points = np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1)

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Bounds do not keep weights from having bumps away from their handle; monotone weights have none.
+"""Spurious extrema: unconstrained, bounded and monotone weights.
 
-Five points of a square; shown is the column of one of them, as it was solved for. Unconstrained weights have minima
-and maxima where no handle is, so a pose there moves what nobody touched. Bounds take those of the thin-plate energy
-away here, but not those of the next smoother one (triharmonic), which oscillates within them and whose extrema jump
-when a handle moves a little; monotone weights (Jacobson, Weinkauf, Sorkine 2012) have none of either. Only certified
-weights count: the script stops when a column misses the tolerance (finer squares than these 40 x 40 need more
-iterations for the bounded triharmonic energy than there are by default).
+Five points of a square; the picture shows the solved column of one of them. Unconstrained weights have minima and
+maxima away from handles, so a pose there moves untouched parts. Bounds remove those of the thin-plate energy here,
+but not those of the next smoother energy (triharmonic), which oscillates within the bounds and whose extrema jump
+when a handle moves a little. Monotone weights (Jacobson, Weinkauf, Sorkine 2012) have no such extrema with either
+energy. Only certified weights count: the script stops if a column misses the tolerance (finer squares than these 40 x
+40 need more than the default number of iterations for the bounded triharmonic energy).
 
 Numbers: extrema away from handles of all five columns, with a persistence above 1e-3 of the column's range, counted
-by the program's picture and by the filter's certificate; the certificate's relative gap; lowest and highest value; and
-after the shown column's handle has moved by one of the squares, the farthest that one of its extrema now is from the
-nearest that was there, as a part of the side.
+by the program's picture and by the filter's certificate; the certificate's relative gap; lowest and highest value;
+and after the shown column's handle has moved by one of the squares, the largest distance of one of its extrema from
+the nearest previous one, as a fraction of the side.
 """
 
 import common
@@ -21,12 +21,12 @@ from bindpose.meshes import points_of, to_dataset
 from new_hues import POINTS, grid
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-SHOWN = 3  # the point above on the left
+SHOWN = 3  # the upper left point
 SQUARES = 40  # in a row; the points are vertices
 
 
 def filters():
-    """Name, filter: three kinds of weights for two energies."""
+    """Return name and filter: three types of weights for two energies."""
     made = {}
     for order, energy in ((2, "biharmonic"), (3, "triharmonic")):
         free = bindpose.vtkUnconstrainedWeights()
@@ -50,7 +50,7 @@ def solved(solver, square, places):
 
 
 def extrema_of(solver):
-    """Places of the shown column's extrema."""
+    """Return the positions of the shown column's extrema."""
     found = solver.GetOutput(1)
     if not found.GetNumberOfPoints():
         return np.zeros((0, 3))

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """Bones that stretch and twist along themselves.
 
-Above a mallet with one bone in its shaft, which becomes twice as long: by a scale along the bone (linear blend) the
-head becomes an egg and flies off, by a stretchable bone it is moved along; a twist turns the tail by 180 degrees and
-lets the shaft wind. Below a cat's arm, which points at us: its bone is drawn half as long, the hand follows. Linear
-blend has rigid bones only and folds the skin; stretchable bones foreshorten it.
+Above is a mallet with one bone in its shaft, which becomes twice as long. A scale along the bone (linear blend)
+deforms the head to an egg and moves it away; a stretchable bone translates it. A twist rotates the tail by 180
+degrees, and the shaft winds. Below is a cat's arm that points at the viewer: its bone is drawn half as long, and the
+hand follows. Linear blend only has rigid bones and folds the skin; stretchable bones foreshorten it.
 
-Numbers: where the middle of the mallet's head is, 1.3 at rest, and how long the head is, 0.6 at rest; the twist's
-angle at the middle of the shaft, and by how much it changes radii; the arm's length, of that at rest, and triangles
-that are inside out.
+Numbers: position of the middle of the mallet's head, 1.3 at rest, and length of the head, 0.6 at rest; the twist's
+angle at the middle of the shaft, and the change of radii; the arm's length, relative to rest, and inverted triangles.
 """
 
 import warnings
@@ -25,8 +24,8 @@ WIDE = 1440
 
 
 def mallet(around, along):
-    """Points and triangles of a fluted shaft from 0 to 1 along x with a ball of radius 0.3 at 1.3; the ball's widest
-    ring."""
+    """Return points and triangles of a fluted shaft from 0 to 1 along x with a ball of radius 0.3 at 1.3, and
+    the ball's widest ring."""
     shaft = np.linspace(0, 1.02, along)
     half = along // 3
     turn = np.concatenate([np.linspace(np.arccos(0.28 / 0.3), np.pi / 2, half), np.linspace(np.pi / 2, np.pi, half)[1:]])
@@ -82,7 +81,7 @@ def cats(options, numbers):
     pose = {"handles": {"arm": {"head": shoulder.tolist(), "tail": shorter.tolist()},
                         "hand": {"head": shorter.tolist(), "tail": (fingers + shorter - wrist).tolist()}}}
     rest = points_of(weighted)
-    # Along the arm, before its joint: where the hand has no say.
+    # Along the arm, before its joint, where the hand has no influence.
     near = [int(np.linalg.norm(rest - (shoulder + share * (wrist - shoulder)), axis=1).argmin()) for share in (0.2, 0.8)]
     texture = planar.to_texture(pixels)
     tiles = [("at rest", [planar.textured(weighted, texture), *planar.handle_actors(handles, 0.01 * size)])]

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""The same handles and transforms, measured on the skin or on what is inside.
+"""The same handles and transforms with the energy of the surface and of the volume.
 
-A bar is bent by 180 degrees and twisted by 170. Left the energy is that of its surface, right that of its tets: the handles,
-their weights and the number of unknowns are the same, only the matrix before them is another. The surface flattens
-where it bends, as a hose does; the volume keeps its cross-section better.
+A bar is bent by 180 degrees and twisted by 170. Left: the energy of its surface. Right: the energy of its tets. The
+handles, their weights and the number of unknowns are the same; only the precomputed matrix differs. The surface
+flattens where it bends, as a hose does; the volume preserves its cross-section better.
 
-Numbers: the energies; the area of the cross-section at the middle of the bar, of that at rest; the smallest along the
-bar; the volume, of that at rest; how far apart surface and volume are, of the diagonal.
+Numbers: the energies; the area of the cross-section at the middle of the bar, relative to rest; the smallest along
+the bar; the volume, relative to rest; the distance between surface and volume, relative to the diagonal.
 """
 
 import common
@@ -22,7 +22,7 @@ POSES = {"bent": {"translate": [-6, 0, 3.82], "rotate": {"axis": [0, 1, 0], "deg
 
 
 def section_areas(points, across):
-    """Areas of the bar's cross-sections, as polygons of their rims."""
+    """Return the areas of the bar's cross-sections, as polygons of their rims."""
     side = np.arange(across + 1)
     zero, last = 0 * side, 0 * side + across
     rim = np.concatenate([np.stack(pair, axis=1) for pair in ((side[:-1], zero[:-1]), (last[:-1], side[:-1]),

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""A mesh of many parts that nothing connects, held together by weights.
+"""A mesh of disconnected parts, held together by weights.
 
-A string of balls, each a closed surface by itself, with weights from one volume around all of them. Reduced
-as-rigid-as-possible moves them together, though no edge joins them: the subspace does. Full as-rigid-as-possible on the
-same mesh moves the balls that a handle holds and leaves the others behind.
+A string of balls, each a closed surface, has weights from one volume around all of them. Reduced as-rigid-as-possible
+moves them together although no edge joins them, because of its subspace. Full as-rigid-as-possible on the same mesh
+moves only the balls that a handle constrains.
 
-Numbers: parts; gaps between neighbouring balls, of their gap at rest: smallest and largest, reduced and full; the
-largest distance between two balls put at the same place, of the diagonal, when both are moved by the same weights.
+Numbers: parts; gaps between neighboring balls, relative to rest: smallest and largest, reduced and full; the largest
+distance between two balls at the same position, relative to the diagonal, if both are moved by the same weights.
 """
 
 import warnings
@@ -26,7 +26,7 @@ def make(options):
     balls = [meshes.sphere(2 if options.small else 3, RADIUS, (k * STEP, 0, 0)) for k in range(BALLS)]
     each = len(balls[0][0])
     mesh = meshes.joined(*balls)
-    # One volume around all: a bar that holds them.
+    # One volume around all: a bar that contains them.
     points, tets = posing.bar(*((20, 4) if options.small else (40, 8)), length=BALLS * STEP + 0.4)
     points = points * [1, 1.3, 1.3] - [STEP / 2 + 0.2, 0.65, 0.65]
     last = (BALLS - 1) * STEP
@@ -46,14 +46,14 @@ def make(options):
     for name, bender, extra in (("reduced", bindpose.vtkReducedARAP(), {"NumberOfExtraWeights": 15}),
                                 ("full", bindpose.vtkFullARAP(), {})):
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", bindpose.BindposeWarning)  # parts without a handle, handles in the air
+            warnings.simplefilter("ignore", bindpose.BindposeWarning)  # parts without a handle, handles off the mesh
             posed = posing.posed(bender, weighted, handles, pose, MaximumIterations=2000, **extra)
         centres = points_of(posed).reshape(BALLS, each, 3).mean(axis=1)
         gaps = np.linalg.norm(np.diff(centres, axis=0), axis=1) / STEP
         numbers[f"{name}: distances of neighbours"] = [float(gaps.min()), float(gaps.max())]
         files.append(f"{name}.vtp")
         bindpose.write(to_dataset((points_of(posed), mesh[1])), options.scratch / files[-1])
-    # Two copies of the string at one place.
+    # Two copies of the string at the same position.
     twice = to_dataset(meshes.joined(mesh, mesh))
     row = np.asarray(point_array(weighted, "Weights"))
     add_point_array(twice, "Weights", np.vstack([row, row]), ["p1", "p2", "p3"])

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Noisy data, smoothed with the extrema that are asked for and no other.
+"""Smoothing of noisy data with prescribed extrema.
 
 Two hills, two hollows and noise, at the vertices of a square: hundreds of local extrema. Monotone smoothing
-(Jacobson, Weinkauf, Sorkine 2012) finds the smooth function nearest to the data among all that have the given extrema
-only: here the four most persistent ones of the data, and one maximum and one minimum of the user's own choice.
+(Jacobson, Weinkauf, Sorkine 2012) finds the smooth function nearest to the data among all functions that have only
+the given extrema: here the four most persistent ones of the data, and one maximum and one minimum chosen by the user.
 
-Numbers: extrema with a persistence above 1e-3 of the range, counted by the program's picture; of the results also the
-certificate's relative gap, the rms distance to the data without noise as a part of their range (the noise's own
-beside it), and whether every listed vertex is no lower or no higher than all of its neighbours.
+Numbers: extrema with a persistence above 1e-3 of the range, counted by the program's picture. For the results also
+the certificate's relative gap, the rms distance to the data without noise relative to their range (and that of the
+noise itself), and whether every listed vertex is no lower or no higher than all of its neighbors.
 """
 
 import common
@@ -16,12 +16,12 @@ import numpy as np
 from bindpose.meshes import add_point_array, to_dataset
 from new_hues import grid
 
-HILLS = ((0.25, 0.3, 1.0), (0.7, 0.65, 0.8), (0.75, 0.2, -0.7), (0.25, 0.75, -0.5))  # place, height
+HILLS = ((0.25, 0.3, 1.0), (0.7, 0.65, 0.8), (0.75, 0.2, -0.7), (0.25, 0.75, -0.5))  # position, height
 NOISE = 0.1  # rms
 
 
 def noise(squares):
-    """Random numbers with the mean 0 and the rms NOISE, blurred over a few vertices."""
+    """Return random numbers with mean 0 and rms NOISE, blurred over a few vertices."""
     values = np.random.default_rng(1).standard_normal((squares + 1, squares + 1))
     for axis in (0, 1):
         values = np.apply_along_axis(np.convolve, axis, values, [1, 2, 1], "same")
@@ -35,7 +35,7 @@ def edges(triangles):
 
 
 def are_extrema(values, listed, pairs):
-    """Whether each listed maximum is no lower, each minimum no higher than its neighbours."""
+    """Report whether each listed maximum is no lower, and each minimum no higher, than its neighbors."""
     both = np.concatenate([pairs, pairs[:, ::-1]])
     return all((e["kind"] == "maximum" and (values[both[both[:, 0] == e["vertex"], 1]] <= values[e["vertex"]]).all())
                or (e["kind"] == "minimum" and (values[both[both[:, 0] == e["vertex"], 1]] >= values[e["vertex"]]).all())

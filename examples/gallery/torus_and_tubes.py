@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""A piece of a torus, made anew between its ends: from rings of the torus, or from straight tubes.
+"""A piece of a torus, recomputed between its ends: from rings of the torus, or from straight tubes.
 
-A quarter of a torus is left out and solved for, coordinate by coordinate, on a straight tube as parameter domain: with
-order 1, 2 and 3 from left to right. Above, the rings at its ends are those of the torus itself; in the middle the patch
-begins at straight tubes; below the domain is only half as long, so that the same rings say weaker tangents, but the
-tube stays rounder. The membrane necks, the plate takes the tangents up, order 3 the curvature as well, and comes
-nearest to the torus where its rings are those of one.
+A quarter of a torus is removed and solved for, coordinate by coordinate, on a straight tube as parameter domain: with
+order 1, 2 and 3 from left to right. Above, the rings at its ends are those of the torus itself. In the middle the
+patch begins at straight tubes. Below, the domain is only half as long, so the same rings give weaker tangents, but
+the tube stays rounder. The membrane necks. The plate continues the tangents, order 3 also the curvature, and comes
+nearest to the torus if its rings are those of a torus.
 
-Numbers, by order: the largest distance of the patch's vertices from the torus, of its tube's radius; the smallest
-radius of the patch's rings, the same; the angle between the patch's middle line and the tube at its end, in degrees.
+Numbers, by order: the largest distance of the patch's vertices from the torus, relative to its tube's radius; the
+smallest radius of the patch's rings, likewise; the angle between the patch's middle line and the tube at its end, in
+degrees.
 """
 
 import common
@@ -21,7 +22,7 @@ RADIUS, TUBE, TURN = 1.0, 0.4, np.pi / 2
 
 
 def tube(along, around):
-    """Triangles of a tube; rings of `around` vertices, each turned by half a step."""
+    """Return triangles of a tube; rings of `around` vertices, each rotated by half a step."""
     triangles = []
     for i in range(along - 1):
         a = i * around + np.arange(around)
@@ -46,7 +47,7 @@ def make(options):
     domain = np.stack([s, across, up], axis=1)
 
     def place(angle, beyond):
-        """On the torus, and so far along its tangent."""
+        """Return a position on the torus, moved by a distance along its tangent."""
         return np.stack([-(RADIUS + across) * np.cos(angle) + beyond * np.sin(angle),
                          (RADIUS + across) * np.sin(angle) + beyond * np.cos(angle), up], axis=1)
 

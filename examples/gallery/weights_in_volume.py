@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Weights in a volume keep what they have in the plane: bounds, rows that sum to one, territories in one piece.
+"""Weights in a volume keep the properties of the plane: bounds, rows that sum to one, connected territories.
 
-An elephant filled with tets, points spread over it as handles, bounded biharmonic weights of the whole volume. Left
-each tet in the colour of the handle that moves it most; right one column, with its extrema; both cut open. Each
-territory is one piece: nothing of it is torn off by a pose.
+An elephant is filled with tets; points spread over it are handles; the weights are bounded biharmonic weights of the
+whole volume. Left: each tet in the color of its strongest handle. Right: one column, with its extrema. Both are cut
+open. Each territory is connected, so a pose tears nothing off.
 
-Numbers: tets, handles, seconds, the certificate's relative gap; lowest and highest weight, largest |sum - 1| of a row;
-extrema away from handles in all columns; part of the tets that do not hang together with their handle's territory.
+Numbers: tets, handles, seconds, the certificate's relative gap; lowest and highest weight, largest |sum - 1| of a
+row; extrema away from handles in all columns; fraction of the tets that are not connected to their handle's
+territory.
 """
 
 import time
@@ -18,7 +19,7 @@ from bindpose.meshes import point_array, tets_of
 
 
 def stray(tets, owner):
-    """Share of tets that do not hang together with the largest part of their territory, by common sides."""
+    """Return the fraction of tets that are not connected by faces to the largest part of their territory."""
     sides = np.sort(np.concatenate([np.delete(tets, k, axis=1) for k in range(4)]), axis=1)
     of_tet = np.tile(np.arange(len(tets)), 4)
     order = np.lexsort(sides.T)
@@ -26,7 +27,7 @@ def stray(tets, owner):
     a, b = of_tet[order][1:][twin], of_tet[order][:-1][twin]
     same = owner[a] == owner[b]
     label = np.arange(len(tets))
-    while True:  # the least number of a neighbour, until nothing changes
+    while True:  # propagate the smallest number of the neighbors until nothing changes
         least = label.copy()
         np.minimum.at(least, a[same], label[b[same]])
         np.minimum.at(least, b[same], label[a[same]])

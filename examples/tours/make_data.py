@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Makes the shapes that the tours open: a little man of balls and capsules, his handles, the winding numbers around
-him, his tets, a paper doll in a picture, and a leaf in a tilted plane. They are kept in data/; run this after a change of the formats.
+"""Create the shapes that the tours open: a little man of balls and capsules, his handles, the winding numbers around
+him, his tets, a paper doll in a picture, and a leaf in a tilted plane. They are stored in data/. Run this script again
+after a change of the file formats.
 
 usage: make_data.py PROGRAM    (the program bindpose)
 """
@@ -19,7 +20,7 @@ from vtkmodules.vtkIOImage import vtkPNGWriter
 
 DATA = pathlib.Path(__file__).resolve().parent / "data"
 
-# From, to, radius; y is up.
+# Start, end, radius; y is up.
 LIMBS = [
     ((0, 0.78, 0), (0, 0.86, 0), 0.19),           # head
     ((0, 0.05, 0), (0, 0.42, 0), 0.2),            # trunk
@@ -36,14 +37,14 @@ SPINE = ((0, 0.0, 0), (0, 0.45, 0))
 
 
 def distance(points, limb):
-    """To a capsule, below zero inside."""
+    """Return the distance to a capsule, negative inside."""
     a, b, radius = numpy.array(limb[0], float), numpy.array(limb[1], float), limb[2]
     along = numpy.clip((points - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
     return numpy.linalg.norm(points - a - along[:, None] * (b - a), axis=1) - radius
 
 
 def figure():
-    """The man's surface: capsules that melt into each other."""
+    """Return the man's surface: capsules that blend smoothly."""
     spacing, lower, size = 0.05, (-0.85, -0.9, -0.35), (35, 43, 15)
     grid = numpy.stack(numpy.meshgrid(*[numpy.arange(n) for n in size[::-1]], indexing="ij")[::-1], axis=-1).reshape(-1, 3)
     places = grid * spacing + numpy.array(lower)
@@ -88,7 +89,7 @@ def write_tgf(path, points, bones):
 
 
 def paper_doll(path):
-    """The man seen from the front, cut out of paper: a picture with an alpha."""
+    """Draw the man from the front as a paper cut-out: a picture with alpha."""
     pixels = 256
     y, x = numpy.mgrid[0:pixels, 0:pixels]
     places = numpy.stack([(x.ravel() + 0.5) / pixels * 2.1 - 1.05, (y.ravel() + 0.5) / pixels * 2.1 - 1.0,
@@ -112,7 +113,7 @@ def paper_doll(path):
     writer.SetFileName(str(path))
     writer.SetInputData(image)
     writer.Write()
-    # In the shape's own unit, which is the picture's pixel.
+    # In the unit of the shape, which is the picture's pixel.
     def pixel(place):
         return ((place[0] + 1.05) / 2.1 * pixels - 0.5, (place[1] + 1.0) / 2.1 * pixels - 0.5, 0)
     write_tgf(path.with_suffix(".tgf"), {name: tuple(round(v) for v in pixel(place)) for name, place in POINTS.items()},
@@ -120,7 +121,7 @@ def paper_doll(path):
 
 
 def leaf(folder):
-    """A flat shape that lies in no plane of the axes, to twelve digits."""
+    """Create a flat shape that is not parallel to any coordinate plane, exact to twelve digits."""
     along, across = 25, 9
     u, v = numpy.meshgrid(numpy.linspace(-1, 1, along), numpy.linspace(-1, 1, across), indexing="ij")
     flat = numpy.stack([u, (0.05 + 0.4 * (1 - u**2)) * v + 0.12 * u**2, 0 * u], axis=-1).reshape(-1, 3)

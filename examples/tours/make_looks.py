@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Makes the pictures of viewer/window.md that hold VTK's default look against the window's, light and dark: the same
-mesh from the same place.
+"""Create the pictures of viewer/window.md that compare VTK's default look with the window's light and dark looks: the
+same mesh from the same camera.
 
 usage: make_looks.py PROGRAM    (the program bindpose; needs VTK's Python and a display, for instance xvfb-run)
 """
@@ -43,7 +43,7 @@ def read_off(path):
 
 
 def default_look(surface, camera, path):
-    """What VTK draws when nobody says how."""
+    """Render with VTK's default settings."""
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(surface)
     actor = vtkActor()

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Plays tours for the documentation: the tutorial of the window with its pictures, and the film of README.md.
+"""Play tours for the documentation: the tutorial of the window with its pictures, and the film of README.md.
 
-Of the tour picture.json the weights over the picture are taken, too, and of rotations.json the clusters and the angles.
+From the tour picture.json it also uses the weights over the picture, and from rotations.json the clusters and angles.
 
 usage: make_pictures.py PROGRAM [--film]    (the program bindpose; the film needs ffmpeg)
 
-viewer/tutorial.md is made of what tutorial.json says step by step; a test holds one against the other and replays it.
+viewer/tutorial.md is generated from the steps of tutorial.json; a test compares the two and replays the tour.
 """
 
 import json
@@ -35,7 +35,7 @@ replays with its checks. To watch it on your own display, in the folder that hol
 
 
 def page(tour):
-    """The tutorial's text: what the steps say, with the pictures where they are taken."""
+    """Return the tutorial's text: the texts of the steps, with the pictures at their steps."""
     text = HEAD
     number = 0
     for step in tour["steps"]:
@@ -56,7 +56,7 @@ def play(program, name, mesh_folder, output):
 
 
 def make_film(frames):
-    """A GIF of the frames, with colours of its own."""
+    """Create a GIF of the frames with its own color palette."""
     words = ["ffmpeg", "-v", "error", "-y", "-framerate", "12", "-i", frames / "bend_%04d.png", "-filter_complex",
              "tpad=stop_mode=clone:stop_duration=0.8,split[a][b];[a]palettegen=max_colors=96:stats_mode=diff[p];"
              "[b][p]paletteuse=dither=none:diff_mode=rectangle", FILM]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Makes a picture of every panel of the window: light and dark, 1280 x 800, 1920 x 1080, 2560 x 1600, and 1280 x 800 at
-twice the pixels, to be looked at after a change of the looks.
+"""Create a picture of every panel of the window: light and dark, 1280 x 800, 1920 x 1080, 2560 x 1600, and 1280 x 800
+with twice the pixels, for inspection after a change of the look.
 
 usage: make_screens.py PROGRAM FOLDER    (the program bindpose; pictures go to FOLDER/LOOK_SIZE/NAME.png)
 """
@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 TOURS = pathlib.Path(__file__).resolve().parent
-# Name, size of the window, scale of Qt.
+# Name, size of the window, Qt scale factor.
 SIZES = [
     ("1280x800", [1280, 800], 1),
     ("1920x1080", [1920, 1080], 1),

@@ -10,11 +10,11 @@ Functions on numpy arrays and VTK datasets (PyVista's objects are VTK datasets):
     posed = bindpose.deform(weights, handles, "pose.json", method="reduced-arap")
     bindpose.write(posed, "posed.vtp")
 
-Every filter is here as a VTK class, too (``bindpose.vtkWindingNumberField``, …), for pipelines that
-stay alive; ``bindpose.run`` turns a filter's status into an exception.
+Every filter is also available as a VTK class (``bindpose.vtkWindingNumberField``, …), for persistent pipelines.
+``bindpose.run`` turns a filter's status into an exception.
 
-What goes in comes out: arrays for arrays, a VTK dataset for a VTK dataset. ``bindpose.report(result)``
-tells the numbers of either.
+The output has the type of the input: arrays for arrays, a VTK dataset for a VTK dataset. ``bindpose.report(result)``
+returns the numbers of both.
 """
 
 import vtkmodules.vtkCommonCore  # noqa: F401  VTK first: our library finds its symbols there

@@ -1,4 +1,4 @@
-"""A mesh posed many times over."""
+"""Many posed instances of a mesh."""
 
 import os
 
@@ -15,7 +15,7 @@ from .running import run
 
 
 def _placement(place):
-    """3x4 numbers of a place: a translation, a 3x4 or a 4x4 matrix."""
+    """Return a placement as 3x4 numbers: a translation, a 3x4 or a 4x4 matrix."""
     place = np.asarray(place, dtype=float)
     if place.shape == (3,):
         return np.column_stack([np.eye(3), place])
@@ -26,20 +26,20 @@ def _placement(place):
 
 @with_options("arap", "reduced_arap_bind")
 def crowd(mesh, handles, poses, *, placements=None, weights=None, appended=False, options, threads=0, progress=None):
-    """Bend many instances of a mesh, each to a pose of its own, by reduced as-rigid-as-possible.
+    """Bend many instances of a mesh, each to its own pose, by reduced as-rigid-as-possible.
 
-    The mesh is bound once; an instance costs its iterations and its points, in single precision.
+    The mesh is bound once. Each instance costs its iterations, and its points in single precision.
 
     Parameters
     ----------
     mesh, handles, weights
         See `deform`.
     poses : list of poses, or one
-        Dicts or files, see `deform`: an instance a pose, or a frame of ``{"frames": [...]}``.
+        Dicts or files, see `deform`: one instance per pose, or per frame of ``{"frames": [...]}``.
     placements : sequence, optional
-        Where each instance stands: translations, 3x4 or 4x4 matrices, applied to the posed mesh.
+        Position of each instance: translations, 3x4 or 4x4 matrices, applied to the posed mesh.
     appended : bool
-        For a dataset: all instances in one, with the point array ``Instance``.
+        For a dataset: return all instances in one dataset, with the point array ``Instance``.
     {options}
     threads, progress
         See `winding_number`.
@@ -47,16 +47,16 @@ def crowd(mesh, handles, poses, *, placements=None, weights=None, appended=False
     Returns
     -------
     list of Array or of vtkDataSet, or vtkDataSet
-        One an instance, as `deform` returns; the datasets share cells and arrays. With `appended` one dataset.
+        One per instance, as `deform` returns; the datasets share cells and arrays. One dataset with `appended`.
 
     Raises
     ------
     InvalidInput
-        As `deform`, naming the instance; another number of placements than of poses.
+        As in `deform`, with the instance; numbers of placements and poses that differ.
 
     Notes
     -----
-    A crowd that moves keeps a ``vtkCrowdDeformation``: it is bound once, and each instance starts from its last pose.
+    For a moving crowd keep a ``vtkCrowdDeformation``: it is bound once, and each instance starts from its last pose.
     """
     data, posed = _posed_handles(mesh, handles, {"handles": {}}, weights)
     rest = posed.GetInputDataObject(0, 0)

@@ -1,15 +1,15 @@
-"""What a filter's status becomes in Python."""
+"""Python exceptions and warnings for the statuses of filters."""
 
 
 class BindposeError(RuntimeError):
-    """A filter could not do its work; the text is the filter's one sentence.
+    """A filter failed; the message is that of the filter.
 
     Attributes
     ----------
     status : str
         "invalid_input", "cancelled", "unavailable" or "internal_error".
     report : dict
-        What the filter had measured until then.
+        The filter's measurements until the failure.
     """
 
     status = "internal_error"
@@ -20,26 +20,26 @@ class BindposeError(RuntimeError):
 
 
 class InvalidInput(BindposeError, ValueError):
-    """The data cannot be used; the text names the first offender."""
+    """The data cannot be used; the message names the first cause."""
 
     status = "invalid_input"
 
 
 class Cancelled(BindposeError):
-    """Stopped by the progress callback."""
+    """The progress callback canceled the filter."""
 
     status = "cancelled"
 
 
 class Unavailable(BindposeError):
-    """An optional part is missing; the text names what to install."""
+    """An optional part is missing; the message names the package to install."""
 
     status = "unavailable"
 
 
 class BindposeWarning(UserWarning):
-    """Something that the user should know about a result that is good otherwise."""
+    """A warning about a result that is usable."""
 
 
 class NotConvergedWarning(BindposeWarning):
-    """The result is there, but its residuals are above the tolerance; the report has them."""
+    """There is a result, but its residuals are above the tolerance; the report contains them."""

@@ -1,4 +1,4 @@
-"""Smooth surfaces between what is fixed."""
+"""Smooth surfaces between fixed points."""
 
 import numpy as np
 
@@ -10,24 +10,24 @@ from .running import run
 
 @with_options("variational")
 def fair(mesh, fixed=None, *, tangents=None, parameters=None, load=None, options, threads=0, progress=None):
-    """Make the free points of a surface anew, smoothly between the fixed ones: for holes and blends.
+    """Recompute the free points of a surface smoothly between the fixed ones: for holes and blends.
 
     Each coordinate solves Laplace's equation of an order (mixed finite elements, Jacobson et al. 2010).
 
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, triangles)
-        A surface. The free points need places to begin with only when there are no `parameters`: cotangents and
-        areas are taken from them.
+        A surface. The positions of the free points matter only without `parameters`: they determine cotangents and
+        areas.
     fixed : (#V,) array of bool or ids, optional
-        The vertices that stay; default: the dataset's point array ``Fixed``.
+        The fixed vertices; default: the dataset's point array ``Fixed``.
     tangents : (#V, 3) array, optional
-        Derivatives of the position outward, per unit of the parameter domain: sets `tangent_source` to "given". Default:
-        the point array ``Tangents``.
+        Derivatives of the position outward, per unit of the parameter domain. Sets `tangent_source` to "given".
+        Default: the point array ``Tangents``.
     parameters : (#V, 2) or (#V, 3) array, optional
-        Places in the parameter domain; default: the point array ``Parameterization``, or the mesh itself.
+        Positions in the parameter domain; default: the point array ``Parameterization``, or the mesh itself.
     load : (#V, 3) array, optional
-        What (-Laplacian)^order is to be instead of zero.
+        Right side of (-Laplacian)^order; default: zero.
     {options}
     threads, progress
         See `winding_number`.
@@ -40,7 +40,8 @@ def fair(mesh, fixed=None, *, tangents=None, parameters=None, load=None, options
     Raises
     ------
     InvalidInput
-        Nothing fixed in a connected part, triangles of the patch without area, edges of three triangles or more.
+        A connected component without fixed points, triangles of the patch without area, edges of three triangles or
+        more.
     Unavailable
         The system is too ill-conditioned for double precision.
     """

@@ -1,4 +1,4 @@
-"""Files in and out; the ending decides."""
+"""Reading and writing of files; the file name extension determines the format."""
 
 import json
 import os
@@ -25,11 +25,11 @@ class Rig(NamedTuple):
     Attributes
     ----------
     mesh : vtkPolyData
-        With the point array ``Weights``, a component a handle.
+        With the point array ``Weights``, one component per handle.
     handles : vtkPolyData
-        One handle a cell; no cell when the file has no skin.
+        One cell per handle; no cell if the file has no skin.
     pose : dict or None
-        The animation as a sequence that `deform` takes, None without one.
+        The animation as a sequence for `deform`; None if there is none.
     """
 
     mesh: vtkPolyData
@@ -53,7 +53,7 @@ def read(path):
     Raises
     ------
     InvalidInput
-        Missing, empty, truncated or wrong file; the text names it, and the line where there are lines.
+        Missing, empty, truncated or invalid file; the message names it, and the line of text formats.
     """
     reader = vtkMeshFileReader()
     reader.SetFileName(os.fspath(path))
@@ -72,12 +72,12 @@ def read_handles(path):
     Returns
     -------
     vtkPolyData
-        One handle a cell; see `bindpose.handles`.
+        One cell per handle; see `bindpose.handles`.
 
     Raises
     ------
     InvalidInput
-        As `read`, and for handles that cannot be used.
+        As in `read`, and for handles that cannot be used.
     """
     reader = vtkHandleFileReader()
     reader.SetFileName(os.fspath(path))
@@ -86,23 +86,24 @@ def read_handles(path):
 
 
 def write(mesh, path, *, overwrite=False):
-    """Write a mesh, volume or handle dataset; the file is there whole or not at all.
+    """Write a mesh, volume or handle dataset, either completely or not at all.
 
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, elements)
     path : str or path-like
-        vtp, vtu, vti, vtk, ply, stl, obj, off, mesh, or dmat for the array ``Weights`` alone; glb or gltf
-        without a skin (`write_rig` has one); vdb (OpenVDB) for a volume's active scalars. ``bindpose.vtkVDBWriter`` has more choices.
+        vtp, vtu, vti, vtk, ply, stl, obj, off, mesh; dmat for the array ``Weights`` alone; glb or gltf without a skin
+        (`write_rig` writes a skin); vdb (OpenVDB) for a volume's active scalars, for which ``bindpose.vtkVDBWriter``
+        has more options.
     overwrite : bool
-        Replace an existing file?
+        Replace an existing file.
 
     Raises
     ------
     InvalidInput
-        The file exists, cannot be written, or cannot hold this kind of dataset.
+        The file exists, cannot be written, or its format cannot store this type of dataset.
     Unavailable
-        A .vdb file from a build without OpenVDB; the text names the package.
+        A .vdb file in a build without OpenVDB; the message names the package.
     """
     path = os.fspath(path)
     ending = os.path.splitext(path)[1].lower()
@@ -120,18 +121,18 @@ def read_rig(path):
     Parameters
     ----------
     path : str or path-like
-        .glb or .gltf, of `write_rig`, Blender or another program.
+        .glb or .gltf, from `write_rig`, Blender or another program.
 
     Returns
     -------
     Rig
-        Mesh with weights, handles (at rest where the skin was bound; ``Transform`` is how the nodes stand) and
-        the animation.
+        Mesh with weights, handles and animation. The handles are at rest in the bind pose; their ``Transform`` is
+        that of the nodes.
 
     Raises
     ------
     InvalidInput
-        Missing, truncated or broken file; the text names it.
+        Missing, truncated or invalid file; the message names it.
     """
     reader = vtkGLTFSkinReader()
     reader.SetFileName(os.fspath(path))
@@ -148,31 +149,31 @@ def write_rig(mesh, handles, path, *, frames=(), fps=24.0, animation="joints", i
     mesh : vtkDataSet
         With the point array ``Weights``; tets are written as their boundary.
     handles : vtkPolyData, str or path-like
-        The handles that the weights were made for; as they are posed, so stand the joints.
+        The handles for which the weights were computed; their pose is the pose of the joints.
     path : str or path-like
         .glb or .gltf.
     frames : sequence of vtkDataSet
-        What `deform` made of a sequence of poses, for an animation.
+        Results of `deform` for a sequence of poses, for an animation.
     fps : float
         Frames per second.
     animation : {"joints", "morph"}
-        Frames move the joints (linear blends), or each is a morph target (all methods).
+        Frames are stored as transforms of the joints (linear blends), or as morph targets (all methods).
     influences : int
-        Weights of a vertex that are written, the largest; 0: all.
+        Maximum number of weights written per vertex, the largest; 0: all.
     overwrite : bool
-        Replace an existing file?
+        Replace an existing file.
 
     Returns
     -------
     dict
-        The writer's report: ``sets`` of four weights, ``dropped_share``, ``pose_error`` and
-        ``animation_error`` (how far the file takes a vertex from where it belongs, as a fraction of the
-        diagonal), ``file_bytes``, …
+        The writer's report: ``sets`` of four weights, ``dropped_share``, ``pose_error`` and ``animation_error``
+        (largest distance of a vertex in the file from its correct position, as a fraction of the diagonal),
+        ``file_bytes``, …
 
     Raises
     ------
     InvalidInput
-        Weights or frames that do not fit, an existing file, an unwritable place.
+        Weights or frames that do not match, an existing file, an output path that cannot be written.
     """
     if animation not in ("joints", "morph"):
         raise InvalidInput(f"animation is 'joints' or 'morph', not {animation!r}")

@@ -1,4 +1,4 @@
-"""The stages as functions."""
+"""The stages of the pipeline as functions."""
 
 import json
 import os
@@ -33,19 +33,20 @@ from .options import with_options
 from .running import report as report_of
 from .running import run
 
+
 @with_options("winding_number", without=("winding_threshold",))
 def winding_number(surface, points_or_grid=None, *, options, threads=0, progress=None):
-    """Winding number of a surface: 1 inside, 0 outside, in between where it is open.
+    """Return the winding number of a surface: 1 inside, 0 outside, in between where it is open.
 
     Parameters
     ----------
     surface : vtkDataSet or (vertices, triangles)
-        A dataset without polygons is taken for a curve in a plane (lines), or for samples of a
-        surface (points with normals, and areas in a point array ``Area``).
+        A dataset without polygons is a curve in a plane (lines), or samples of a surface (points with normals, and
+        areas in a point array ``Area``).
     points_or_grid : optional
-        Where to evaluate: an array of points (#P, 3); a VTK dataset, at whose points; a number of
-        samples along the longest side of a grid of cubic voxels; three numbers, the dimensions of a
-        grid. Default: 64 samples.
+        Points of the evaluation: an array of points (#P, 3); a VTK dataset, whose points are used; the number of
+        samples along the longest side of a grid of cubic voxels; or three numbers, the dimensions of a grid. Default:
+        64 samples.
     {options}
     threads : int
         0 for all cores; the result does not depend on it.
@@ -55,10 +56,9 @@ def winding_number(surface, points_or_grid=None, *, options, threads=0, progress
     Returns
     -------
     Array, vtkImageData or vtkDataSet
-        (#P,) values for points, with `compute_gradient` a pair of those and (#P, 3) gradients; an image for
-        a grid; a copy of the dataset. Datasets have the point arrays ``WindingNumber``,
-        ``OnSurface`` (1 where a triangle touches the point) and, when asked for,
-        ``WindingNumberGradient``.
+        (#P,) values for points, with `compute_gradient` a pair of these and (#P, 3) gradients; an image for a grid; a copy
+        for a dataset. Datasets have the point arrays ``WindingNumber``, ``OnSurface`` (1 where a triangle touches the
+        point) and, with `compute_gradient`, ``WindingNumberGradient``.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def winding_number(surface, points_or_grid=None, *, options, threads=0, progress
 
     See Also
     --------
-    contains : the yes or no of it
+    contains : the same as booleans
     """
     field = filters.vtkWindingNumberField()
     field.SetInputData(0, to_dataset(surface))
@@ -105,7 +105,7 @@ def winding_number(surface, points_or_grid=None, *, options, threads=0, progress
 
 @with_options("winding_number", only=("method", "tolerance", "orient_patches", "winding_threshold"))
 def contains(surface, points, *, options, threads=0, progress=None):
-    """Whether points lie inside of a surface, however unclean.
+    """Report whether points are inside of a surface, clean or not.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def contains(surface, points, *, options, threads=0, progress=None):
     Raises
     ------
     InvalidInput
-        As `winding_number`.
+        See `winding_number`.
     """
     values = winding_number(surface, points if is_dataset(points) else np.atleast_2d(points), method=options.method,
                             tolerance=options.tolerance, orient_patches=options.orient_patches, threads=threads,
@@ -135,14 +135,14 @@ def contains(surface, points, *, options, threads=0, progress=None):
 
 @with_options("tetrahedralize")
 def tetrahedralize(surface, *, handles=None, options, threads=0, progress=None):
-    """Fill the inside of a surface, however unclean, with tets.
+    """Fill the inside of a surface, clean or not, with tets.
 
     Parameters
     ----------
     surface : vtkDataSet or (vertices, triangles)
     handles : vtkPolyData, str or path-like, optional
-        Handle dataset or file. cdt and wrap make handle points that are inside vertices of the tets and insert points
-        along bones and cages.
+        Handle dataset or file. With cdt and wrap the points of handles inside become points of the tets, and points
+        are added along bones and cages.
     {options}
     threads, progress
         See `winding_number`.
@@ -150,16 +150,16 @@ def tetrahedralize(surface, *, handles=None, options, threads=0, progress=None):
     Returns
     -------
     Tets or vtkUnstructuredGrid
-        Arrays for arrays; a dataset has the point array ``OriginalPointIds`` and the cell arrays
-        ``WindingNumber``, ``Label`` (1 inside, 2 inside though the winding number is below the
-        threshold, 0 outside, -1 outside though it is not below) and ``MinDihedralAngle`` (degrees).
+        Arrays for arrays. A dataset has the point array ``OriginalPointIds`` and the cell arrays ``WindingNumber``,
+        ``Label`` (1 inside, 2 inside although the winding number is below the threshold, 0 outside, -1 outside
+        although it is not below) and ``MinDihedralAngle`` (degrees).
 
     Raises
     ------
     InvalidInput
         Not a surface, or one that encloses nothing; `keep_outside` with another method than cdt.
     Unavailable
-        The meshing program is not there; the text names the packages, or where to get it.
+        The meshing program is missing; the message names the packages or the download address.
     """
     data = to_dataset(surface)
     filler = filters.vtkTetrahedralizeSurface()
@@ -177,18 +177,18 @@ def tetrahedralize(surface, *, handles=None, options, threads=0, progress=None):
 
 @with_options("planar_shape")
 def planar_shape(image_or_curves, *, handles=None, options, threads=0, progress=None):
-    """What an image shows, or what curves in a plane enclose, as quality triangles.
+    """Return the shape of an image, or the region that planar curves enclose, as quality triangles.
 
     Parameters
     ----------
     image_or_curves : vtkImageData, vtkPolyData, array, pair of arrays, str or path-like
-        An image: a dataset, a png, jpg, tif or bmp file, or an array with its first row on top,
-        #rows x #columns of alpha (0 to 1, bool, or unsigned integers) or x 4 with alpha as the last.
-        It is cut out where alpha is at least one half; without alpha it is taken as a whole.
-        Curves: a dataset or mesh file with lines or polygons in a plane z = const, or arrays
-        (points #V x 2 or x 3, segments #E x 2), counter-clockwise around the inside.
+        An image is a dataset, a png, jpg, tif or bmp file, or an array whose first row is at the top, #rows x
+        #columns of alpha (0 to 1, bool, or unsigned integers) or x 4 with alpha as the last component. The shape is
+        the part where alpha is at least 0.5; without alpha it is the whole image. Curves are a dataset or mesh file
+        with lines or polygons in a plane z = const, or arrays (points #V x 2 or x 3, segments #E x 2),
+        counter-clockwise around the inside.
     handles : vtkPolyData, str or path-like, optional
-        Handle dataset or file: points become points of the mesh, bones rows of edges.
+        Handle dataset or file: points become points of the mesh, bones become chains of edges.
     {options}
     threads, progress
         See `winding_number`.
@@ -196,15 +196,15 @@ def planar_shape(image_or_curves, *, handles=None, options, threads=0, progress=
     Returns
     -------
     PlanarShape or vtkPolyData
-        Arrays for arrays; a dataset has the point arrays ``TCoords`` (texture coordinates) and
-        ``OriginalPointIds`` and the cell array ``WindingNumber``.
+        Arrays for arrays. A dataset has the point arrays ``TCoords`` (texture coordinates) and ``OriginalPointIds``
+        and the cell array ``WindingNumber``.
 
     Raises
     ------
     InvalidInput
         An image that is transparent everywhere, curves that enclose nothing or are not in a plane.
     Unavailable
-        The meshing program is not there; the text names the packages.
+        The meshing program is missing; the message names the packages.
 
     See Also
     --------
@@ -269,7 +269,7 @@ def _set_arrays(solver, data, options, mirror):
 
 @with_options("weights_method", "bounded_weights", "weights", "weight_terms", without=("bounds",))
 def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, progress=None):
-    """Smooth weights, one function a handle, at the mesh's own points.
+    """Compute smooth weights, one function per handle, at the mesh's own points.
 
     Parameters
     ----------
@@ -279,11 +279,11 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
         A handle dataset (see `bindpose.handles`), a .tgf or .vtp file, "auto:N" for N points
         spread over the surface, or "skeleton:N" for at most N bones in it (`automatic_handles`).
     bounds : (float, float) or dict of handle name to (float, float)
-        Least and largest weight, of all or of single handles; only a wider range than 0 to 1 can be kept.
-        Without a dict the handles' cell array ``WeightBounds`` counts, where they have it.
+        Smallest and largest weight, of all handles or of single ones; only a wider range than 0 to 1 can be
+        satisfied. Without a dict the handles' cell array ``WeightBounds`` is used, if they have it.
     mirror : {"x", "y", "z"}, str or array_like (#V,) of int, optional
-        Handles that are mirror images get mirrored weights: in the plane across the middle of that axis,
-        or by ids of mirror points, -1 for none.
+        Handles that are mirror images get mirrored weights. The mirror is the middle plane across an axis, or ids of
+        mirror points, -1 for none.
     {options}
     threads, progress
         See `winding_number`.
@@ -291,23 +291,23 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
     Returns
     -------
     Array or vtkDataSet
-        For arrays (#V, #handles) with ``names`` of the columns; for a dataset a copy of the mesh with
-        the point array ``Weights``, a component a handle. Rows sum to one.
+        (#V, #handles) with ``names`` of the columns for arrays. For a dataset a copy of the mesh with the point array
+        ``Weights``, one component per handle. Rows sum to one.
 
     Raises
     ------
     InvalidInput
-        A mesh or handles that cannot be used; the text names the first offender.
+        A mesh or handles that cannot be used; the message names the first cause.
     BindposeError
-        Not enough memory; the text has the numbers.
+        Not enough memory; the message states the needed and available amounts.
 
     Warns
     -----
     NotConvergedWarning
         A column's certificate is above the tolerance; the result is kept.
     BindposeWarning
-        A handle lies outside, the domain that ``auto`` chose failed and a lattice took over, or the
-        weights of two lattices differ.
+        A handle is outside, the domain that ``auto`` chose failed and a lattice took over, or the weights of two
+        lattices differ.
 
     Notes
     -----
@@ -335,7 +335,7 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
     solver.SetNumberOfThreads(threads)
     report = run(solver, progress)
     result = solver.GetOutput()
-    if is_tets(data) or options.domain == "surface":  # it may have got points: back to the mesh's own
+    if is_tets(data) or options.domain == "surface":  # handles may have added points: transfer to the mesh's own points
         transfer = filters.vtkTransferWeights()
         transfer.SetInputData(0, data)
         transfer.SetInputData(1, result)
@@ -372,7 +372,7 @@ def _make_deformation(options):
 
 
 def _posed_handles(mesh, handles, pose, weights):
-    """The mesh as a dataset with its weights, and the filter that poses the handles."""
+    """Return the mesh as a dataset with its weights, and the filter that poses the handles."""
     data = to_dataset(mesh)
     if weights is not None:
         data = shallow_copy(data)
@@ -381,7 +381,7 @@ def _posed_handles(mesh, handles, pose, weights):
 
 
 def _make_poser(handles, pose):
-    """The filter that poses a handle dataset."""
+    """Return the filter that poses a handle dataset."""
     poser = filters.vtkPoseHandles()
     poser.SetInputData(0, handles)
     if isinstance(pose, (str, os.PathLike)):
@@ -404,19 +404,19 @@ def deform(mesh, handles, pose, *, weights=None, times=None, options, threads=0,
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, elements)
-        A dataset with the point array ``Weights``, or arrays beside `weights`. ``full-arap``, ``mls`` and
-        ``variational`` need none.
+        A dataset with the point array ``Weights``, or arrays together with `weights`. ``full-arap``, ``mls`` and
+        ``variational`` need no weights.
     handles : vtkPolyData, str or path-like
-        The handles that the weights were made for.
+        The handles for which the weights were computed.
     pose : dict, str or path-like
-        ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
-        or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file, where numbers may be expressions in
-        ``t``; or a .dmat file of libigl; or a .glb or .gltf file for its animation. A handle follows its parent
-        unless its entry has ``"space": "world"``; a .json file needs ``"version": 2`` for that.
+        ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}`` or
+        ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file. Numbers may be expressions in ``t``.
+        Alternatives are a .dmat file of libigl, and a .glb or .gltf file for its animation. A handle follows its
+        parent unless its entry has ``"space": "world"``; in a .json file this requires ``"version": 2``.
     weights : (#V, #handles) array, optional
-        For a mesh of arrays.
+        Weights for a mesh of arrays.
     times : sequence of floats, optional
-        Of a pose with expressions: seconds at which to take it; without, 0.
+        Times in seconds at which a pose with expressions is evaluated; default: 0.
     {options}
     threads, progress
         See `winding_number`.
@@ -424,13 +424,13 @@ def deform(mesh, handles, pose, *, weights=None, times=None, options, threads=0,
     Returns
     -------
     Array or vtkDataSet, or a list of them
-        Posed coordinates (#V, 3) for arrays, a posed copy for a dataset; a list, one a frame, for a
+        Posed coordinates (#V, 3) for arrays, a posed copy for a dataset; a list with one entry per frame for a
         sequence.
 
     Raises
     ------
     InvalidInput
-        Weights that do not fit, an unknown handle in the pose, a broken pose.
+        Weights that do not match, an unknown handle in the pose, an invalid pose.
     """
     data, poser = _posed_handles(mesh, handles, pose, weights)
     bender = _make_deformation(options)
@@ -455,17 +455,17 @@ def deform(mesh, handles, pose, *, weights=None, times=None, options, threads=0,
 
 @with_options("dynamics", "arap", "reduced_arap_bind", "rotation_arrays", without=("maximum_iterations", "tolerance"))
 def dynamics(mesh, handles, pose, *, frames, weights=None, options, threads=0, progress=None):
-    """Move a mesh as a body with mass: what handles leave open swings and falls.
+    """Move a mesh as a body with mass: parts that handles do not constrain swing and fall.
 
     Parameters
     ----------
     mesh, handles, weights
         See `deform`.
     pose : dict, str or path-like
-        See `deform`: a sequence, whose frames lead at their times, a pose with expressions in ``t``, or one that
-        stays. A handle that changes to mode ``free`` lets go.
+        See `deform`: a sequence, whose frames prescribe the motion at their times, a pose with expressions in ``t``,
+        or a constant pose. A handle that changes to mode ``free`` stops constraining the body.
     frames : int
-        Steps in time to return; the first is the pose at time 0 without motion.
+        Number of time steps to return; the first is the pose at time 0 without velocity.
     {options}
     threads, progress
         See `winding_number`.
@@ -473,12 +473,12 @@ def dynamics(mesh, handles, pose, *, frames, weights=None, options, threads=0, p
     Returns
     -------
     list of Array or of vtkDataSet
-        One a step, as `deform` returns.
+        One per step, as `deform` returns.
 
     Raises
     ------
     InvalidInput
-        Weights that do not fit, a broken pose, numbers out of range.
+        Weights that do not match, an invalid pose, numbers out of range.
     """
     data, poser = _posed_handles(mesh, handles, pose, weights)
     body = filters.vtkReducedDynamics()

@@ -1,4 +1,4 @@
-"""Handles from arrays, files and the surface itself."""
+"""Handles from arrays, files and surfaces."""
 
 import os
 
@@ -16,7 +16,7 @@ from .running import run
 
 
 def handles(points=None, bones=None, names=None, parents=None, pseudo_edges=None):
-    """Make a handle dataset from arrays.
+    """Create a handle dataset from arrays.
 
     Parameters
     ----------
@@ -27,15 +27,15 @@ def handles(points=None, bones=None, names=None, parents=None, pseudo_edges=None
     names : sequence of str, optional
         Names of the points, then of the bones. Default: p1, p2, …, b1, b2, …
     parents : sequence of int, optional
-        For each point, then each bone, the number of its parent in this order, or -1. Default: a bone
-        whose head is the tail of another has that one as parent.
+        For each point, then each bone, the index of its parent in this order, or -1. Default: if the head of a bone
+        is the tail of another bone, that bone is its parent.
     pseudo_edges : (#E, 2) array of int, optional
-        Pairs of points, by number, that tell each other how they turn when they are dragged (see `deform`).
+        Pairs of points, by index, whose edges determine the rotations of dragged points (see `deform`).
 
     Returns
     -------
     vtkPolyData
-        One cell a handle, one column of the weights: points, then bones, with the cell arrays
+        One cell per handle, in the order of the columns of the weights: points, then bones, with the cell arrays
         ``HandleName``, ``HandleKind`` and ``Parent``; then pseudo-edges, which have no column.
 
     Raises
@@ -97,7 +97,7 @@ def _parent(bones, bone, first):
 
 
 def farthest_point_handles(surface, count=8):
-    """Spread point handles p1, p2, … evenly over a surface, tips first.
+    """Spread point handles p1, p2, … evenly over a surface; the first are at tips.
 
     Parameters
     ----------
@@ -120,12 +120,12 @@ def farthest_point_handles(surface, count=8):
 
 @with_options("automatic_handles")
 def automatic_handles(mesh, *, options, threads=0, progress=None):
-    """Make handles without a hand: bones along the shape's curve skeleton, or points spread over it.
+    """Create handles automatically: bones along the shape's curve skeleton, or points spread over it.
 
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, triangles)
-        A surface, however unclean, or tets, whose boundary counts.
+        A surface, clean or not, or tets, whose boundary is used.
     {options}
     threads, progress
         See `winding_number`.
@@ -133,14 +133,14 @@ def automatic_handles(mesh, *, options, threads=0, progress=None):
     Returns
     -------
     vtkPolyData
-        A handle dataset, as `weights` takes it; `report` tells how it was made.
+        A handle dataset, as `weights` takes it; `report` contains the details of its computation.
 
     Raises
     ------
     InvalidInput
-        For bones: a flat surface, or one that encloses nothing. For points: more of them than vertices.
+        Bones: a flat surface, or one that encloses nothing. Points: more points than vertices.
     Unavailable
-        The helper program is not there, or an unclean surface is too thin to be filled.
+        The helper program is missing, or an unclean surface is too thin to be filled.
     """
     maker = vtkAutomaticHandles()
     maker.SetInputData(to_dataset(mesh))
@@ -151,7 +151,7 @@ def automatic_handles(mesh, *, options, threads=0, progress=None):
 
 
 def to_handles(value, surface):
-    """What functions take for handles: a dataset, a file, "auto[:N]" or "skeleton[:N]"."""
+    """Return handles from a handle argument: a dataset, a file, "auto[:N]" or "skeleton[:N]"."""
     if is_dataset(value):
         return value
     word, colon, count = value.partition(":") if isinstance(value, str) else ("", "", "")
@@ -167,15 +167,15 @@ def to_handles(value, surface):
 
 
 def _names(handles):
-    """Names of the handles that have one."""
+    """Return the values of the array HandleName; empty if there is no such array."""
     array = handles.GetCellData().GetAbstractArray("HandleName")
     return [array.GetValue(i) for i in range(array.GetNumberOfValues())] if array else []
 
 
 def with_cell_values(handles, array_name, values, components, missing=None):
-    """A copy of the handle dataset with a value for each cell: a sequence, or {name: value}.
+    """Return a copy of the handle dataset with a value for each cell: a sequence, or {name: value}.
 
-    ``missing`` is that of handles that are not named; None: a number is 0 there, several must be named.
+    ``missing`` is the value of handles without a name in the dict. None: 0 for one component, an error for several.
     """
     count = handles.GetNumberOfCells()
     shape = (count, components) if components > 1 else (count,)

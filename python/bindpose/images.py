@@ -1,4 +1,4 @@
-"""Pictures: files and numpy arrays as VTK images."""
+"""Images: files and numpy arrays as VTK images."""
 
 import os
 import zlib
@@ -15,12 +15,12 @@ _READERS = {"png": vtkPNGReader, "jpg": vtkJPEGReader, "jpeg": vtkJPEGReader, "t
 
 
 def is_image_file(path):
-    """By its ending."""
+    """Report whether the file name extension is that of an image."""
     return os.fspath(path).lower().rpartition(".")[2] in _READERS
 
 
 def _is_whole_png(path):
-    """Every chunk is there and true to its check sum, and the pixels unpack: VTK's reader crashes on others."""
+    """Check the chunks and checksums, and unpack the pixels: VTK's reader crashes on invalid files."""
     with open(path, "rb") as file:
         data = file.read()
     at, kind, pixels = 8, b"", zlib.decompressobj()
@@ -39,7 +39,7 @@ def _is_whole_png(path):
 
 
 def read_image(path):
-    """A png, jpg, tif or bmp file as vtkImageData."""
+    """Return a png, jpg, tif or bmp file as vtkImageData."""
     path = os.fspath(path)
     if not os.path.isfile(path):
         raise InvalidInput(f"{path} cannot be read: there is no such file")
@@ -55,10 +55,10 @@ def read_image(path):
 
 
 def to_image(pixels):
-    """An array as vtkImageData, its first row on top.
+    """Return an array as vtkImageData; its first row is at the top.
 
-    #rows x #columns is alpha alone (numbers or bool), x 1, 2, 3 or 4 are grey, grey and alpha, red
-    green blue, and those with alpha.
+    #rows x #columns is only alpha (numbers or bool). With x 1, 2, 3 or 4 components the array is gray, gray and
+    alpha, red green blue, or red green blue alpha.
     """
     pixels = np.asarray(pixels)
     if pixels.ndim not in (2, 3) or pixels.dtype.kind not in "buif" or (pixels.ndim == 3 and not 1 <= pixels.shape[2] <= 4):

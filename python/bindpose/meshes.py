@@ -1,4 +1,4 @@
-"""Between numpy arrays and VTK datasets."""
+"""Conversion between numpy arrays and VTK datasets."""
 
 import contextlib
 from typing import NamedTuple
@@ -18,14 +18,14 @@ from .errors import InvalidInput
 
 
 class Array(np.ndarray):
-    """A numpy array that remembers how it was computed.
+    """A numpy array with the report of its computation.
 
     Attributes
     ----------
     report : dict
         See `bindpose.report`.
     names : list of str
-        For weights: the handle of each column.
+        For weights: the handle names of the columns.
     """
 
     def __new__(cls, values, report=None, names=None):
@@ -48,7 +48,7 @@ class Tets(NamedTuple):
     tets : (#T, 4) array of int
         Vertex ids, positive volume.
     original_ids : (#V,) array of int
-        Vertex of the surface that each vertex is, -1 for new ones.
+        Surface vertex of each vertex, -1 for new ones.
     report : dict
         See `bindpose.report`.
     """
@@ -70,7 +70,7 @@ class PlanarShape(NamedTuple):
     texture : (#V, 2) array of float
         Texture coordinates: 0 to 1 over the image, or over the curves' bounds.
     original_ids : (#V,) array of int
-        Point of the curves (or of the image's outline) that each vertex is, -1 for new ones.
+        Point of the curves (or of the image's outline) of each vertex, -1 for new ones.
     report : dict
         See `bindpose.report`.
     """
@@ -83,12 +83,12 @@ class PlanarShape(NamedTuple):
 
 
 def is_dataset(mesh):
-    """A VTK dataset (PyVista's are), not arrays."""
+    """Report whether the mesh is a VTK dataset (such as PyVista's) rather than arrays."""
     return isinstance(mesh, vtkDataObject)
 
 
 def to_vtk_points(points):
-    """(#V, 3) coordinates as vtkPoints of doubles; a copy."""
+    """Return (#V, 3) coordinates as vtkPoints of doubles; a copy."""
     try:
         values = np.array(points, dtype=float, order="C", ndmin=2)
     except (TypeError, ValueError) as error:
@@ -112,7 +112,7 @@ def _to_cells(elements):
 
 
 def to_dataset(mesh):
-    """A mesh as a VTK dataset.
+    """Return a mesh as a VTK dataset.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def to_dataset(mesh):
 
 
 def to_curves(curves):
-    """Points #V x 2 (or x 3) and segments #E x 2 as a vtkPolyData of lines."""
+    """Return points #V x 2 (or x 3) and segments #E x 2 as a vtkPolyData of lines."""
     try:
         points, segments = np.asarray(curves[0], dtype=float), np.asarray(curves[1])
     except (TypeError, ValueError, IndexError, KeyError):
@@ -154,35 +154,35 @@ def to_curves(curves):
 
 
 def is_tets(data):
-    """Tets, by the first cell; filters look at the others."""
+    """Report whether the first cell is a tet; filters check the other cells."""
     return data.GetNumberOfCells() > 0 and data.GetCellType(0) == VTK_TETRA
 
 
 def points_of(data):
-    """(#V, 3) coordinates of a point set; a copy."""
+    """Return the (#V, 3) coordinates of a point set; a copy."""
     return np.array(numpy_support.vtk_to_numpy(data.GetPoints().GetData()), dtype=float)
 
 
 def triangles_of(data):
-    """(#F, 3) vertex ids of a polydata of triangles; a copy."""
+    """Return the (#F, 3) vertex ids of a polydata of triangles; a copy."""
     connectivity = numpy_support.vtk_to_numpy(data.GetPolys().GetConnectivityArray())
     return np.array(connectivity, dtype=np.int64).reshape(-1, 3)
 
 
 def tets_of(data):
-    """(#T, 4) vertex ids; a copy."""
+    """Return the (#T, 4) vertex ids; a copy."""
     connectivity = numpy_support.vtk_to_numpy(data.GetCells().GetConnectivityArray())
     return np.array(connectivity, dtype=np.int64).reshape(-1, 4)
 
 
 def point_array(data, name):
-    """A point array as numpy, by name; a copy, None when absent."""
+    """Return a point array as numpy, by name; a copy, None if absent."""
     array = data.GetPointData().GetArray(name)
     return None if array is None else np.array(numpy_support.vtk_to_numpy(array))
 
 
 def add_point_array(data, name, values, component_names=()):
-    """Attaches an array to the dataset's points."""
+    """Attach an array to the dataset's points."""
     array = numpy_support.numpy_to_vtk(np.ascontiguousarray(values), deep=True)
     array.SetName(name)
     for number, component in enumerate(component_names):
@@ -191,7 +191,7 @@ def add_point_array(data, name, values, component_names=()):
 
 
 def shallow_copy(data):
-    """A dataset of the same kind that shares the arrays and may get more of its own."""
+    """Return a dataset of the same class that shares the arrays; arrays can be added to it."""
     copy = data.NewInstance()
     copy.ShallowCopy(data)
     remember_run(copy, run_of(data))
@@ -199,18 +199,18 @@ def shallow_copy(data):
 
 
 def remember_run(data, report):
-    """Keep a filter's whole report with its output: the dataset's own arrays have no seconds."""
-    with contextlib.suppress(AttributeError):  # classes of others may refuse attributes
+    """Store a filter's whole report with its output; the dataset's own arrays have no seconds."""
+    with contextlib.suppress(AttributeError):  # foreign classes may reject attributes
         data._bindpose_run = report  # pylint: disable=protected-access
 
 
 def run_of(data):
-    """What `remember_run` kept; empty for data from files and copies by others."""
+    """Return the report from `remember_run`; empty for data from files and copies by other programs."""
     return getattr(data, "_bindpose_run", {})
 
 
 def copy_report(source, target):
-    """Adds what one dataset reports to another's report, replacing the same keys."""
+    """Add the report of one dataset to that of another; equal keys are replaced."""
     arrays = source.GetFieldData()
     for i in range(arrays.GetNumberOfArrays()):
         array = arrays.GetAbstractArray(i)

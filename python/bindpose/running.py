@@ -14,9 +14,9 @@ _ERRORS = {error.status: error for error in (InvalidInput, Cancelled, Unavailabl
 
 @contextlib.contextmanager
 def _deferred_interrupt():
-    """Ctrl-C as a flag: VTK would end the process on an exception in an observer.
+    """Turn Ctrl-C into a flag, because VTK would end the process on an exception in an observer.
 
-    Yields a list that is no longer empty once Ctrl-C was pressed.
+    Yield a list that is not empty after Ctrl-C.
     """
     pressed = []
     main = threading.current_thread() is threading.main_thread()
@@ -33,12 +33,12 @@ def _deferred_interrupt():
 
 
 def run(algorithm, progress=None):
-    """Bring a filter of Bindpose up to date and say how it went.
+    """Update a filter of Bindpose, and turn its status into exceptions and warnings.
 
     Parameters
     ----------
     algorithm : vtkBindposeAlgorithm
-        Any of the package's filters; a writer writes.
+        Any of the package's filters; a writer writes its file.
     progress : callable, optional
         Called with (fraction in [0, 1], name of the phase). Returning False cancels.
 
@@ -50,7 +50,7 @@ def run(algorithm, progress=None):
     Raises
     ------
     InvalidInput, Cancelled, Unavailable, BindposeError
-        What the filter's status says, with its sentence.
+        The exception of the filter's status, with its message.
     KeyboardInterrupt
         After Ctrl-C, which cancels the filter.
 
@@ -59,7 +59,7 @@ def run(algorithm, progress=None):
     NotConvergedWarning
         The result is kept.
     BindposeWarning
-        One for each warning of the filter.
+        One per warning of the filter.
     """
     failed = []
     with _deferred_interrupt() as pressed:
@@ -74,7 +74,7 @@ def run(algorithm, progress=None):
                 caller.SetAbortExecute(1)
 
         observers = [algorithm.AddObserver("ProgressEvent", on_progress)]
-        for event in ("ErrorEvent", "WarningEvent"):  # else VTK prints what is raised below
+        for event in ("ErrorEvent", "WarningEvent"):  # otherwise VTK prints errors that are raised below
             observers.append(algorithm.AddObserver(event, lambda *_: None))
         try:
             algorithm.Write() if hasattr(algorithm, "Write") else algorithm.Update()
@@ -97,25 +97,25 @@ def run(algorithm, progress=None):
 
 
 def report(result):
-    """The numbers of a result: certificates, counts, seconds by phase.
+    """Return the numbers of a result: certificates, counts, seconds per phase.
 
     Parameters
     ----------
     result : vtkDataObject, vtkBindposeAlgorithm, Array or Tets
-        What a function of this package returned, a filter, its output, or a file read back.
+        The result of a function of this package, a filter, its output, or a file that was read.
 
     Returns
     -------
     dict
-        Nested by the dots of the keys (``report(w)["seconds"]["solve"]``); empty for data that
-        carries none. Files and outputs of filters that you updated yourself have no seconds and no
-        memory, so that equal results are equal files; the filter has them.
+        Nested by the dots of the keys (``report(w)["seconds"]["solve"]``); empty for data without a report. Files and
+        outputs of filters that you updated yourself have no seconds and no memory, so that equal results give equal
+        files; the filter itself has them.
     """
     if hasattr(result, "report"):
         return result.report
     if hasattr(result, "GetReportJSON"):
         return json.loads(result.GetReportJSON())
-    from .BindposeFilters import vtkBindposeAlgorithm  # after VTK, when somebody asks
+    from .BindposeFilters import vtkBindposeAlgorithm  # after VTK, on first use
 
     own = json.loads(vtkBindposeAlgorithm.GetReportJSONOf(result))
     whole = run_of(result)
@@ -123,7 +123,7 @@ def report(result):
 
 
 def _is_part(own, whole):
-    """Whether the data still is what the filter made: it may have been updated again since."""
+    """Report whether the data is still the filter's output, which may have been updated again since."""
     if isinstance(own, dict):
         return isinstance(whole, dict) and all(key in whole and _is_part(own[key], whole[key]) for key in own)
     if isinstance(own, list):

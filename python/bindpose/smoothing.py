@@ -1,4 +1,4 @@
-"""Data on a mesh with the extrema that are asked for, and no other."""
+"""Data on a mesh with only the requested extrema."""
 
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkDataObject
@@ -14,7 +14,7 @@ _LIST = "GivenExtrema"
 
 
 def _to_list(maxima, minima, count):
-    """An array of 1, -1 and 0 from ids of vertices."""
+    """Return an array of 1, -1 and 0 from ids of vertices."""
     result = np.zeros(count, dtype=np.int8)
     for ids, kind, word in ((maxima, 1, "maximum"), (minima, -1, "minimum")):
         ids = np.asarray(() if ids is None else ids)
@@ -33,10 +33,10 @@ def _to_list(maxima, minima, count):
 
 @with_options("monotone_smoothing")
 def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, options, threads=0, progress=None):
-    """Smooth data on a mesh and leave the extrema that are asked for, no other (topological simplification).
+    """Smooth data on a mesh and keep only the requested extrema (topological simplification).
 
-    The result is the smooth function nearest to the data among all whose only local extrema are those listed;
-    without a list, the most persistent ones of the data.
+    The result is the smooth function nearest to the data among all functions whose only local extrema are the listed
+    ones. Without a list they are the most persistent extrema of the data.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, options, th
     data : (#V,) array or str, optional
         Values at the vertices, or the name of a point array of the dataset; default: its active scalars.
     maxima, minima : sequence of int, optional
-        Vertices that may be extrema. Every connected part needs both, or none: it becomes constant then.
+        Vertices that may be extrema. A connected component needs both, or neither: then it becomes constant.
     {options}
     threads, progress
         See `winding_number`.
@@ -53,14 +53,14 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, options, th
     Returns
     -------
     Array or vtkDataSet
-        (#V,) values for arrays; for a dataset a copy with the point arrays ``Smoothed`` and ``SmoothedExtrema``
-        (the list that was used). The report holds the certificate, the extrema with their persistence
-        (``extrema``), and the distance to the data.
+        (#V,) values for arrays; for a dataset a copy with the point arrays ``Smoothed`` and ``SmoothedExtrema`` (the
+        list that was used). The report contains the certificate, the extrema with their persistence (``extrema``),
+        and the distance to the data.
 
     Raises
     ------
     InvalidInput
-        Data that are missing, not finite, or not one number a vertex; a list that lacks a maximum or a minimum.
+        Data that are missing, not finite, or not one number per vertex; a list without a maximum or a minimum.
     """
     dataset = shallow_copy(to_dataset(mesh))
     vertices = dataset.GetNumberOfPoints()

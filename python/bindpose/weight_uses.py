@@ -1,4 +1,4 @@
-"""What weights are good for beside poses: colours, depth, curves with two sides."""
+"""Uses of weights other than poses: colors, depth, curves with two sides."""
 
 import numpy as np
 
@@ -20,21 +20,21 @@ def _inputs(mesh, handles, weights, array_name):
 
 @with_options("weighted_colors")
 def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Weights", options, threads=0, progress=None):
-    """Spread a colour of each handle over a mesh by its weights.
+    """Blend the colors of the handles over a mesh by its weights.
 
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, elements)
-        A dataset with weights, or arrays beside `weights`.
+        A dataset with weights, or arrays together with `weights`.
     handles : vtkPolyData, str or path-like
-        The handles that the weights were made for.
+        The handles for which the weights were computed.
     colors : (#handles, 3) array or dict, optional
-        From 0 to 1 (or unsigned bytes), one a handle, or ``{name: (r, g, b)}``. Default: the handles' cell
-        array ``Color``; without that each handle gets a colour that is easily told from the others.
+        One color per handle, 0 to 1 (or unsigned bytes), or ``{name: (r, g, b)}``. Default: the handles' cell array
+        ``Color``; without it each handle gets a color that differs clearly from the others.
     weights : (#V, #handles) array, optional
-        For a mesh of arrays.
+        Weights for a mesh of arrays.
     array_name : str
-        Point array of weights; ``RawWeights`` is one, too.
+        Point array of weights, for example ``RawWeights``.
     {options}
     threads, progress
         See `winding_number`.
@@ -42,14 +42,14 @@ def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Wei
     Returns
     -------
     Array or vtkDataSet
-        (#V, 3) colours from 0 to 1 for arrays; for a dataset a copy with the point arrays ``Color``
-        (bytes, ready to be shown), ``ColorValues`` and ``OutOfGamut``. The report counts the points that
-        left the gamut (``counts.out_of_gamut``) or the handles' colours (``counts.beyond_handles``).
+        (#V, 3) colors from 0 to 1 for arrays; for a dataset a copy with the point arrays ``Color`` (bytes for
+        display), ``ColorValues`` and ``OutOfGamut``. The report counts the points outside the gamut
+        (``counts.out_of_gamut``) and outside the range of the handles' colors (``counts.beyond_handles``).
 
     Raises
     ------
     InvalidInput
-        Weights or colours that do not fit.
+        Weights or colors that do not match.
     """
     data, handle_data = _inputs(mesh, handles, weights, array_name)
     if colors is not None:
@@ -67,7 +67,7 @@ def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Wei
 
 @with_options("endpoint_weights")
 def endpoint_weights(mesh, handles, *, options, threads=0, progress=None):
-    """How far along each bone every point is, 0 at its head to 1 at its tail: for bones that stretch and twist.
+    """Return the position of every point along each bone, 0 at its head to 1 at its tail: to stretch and twist bones.
 
     Parameters
     ----------
@@ -82,13 +82,13 @@ def endpoint_weights(mesh, handles, *, options, threads=0, progress=None):
     Returns
     -------
     Array or vtkDataSet
-        (#V, #handles), NaN for handles that are no bones; for a dataset a copy with the point array
-        ``EndpointWeights``, which ``deform(…, method="stbs")`` takes.
+        (#V, #handles), NaN for handles that are not bones. For a dataset a copy with the point array
+        ``EndpointWeights``, which ``deform(…, method="stbs")`` uses.
 
     Raises
     ------
     InvalidInput
-        No bone; what `weights` refuses.
+        No bone; input that `weights` rejects.
     """
     data = to_dataset(mesh)
     handle_data = to_handles(handles, data)
@@ -108,17 +108,17 @@ def endpoint_weights(mesh, handles, *, options, threads=0, progress=None):
 
 @with_options("depth_order")
 def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights", options, threads=0, progress=None):
-    """Depth of a planar shape by its handles' layers: what is in front where a pose makes it overlap.
+    """Compute the depth of a planar shape from its handles' layers, for poses that overlap themselves.
 
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, elements)
-        A dataset with weights, usually posed; or arrays beside `weights`.
+        A dataset with weights, usually posed; or arrays together with `weights`.
     handles : vtkPolyData, str or path-like
-        The handles that the weights were made for.
+        The handles for which the weights were computed.
     layers : sequence or dict, optional
-        A number each, larger in front; of a dict, handles that are not named have 0. Default: the
-        handles' cell array ``Layer``, else all 0.
+        One number per handle; larger is in front. Handles that are not in a dict have 0. Default: the handles' cell
+        array ``Layer``, else all 0.
     weights, array_name
         See `weighted_colors`.
     {options}
@@ -133,7 +133,7 @@ def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights
     Raises
     ------
     InvalidInput
-        Weights or layers that do not fit.
+        Weights or layers that do not match.
     """
     data, handle_data = _inputs(mesh, handles, weights, array_name)
     if layers is not None:
@@ -150,20 +150,20 @@ def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights
 
 
 def cut_along_bones(shape, handles, left=None, right=None, *, curves=None, progress=None):
-    """Open a planar mesh along bones and make a handle of each side: curves with two colours.
+    """Cut a planar mesh along bones and create a handle for each side: curves with two colors.
 
     Parameters
     ----------
     shape : vtkPolyData or (vertices, triangles)
         In a plane z = const, with edges along the bones: see `planar_shape` and its `handles`.
     handles : vtkPolyData, str or path-like
-        Bones are cut along, seen from head to tail; all others are handed on.
+        The mesh is cut along bones, whose sides are seen from head to tail; all other handles are passed on.
     left, right : (#handles, 3) array or dict, optional
-        Colours of the bones' sides, one a handle or ``{name: (r, g, b)}``, both or none. Default: the
+        Colors of the bones' sides, one per handle or ``{name: (r, g, b)}``; give both or neither. Default: the
         handles' cell arrays ``LeftColor`` and ``RightColor``.
     curves : sequence of int or dict, optional
-        A number each: bones with the same one are one curve, with the colours of its first bone. Default: the
-        handles' cell array ``Curve``; without that each bone is a curve.
+        One number per handle: bones with the same number are one curve, with the colors of its first bone. Default:
+        the handles' cell array ``Curve``; without it each bone is a curve.
     progress
         See `winding_number`.
 
@@ -177,7 +177,7 @@ def cut_along_bones(shape, handles, left=None, right=None, *, curves=None, progr
     Raises
     ------
     InvalidInput
-        A bone that is not a row of edges of the mesh; the text names it.
+        A bone that is not a chain of edges of the mesh; the message names it.
     """
     data = to_dataset(shape)
     handle_data = to_handles(handles, data)

@@ -105,21 +105,21 @@ def joined(*surfaces):
 # ---- The picture -------------------------------------------------------------------------------
 
 
-def winding_colours():
+def winding_colors():
     """Return a color map: blue outside, orange inside, white in between; violet below 0, brown above 1."""
     table = vtkLookupTable()
     table.SetNumberOfTableValues(300)
     table.SetTableRange(-1, 2)
     stops = [-1, -0.02, -0.0199, 0, 0.5, 1, 1.0199, 1.02, 2]
-    colours = np.array([[0.20, 0.10, 0.45], [0.52, 0.47, 0.77], [0.44, 0.65, 0.82], [0.44, 0.65, 0.82], [0.98, 0.97, 0.95],
+    colors = np.array([[0.20, 0.10, 0.45], [0.52, 0.47, 0.77], [0.44, 0.65, 0.82], [0.44, 0.65, 0.82], [0.98, 0.97, 0.95],
                         [0.90, 0.58, 0.36], [0.90, 0.58, 0.36], [0.72, 0.33, 0.17], [0.36, 0.08, 0.05]])
     for i in range(300):
         value = -1 + 3 * (i + 0.5) / 300
-        table.SetTableValue(i, *(np.interp(value, stops, colours[:, k]) for k in range(3)), 1)
+        table.SetTableValue(i, *(np.interp(value, stops, colors[:, k]) for k in range(3)), 1)
     return table
 
 
-def actor_of(source, colour=None, table=None):
+def actor_of(source, color=None, table=None):
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(source.GetOutputPort())
     mapper.SetScalarVisibility(table is not None)
@@ -128,12 +128,12 @@ def actor_of(source, colour=None, table=None):
         mapper.UseLookupTableScalarRangeOn()
     actor = vtkActor()
     actor.SetMapper(mapper)
-    if colour:
-        actor.GetProperty().SetColor(colour)
+    if color:
+        actor.GetProperty().SetColor(color)
     return actor
 
 
-def balls(points, radius, colour):
+def balls(points, radius, color):
     cloud = vtkPolyData()
     cloud.SetPoints(vtkPoints())
     for point in points:
@@ -147,17 +147,17 @@ def balls(points, radius, colour):
     glyphs.SetSourceConnection(ball.GetOutputPort())
     glyphs.ScalingOff()
     glyphs.OrientOff()
-    return actor_of(glyphs, colour)
+    return actor_of(glyphs, color)
 
 
-def note(words, place, colour=(0.16, 0.16, 0.18), bold=False):
+def note(words, place, color=(0.16, 0.16, 0.18), bold=False):
     text = vtkTextActor()
     text.SetInput(words)
     text.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
     text.SetPosition(*place)
     text.GetTextProperty().SetFontSize(26)
     text.GetTextProperty().SetBold(bold)
-    text.GetTextProperty().SetColor(colour)
+    text.GetTextProperty().SetColor(color)
     text.GetTextProperty().SetJustificationToCentered()
     return text
 
@@ -217,7 +217,7 @@ def write_picture(path, surface, points, ours, theirs):
     normals.SplittingOff()
     rest.SetInputConnection(normals.GetOutputPort())
     rest.SetClipFunction(corner)
-    table = winding_colours()
+    table = winding_colors()
     solid, glass = actor_of(rest, (0.83, 0.80, 0.76)), actor_of(normals, (0.83, 0.80, 0.76))
     inner = vtkProperty()
     inner.SetColor(0.55, 0.51, 0.48)

@@ -255,7 +255,7 @@ def main():
     except KeyboardInterrupt:
         if program.child:
             program.child.wait()
-        raise Stop("cancelled; nothing was written", 4) from None
+        raise Stop("canceled; nothing was written", 4) from None
     except bindpose.BindposeError as error:
         raise Stop(str(error)) from None
     finally:

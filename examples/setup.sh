@@ -106,7 +106,7 @@ build()
   if [ ! -f "$build_dir/build.ninja" ] || [ $# -gt 0 ]; then
     cmake -S "$root" -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >"$log_dir/configure.log" 2>&1 ||
       { tail -20 "$log_dir/configure.log" >&2; die "configuring failed; the log is $log_dir/configure.log" 5; }
-    sed -n '/-- Bindpose /,/Licence of bindpose-mesher/p' "$log_dir/configure.log"
+    sed -n '/-- Bindpose /,/License of bindpose-mesher/p' "$log_dir/configure.log"
   fi
   # shellcheck disable=SC2086
   NINJA_STATUS="[%f/%t] " ninja -C "$build_dir" -j "$jobs" $build_targets || die "the build failed" 5

@@ -29,7 +29,7 @@ bool is_pose_array(const std::string& name)
 }
 
 /// Return the array Color as doubles with one tuple per cell; create or convert it if necessary.
-vtkDataArray* colours_of(vtkPolyData* data)
+vtkDataArray* colors_of(vtkPolyData* data)
 {
   vtkDataArray* before = data->GetCellData()->GetArray("Color");
   const vtkIdType count = data->GetNumberOfCells();
@@ -63,7 +63,7 @@ void carry_arrays(vtkPolyData* before, vtkPolyData* now, const std::vector<Index
   vtkCellData* from = before->GetCellData();
   if (from->GetArray("Color"))
   {
-    colours_of(before); // new handles have NaN, which unsigned chars cannot store
+    colors_of(before); // new handles have NaN, which unsigned chars cannot store
   }
   for (int a = 0; a < from->GetNumberOfArrays(); ++a)
   {
@@ -222,14 +222,14 @@ void set_number(vtkPolyData* data, const char* name, Index cell, double value)
 }
 } // namespace
 
-void set_handle_colour(
-  vtkPolyData* data, Index cell, const std::optional<std::array<double, 3>>& colour)
+void set_handle_color(
+  vtkPolyData* data, Index cell, const std::optional<std::array<double, 3>>& color)
 {
-  vtkDataArray* array = colours_of(data);
+  vtkDataArray* array = colors_of(data);
   for (int k = 0; k < 3 && cell >= 0 && cell < data->GetNumberOfCells(); ++k)
   {
     array->SetComponent(
-      cell, k, colour ? std::clamp((*colour)[static_cast<std::size_t>(k)], 0.0, 1.0) : none);
+      cell, k, color ? std::clamp((*color)[static_cast<std::size_t>(k)], 0.0, 1.0) : none);
   }
   array->Modified();
   data->Modified();

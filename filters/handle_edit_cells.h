@@ -35,8 +35,8 @@ BINDPOSEFILTERS_EXPORT Status edit_handles(vtkPolyData* data, const HandleListEd
 /// Set the cell array `Color`: red, green and blue from 0 to 1 if a handle has its own color, three
 /// NaN if it is drawn in the color of its mode. The array is created if absent. An array of
 /// unsigned chars is converted to doubles.
-BINDPOSEFILTERS_EXPORT void set_handle_colour(
-  vtkPolyData* data, Index cell, const std::optional<std::array<double, 3>>& colour);
+BINDPOSEFILTERS_EXPORT void set_handle_color(
+  vtkPolyData* data, Index cell, const std::optional<std::array<double, 3>>& color);
 
 /// Set the cell array `Locked`: 1 for a handle that users cannot move interactively. The array is
 /// created if absent.

@@ -159,7 +159,7 @@ Status upstream_failure(vtkDataObject* data)
   const Report report = read_report(data);
   const std::string word = report.text("status", "ok");
   Status status;
-  for (const StatusCode code : { StatusCode::invalid_input, StatusCode::cancelled,
+  for (const StatusCode code : { StatusCode::invalid_input, StatusCode::canceled,
          StatusCode::unavailable, StatusCode::internal_error })
   {
     if (word == to_string(code))

@@ -191,9 +191,9 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
   const bool later_block = this->GetProgressShift() > 0.0;
   const bool failed_before = later_block && !this->LastStatus->usable();
   bindpose::Status status;
-  if (failed_before && this->LastStatus->code == bindpose::StatusCode::cancelled)
+  if (failed_before && this->LastStatus->code == bindpose::StatusCode::canceled)
   {
-    status = bindpose::Status::cancelled();
+    status = bindpose::Status::canceled();
   }
   for (int port = 0; port < this->GetNumberOfInputPorts() && status.usable(); ++port)
   {
@@ -225,7 +225,7 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
   }
 
   bindpose::complete_report(status, context);
-  const bool cancelled = status.code == bindpose::StatusCode::cancelled;
+  const bool canceled = status.code == bindpose::StatusCode::canceled;
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
     vtkDataObject* data = vtkDataObject::GetData(output->GetInformationObject(port));
@@ -244,9 +244,9 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     *this->LastStatus = status;
     this->ExecuteAgain = !status.usable();
     this->SetErrorCode(
-      status.usable() || cancelled ? vtkErrorCode::NoError : vtkErrorCode::UserError);
+      status.usable() || canceled ? vtkErrorCode::NoError : vtkErrorCode::UserError);
   }
-  if (!status.usable() && !cancelled)
+  if (!status.usable() && !canceled)
   {
     vtkErrorMacro(<< status.message);
   }

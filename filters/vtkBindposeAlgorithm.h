@@ -16,7 +16,7 @@
  *   repeats the failure that it finds on its input.
  * - **Cancel.** SetAbortExecute(1) ends the execution within 200 ms, except inside a single named
  *   factorization. It may be called from any thread or from an observer of ProgressEvent. The
- *   outputs are empty, the status is CANCELLED, and no error event is invoked.
+ *   outputs are empty, the status is CANCELED, and no error event is invoked.
  * - **Retry.** After a failure or cancel the next Update() executes again.
  * - **Pieces.** With several processes the first process does the work: piece 0 requests every
  *   input as a whole, and all other pieces are empty. A filter that can produce pieces itself
@@ -52,7 +52,7 @@ public:
     OK = 0,
     NOT_CONVERGED = 1,
     INVALID_INPUT = 2,
-    CANCELLED = 3,
+    CANCELED = 3,
     UNAVAILABLE = 4,
     INTERNAL_ERROR = 5
   };

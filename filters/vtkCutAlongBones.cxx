@@ -41,7 +41,7 @@ Status to_color_arrays(vtkPolyData* handles, ColorArrays& colors)
     if (*array && (*array)->GetNumberOfComponents() != 3)
     {
       return Status::invalid_input(std::string("the handles' array '") + name + "' has " +
-        std::to_string((*array)->GetNumberOfComponents()) + " components, but a colour has 3");
+        std::to_string((*array)->GetNumberOfComponents()) + " components, but a color has 3");
     }
   }
   if ((colors.left == nullptr) != (colors.right == nullptr))
@@ -168,7 +168,7 @@ Status vtkCutAlongBones::Execute(
       if (colors.left && !colors.other)
       {
         return Status::invalid_input("handle '" + handles[j].name +
-          "' is no bone and has no colour: beside LeftColor and RightColor it needs Color");
+          "' is no bone and has no color: beside LeftColor and RightColor it needs Color");
       }
       sides.add(handles[j], colors.other, cells[j]);
       continue;

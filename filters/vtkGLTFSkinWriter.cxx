@@ -373,7 +373,7 @@ Status vtkGLTFSkinWriter::Execute(
   {
     return written;
   }
-  const Status committed = context.cancelled() ? Status::cancelled() : file.commit();
+  const Status committed = context.canceled() ? Status::canceled() : file.commit();
   if (!committed.ok())
   {
     return committed;

@@ -231,7 +231,7 @@ bindpose::Status vtkMeshFileWriter::Execute(
       : status.message.replace(at, file.temporary().size(), path);
     return status;
   }
-  return context.cancelled() ? Status::cancelled() : file.commit();
+  return context.canceled() ? Status::canceled() : file.commit();
 }
 
 void vtkMeshFileWriter::PrintSelf(ostream& os, vtkIndent indent)

@@ -1,7 +1,7 @@
 // Connects the kernel bindpose::Skinning to VTK: the bind stores its sparse weights.
 #include "vtkSkinningDeformation.h"
 
-#include "pose/rotation_centres.h"
+#include "pose/rotation_centers.h"
 #include "pose/skinning.h"
 #include "pose_elements.h"
 #include "pose_input.h"
@@ -133,8 +133,8 @@ Status vtkSkinningDeformation::FindCenters(
   const PoseElements elements = to_pose_elements(input.mesh);
   Points centers;
   internal.of_centers = elements.volume
-    ? rotation_centres(context, {}, input.points, elements.tets.view(), input.weights, centers)
-    : rotation_centres(
+    ? rotation_centers(context, {}, input.points, elements.tets.view(), input.weights, centers)
+    : rotation_centers(
         context, {}, input.points, elements.triangles.view(), input.weights, centers);
   if (internal.of_centers.ok())
   {
@@ -221,7 +221,7 @@ Status vtkSkinningDeformation::Deform(
         bone_changes(input.handles, input.pose), internal.endpoints.view(), posed.points);
       break;
     case CENTERS_OF_ROTATION:
-      moved = internal.skinning.about_centres(
+      moved = internal.skinning.about_centers(
         context, input.points, internal.transforms, internal.centers, posed.points);
       moved.report.merge(internal.of_centers.report);
       break;
@@ -250,7 +250,7 @@ Status vtkSkinningDeformation::DeformNormals(
   const Eigen::Map<const Points> directions(rest.view().data(), rest.view().rows(), 3);
   if (this->Method == CENTERS_OF_ROTATION)
   {
-    return this->Internal->skinning.about_centres_normals(
+    return this->Internal->skinning.about_centers_normals(
       context, directions, this->Internal->transforms, normals.points);
   }
   return this->Method == DUAL_QUATERNION

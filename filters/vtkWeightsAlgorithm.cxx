@@ -108,7 +108,7 @@ struct SolvedMesh
   std::vector<InsertedVertex> inserted;
   std::vector<Index> parent_cell;
 
-  void take_weights(const Weights& normalised, const Weights* raw_weights, const Handles& handles,
+  void take_weights(const Weights& normalized, const Weights* raw_weights, const Handles& handles,
     const WeightsResult& result);
   void take_mesh(const WeightsProblem& problem, const std::vector<Index>& cell_of_element);
   void write(vtkPointSet* mesh, vtkPointSet* output) const;
@@ -117,10 +117,10 @@ private:
   void refine(vtkPointSet* mesh, vtkPointSet* output) const;
 };
 
-void SolvedMesh::take_weights(const Weights& normalised, const Weights* raw_weights,
+void SolvedMesh::take_weights(const Weights& normalized, const Weights* raw_weights,
   const Handles& handles, const WeightsResult& result)
 {
-  this->weights = to_weights_array(array_name, normalised, handles);
+  this->weights = to_weights_array(array_name, normalized, handles);
   if (raw_weights)
   {
     this->raw = to_weights_array(raw_name, *raw_weights, handles);
@@ -630,7 +630,7 @@ void vtkWeightsAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
      << this->MirrorOrigin[2] << "\n";
   os << indent << "MaximumInfluences: " << this->MaximumInfluences << "\n";
   os << indent
-     << "PartitionOfUnity: " << (this->PartitionOfUnity == COUPLED ? "coupled" : "normalise")
+     << "PartitionOfUnity: " << (this->PartitionOfUnity == COUPLED ? "coupled" : "normalize")
      << "\n";
   os << indent << "NumberOfBinds: " << this->NumberOfBinds << "\n";
 }

@@ -37,7 +37,7 @@
  * - `WeightsLower`, `WeightsUpper`, one component per handle: smallest and largest weight at each
  *   point. NaN means the bounds of the handle, in the handles' cell array `WeightBounds` (two
  *   components). If that array is missing or NaN, SetBounds() applies. All bounds hold for
- *   RawWeights. Dividing rows by their sums can violate them (report: normalised_bounds_violation);
+ *   RawWeights. Dividing rows by their sums can violate them (report: normalized_bounds_violation);
  *   PartitionOfUnity COUPLED does not violate them.
  * - `PinnedWeights`, one component per handle: prescribed weights; NaN: free. They do not change
  *   when rows are divided by their sums: the other weights of the row are scaled to the remainder.
@@ -70,15 +70,15 @@
  *
  * Report: method, binds, stage (of previews), counts.{vertices, tets | triangles, handles,
  * components, inserted_vertices}, handles[].{name, kind, constrained_vertices, distance_outside,
- * relative_gap, kkt_residual, energy, iterations, factorisations, interior_extrema}, relative_gap
- * and kkt_residual (of the worst column), bounds_violation, normalised_bounds_violation (with
+ * relative_gap, kkt_residual, energy, iterations, factorizations, interior_extrema}, relative_gap
+ * and kkt_residual (of the worst column), bounds_violation, normalized_bounds_violation (with
  * bounds), counts.capped_vertices and influences.{largest_difference, rms_difference} (from the
  * weights without MaximumInfluences), partition.{of_unity, energy, largest_difference,
  * rms_difference} (COUPLED; from weights that are divided by their row sums), counts.{linked_parts,
  * links} (components without a handle on a lattice, and their links), handles[].mirror (with
  * mirrors), row_sum_error, largest_snap (in edge lengths), iterations, memory_estimate_bytes
  * (estimated peak memory of the process, computed before the factorizations; for bounded and
- * monotone weights), seconds.{insert, analyse, weights}, and seconds.{factor, solve}, which are
+ * monotone weights), seconds.{insert, analyze, weights}, and seconds.{factor, solve}, which are
  * sums over handles that are solved in parallel.
  *
  * The status is not_converged (with the result) if a column does not reach Tolerance within

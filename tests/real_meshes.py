@@ -60,7 +60,7 @@ THIN_SHARE = 0.01  # of tets below 5 degrees: more make a file thin
 VERBS = {"weights": "weights", "tets": "tetrahedralize"}  # prefix of the columns: verb of the program
 GOOD = {"weights": ("certified", "refused"), "tets": ("filled", "refused")}
 PERCENTILES = {"median": 50, "90": 90, "95": 95, "99": 99, "max": 100}
-EXITS = {1: "usage error", 2: "refused", 3: "not converged", 4: "cancelled", 5: "internal error"}
+EXITS = {1: "usage error", 2: "refused", 3: "not converged", 4: "canceled", 5: "internal error"}
 # Phases that contain others: not the reason why a run is slow.
 CONTAINERS = {"total", "tetrahedralize", "weights", "cdt", "parts"}
 SURFACE = ["triangles", "boundary_edges", "nonmanifold_edges", "misoriented_edges", "duplicate_vertices",

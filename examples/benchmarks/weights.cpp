@@ -94,7 +94,7 @@ double seconds_of_f(const WeightsProblem& problem)
 {
   const SplitForm form(harmonic_energy(problem.stiffness, problem.mass, 2), problem.fixed);
   SparseSolver solver;
-  solver.analyse(form.lower);
+  solver.analyze(form.lower);
   const auto start = std::chrono::steady_clock::now();
   solver.factor(form.lower);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -107,7 +107,7 @@ void run(benchmark::State& state, Solve solve)
   const int handles = static_cast<int>(state.range(1));
   const WeightsProblem problem = problem_of(state.range(0), handles);
   WeightsResult result;
-  double analyse = 0.0;
+  double analyze = 0.0;
   double factor = 0.0;
   double iterate = 0.0;
   for (auto _ : state)
@@ -120,26 +120,26 @@ void run(benchmark::State& state, Solve solve)
       state.SkipWithError(status.message.c_str());
       return;
     }
-    analyse = context.seconds().number("seconds.analyse", 0.0);
+    analyze = context.seconds().number("seconds.analyze", 0.0);
     factor = context.seconds().number("seconds.factor", 0.0);
     iterate = context.seconds().number("seconds.solve", 0.0);
   }
   const double f = seconds_of_f(problem);
   double gap = 0.0;
   double residual = 0.0;
-  double factorisations = 0.0;
+  double factorizations = 0.0;
   for (const WeightsColumn& column : result.columns)
   {
     gap = std::max(gap, column.certificate.relative_gap);
     residual = std::max(residual, column.certificate.kkt_residual);
-    factorisations += column.factorisations;
+    factorizations += column.factorizations;
   }
   state.counters["vertices"] = static_cast<double>(problem.vertex_count());
   state.counters["tets"] = static_cast<double>(problem.mesh.domain.tets.rows());
-  state.counters["analyse_s"] = analyse;
+  state.counters["analyze_s"] = analyze;
   state.counters["factor_s_per_handle"] = factor / handles;
   state.counters["solve_s_per_handle"] = iterate / handles;
-  state.counters["factorisations_per_handle"] = factorisations / handles;
+  state.counters["factorizations_per_handle"] = factorizations / handles;
   state.counters["F_s"] = f;
   state.counters["F_per_handle"] = (factor + iterate) / handles / f;
   state.counters["relative_gap"] = gap;

@@ -76,7 +76,7 @@ def make(options):
     numbers["points on the surface: distance by covering radius"] = float(apart.min() / covering)
 
     tiles = [("bones", armadillo, bones, "its curve skeleton as bones", ["--azimuth", 20]),
-             ("posed", posed, None, "bent at every joint; colours of bones", ["--azimuth", 20, "--color", "handle"]),
+             ("posed", posed, None, "bent at every joint; colors of bones", ["--azimuth", 20, "--color", "handle"]),
              ("elephant", elephant, others, "full of holes", ["--azimuth", 40]),
              ("points", armadillo, inside, "sixteen points inside", ["--azimuth", 20])]
     pictures = []

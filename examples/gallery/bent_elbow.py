@@ -3,7 +3,7 @@
 
 The right half of the cylinder of candy_wrapper.py is bent about the middle by 60 and 120 degrees: linear blend, dual
 quaternions and centers of rotation, from left to right. Where both bones weigh 1/2, linear blend pulls the skin
-towards the joint. Dual quaternions rotate everything about the joint, so that points beside it swing outwards. With
+toward the joint. Dual quaternions rotate everything about the joint, so that points beside it swing outwards. With
 its own center, in the middle of its slice, a point keeps its distance from the axis.
 
 Numbers: smallest and largest distance of the skin from the bent axis on the outside of the bend, where both are 1 at

@@ -33,7 +33,7 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
 import meshes
 
 OUTSIDE, INSIDE, INK = (0.83, 0.80, 0.76), (0.62, 0.55, 0.80), (0.16, 0.16, 0.18)
-COLOURS = {1: (0.05, 0.46, 0.32), 2: (0.84, 0.43, 0.16), 3: (0.60, 0.10, 0.35)}
+COLORS = {1: (0.05, 0.46, 0.32), 2: (0.84, 0.43, 0.16), 3: (0.60, 0.10, 0.35)}
 APART = 3.1
 
 
@@ -68,13 +68,13 @@ def unclean(times):
     return meshes.joined(*(meshes.moved(part, (APART * k, 0, 0)) for k, part in enumerate(parts.values()))), list(parts)
 
 
-def actor_of(source, colour):
+def actor_of(source, color):
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(source.GetOutputPort())
     mapper.ScalarVisibilityOff()
     actor = vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(colour)
+    actor.GetProperty().SetColor(color)
     return actor
 
 
@@ -97,14 +97,14 @@ def tubes_of(points, lines, radius):
     return tubes
 
 
-def text(words, x, y, size, colour=INK, bold=False):
+def text(words, x, y, size, color=INK, bold=False):
     actor = vtkTextActor()
     actor.SetInput(words)
     actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
     actor.SetPosition(x, y)
     style = actor.GetTextProperty()
     style.SetFontSize(size)
-    style.SetColor(colour)
+    style.SetColor(color)
     style.SetBold(bold)
     style.SetJustificationToCentered()
     style.SetVerticalJustificationToTop()
@@ -129,10 +129,10 @@ def draw(path, surface, boundary, lines, multiplicity, columns):
         side.SetAmbient(0.25)
         side.SetDiffuse(0.8)
     renderer.AddActor(skin)
-    for times, colour in COLOURS.items():
-        renderer.AddActor(actor_of(tubes_of(boundary.GetPoints(), lines[multiplicity == times], 0.035), colour))
+    for times, color in COLORS.items():
+        renderer.AddActor(actor_of(tubes_of(boundary.GetPoints(), lines[multiplicity == times], 0.035), color))
         renderer.AddActor2D(text(f"counts {times} times" if times > 1 else "counts once", 0.36 + 0.14 * (times - 1), 0.885,
-                                 24, colour, True))
+                                 24, color, True))
     renderer.AddActor2D(text("The parts of an unclean mesh and where they are open  (violet: seen from inside)",
                              0.5, 0.97, 28, INK, True))
     count = len(columns)

@@ -49,13 +49,13 @@ class Panel:
         self.names = x_names, y_names
         self.series = []
 
-    def line(self, label, xs, ys, colour, width=3.0, dots=False, dashed=False):
+    def line(self, label, xs, ys, color, width=3.0, dots=False, dashed=False):
         """Add a line, with dots at its values; without a label it is not in the legend."""
         if self.log:
             pairs = [(math.log10(x), math.log10(y)) for x, y in zip(xs, ys) if x > 0 and y > 0]
         else:
             pairs = list(zip(xs, ys))
-        self.series.append((label, pairs, colour, width, dots, dashed))
+        self.series.append((label, pairs, color, width, dots, dashed))
 
     def fill(self, chart, text_size):
         chart.SetTitle(self.title)
@@ -72,13 +72,13 @@ class Panel:
                 text.SetColor(*INK)
             axis.GetGridPen().SetColor(225, 225, 228, 255)
             _ticks(axis, lower, upper, self.log, names)
-        for number, (label, pairs, colour, width, dots, dashed) in enumerate(self.series):
+        for number, (label, pairs, color, width, dots, dashed) in enumerate(self.series):
             table = vtkTable()
             table.AddColumn(_column("x", [x for x, _ in pairs]))
             table.AddColumn(_column(label or f"_{number}", [y for _, y in pairs]))
             plot = chart.AddPlot(0)  # a line
             plot.SetInputData(table, 0, 1)
-            plot.SetColor(*colour, 255)
+            plot.SetColor(*color, 255)
             plot.SetWidth(width)
             if dots:
                 plot.SetMarkerStyle(4)  # a disc

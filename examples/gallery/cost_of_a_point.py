@@ -20,7 +20,7 @@ import quickstart
 
 import charts
 
-COLOURS = {"closed": charts.BLUE, "open": charts.GREEN, "unordered": charts.ORANGE}
+COLORS = {"closed": charts.BLUE, "open": charts.GREEN, "unordered": charts.ORANGE}
 SURFACES = {"elephant": ("closed", "elephant"), "closed": ("closed", "closed"), "holes": ("open", "elephant with holes"),
             "open": ("open", "open"), "patches": ("open", "patches"), "soup": ("unordered", "soup along a surface"), "orderless": ("unordered", "soup all over space")}
 
@@ -79,7 +79,7 @@ def make(options):
     named = set()
     for i, (group, _, cost, spread) in enumerate(rows):
         at = 10.0 ** i
-        panel.line("" if group in named else group, (0.05, cost), (at, at), COLOURS[group], 14)
+        panel.line("" if group in named else group, (0.05, cost), (at, at), COLORS[group], 14)
         panel.line("", (cost + spread, cost + 1.001 * spread), (at, at), charts.DARK, 2, dots=True)
         named.add(group)
     charts.draw(options.picture, [panel], (1400, 140 + 34 * len(rows)), left=390)

@@ -21,7 +21,7 @@ from vtkmodules.vtkChartsCore import vtkChartLegend
 import charts
 
 MEBIBYTE = 1024 ** 2
-PARTS = {"whole": charts.DARK, "factor": charts.ORANGE, "iterate": charts.GREEN, "analyse": charts.VIOLET}
+PARTS = {"whole": charts.DARK, "factor": charts.ORANGE, "iterate": charts.GREEN, "analyze": charts.VIOLET}
 
 
 def solve(tets, handles, *words):
@@ -37,9 +37,9 @@ def solve(tets, handles, *words):
 def seconds_of(report, handles):
     """Return the seconds per handle."""
     seconds = report["seconds"]
-    return {"whole": seconds["weights"] / handles, "analyse": seconds["analyse"] / handles,
+    return {"whole": seconds["weights"] / handles, "analyze": seconds["analyze"] / handles,
             "factor": seconds["factor"] / handles,
-            "iterate": (seconds["weights"] - seconds["analyse"] - seconds["factor"]) / handles}
+            "iterate": (seconds["weights"] - seconds["analyze"] - seconds["factor"]) / handles}
 
 
 def make(options):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """One pose with four energies: sets of edges that share a rotation.
 
-The ends of a bar of tets are bent towards each other: one rotation per tet, per edges around a vertex (spokes and
+The ends of a bar of tets are bent toward each other: one rotation per tet, per edges around a vertex (spokes and
 rims), and per edges at a vertex (spokes). The fourth energy is that of the bar's skin with one rotation per triangle.
 It is flatter where it bends, because nothing inside resists. Handles, weights and subspace are the same. Colors: the
 distance from the position with the first energy, relative to the bar's diagonal.

@@ -30,7 +30,7 @@ import charts
 import meshes
 
 TOLERANCE = 1e-3
-COLOURS = {"plain sum": charts.VIOLET, "exact": charts.BLUE, "fast": charts.ORANGE}
+COLORS = {"plain sum": charts.VIOLET, "exact": charts.BLUE, "fast": charts.ORANGE}
 
 
 class Field:
@@ -121,9 +121,9 @@ def make(options):
             fastest, median, slowest = np.array(spread).T
             power = float(np.polyfit(np.log(sizes), np.log(median), 1)[0])
             how = "" if name == "fast" else f" ({', then '.join(dict.fromkeys(chosen[name]))})"
-            panel.line(f"{name}{how}: exponent {power:.2f}", sizes, median, COLOURS[name], dots=True)
+            panel.line(f"{name}{how}: exponent {power:.2f}", sizes, median, COLORS[name], dots=True)
             for ends in zip(sizes, sizes, fastest, slowest):
-                panel.line("", ends[:2], ends[2:], COLOURS[name], 2)
+                panel.line("", ends[:2], ends[2:], COLORS[name], 2)
             numbers[f"{title}, {name}: exponent"] = power
             numbers[f"{title}, {name}: µs a point"] = [float(m) for m in 1e6 * median]
             numbers[f"{title}, {name}: slowest / fastest"] = float((slowest / fastest).max())

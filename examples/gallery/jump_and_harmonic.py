@@ -67,7 +67,7 @@ def make(options):
     line = START + t[:, None] * ALONG
     left = charts.Panel("Along a line through the surface", ("position", -2, 2), ("winding number", -0.2, 2.2))
     jumps = []
-    for name, mesh, colour in (("open and a closed one in it", nested, charts.GREEN), ("open", opened, charts.ORANGE),
+    for name, mesh, color in (("open and a closed one in it", nested, charts.GREEN), ("open", opened, charts.ORANGE),
                                ("closed", closed, charts.BLUE)):
         where, sign = crossings(mesh)
         before, after = (field(mesh, START + (where + side)[:, None] * ALONG) for side in (-BESIDE, BESIDE))
@@ -76,7 +76,7 @@ def make(options):
         at = np.concatenate([t, where - BESIDE, where + BESIDE])
         values = np.concatenate([field(mesh, line), before, after])
         order = np.argsort(at, kind="stable")
-        left.line(name, at[order] - 2, values[order], colour)
+        left.line(name, at[order] - 2, values[order], color)
 
     # A point inside, at least 0.3 away from its nearest triangle.
     middle = np.array([0.31, 0.12, 0.2])

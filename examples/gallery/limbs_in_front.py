@@ -40,8 +40,8 @@ def seen(shape, is_arm, box, size):
     the window, because a virtual display does not restart while a window is open."""
     flags = vtkPolyData()
     flags.ShallowCopy(shape)
-    colours = np.where(is_arm[:, None], np.array([[255, 0, 0]]), np.array([[0, 0, 255]])).astype(np.uint8)
-    array = numpy_to_vtk(colours, deep=True)
+    colors = np.where(is_arm[:, None], np.array([[255, 0, 0]]), np.array([[0, 0, 255]])).astype(np.uint8)
+    array = numpy_to_vtk(colors, deep=True)
     array.SetName("Flag")
     flags.GetCellData().SetScalars(array)
     actor = planar.flat_actor(flags)

@@ -43,7 +43,7 @@ def make(options):
     common_vertices = {name: np.concatenate([row * len(x) + np.array([np.argmin(abs(x - at)) for at in even])
                                              for row in range(len(rows))])
                        for name, x in (("even", even), ("fine on the right", uneven))}
-    handles = bindpose.handles(points=[[*place, 0] for place, _colour in POINTS])
+    handles = bindpose.handles(points=[[*place, 0] for place, _color in POINTS])
     bindpose.write(handles, options.scratch / "handles.vtp")
     numbers = {f"triangles, {name}": len(mesh[1]) for name, mesh in meshes.items()}
     for method, word in METHODS.items():

@@ -23,7 +23,7 @@ FINGERS = {"thumb": ((0.34, 0.32), (0.13, 0.50), 0.055, 0.042), "index": ((0.37,
            "little": ((0.675, 0.47), (0.715, 0.74), 0.042, 0.036)}
 PALM = [((0.43, 0.34), (0.60, 0.34), 0.13, 0.13), ((0.52, 0.04), (0.52, 0.30), 0.10, 0.12),
         ((0.42, 0.44), (0.62, 0.43), 0.09, 0.09)]
-PULLED, NEIGHBOUR = "index", "middle"
+PULLED, NEIGHBOR = "index", "middle"
 PULL = np.array([-0.17, -0.10, 0.0])
 SKIN, GAP = (245, 205, 170), (200, 140, 100)
 
@@ -34,11 +34,11 @@ def hand(size):
     limbs = [*FINGERS.values(), *PALM]
     distance = np.min([planar.capsule(x, y, *limb) for limb in limbs], axis=0)
     rings = np.abs(y * 22 % 1 - 0.5) < 0.11
-    colour = np.where(rings[..., None], GAP, SKIN).astype(float)
+    color = np.where(rings[..., None], GAP, SKIN).astype(float)
     rim = np.clip(0.5 + (distance + 0.007) * size, 0, 1)[..., None]
-    colour = (1 - rim) * colour + rim * np.array((110, 60, 40))
+    color = (1 - rim) * color + rim * np.array((110, 60, 40))
     alpha = np.clip(0.5 - distance * size, 0, 1)[..., None] * 255
-    return np.rint(np.concatenate([colour, alpha], axis=2)).astype(np.uint8)
+    return np.rint(np.concatenate([color, alpha], axis=2)).astype(np.uint8)
 
 
 def slit_square(n):
@@ -72,23 +72,23 @@ def make(options):
         ways[caption] = bindpose.deform(weighted, handles, pose)
 
     # The part of the neighboring finger that is halfway up.
-    start, end = (np.array(place) * size for place in FINGERS[NEIGHBOUR][:2])
+    start, end = (np.array(place) * size for place in FINGERS[NEIGHBOR][:2])
     halfway = np.linalg.norm(rest - (start + end) / 2, axis=1) < 0.05 * size
     triangles = planar.triangles_of(shape)
     numbers = {}
     texture = planar.to_texture(pixels)
     radius = 0.018 * size
-    colours = [(0.75, 0.75, 0.75) if name != PULLED else (0.95, 0.35, 0.2) for name in places]
+    colors = [(0.75, 0.75, 0.75) if name != PULLED else (0.95, 0.35, 0.2) for name in places]
     moved = at + np.array([PULL * size * (name == PULLED) for name in places])
-    tiles = [("one fingertip will be pulled", [planar.textured(shape, texture), *planar.dots(at, colours, radius)])]
+    tiles = [("one fingertip will be pulled", [planar.textured(shape, texture), *planar.dots(at, colors, radius)])]
     scale = ((0, (1.0, 1.0, 1.0)), (0.02, (0.95, 0.93, 0.86)), (0.35, (0.98, 0.72, 0.35)), (1, (0.75, 0.12, 0.12)))
     for caption, posed in ways.items():
         share = np.linalg.norm(planar.points_of(posed) - rest, axis=1) / np.linalg.norm(PULL * size)
-        numbers[f"{caption}: neighbour goes along"] = float(share[halfway].mean())
+        numbers[f"{caption}: neighbor goes along"] = float(share[halfway].mean())
         numbers[f"{caption}: triangles turned over"] = int((planar.signed_areas(planar.points_of(posed), triangles) <= 0).sum())
         tiles.append((f"{caption}: {100 * share[halfway].mean():.0f} %",
                       [planar.bands(posed, np.clip(share, 0, 1), scale, 20),
-                       *planar.edges(posed, shape, width=2.5), *planar.dots(moved, colours, radius)]))
+                       *planar.edges(posed, shape, width=2.5), *planar.dots(moved, colors, radius)]))
     window = planar.show(tiles, (-0.04 * size, 0.84 * size, -0.07 * size, 1.0 * size), tile=(480, 580),
                          title="How far the hand moves along with a fingertip; in numbers: its middle finger, half-way up")
     common.write_picture(window, options.picture)

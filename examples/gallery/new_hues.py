@@ -62,8 +62,8 @@ def hatched(mesh, lines=90, steps=700):
 def make(options):
     squares = 40 if options.small else 120
     square = to_dataset(grid(squares, squares, 1.0, 1.0))
-    places = np.array([[*place, 0] for place, _colour in POINTS])
-    colours = [colour for _place, colour in POINTS]
+    places = np.array([[*place, 0] for place, _color in POINTS])
+    colors = [color for _place, color in POINTS]
     handles = bindpose.handles(points=places)
     strip = grid(96, 2, 1.0, 2 / 96)
     across = bindpose.handles(bones=[[[at, 0, 0], [at, 2 / 96, 0]] for at in (0.0, 0.5, 1.0)], parents=[-1] * 3)
@@ -74,24 +74,24 @@ def make(options):
     for caption, method in METHODS.items():
         weighted = bindpose.weights(square, handles, method=method, domain="surface")
         values = vtk_to_numpy(weighted.GetPointData().GetArray("Weights"))
-        coloured = bindpose.weighted_colors(weighted, handles, colours, linear_light=False)
-        report = bindpose.report(coloured)
+        colored = bindpose.weighted_colors(weighted, handles, colors, linear_light=False)
+        report = bindpose.report(colored)
         outside = report["counts"]["out_of_gamut"] / count
         numbers[f"{caption}: lowest and highest weight"] = [float(values.min()), float(values.max())]
         numbers[f"{caption}: out of the gamut, part"] = outside
         numbers[f"{caption}: out of the gamut, at most"] = report["largest_gamut_violation"]
-        numbers[f"{caption}: beyond the points' colours, part"] = report["counts"]["beyond_handles"] / count
-        numbers[f"{caption}: beyond the points' colours, at most"] = report["largest_overshoot"]
+        numbers[f"{caption}: beyond the points' colors, part"] = report["counts"]["beyond_handles"] / count
+        numbers[f"{caption}: beyond the points' colors, at most"] = report["largest_overshoot"]
         weights = bindpose.weights(strip, across, method=method, domain="surface")
-        grey = bindpose.weighted_colors(strip, across, [[1, 1, 1], [0, 0, 0], [0, 0, 0]], weights=weights, linear_light=False,
+        gray = bindpose.weighted_colors(strip, across, [[1, 1, 1], [0, 0, 0], [0, 0, 0]], weights=weights, linear_light=False,
                                         clamp=False)
-        numbers[f"{caption}: black and white bar at two thirds"] = float(grey[64, 0])
-        numbers[f"{caption}: black and white bar, out of the gamut"] = grey.report["largest_gamut_violation"]
-        bindpose.meshes.add_point_array(coloured, "Gamut", vtk_to_numpy(coloured.GetPointData().GetArray("OutOfGamut")).astype(float))
+        numbers[f"{caption}: black and white bar at two thirds"] = float(gray[64, 0])
+        numbers[f"{caption}: black and white bar, out of the gamut"] = gray.report["largest_gamut_violation"]
+        bindpose.meshes.add_point_array(colored, "Gamut", vtk_to_numpy(colored.GetPointData().GetArray("OutOfGamut")).astype(float))
         tiles.append((f"{caption}: {100 * outside:.0f} % out of the gamut",
-                      [planar.painted(coloured), *hatched(coloured), *planar.dots(places, colours, 0.016, 0.01)]))
+                      [planar.painted(colored), *hatched(colored), *planar.dots(places, colors, 0.016, 0.01)]))
     window = planar.show(tiles, (-0.02, 1.02, -0.02, 1.02), tile=(560, 560),
-                         title="Five colours, blended with three kinds of biharmonic weights")
+                         title="Five colors, blended with three kinds of biharmonic weights")
     common.write_picture(window, options.picture)
     return numbers
 

@@ -31,17 +31,17 @@ def make(options):
     mesh = square(20 if options.small else 40)
     handles = bindpose.handles(points=FIVE)
     made, seconds, reports = {}, {}, {}
-    for partition in ("coupled", "normalise"):
+    for partition in ("coupled", "normalize"):
         start = time.perf_counter()
         made[partition] = bindpose.weights(to_dataset(mesh), handles, domain="surface", partition=partition)
         seconds[partition] = time.perf_counter() - start
         reports[partition] = bindpose.report(made[partition])
     both = {name: point_array(data, "Weights") for name, data in made.items()}
-    difference = both["normalise"] - both["coupled"]
+    difference = both["normalize"] - both["coupled"]
     worst = int(np.abs(difference).max(axis=0).argmax())
     largest = float(np.abs(difference).max())
     files = []
-    for partition in ("coupled", "normalise"):
+    for partition in ("coupled", "normalize"):
         files.append(f"{partition}.vtp")
         bindpose.write(made[partition], options.scratch / files[-1])
     apart = to_dataset(mesh)
@@ -56,10 +56,10 @@ def make(options):
     return {
         "largest difference": largest,
         "rms difference": float(np.sqrt((difference ** 2).mean())),
-        "faster: farthest row sum from 1": reports["normalise"]["row_sum_error"],
+        "faster: farthest row sum from 1": reports["normalize"]["row_sum_error"],
         "original: farthest row sum from 1": reports["coupled"]["row_sum_error"],
-        "relative gaps": [reports[p]["relative_gap"] for p in ("coupled", "normalise")],
-        "seconds, original and faster": [seconds["coupled"], seconds["normalise"]],
+        "relative gaps": [reports[p]["relative_gap"] for p in ("coupled", "normalize")],
+        "seconds, original and faster": [seconds["coupled"], seconds["normalize"]],
     }
 
 

@@ -56,11 +56,11 @@ def cat(size):
     """Return the cat as size x size x 4 bytes."""
     x, y = pixel_centers(size)
     pixel = 1 / size
-    colour = np.zeros((size, size, 3)) + (240, 150, 60)
+    color = np.zeros((size, size, 3)) + (240, 150, 60)
 
     def paint(distance, rgb):
         share = np.clip(0.5 - distance / pixel, 0, 1)[..., None]
-        colour[:] = (1 - share) * colour + share * np.array(rgb)
+        color[:] = (1 - share) * color + share * np.array(rgb)
 
     for k in range(12):  # stripes
         paint(np.maximum(np.abs(y - 0.13 - 0.075 * k + 0.03 * np.sin(9 * x)) - 0.012, -np.abs(x - 0.5) + 0.06), (205, 105, 35))
@@ -77,7 +77,7 @@ def cat(size):
     distance = cat_distance(x, y)
     paint(-distance - 0.010, (70, 35, 20))  # a dark rim
     alpha = np.clip(0.5 - distance / pixel, 0, 1)[..., None] * 255
-    return np.rint(np.concatenate([colour, alpha], axis=2)).astype(np.uint8)
+    return np.rint(np.concatenate([color, alpha], axis=2)).astype(np.uint8)
 
 
 def bones_of(size):
@@ -90,8 +90,8 @@ def to_image(pixels):
     rows, columns, components = pixels.shape
     image = vtkImageData()
     image.SetDimensions(columns, rows, 1)
-    colours = np.ascontiguousarray(pixels[::-1]).reshape(-1, components)
-    image.GetPointData().SetScalars(numpy_to_vtk(colours, deep=True))
+    colors = np.ascontiguousarray(pixels[::-1]).reshape(-1, components)
+    image.GetPointData().SetScalars(numpy_to_vtk(colors, deep=True))
     return image
 
 
@@ -113,15 +113,15 @@ def to_texture(pixels):
     return texture
 
 
-def flat_actor(data, colour=None, width=1.0):
+def flat_actor(data, color=None, width=1.0):
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(data)
     mapper.ScalarVisibilityOff()
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().LightingOff()
-    if colour:
-        actor.GetProperty().SetColor(colour)
+    if color:
+        actor.GetProperty().SetColor(color)
     actor.GetProperty().SetLineWidth(width)
     return actor
 
@@ -137,7 +137,7 @@ def painted(data, name="Color"):
     return actor
 
 
-def bands(data, values, colours, levels=10):
+def bands(data, values, colors, levels=10):
     """Draw values from 0 to 1 at the points as bands between colors ((value, (r, g, b)), …)."""
     shown = vtkPolyData()
     shown.ShallowCopy(data)
@@ -146,7 +146,7 @@ def bands(data, values, colours, levels=10):
     shown.GetPointData().AddArray(array)
     table = vtkLookupTable()
     table.SetNumberOfTableValues(levels)
-    at, rgb = [value for value, _ in colours], np.array([colour for _, colour in colours])
+    at, rgb = [value for value, _ in colors], np.array([color for _, color in colors])
     for level in range(levels):
         middle = (level + 0.5) / levels
         table.SetTableValue(level, *(np.interp(middle, at, rgb[:, k]) for k in range(3)), 1)
@@ -162,11 +162,11 @@ def bands(data, values, colours, levels=10):
     return actor
 
 
-def dots(places, colours, radius, height=1.0):
+def dots(places, colors, radius, height=1.0):
     """Draw discs with a dark rim at points, each in its color (numbers 0 to 1)."""
     actors = []
-    for place, colour in zip(places, colours):
-        for size, shade, up in ((1.0, (0.12, 0.12, 0.12), 0.0), (0.72, colour, 0.1)):
+    for place, color in zip(places, colors):
+        for size, shade, up in ((1.0, (0.12, 0.12, 0.12), 0.0), (0.72, color, 0.1)):
             disc = vtkRegularPolygonSource()
             disc.SetNumberOfSides(40)
             disc.SetRadius(size * radius)
@@ -182,9 +182,9 @@ def textured(data, texture):
     return actor
 
 
-def wires(data, colour=(0.1, 0.2, 0.5), opacity=0.6, width=1.0):
+def wires(data, color=(0.1, 0.2, 0.5), opacity=0.6, width=1.0):
     """Draw the triangles' edges, slightly above."""
-    actor = flat_actor(data, colour, width)
+    actor = flat_actor(data, color, width)
     actor.GetProperty().SetRepresentationToWireframe()
     actor.GetProperty().SetOpacity(opacity)
     actor.AddPosition(0, 0, 0.1)
@@ -326,7 +326,7 @@ def outline_of(triangles):
     return edges[first[count == 1]]
 
 
-def edges(posed, shape, colour=(0.25, 0.15, 0.1), width=2.0):
+def edges(posed, shape, color=(0.25, 0.15, 0.1), width=2.0):
     """Return the outline of a posed shape as an actor in a list."""
     pairs = outline_of(triangles_of(shape))
     lines = vtkCellArray()
@@ -335,4 +335,4 @@ def edges(posed, shape, colour=(0.25, 0.15, 0.1), width=2.0):
     data = vtkPolyData()
     data.SetPoints(posed.GetPoints())
     data.SetLines(lines)
-    return [flat_actor(data, colour, width)]
+    return [flat_actor(data, color, width)]

@@ -23,7 +23,7 @@ LARGEST = 200_000  # bytes
 SCRIPTS = ("../01_inside_outside.py", "open_crossing_flipped.py", "boundary_and_parts.py", "amount_of_insideness.py",
            "jump_and_harmonic.py", "closing_holes.py", "growth.py", "cost_of_a_point.py",
            "defect_classes.py", "hull_segmentation.py", "cut_out_cartoon.py", "image_rectangle.py",
-           "near_limbs.py", "limbs_in_front.py", "colours_of_handles.py", "new_hues.py",
+           "near_limbs.py", "limbs_in_front.py", "colors_of_handles.py", "new_hues.py",
            "rigidity_brush.py", "original_and_faster.py", "spurious_extrema.py", "topological_simplification.py",
            "small_features.py", "mesh_independence.py",
            "weights_in_volume.py", "preview_and_certified.py", "cost_of_weights.py",

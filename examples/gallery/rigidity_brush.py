@@ -40,7 +40,7 @@ def largest_stretch(before, after, triangles, inside):
 
 def make(options):
     points, triangles = mesh = grid(*((48, 12) if options.small else (120, 30)))
-    blocks = [np.abs(points[:, 0] - centre) < 0.45 for centre in (1.0, 3.0)]
+    blocks = [np.abs(points[:, 0] - center) < 0.45 for center in (1.0, 3.0)]
     painted = blocks[0] | blocks[1]
     handles = bindpose.handles(points=[(0.1, 0.5, 0), (2, 0.5, 0), (3.9, 0.5, 0)])
     pose = {"handles": {"p2": {"translate": [0, 0.7, 0]}, "p3": {"translate": [0.6, 0, 0]}}}

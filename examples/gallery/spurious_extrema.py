@@ -59,7 +59,7 @@ def extrema_of(solver):
 
 def make(options):
     square = to_dataset(grid(SQUARES, SQUARES, 1.0, 1.0))
-    places = np.array([[*place, 0] for place, _colour in POINTS])
+    places = np.array([[*place, 0] for place, _color in POINTS])
     moved = places.copy()
     moved[SHOWN, 0] += 1 / SQUARES
     bindpose.write(bindpose.handles(points=places), options.scratch / "handles.vtp")

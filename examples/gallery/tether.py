@@ -48,9 +48,9 @@ def make(options):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", bindpose.BindposeWarning)  # parts without a handle, handles off the mesh
             posed = posing.posed(bender, weighted, handles, pose, MaximumIterations=2000, **extra)
-        centres = points_of(posed).reshape(BALLS, each, 3).mean(axis=1)
-        gaps = np.linalg.norm(np.diff(centres, axis=0), axis=1) / STEP
-        numbers[f"{name}: distances of neighbours"] = [float(gaps.min()), float(gaps.max())]
+        centers = points_of(posed).reshape(BALLS, each, 3).mean(axis=1)
+        gaps = np.linalg.norm(np.diff(centers, axis=0), axis=1) / STEP
+        numbers[f"{name}: distances of neighbors"] = [float(gaps.min()), float(gaps.max())]
         files.append(f"{name}.vtp")
         bindpose.write(to_dataset((points_of(posed), mesh[1])), options.scratch / files[-1])
     # Two copies of the string at the same position.

@@ -73,7 +73,7 @@ def make(options):
                           picture=pictures[0])
     column = common.render(options, "elephant.vtu", "--component", report["handles"][COLUMN]["name"], "--extrema", *look,
                            "--labels", "the weights of one handle", picture=pictures[1])
-    numbers["tets by handle in the picture"] = [its["count"] for its in shown["colours"]]
+    numbers["tets by handle in the picture"] = [its["count"] for its in shown["colors"]]
     numbers["shown column: maxima, minima"] = [column["extrema"][0]["maxima"], column["extrema"][0]["minima"]]
     common.side_by_side(options, pictures, 2)
     return numbers

@@ -30,7 +30,7 @@ from .crowds import crowd
 from .errors import (
     BindposeError,
     BindposeWarning,
-    Cancelled,
+    Canceled,
     InvalidInput,
     NotConvergedWarning,
     Unavailable,

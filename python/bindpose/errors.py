@@ -7,7 +7,7 @@ class BindposeError(RuntimeError):
     Attributes
     ----------
     status : str
-        "invalid_input", "cancelled", "unavailable" or "internal_error".
+        "invalid_input", "canceled", "unavailable" or "internal_error".
     report : dict
         The filter's measurements until the failure.
     """
@@ -25,10 +25,10 @@ class InvalidInput(BindposeError, ValueError):
     status = "invalid_input"
 
 
-class Cancelled(BindposeError):
+class Canceled(BindposeError):
     """The progress callback canceled the filter."""
 
-    status = "cancelled"
+    status = "canceled"
 
 
 class Unavailable(BindposeError):

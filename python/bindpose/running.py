@@ -6,10 +6,10 @@ import signal
 import threading
 import warnings as python_warnings
 
-from .errors import BindposeError, BindposeWarning, Cancelled, InvalidInput, NotConvergedWarning, Unavailable
+from .errors import BindposeError, BindposeWarning, Canceled, InvalidInput, NotConvergedWarning, Unavailable
 from .meshes import remember_run, run_of
 
-_ERRORS = {error.status: error for error in (InvalidInput, Cancelled, Unavailable, BindposeError)}
+_ERRORS = {error.status: error for error in (InvalidInput, Canceled, Unavailable, BindposeError)}
 
 
 @contextlib.contextmanager
@@ -49,7 +49,7 @@ def run(algorithm, progress=None):
 
     Raises
     ------
-    InvalidInput, Cancelled, Unavailable, BindposeError
+    InvalidInput, Canceled, Unavailable, BindposeError
         The exception of the filter's status, with its message.
     KeyboardInterrupt
         After Ctrl-C, which cancels the filter.

@@ -8,7 +8,7 @@ from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
 NAMES = ["amount_of_insideness", "automatic_handles", "bent_elbow", "bent_furniture",
-         "boundary_and_parts", "candy_wrapper", "closing_holes", "colours_of_handles",
+         "boundary_and_parts", "candy_wrapper", "closing_holes", "colors_of_handles",
          "cost_of_a_point", "cost_of_weights", "crowd", "cut_out_cartoon", "defect_classes", "disjoint_skeleton", "drag_only",
          "dragged_points", "extra_weights", "four_energies", "full_and_reduced", "growth", "handle_modes",
          "hull_segmentation", "image_rectangle", "jello", "jump_and_harmonic", "limbs_in_front", "mesh_independence",
@@ -116,7 +116,7 @@ def test_surface_and_volume(tmp_path):
 
 def test_tether(tmp_path):
     numbers = numbers_of("gallery/tether.py", tmp_path)
-    together, apart = numbers["reduced: distances of neighbours"], numbers["full: distances of neighbours"]
+    together, apart = numbers["reduced: distances of neighbors"], numbers["full: distances of neighbors"]
     assert 0.9 < together[0] <= together[1] < 1.1 < 1.2 < apart[1]
     assert numbers["copies at one place, apart"] == 0
 
@@ -345,9 +345,9 @@ def test_image_rectangle(tmp_path):
 
 def test_near_limbs(tmp_path):
     numbers = numbers_of("gallery/near_limbs.py", tmp_path)
-    through = numbers["bounded biharmonic: neighbour goes along"]
+    through = numbers["bounded biharmonic: neighbor goes along"]
     for name in ("moving least squares", "inverse distance"):
-        assert numbers[f"{name}: neighbour goes along"] > 0.2 > 2 * through
+        assert numbers[f"{name}: neighbor goes along"] > 0.2 > 2 * through
     assert numbers["bounded biharmonic: triangles turned over"] == 0
     # Values of the slit square in the literature.
     assert numbers["slit square, bounded-biharmonic: weight across the slit"] == pytest.approx(2.69e-3, abs=5e-6)
@@ -367,10 +367,10 @@ def test_limbs_in_front(tmp_path):
     assert numbers["layer 1: lowest and highest depth"] == pytest.approx([0, 1], abs=1e-9)
 
 
-def test_colours_of_handles(tmp_path):
-    numbers = numbers_of("gallery/colours_of_handles.py", tmp_path)
-    assert numbers["points out of the gamut"] == [0, 0] and numbers["points beyond the handles' colours"] == [0, 0]
-    assert numbers["on handles: largest difference from their colour"] <= 1e-9
+def test_colors_of_handles(tmp_path):
+    numbers = numbers_of("gallery/colors_of_handles.py", tmp_path)
+    assert numbers["points out of the gamut"] == [0, 0] and numbers["points beyond the handles' colors"] == [0, 0]
+    assert numbers["on handles: largest difference from their color"] <= 1e-9
     # Half of the light is the sRGB value 188 of 255.
     assert numbers["red and green half-way, as light"] == pytest.approx([188 / 255, 188 / 255, 0], abs=1 / 510)
     assert numbers["red and green half-way, as numbers"] == [0.5, 0.5, 0]
@@ -384,7 +384,7 @@ def test_new_hues(tmp_path):
     assert numbers["unconstrained: out of the gamut, part"] > 0.1
     assert numbers["unconstrained: black and white bar at two thirds"] == pytest.approx(-1 / 9, abs=1e-4)
     for name in ("bounded", "monotone"):
-        assert numbers[f"{name}: out of the gamut, part"] == 0 and numbers[f"{name}: beyond the points' colours, part"] == 0
+        assert numbers[f"{name}: out of the gamut, part"] == 0 and numbers[f"{name}: beyond the points' colors, part"] == 0
         assert 0 <= numbers[f"{name}: black and white bar at two thirds"] <= 1
         assert numbers[f"{name}: black and white bar, out of the gamut"] <= 1e-9
         assert min(numbers[f"{name}: lowest and highest weight"]) >= 0
@@ -500,7 +500,7 @@ def test_cost_of_weights(tmp_path):
     numbers = numbers_of("gallery/cost_of_weights.py", tmp_path)
     assert max(numbers["worst relative gap"], numbers["worst natural residual"]) <= 1e-6
     assert 0 < numbers["4 handles, whole: exponent"] < 4
-    for part in ("analyse", "factor", "iterate"):
+    for part in ("analyze", "factor", "iterate"):
         assert all(np.less(numbers[f"4 handles, {part}: seconds a handle"], numbers["4 handles, whole: seconds a handle"]))
     for peak, estimate in zip(numbers["MiB at the peak"], numbers["MiB estimated"]):
         assert 0.8 < estimate / peak < 1.4

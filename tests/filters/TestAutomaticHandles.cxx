@@ -144,7 +144,7 @@ TEST_F(AutomaticBones, CanBeAbortedAndTriedAgain)
   listener->listen(filter);
   listener->on_progress = [](vtkAlgorithm* algorithm) { algorithm->SetAbortExecute(1); };
   filter->Update();
-  EXPECT_EQ(filter->GetStatus(), vtkAutomaticHandles::CANCELLED);
+  EXPECT_EQ(filter->GetStatus(), vtkAutomaticHandles::CANCELED);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
   EXPECT_TRUE(listener->errors.empty());
   listener->on_progress = nullptr;

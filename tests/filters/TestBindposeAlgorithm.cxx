@@ -239,9 +239,9 @@ TEST(BindposeAlgorithm, ObserverCancelsAndTheNextUpdateExecutesAgain)
     const Phase phase(context, "count");
     for (int i = 0; i < 500; ++i)
     {
-      if (context.cancelled())
+      if (context.canceled())
       {
-        return Status::cancelled();
+        return Status::canceled();
       }
       context.progress(i / 500.0);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -256,10 +256,10 @@ TEST(BindposeAlgorithm, ObserverCancelsAndTheNextUpdateExecutesAgain)
     }
   };
   second->Update();
-  EXPECT_EQ(first->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
-  EXPECT_EQ(second->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_EQ(first->GetStatus(), vtkBindposeAlgorithm::CANCELED);
+  EXPECT_EQ(second->GetStatus(), vtkBindposeAlgorithm::CANCELED);
   EXPECT_EQ(first->GetOutput()->GetNumberOfCells(), 0);
-  EXPECT_EQ(read_report(second->GetOutput()).text("status"), "cancelled");
+  EXPECT_EQ(read_report(second->GetOutput()).text("status"), "canceled");
   EXPECT_TRUE(listener->errors.empty()) << "a wish is no error";
   EXPECT_TRUE(downstream->errors.empty());
   EXPECT_EQ(first->GetErrorCode(), vtkErrorCode::NoError);
@@ -285,9 +285,9 @@ TEST(BindposeAlgorithm, AnotherThreadCancelsInTime)
     const auto start = std::chrono::steady_clock::now();
     while (std::chrono::steady_clock::now() - start < std::chrono::seconds(20))
     {
-      if (context.cancelled())
+      if (context.canceled())
       {
-        return Status::cancelled();
+        return Status::canceled();
       }
     }
     return Status();
@@ -306,7 +306,7 @@ TEST(BindposeAlgorithm, AnotherThreadCancelsInTime)
   filter->Update();
   const auto ended = std::chrono::steady_clock::now();
   user.join();
-  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::CANCELED);
   EXPECT_LT(std::chrono::duration<double>(ended - asked).count(), 0.2);
 }
 
@@ -381,11 +381,11 @@ TEST(BindposeAlgorithm, BlocksOfACompositeInput)
     {
       filter->SetAbortExecute(1);
     }
-    return context.cancelled() ? Status::cancelled() : Status();
+    return context.canceled() ? Status::canceled() : Status();
   };
   filter->Update();
   EXPECT_EQ(filter->Executions, 2);
-  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::CANCELED);
   filter->Executions = 0;
   filter->Work = nullptr;
   filter->Update();
@@ -393,7 +393,7 @@ TEST(BindposeAlgorithm, BlocksOfACompositeInput)
   EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::OK);
 }
 
-TEST(BindposeAlgorithm, CancelledCompositesPassOn)
+TEST(BindposeAlgorithm, CanceledCompositesPassOn)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, cube());

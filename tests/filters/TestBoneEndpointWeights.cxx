@@ -57,12 +57,12 @@ vtkSmartPointer<vtkPolyData> u_shape()
   Index count = 0;
   for (Index f = 0; f < mesh.triangles.rows(); ++f)
   {
-    Vec3 centre = Vec3::Zero();
+    Vec3 center = Vec3::Zero();
     for (int k = 0; k < 3; ++k)
     {
-      centre += Vec3(mesh.points.row(mesh.triangles(f, k))) / 3.0;
+      center += Vec3(mesh.points.row(mesh.triangles(f, k))) / 3.0;
     }
-    if (centre.y() < 0.25 || centre.x() < 1.0 / 3.0 || centre.x() > 2.0 / 3.0)
+    if (center.y() < 0.25 || center.x() < 1.0 / 3.0 || center.x() > 2.0 / 3.0)
     {
       kept.row(count++) = mesh.triangles.row(f);
     }

@@ -356,7 +356,7 @@ TEST_F(CrowdDeformationFilter, EndsWhenAskedTo)
   this->filter->SetInstancesData(table);
   this->listener->on_progress = [](vtkAlgorithm* algorithm) { algorithm->SetAbortExecute(1); };
   this->filter->Update();
-  EXPECT_EQ(this->filter->GetStatus(), vtkCrowdDeformation::CANCELLED);
+  EXPECT_EQ(this->filter->GetStatus(), vtkCrowdDeformation::CANCELED);
   this->listener->on_progress = {};
   this->filter->SetAbortExecute(0);
   this->filter->Update();

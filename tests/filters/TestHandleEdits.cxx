@@ -72,7 +72,7 @@ std::vector<std::string> names(vtkPolyData* data)
 TEST(HandleEditCells, ArraysFollowTheirHandles)
 {
   const auto data = handles();
-  set_handle_colour(data, 2, std::array<double, 3>{ 1.0, 0.5, 0.0 });
+  set_handle_color(data, 2, std::array<double, 3>{ 1.0, 0.5, 0.0 });
   set_handle_locked(data, 1, true);
   set_handle_layer(data, 2, -1.5);
   std::vector<Index> cell_of;
@@ -99,14 +99,14 @@ TEST(HandleEditCells, ArraysFollowTheirHandles)
   EXPECT_TRUE(std::isnan(number(data, "Color", 2, 1))) << "none of its own";
   EXPECT_EQ(number(data, "Locked", 1), 1.0);
   EXPECT_EQ(number(data, "Locked", 2), 0.0);
-  set_handle_colour(data, 3, std::nullopt);
+  set_handle_color(data, 3, std::nullopt);
   EXPECT_TRUE(std::isnan(number(data, "Color", 3, 0)));
 }
 
 TEST(HandleEditCells, CopiesAreAtRestButLookAlike)
 {
   const auto data = handles();
-  set_handle_colour(data, 1, std::array<double, 3>{ 0.0, 0.0, 1.0 });
+  set_handle_color(data, 1, std::array<double, 3>{ 0.0, 0.0, 1.0 });
   ASSERT_TRUE(edit_handles(data,
     [](const Handles& before, EditedHandles& after) {
       return mirror_handles(before, { 1 }, Vec3::Zero(), Vec3::UnitX(), after);

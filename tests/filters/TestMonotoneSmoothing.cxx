@@ -273,6 +273,6 @@ TEST_F(MonotoneSmoothing, SaysWhatIsNotCertifiedAndStopsWhenAsked)
     }
   };
   this->smoothing->Update();
-  EXPECT_EQ(this->smoothing->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_EQ(this->smoothing->GetStatus(), vtkBindposeAlgorithm::CANCELED);
   EXPECT_EQ(this->smoothing->GetOutput()->GetNumberOfPoints(), 0);
 }

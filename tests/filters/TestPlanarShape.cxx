@@ -160,11 +160,11 @@ TEST_F(PlanarShapeFilter, WholeImage)
   EXPECT_EQ(range[1], 1.0);
   EXPECT_EQ(read_report(filter->GetOutput()).text("domain"), "rectangle");
   // An image without alpha gives the same result.
-  vtkNew<vtkImageData> grey;
-  grey->SetDimensions(80, 60, 1);
-  grey->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  vtkNew<vtkImageData> gray;
+  gray->SetDimensions(80, 60, 1);
+  gray->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
   filter->RectangleOff();
-  filter->SetInputData(grey);
+  filter->SetInputData(gray);
   update();
   EXPECT_NEAR(area_of(filter->GetOutput()), 80.0 * 60.0, 1e-9);
 }

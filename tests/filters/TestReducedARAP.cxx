@@ -408,7 +408,7 @@ TEST_F(ReducedARAPFilter, AnAbortEndsTheBindAndTheNextUpdateBinds)
 {
   this->listener->on_progress = [](vtkAlgorithm* algorithm) { algorithm->SetAbortExecute(1); };
   this->filter->Update();
-  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::CANCELED);
   EXPECT_EQ(this->filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_TRUE(this->listener->errors.empty());
   this->listener->on_progress = nullptr;

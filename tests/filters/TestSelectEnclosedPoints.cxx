@@ -261,7 +261,7 @@ TEST(SelectEnclosedPoints, StacksOfPlates)
   }
 }
 
-TEST(SelectEnclosedPoints, ScannedAndModelledSurfaces)
+TEST(SelectEnclosedPoints, ScannedAndModeledSurfaces)
 {
   // Closed manifold surfaces. The ground truth is the direct sum over all triangles; points within
   // a thousandth of the diagonal do not count.

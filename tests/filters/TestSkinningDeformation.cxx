@@ -368,7 +368,7 @@ TEST_F(SkinningDeformation, InSinglePrecisionWithFewInfluencesSaysWhatItDropped)
   EXPECT_NE(this->error.find("smallest weight"), std::string::npos) << this->error;
 }
 
-TEST_F(SkinningDeformation, CentersAreMadeOnceAndCanBeCancelled)
+TEST_F(SkinningDeformation, CentersAreMadeOnceAndCanBeCanceled)
 {
   this->pose->SetPoseJSON(turn_upper(90.0, "[0, 0, 1]"));
   this->filter->Update();
@@ -392,7 +392,7 @@ TEST_F(SkinningDeformation, CentersAreMadeOnceAndCanBeCancelled)
     { vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1); });
   const unsigned long tag = this->filter->AddObserver(vtkCommand::ProgressEvent, stop);
   this->filter->Update();
-  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::CANCELED);
   this->filter->RemoveObserver(tag);
   this->filter->SetAbortExecute(0);
   this->filter->Update();

@@ -338,7 +338,7 @@ TEST(TetrahedralizeSurface, AbortKillsTheHelper)
   const double waited =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
   helper.reset();
-  EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::CANCELLED);
+  EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::CANCELED);
   EXPECT_TRUE(listener->errors.empty());
   EXPECT_LT(waited, 0.2);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);

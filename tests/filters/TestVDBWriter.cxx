@@ -187,7 +187,7 @@ TEST_F(VDBWriter, AnAbortLeavesNothing)
 {
   this->Listener->on_progress = [](vtkAlgorithm* algorithm) { algorithm->SetAbortExecute(1); };
   EXPECT_EQ(this->Writer->Write(), 0);
-  EXPECT_EQ(this->Writer->GetStatus(), vtkVDBWriter::CANCELLED);
+  EXPECT_EQ(this->Writer->GetStatus(), vtkVDBWriter::CANCELED);
   EXPECT_EQ(this->Folder.number_of_files(), 0u);
   EXPECT_TRUE(this->Listener->errors.empty());
   this->Listener->on_progress = nullptr;

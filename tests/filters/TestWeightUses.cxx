@@ -238,7 +238,7 @@ TEST_F(WeightUses, DepthDisplacesZAndNothingElse)
   EXPECT_EQ(bounds[5], 0.0);
 }
 
-TEST_F(WeightUses, AHandleWithoutAColourOfItsOwnKeepsItsCategory)
+TEST_F(WeightUses, AHandleWithoutAColorOfItsOwnKeepsItsCategory)
 {
   // A NaN in the array means that the handle has no color.
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -263,10 +263,10 @@ TEST_F(WeightUses, AHandleWithoutAColourOfItsOwnKeepsItsCategory)
   EXPECT_EQ(at_handle(0), Vec3(1, 0, 0));
   set_cells(this->handles, "Color", { 1, 0, 0, none, 0, none, 0, 0, 1 });
   this->colors->Update();
-  EXPECT_EQ(this->colors->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT) << "half a colour";
+  EXPECT_EQ(this->colors->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT) << "half a color";
 }
 
-TEST_F(WeightUses, ColoursOfHandlesBytesAndNumbersAlike)
+TEST_F(WeightUses, ColorsOfHandlesBytesAndNumbersAlike)
 {
   set_cells(this->handles, "Color", { 1, 0, 0, 0, 0.2, 0, 0, 0, 1 });
   this->colors->Update();
@@ -310,7 +310,7 @@ TEST_F(WeightUses, ColoursOfHandlesBytesAndNumbersAlike)
   }
 }
 
-TEST_F(WeightUses, WithoutColoursHandlesGetTheirOwn)
+TEST_F(WeightUses, WithoutColorsHandlesGetTheirOwn)
 {
   this->weights->KeepRawOn();
   this->colors->SetArrayName("RawWeights");

@@ -83,7 +83,7 @@ TEST(WindingNumberField, GridCoversThePaddedBounds)
     EXPECT_NEAR(image->GetSpacing()[k], spacing, 1e-14);
     EXPECT_LE(bounds[2 * k], (k == 0 ? -2.0 : -1.0) - padding + 1e-12);
     EXPECT_GE(bounds[2 * k + 1], (k == 0 ? 2.0 : 1.0) + padding - 1e-12);
-    EXPECT_NEAR(bounds[2 * k] + bounds[2 * k + 1], 0.0, 1e-12) << "centred";
+    EXPECT_NEAR(bounds[2 * k] + bounds[2 * k + 1], 0.0, 1e-12) << "centered";
   }
   vtkDoubleArray* values = array_of(image);
   ASSERT_NE(values, nullptr);
@@ -959,10 +959,10 @@ TEST(WindingNumberField, AbortFromAnObserverThenAgain)
   field->Update();
   ASSERT_NE(asked, Clock::time_point()) << "it was faster than its progress";
   EXPECT_LT(std::chrono::duration<double>(Clock::now() - asked).count(), 0.2);
-  EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::CANCELED);
   EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(array_of(field->GetOutput()), nullptr);
-  EXPECT_EQ(read_report(field->GetOutput()).text("status"), "cancelled");
+  EXPECT_EQ(read_report(field->GetOutput()).text("status"), "canceled");
   EXPECT_TRUE(listener->errors.empty());
   EXPECT_TRUE(std::is_sorted(listener->progress.begin(), listener->progress.end() - 1));
   EXPECT_THAT(listener->phases, testing::Contains("build"));

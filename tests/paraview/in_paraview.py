@@ -164,8 +164,8 @@ def deformation():
             assert np.abs(points_of(fetch(proxy)) - rest - shift).max() < 1e-9, f"{name}: no translation ({mode})"
         assert np.abs(points_of(fetch(skinned)) - sphere - shift).max() < 1e-6
     posed_handles.PoseJSON = '{"handles": {"p1": {"translate": [0.1, 0, 0]}}}'
-    colours = fetch(WeightedColors(Input=bound, Handles=handles)).GetPointData()
-    assert vtk_to_numpy(colours.GetArray("Color")).shape == (len(rest), 3) and colours.GetArray("OutOfGamut").GetRange() == (0, 0)
+    colors = fetch(WeightedColors(Input=bound, Handles=handles)).GetPointData()
+    assert vtk_to_numpy(colors.GetArray("Color")).shape == (len(rest), 3) and colors.GetArray("OutOfGamut").GetRange() == (0, 0)
     assert fetch(DepthOrder(Input=bound, Handles=handles)).GetPointData().GetArray("Depth").GetRange() == (0, 0)
     moved = np.linalg.norm(points_of(fetch(posed["SkinningDeformation"])) - rest, axis=1)
     assert abs(moved.max() - 0.1) < 1e-12 and moved.min() < 0.05  # the handle itself, and a distant point

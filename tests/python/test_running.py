@@ -51,9 +51,9 @@ def test_seconds_are_in_the_report_and_not_in_the_data(tmp_path):
 
 def test_progress_cancels():
     filter_ = field(600)
-    with pytest.raises(bindpose.Cancelled) as caught:
+    with pytest.raises(bindpose.Canceled) as caught:
         bindpose.run(filter_, lambda fraction, phase: False)
-    assert caught.value.status == "cancelled"
+    assert caught.value.status == "canceled"
     filter_.SetResolution(8)
     assert bindpose.run(filter_)["status"] == "ok"  # the filter works again after the cancel
 

@@ -19,7 +19,7 @@ def bar_with_weights():
     return mesh
 
 
-def test_colours_are_the_weights_sum():
+def test_colors_are_the_weights_sum():
     handles = bindpose.handles(bones=BONES)
     ends = np.array([[0.9, 0.2, 0.0], [0.1, 0.4, 1.0]])
     values = bindpose.weighted_colors(BAR, handles, ends, weights=LINEAR, linear_light=False)
@@ -39,11 +39,11 @@ def test_colours_are_the_weights_sum():
     assert point_array(mesh, "Color") is None  # the caller's dataset is unchanged
 
 
-def test_colours_in_light_or_bytes_or_none():
+def test_colors_in_light_or_bytes_or_none():
     handles = bindpose.handles(bones=BONES)
     half = np.full((len(X), 2), 0.5)
-    grey = bindpose.weighted_colors(BAR, handles, np.array([[0] * 3, [255] * 3], dtype=np.uint8), weights=half)
-    assert np.array_equal(np.rint(255 * grey), np.full((len(X), 3), 188))  # half of the light as an sRGB value
+    gray = bindpose.weighted_colors(BAR, handles, np.array([[0] * 3, [255] * 3], dtype=np.uint8), weights=half)
+    assert np.array_equal(np.rint(255 * gray), np.full((len(X), 3), 188))  # half of the light as an sRGB value
     palette = bindpose.weighted_colors(BAR, handles, weights=LINEAR)
     assert bindpose.report(palette)["colors"] == "categorical"
 
@@ -86,7 +86,7 @@ def square(n=8):
             np.concatenate([np.stack([first, right, up + 1], axis=1), np.stack([first, up + 1, up], axis=1)]))
 
 
-def test_a_curve_has_two_colours():
+def test_a_curve_has_two_colors():
     bone = bindpose.handles(bones=[[[0.25, 0.5, 0], [0.75, 0.5, 0]]], names=["curve"])
     mesh, sides = bindpose.cut_along_bones(square(), bone, left=[[1, 0, 0]], right={"curve": (0, 0, 1)})
     assert sides.GetNumberOfCells() == 2 and mesh.GetNumberOfPoints() == 81 + 3
@@ -97,11 +97,11 @@ def test_a_curve_has_two_colours():
     assert values[labels == 1] == pytest.approx(np.array([[1, 0, 0]] * 3), abs=1e-12)
     assert values[labels == 2] == pytest.approx(np.array([[0, 0, 1]] * 3), abs=1e-12)
     # The upper part is nearer to the left side, the lower part to the right one: no color leaks through the curve.
-    centres = points_of(painted)[triangles_of(painted)].mean(axis=1)
+    centers = points_of(painted)[triangles_of(painted)].mean(axis=1)
     red = values[triangles_of(painted)][:, :, 0].mean(axis=1)
-    near = (np.abs(centres[:, 1] - 0.5) < 0.1) & (np.abs(centres[:, 0] - 0.5) < 0.15)
+    near = (np.abs(centers[:, 1] - 0.5) < 0.1) & (np.abs(centers[:, 0] - 0.5) < 0.15)
     assert near.sum() > 4
-    assert ((red > 0.5) == (centres[:, 1] > 0.5))[near].all()
+    assert ((red > 0.5) == (centers[:, 1] > 0.5))[near].all()
 
 
 def test_bones_of_one_curve_share_their_sides():

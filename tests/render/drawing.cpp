@@ -68,10 +68,10 @@ double lightness(const Pixel& p)
   return 0.299 * p.r + 0.587 * p.g + 0.114 * p.b;
 }
 
-double distance(const Pixel& p, const Rgb& colour)
+double distance(const Pixel& p, const Rgb& color)
 {
-  return std::max({ std::abs(p.r - 255.0 * colour[0]), std::abs(p.g - 255.0 * colour[1]),
-    std::abs(p.b - 255.0 * colour[2]) });
+  return std::max({ std::abs(p.r - 255.0 * color[0]), std::abs(p.g - 255.0 * color[1]),
+    std::abs(p.b - 255.0 * color[2]) });
 }
 
 } // namespace bindpose::test

@@ -4,7 +4,7 @@
 // A picture and functions that examine it.
 
 #include "render/harness.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "scene/picture.h"
 
 #include <functional>
@@ -29,7 +29,7 @@ Drawing draw(const std::vector<Tile>& tiles, const PictureOptions& options);
 bool is_paper(const Pixel& p);
 double lightness(const Pixel& p);
 /// Return the largest difference of a channel, 0 to 255.
-double distance(const Pixel& p, const Rgb& colour);
+double distance(const Pixel& p, const Rgb& color);
 
 } // namespace bindpose::test
 

@@ -5,7 +5,7 @@
 
 #include "conversion.h"
 #include "scene/categories.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "support/meshes.h"
 
 #include "vtkDoubleArray.h"
@@ -27,12 +27,12 @@ namespace
 {
 constexpr double pi = 3.14159265358979323846;
 
-double hue_distance(const Pixel& p, const Rgb& colour)
+double hue_distance(const Pixel& p, const Rgb& color)
 {
   const double its = std::max(1, p.r + p.g + p.b);
-  const double sum = colour[0] + colour[1] + colour[2];
-  return std::max({ std::abs(p.r / its - colour[0] / sum), std::abs(p.g / its - colour[1] / sum),
-    std::abs(p.b / its - colour[2] / sum) });
+  const double sum = color[0] + color[1] + color[2];
+  return std::max({ std::abs(p.r / its - color[0] / sum), std::abs(p.g / its - color[1] / sum),
+    std::abs(p.b / its - color[2] / sum) });
 }
 
 using Column = std::function<double(const Vec3&)>;
@@ -116,7 +116,7 @@ Counts counts(const Report& report, const std::string& key)
 TEST(Render, handles_of_surface)
 {
   PictureOptions options = small_picture();
-  options.colour_by = ColourBy::handle;
+  options.color_by = ColorBy::handle;
   const Drawing drawing = draw({ { finger(), nullptr, "" } }, options);
   // The left half has the color of the first handle, the right half that of the second one.
   const std::vector<Category> handles = handle_categories({ "left", "right" });
@@ -124,8 +124,8 @@ TEST(Render, handles_of_surface)
   {
     const double round = std::sqrt(1.0 - x * x / 4.0);
     const Vec3 ridge(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968);
-    EXPECT_LT(hue_distance(drawing.at(ridge), handles[x < 0 ? 0 : 1].colour), 0.06) << x;
-    EXPECT_GT(hue_distance(drawing.at(ridge), handles[x < 0 ? 1 : 0].colour), 0.15) << x;
+    EXPECT_LT(hue_distance(drawing.at(ridge), handles[x < 0 ? 0 : 1].color), 0.06) << x;
+    EXPECT_GT(hue_distance(drawing.at(ridge), handles[x < 0 ? 1 : 0].color), 0.15) << x;
   }
   expect_baseline(drawing.image);
 }
@@ -139,7 +139,7 @@ TEST(Render, handles_of_tets)
       [](const Vec3& p) { return 1.0 - std::abs(p[0] / 0.8 - 1.0); },
       [](const Vec3& p) { return std::max(0.0, p[0] / 0.8 - 1.0); } });
   PictureOptions options = small_picture();
-  options.colour_by = ColourBy::handle;
+  options.color_by = ColorBy::handle;
   Report report;
   const Drawing drawing = draw({ brick, nullptr, "" }, options, report);
   const std::vector<Category> handles = handle_categories({ "a", "b", "c" });
@@ -154,12 +154,12 @@ TEST(Render, handles_of_tets)
       for (int dy = -3; dy <= 3; ++dy)
       {
         const Vec3 place(places[k] + 0.02 * dx, 0.5 + 0.02 * dy, 0.6);
-        close += hue_distance(drawing.at(place), handles[k].colour) < 0.06;
+        close += hue_distance(drawing.at(place), handles[k].color) < 0.06;
       }
     }
     EXPECT_GT(close, 30) << k;
   }
-  const Counts cells = std::get<Counts>(*report.find("picture.colours[].count"));
+  const Counts cells = std::get<Counts>(*report.find("picture.colors[].count"));
   EXPECT_EQ(cells[0] + cells[1] + cells[2], brick->GetNumberOfCells());
   EXPECT_EQ(cells[0], cells[2]) << "the brick and its weights are symmetric";
   expect_baseline(drawing.image);
@@ -183,7 +183,7 @@ TEST(Render, tets_slice)
   options.view.elevation = 25.0;
   Report report;
   const Drawing drawing = draw({ box, nullptr, "" }, options, report);
-  const ColourMap map = weight_map();
+  const ColorMap map = weight_map();
   const auto on_plane = [&](double x, double y)
   {
     const Vec3& n = plane.normal;
@@ -201,7 +201,7 @@ TEST(Render, tets_slice)
       for (const double within : { 0.2, 0.5, 0.8 })
       {
         const double x = 0.2 * (band + within);
-        EXPECT_LE(distance(drawing.at(on_plane(x, y)), colour_of(map, left(Vec3(x, y, 0)))), 2.0)
+        EXPECT_LE(distance(drawing.at(on_plane(x, y)), color_of(map, left(Vec3(x, y, 0)))), 2.0)
           << x << " " << y;
       }
       // A dark line separates two bands. The first bands are skipped because they are as dark as
@@ -235,7 +235,7 @@ TEST(Render, tets_slice)
   // Without isolines no band has a dark border.
   options.isolines = false;
   const Drawing plain = draw({ { box, nullptr, "" } }, options);
-  EXPECT_LE(distance(plain.at(on_plane(0.21, 0.5)), colour_of(map, left(Vec3(0.21, 0.5, 0)))), 2.0);
+  EXPECT_LE(distance(plain.at(on_plane(0.21, 0.5)), color_of(map, left(Vec3(0.21, 0.5, 0)))), 2.0);
   EXPECT_GT(lightness(plain.at(on_plane(0.8, 0.5))), lightness_at(0.8, 0.5) + 10);
   expect_baseline(drawing.image);
 }
@@ -245,15 +245,15 @@ TEST(Render, tets_slice_by_handle)
   // Values per tet: the slice shows every tet in the color of its strongest handle.
   const auto brick = tet_brick();
   PictureOptions options = small_picture();
-  options.colour_by = ColourBy::handle;
+  options.color_by = ColorBy::handle;
   options.slice = true;
   options.section_plane = Plane{ Vec3(0, 0, 0.71), Vec3::UnitZ() };
   const Drawing drawing = draw({ { brick, nullptr, "" } }, options);
   const std::vector<Category> handles = handle_categories({ "left", "right" });
   for (const double y : { 0.2, 0.5, 0.8 })
   {
-    EXPECT_LE(distance(drawing.at(Vec3(0.4, y, 0.71)), handles[0].colour), 2.0) << y;
-    EXPECT_LE(distance(drawing.at(Vec3(1.2, y, 0.71)), handles[1].colour), 2.0) << y;
+    EXPECT_LE(distance(drawing.at(Vec3(0.4, y, 0.71)), handles[0].color), 2.0) << y;
+    EXPECT_LE(distance(drawing.at(Vec3(1.2, y, 0.71)), handles[1].color), 2.0) << y;
   }
   expect_baseline(drawing.image);
 }
@@ -279,11 +279,11 @@ TEST(Render, extrema)
   for (const Vec3& place : maxima(0.0))
   {
     const bool handle = place[0] == 0.5;
-    EXPECT_EQ(hue_distance(drawing.at(place), kinds[1].colour) < 0.08, !handle) << place;
+    EXPECT_EQ(hue_distance(drawing.at(place), kinds[1].color) < 0.08, !handle) << place;
   }
   for (const Vec3& place : minima(0.0))
   {
-    EXPECT_LT(hue_distance(drawing.at(place), kinds[0].colour), 0.06) << place;
+    EXPECT_LT(hue_distance(drawing.at(place), kinds[0].color), 0.06) << place;
   }
   // The function "Waves" is 1 at all its maxima, so the array "Weights" identifies the handle.
   options.array = "Waves";
@@ -313,7 +313,7 @@ TEST(Render, extrema_of_tets)
   EXPECT_EQ(counts(report, "drawn"), Counts{ 9 });
   for (const Vec3& place : maxima(0.5))
   {
-    EXPECT_LT(hue_distance(drawing.at(place), extremum_categories()[1].colour), 0.08) << place;
+    EXPECT_LT(hue_distance(drawing.at(place), extremum_categories()[1].color), 0.08) << place;
   }
   // The cut removes this side.
   options.cut = true;
@@ -330,7 +330,7 @@ TEST(Render, row_sum)
   add_array(surface, "RawWeights",
     { [](const Vec3&) { return 0.5; }, [](const Vec3& p) { return 0.5 + 0.1 * p[0]; } });
   PictureOptions options = small_picture();
-  options.colour_by = ColourBy::row_sum;
+  options.color_by = ColorBy::row_sum;
   Report report;
   const Drawing drawing = draw({ surface, nullptr, "" }, options, report);
   EXPECT_NEAR(report.number("picture.row_sum.minimum", 0), 0.8, 1e-12);
@@ -339,7 +339,7 @@ TEST(Render, row_sum)
   {
     const double round = std::sqrt(1.0 - x * x / 4.0);
     const Vec3 ridge(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968);
-    EXPECT_LT(hue_distance(drawing.at(ridge), diverging_colour(x / 2.0)), 0.06) << x;
+    EXPECT_LT(hue_distance(drawing.at(ridge), diverging_color(x / 2.0)), 0.06) << x;
   }
   expect_baseline(drawing.image);
 }
@@ -370,7 +370,7 @@ TEST(Render, difference)
   {
     const double round = std::sqrt(1.0 - x * x / 4.0);
     const Vec3 ridge(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968);
-    EXPECT_LT(hue_distance(drawing.at(ridge), diverging_colour(-x / 2.0)), 0.06) << x;
+    EXPECT_LT(hue_distance(drawing.at(ridge), diverging_color(-x / 2.0)), 0.06) << x;
   }
   // The difference of a dataset and itself is zero.
   options.minus = surface;
@@ -393,7 +393,7 @@ TEST(Render, handle_names)
   }
   add_array(surface, "Weights", columns);
   PictureOptions options = small_picture();
-  options.colour_by = ColourBy::handle;
+  options.color_by = ColorBy::handle;
   options.legend = true;
   const Drawing drawing = draw({ { surface, nullptr, "" } }, options);
   const std::vector<Category> handles = handle_categories({ "a", "b", "c" });
@@ -408,7 +408,7 @@ TEST(Render, handle_names)
     {
       for (int x = right; x < 400; ++x)
       {
-        if (distance(pixel_at(drawing.image, x, y), handle.colour) <= 1.0)
+        if (distance(pixel_at(drawing.image, x, y), handle.color) <= 1.0)
         {
           lowest = std::min(lowest, y);
           highest = std::max(highest, y);

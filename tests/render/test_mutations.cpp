@@ -49,9 +49,9 @@ TEST(Render, mutations)
   PictureOptions raised = options;
   raised.view.elevation = 1.0;
   expect_caught("camera 1 degree up", raised);
-  PictureOptions recoloured = options;
-  recoloured.range = { 0.0, 1.02 };
-  expect_caught("colour range 2 % wider", recoloured);
+  PictureOptions recolored = options;
+  recolored.range = { 0.0, 1.02 };
+  expect_caught("color range 2 % wider", recolored);
   PictureOptions plain = options;
   plain.isolines = false;
   expect_caught("no isolines", plain);

@@ -5,7 +5,7 @@
 #include "render/shapes.h"
 
 #include "conversion.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "support/meshes.h"
 
 #include "vtkImageData.h"
@@ -96,16 +96,16 @@ TEST(Render, winding_slice)
   const Drawing drawing = draw({ { three_spheres(), nullptr, "" } }, options);
   // The slice is half a sample away from z = 0. Where nothing covers it, it has exactly the colors
   // of the color map.
-  EXPECT_LT(distance(drawing.at(Vec3(-1.8, 1.2, 0.0)), winding_colour(0.0)), 3.0);
+  EXPECT_LT(distance(drawing.at(Vec3(-1.8, 1.2, 0.0)), winding_color(0.0)), 3.0);
   const Vec3 overlap = 0.5 * (sphere_centers[0] + sphere_centers[1]);
   const Pixel one = drawing.at(sphere_centers[0] - Vec3(0.25, 0, 0));
   const Pixel two = drawing.at(overlap);
   const Pixel negative = drawing.at(sphere_centers[2]);
-  EXPECT_LT(distance(one, winding_colour(1.0)), 60.0); // behind the translucent isosurface
+  EXPECT_LT(distance(one, winding_color(1.0)), 60.0); // behind the translucent isosurface
   EXPECT_GT(one.r, one.b + 50) << "inside is orange";
   EXPECT_LT(lightness(two), lightness(one) - 60.0) << "twice inside is darker";
   EXPECT_LT(lightness(negative), lightness(one) - 60.0) << "inside out is dark";
-  EXPECT_LT(distance(negative, winding_colour(-1.0)), 3.0) << "and has no glass before it";
+  EXPECT_LT(distance(negative, winding_color(-1.0)), 3.0) << "and has no glass before it";
   expect_baseline(drawing.image);
 }
 
@@ -140,7 +140,7 @@ TEST(Render, handles)
   const Pixel free = drawing.at(Vec3(1.0, -0.4, 0.0));
   EXPECT_GT(full.r, full.b + 80) << "full: orange";
   EXPECT_GT(position.b, position.r + 80) << "position: blue";
-  EXPECT_LT(std::abs(free.r - free.b), 20) << "free: grey";
+  EXPECT_LT(std::abs(free.r - free.b), 20) << "free: gray";
   const Pixel bone = drawing.at(Vec3(0.0, 0.5, 0.0));
   EXPECT_GT(bone.r, bone.b + 60) << "bone: orange";
   expect_baseline(drawing.image);
@@ -216,8 +216,8 @@ TEST(Render, legend)
   // All ten colors of the legend occur unchanged, because it is drawn without lighting.
   for (int band = 0; band < 10; ++band)
   {
-    const Rgb colour = sequential_colour(band / 9.0);
-    EXPECT_GT(drawing.count([&](const Pixel& p) { return distance(p, colour) <= 2.0; }), 60)
+    const Rgb color = sequential_color(band / 9.0);
+    EXPECT_GT(drawing.count([&](const Pixel& p) { return distance(p, color) <= 2.0; }), 60)
       << "band " << band;
   }
   // The title: the top lines contain dark pixels, but not at their ends.

@@ -5,7 +5,7 @@
 
 #include "conversion.h"
 #include "scene/categories.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "support/meshes.h"
 
 #include "vtkCellData.h"
@@ -27,12 +27,12 @@ namespace
 {
 /// Return the distance in hue of a lit pixel from a color: the largest difference of the fractions
 /// of red, green and blue. Lighting changes the sum of the channels, but hardly their fractions.
-double hue_distance(const Pixel& p, const Rgb& colour)
+double hue_distance(const Pixel& p, const Rgb& color)
 {
   const double its = std::max(1, p.r + p.g + p.b);
-  const double sum = colour[0] + colour[1] + colour[2];
-  return std::max({ std::abs(p.r / its - colour[0] / sum), std::abs(p.g / its - colour[1] / sum),
-    std::abs(p.b / its - colour[2] / sum) });
+  const double sum = color[0] + color[1] + color[2];
+  return std::max({ std::abs(p.r / its - color[0] / sum), std::abs(p.g / its - color[1] / sum),
+    std::abs(p.b / its - color[2] / sum) });
 }
 
 long long painted(const Drawing& drawing)
@@ -90,13 +90,13 @@ TEST(Render, tets_labels)
   }
   grid->GetCellData()->AddArray(labels);
   PictureOptions options = small_picture();
-  options.colour_by = ColourBy::label;
+  options.color_by = ColorBy::label;
   options.cut = false;
   const Drawing drawing = draw({ { grid, nullptr, "" } }, options);
   for (const Category& category : label_categories())
   {
     const Pixel seen = drawing.at(Vec3(0.25 + 0.5 * (category.value + 1), 0.4, 1.0));
-    EXPECT_LT(hue_distance(seen, category.colour), 0.06) << category.name;
+    EXPECT_LT(hue_distance(seen, category.color), 0.06) << category.name;
   }
   expect_baseline(drawing.image);
 }
@@ -106,11 +106,11 @@ TEST(Render, tets_quality)
   // The smallest dihedral angle of every tet of the subdivided cube is 45 degrees.
   const TetMesh mesh = tet_box(4, 4, 4);
   PictureOptions options = small_picture();
-  options.colour_by = ColourBy::quality;
+  options.color_by = ColorBy::quality;
   options.cut = false;
   const Drawing drawing =
     draw({ { to_unstructured_grid(mesh.points, mesh.tets), nullptr, "" } }, options);
-  const Rgb expected = sequential_colour(45.0 / 70.528779);
+  const Rgb expected = sequential_color(45.0 / 70.528779);
   for (const Vec3& place : { Vec3(0.31, 0.4, 1.0), Vec3(0.71, 0.83, 1.0), Vec3(1.0, 0.3, 0.6) })
   {
     EXPECT_LT(hue_distance(drawing.at(place), expected), 0.06) << place.transpose();
@@ -131,10 +131,10 @@ TEST(Render, defects)
   const Drawing drawing = draw({ tile }, options);
   const auto& kinds = defect_categories();
   // The border of the opening, and the two triangles of the lid that the sphere crosses.
-  EXPECT_LT(hue_distance(drawing.at(Vec3(0.3, -1.0, 1.0)), kinds[2].colour), 0.08);
-  EXPECT_LT(hue_distance(drawing.at(Vec3(0.85, 1.0, 0.7)), kinds[7].colour), 0.08);
+  EXPECT_LT(hue_distance(drawing.at(Vec3(0.3, -1.0, 1.0)), kinds[2].color), 0.08);
+  EXPECT_LT(hue_distance(drawing.at(Vec3(0.85, 1.0, 0.7)), kinds[7].color), 0.08);
   // Clean parts are translucent gray.
-  const Pixel grey = drawing.at(Vec3(1.0, 0.0, 0.0));
-  EXPECT_LT(std::max({ grey.r, grey.g, grey.b }) - std::min({ grey.r, grey.g, grey.b }), 30);
+  const Pixel gray = drawing.at(Vec3(1.0, 0.0, 0.0));
+  EXPECT_LT(std::max({ gray.r, gray.g, gray.b }) - std::min({ gray.r, gray.g, gray.b }), 30);
   expect_baseline(drawing.image);
 }

@@ -80,11 +80,11 @@ TEST(Render, isosurfaces_nested)
   options.legend = true;
   const Drawing drawing = draw({ { cone_field(), nullptr, "" } }, options);
   // The legend has a field in the color of each level, in the order of the levels.
-  const ColourMap map = winding_map();
+  const ColorMap map = winding_map();
   double below = 0.0;
   for (const double level : { 0.25, 0.75, 0.9 })
   {
-    const auto field = [&](const Pixel& p) { return distance(p, colour_of(map, level)) <= 1.0; };
+    const auto field = [&](const Pixel& p) { return distance(p, color_of(map, level)) <= 1.0; };
     EXPECT_GT(drawing.count(field), 60) << level;
     const double height = drawing.extent(field).center().y();
     EXPECT_GT(height, below) << level;
@@ -152,7 +152,7 @@ TEST(Render, boundary_curves)
   Tile without = tile;
   without.context.pop_back();
   const Drawing bare = draw({ without }, options);
-  const Vec3 towards_camera(0.45, 0.28, 0.85);
+  const Vec3 toward_camera(0.45, 0.28, 0.85);
   for (int i = 0; i < 24; ++i)
   {
     const double angle = 2.0 * 3.14159265358979 * i / 24;
@@ -161,7 +161,7 @@ TEST(Render, boundary_curves)
       const Vec3 place(std::cos(angle), y, std::sin(angle));
       const Pixel with_curve = drawing.at(place);
       EXPECT_LT(with_curve.r, bare.at(place).r - 20) << i << " at " << y;
-      if (Vec3(place.x(), 0.0, place.z()).dot(towards_camera) > 0.0)
+      if (Vec3(place.x(), 0.0, place.z()).dot(toward_camera) > 0.0)
       {
         EXPECT_TRUE(is_green(with_curve)) << i << " at " << y;
       }

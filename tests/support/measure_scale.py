@@ -32,7 +32,7 @@ VERBS = ("info", "winding", "tetrahedralize", "weights", "deform", "view")
 LIMIT = 1800.0  # seconds
 GRACE = 60.0  # seconds between an interrupt and killing the process
 MOST_MEMORY = 12 << 30
-CANCELLED = 4  # exit code
+CANCELED = 4  # exit code
 PROGRESS = re.compile(rb"([0-9]+) %  ([a-z][^\x1b\r\n]*)")
 TOUR = {"tour": {"schema": 1, "name": "first picture", "view": [1200, 800], "seconds": LIMIT},
         "steps": [{"screenshot": "first"}]}
@@ -146,7 +146,7 @@ def measure(options, name, surface, folder):
         if options.cancel and verb != "view":  # the window does not handle interrupts
             runs = [run(words, done.seconds * (k + 0.5) / options.cancel) for k in range(options.cancel)]
             row["longest after an interrupt, s"] = f"{max(each.interrupted for each in runs):.2f}"
-            row["failed"] |= any(each.exit_code not in (0, CANCELLED) for each in runs)
+            row["failed"] |= any(each.exit_code not in (0, CANCELED) for each in runs)
         print(" | ".join(str(value) for value in row.values()), flush=True)
         if row["failed"]:
             print(done.text, file=sys.stderr)

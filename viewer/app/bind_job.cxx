@@ -82,7 +82,7 @@ void BindJob::start(BindInput input)
     [this, made]
     {
       this->result_ = BindResult();
-      if (this->job_.status().code != StatusCode::cancelled)
+      if (this->job_.status().code != StatusCode::canceled)
       {
         this->result_ = std::move(*made);
       }

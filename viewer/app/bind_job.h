@@ -61,7 +61,7 @@ public:
   explicit BindJob(QObject* parent = nullptr);
 
   void start(BindInput input);
-  /// Request the end of the job. finished() is still emitted, with the status cancelled.
+  /// Request the end of the job. finished() is still emitted, with the status canceled.
   void cancel() { this->job_.cancel(); }
   bool is_running() const { return this->job_.is_running(); }
   /// Return the last result; valid after finished().

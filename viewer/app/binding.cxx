@@ -125,20 +125,20 @@ void Binding::finish()
   this->document_->drop_preview();
   this->offer_again();
   Q_EMIT this->changed();
-  if (result.status.code == StatusCode::cancelled)
+  if (result.status.code == StatusCode::canceled)
   {
     if (this->document_->is_bound())
     {
-      this->panel_->set_note(tr("Cancelled; the weights stay as they were."));
+      this->panel_->set_note(tr("Canceled; the weights stay as they were."));
     }
     else if (preview && this->document_->set_bound(preview, nullptr))
     {
-      this->panel_->set_note(tr("Cancelled; the preview's weights stay, without a certificate. "
+      this->panel_->set_note(tr("Canceled; the preview's weights stay, without a certificate. "
                                 "Bind again for exact ones."));
     }
     else
     {
-      this->panel_->set_note(tr("Cancelled."));
+      this->panel_->set_note(tr("Canceled."));
     }
     return;
   }

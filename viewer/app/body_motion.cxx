@@ -98,7 +98,7 @@ void BodyMotion::bound()
   {
     this->restart();
   }
-  else if (status.code != StatusCode::cancelled)
+  else if (status.code != StatusCode::canceled)
   {
     this->fail(status);
   }

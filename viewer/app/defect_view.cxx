@@ -48,7 +48,7 @@ void DefectView::update()
   {
     bindpose::count_defects(this->defects_, categories);
   }
-  const bindpose::ColourMap map = bindpose::category_map(categories);
+  const bindpose::ColorMap map = bindpose::category_map(categories);
   this->viewport_->show_legend(Viewport::defect_legend,
     !this->is_shown()     ? QString()
       : map.texts.empty() ? QCoreApplication::translate("DefectView", "No defects")

@@ -21,7 +21,7 @@ bool binds_at_once(const PoseSource& source, const PoseOptions& options)
 {
   const auto columns = static_cast<Index>(source.handles.size()) + options.extra_weights;
   const Index vertices = options.in_tets ? source.tet_points.rows() : source.points.rows();
-  if (options.method == PoseMethod::rotation_centres ||
+  if (options.method == PoseMethod::rotation_centers ||
     (options.method == PoseMethod::stretchable_bones &&
       options.endpoints != EndpointMethod::projection))
   {
@@ -56,7 +56,7 @@ void Deformation::set_source(std::shared_ptr<const PoseSource> source)
   this->status_ = Status();
   this->error_.clear();
   this->settled_ = false;
-  this->cancelled_ = false;
+  this->canceled_ = false;
   this->task_.stale = true;
   this->job_.cancel();
   this->set_binding(false);
@@ -71,7 +71,7 @@ void Deformation::set_options(const PoseOptions& options)
   this->options_ = options;
   this->rotations_ = PoseRotations();
   this->settled_ = false;
-  this->cancelled_ = false;
+  this->canceled_ = false;
   this->slice_ = first_slice;
   this->spent_ = 0;
   if (this->task_.poser)
@@ -109,7 +109,7 @@ void Deformation::set_pose(const Pose& pose)
 
 void Deformation::cancel()
 {
-  this->cancelled_ = true;
+  this->canceled_ = true;
   this->task_.stale = true;
   this->job_.cancel();
   this->set_binding(false);
@@ -117,7 +117,7 @@ void Deformation::cancel()
 
 void Deformation::bind()
 {
-  this->cancelled_ = false;
+  this->canceled_ = false;
   this->advance();
 }
 
@@ -167,7 +167,7 @@ std::shared_ptr<Poser> Deformation::poser()
 /// Do the next task, if there is one and it is possible now.
 void Deformation::advance()
 {
-  if (!this->can_pose() || this->pose_.empty() || this->cancelled_ || this->settled_)
+  if (!this->can_pose() || this->pose_.empty() || this->canceled_ || this->settled_)
   {
     return;
   }
@@ -258,7 +258,7 @@ void Deformation::job_finished()
     }
     this->status_ = status;
   }
-  else if (!task.bind && !task.stale && status.code != StatusCode::cancelled)
+  else if (!task.bind && !task.stale && status.code != StatusCode::canceled)
   {
     if (status.usable())
     {
@@ -308,9 +308,9 @@ void Deformation::fail(const Status& status)
 {
   this->settled_ = true;
   this->status_ = status;
-  if (status.code == StatusCode::cancelled)
+  if (status.code == StatusCode::canceled)
   {
-    this->cancelled_ = true;
+    this->canceled_ = true;
     return;
   }
   this->error_ = QString::fromStdString(status.message);

@@ -36,7 +36,7 @@ public:
   void set_pose(const bindpose::Pose& pose);
   /// Cancel a running bind. The next change of source or options, or bind(), begins it again.
   void cancel();
-  bool is_cancelled() const { return this->cancelled_; }
+  bool is_canceled() const { return this->canceled_; }
   /// Continue after cancel().
   void bind();
 
@@ -93,7 +93,7 @@ private:
   QString error_;
   bool binding_ = false;
   bool settled_ = false;
-  bool cancelled_ = false;
+  bool canceled_ = false;
   /// True while set_pose() runs, because its caller reads the points itself.
   bool asked_at_once_ = false;
   int restarts_ = 0;

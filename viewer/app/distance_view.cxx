@@ -5,7 +5,7 @@
 #include "posing.h"
 #include "viewport.h"
 
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include <QCoreApplication>
 

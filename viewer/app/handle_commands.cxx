@@ -76,8 +76,8 @@ QAction* HandleCommands::add(const std::string& name, const QString& text, Actio
 void HandleCommands::make_actions()
 {
   this->add("rename", tr("&Rename…"), [this] { this->ask_for_name(); });
-  this->add("colour", tr("&Colour…"), [this] { this->ask_for_colour(); });
-  this->add("no_colour", tr("Colour of its mod&e"), [this] { this->set_colour(std::nullopt); });
+  this->add("color", tr("&Color…"), [this] { this->ask_for_color(); });
+  this->add("no_color", tr("Color of its mod&e"), [this] { this->set_color(std::nullopt); });
   this->add("lock", tr("&Locked"), [this](bool locked) { this->set_locked(locked); })
     ->setCheckable(true);
   this->add("reset", tr("R&eset"), [this] { this->reset(); });
@@ -112,8 +112,8 @@ QAction* HandleCommands::action(const std::string& name) const
 void HandleCommands::fill(QMenu* menu)
 {
   menu->addAction(this->action("rename"));
-  menu->addAction(this->action("colour"));
-  menu->addAction(this->action("no_colour"));
+  menu->addAction(this->action("color"));
+  menu->addAction(this->action("no_color"));
   menu->addAction(this->action("lock"));
   menu->addMenu(this->fixes_);
   menu->addMenu(this->parents_);
@@ -217,23 +217,23 @@ bool HandleCommands::rename(int handle, const QString& name)
   return this->editing_->rename(handle, name.trimmed());
 }
 
-void HandleCommands::ask_for_colour()
+void HandleCommands::ask_for_color()
 {
   auto* dialog = new QColorDialog(QColor("#f2942e"), this->picture_->window());
   dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setWindowTitle(tr("Colour of the handle"));
+  dialog->setWindowTitle(tr("Color of the handle"));
   QObject::connect(dialog, &QColorDialog::colorSelected, this,
-    [this](const QColor& colour) { this->set_colour(colour); });
+    [this](const QColor& color) { this->set_color(color); });
   dialog->open();
 }
 
-void HandleCommands::set_colour(const std::optional<QColor>& colour)
+void HandleCommands::set_color(const std::optional<QColor>& color)
 {
   const std::vector<int> selected = this->editing_->selected();
   std::optional<std::array<double, 3>> rgb;
-  if (colour)
+  if (color)
   {
-    rgb = { colour->redF(), colour->greenF(), colour->blueF() };
+    rgb = { color->redF(), color->greenF(), color->blueF() };
   }
   this->editing_->stop();
   if (!rgb && !this->document_->editable_handles()->GetCellData()->GetArray("Color"))
@@ -242,12 +242,12 @@ void HandleCommands::set_colour(const std::optional<QColor>& colour)
   }
   for (const int handle : selected)
   {
-    set_handle_colour(
+    set_handle_color(
       this->document_->editable_handles(), this->document_->handle_cells()[handle], rgb);
   }
   if (!selected.empty())
   {
-    this->editing_->commit(this->editing_->named(tr("colour"), selected));
+    this->editing_->commit(this->editing_->named(tr("color"), selected));
   }
 }
 

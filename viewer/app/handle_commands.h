@@ -34,14 +34,14 @@ public:
   QMenu* menu() const { return this->menu_; }
   void fill(QMenu* menu);
   /// Return an action by its name in window_keys.h, or "fixes.tail", "fixes.ends", "mirror.y",
-  /// "mirror.z", "no_colour"; null if there is none.
+  /// "mirror.z", "no_color"; null if there is none.
   QAction* action(const std::string& name) const;
   /// Enable the actions that apply to the selection.
   void update();
 
   bool rename(int handle, const QString& name);
   /// Set the color of the handles; null: the color of their mode.
-  void set_colour(const std::optional<QColor>& colour);
+  void set_color(const std::optional<QColor>& color);
   void set_locked(bool locked);
   void remove();
   /// Mirror the handles at the plane across an axis, through the middle of the shape. A middle that
@@ -60,7 +60,7 @@ private:
   QAction* add(const std::string& name, const QString& text, Action action);
   void make_actions();
   void ask_for_name();
-  void ask_for_colour();
+  void ask_for_color();
   void fill_parents();
   bool is_locked(int handle) const;
   double middle(int axis) const;

@@ -360,7 +360,7 @@ void HandleEditing::placed()
 
 void HandleEditing::drag_ended()
 {
-  if (!this->widget()->GetCancelled())
+  if (!this->widget()->GetCanceled())
   {
     const QString what = QString::fromStdString(this->widget()->GetInteractionName());
     if (this->mode_ == pose)

@@ -100,7 +100,7 @@ Inspection::Inspection(Viewport* viewport, TetPanel* panel)
   QObject::connect(panel, &TetPanel::orientation_chosen, plane, &PlaneHandle::set_orientation);
   QObject::connect(panel, &TetPanel::position_chosen, plane, &PlaneHandle::set_position);
   QObject::connect(panel, &TetPanel::shrink_chosen, this->tets_, &TetView::set_shrink);
-  QObject::connect(panel, &TetPanel::colours_chosen, this, &Inspection::choose_colours);
+  QObject::connect(panel, &TetPanel::colors_chosen, this, &Inspection::choose_colors);
   QObject::connect(panel, &TetPanel::defects_wanted, this, &Inspection::update_defects);
   QObject::connect(this->tets_, &TetView::plane_moved, this, &Inspection::show_position);
   QObject::connect(this->tets_, &TetView::count_changed, panel, &TetPanel::set_count);
@@ -123,9 +123,9 @@ void Inspection::set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets)
   this->surface_ = surface;
   this->defects_.set_defects(nullptr);
   this->tets_->set_tets(tets);
-  this->colours_ = TetPanel::plain;
-  this->tets_->set_colours(std::nullopt);
-  this->panel_->set_colours(TetPanel::plain);
+  this->colors_ = TetPanel::plain;
+  this->tets_->set_colors(std::nullopt);
+  this->panel_->set_colors(TetPanel::plain);
   this->panel_->set_note(tets
       ? tr("%L1 tets, as they were opened.").arg(qlonglong(tets->GetNumberOfCells()))
       : tr("None yet."));
@@ -192,10 +192,10 @@ void Inspection::tets_finished()
 {
   this->update_panel();
   const Status& status = this->tet_job_.status();
-  if (status.code == StatusCode::cancelled || !this->surface_)
+  if (status.code == StatusCode::canceled || !this->surface_)
   {
     this->panel_->set_note(
-      this->tets_->tets() ? tr("Cancelled; the tets stay as they were.") : tr("Cancelled."));
+      this->tets_->tets() ? tr("Canceled; the tets stay as they were.") : tr("Canceled."));
     return;
   }
   if (!status.usable() || !*this->made_tets_)
@@ -211,7 +211,7 @@ void Inspection::tets_finished()
   {
     Q_EMIT this->tets_made();
   }
-  this->choose_colours(this->colours_);
+  this->choose_colors(this->colors_);
   this->update_panel();
   this->show_position();
   this->panel_->set_note(tr("%L1 tets in %3 s (method %2).")
@@ -227,36 +227,35 @@ void Inspection::tets_finished()
   }
 }
 
-void Inspection::choose_colours(int colours)
+void Inspection::choose_colors(int colors)
 {
-  std::optional<ColourBy> by;
-  switch (colours)
+  std::optional<ColorBy> by;
+  switch (colors)
   {
     case TetPanel::winding_number:
-      by = ColourBy::winding_number;
+      by = ColorBy::winding_number;
       break;
     case TetPanel::label:
-      by = ColourBy::label;
+      by = ColorBy::label;
       break;
     case TetPanel::quality:
-      by = ColourBy::quality;
+      by = ColorBy::quality;
       break;
     case TetPanel::rung:
-      by = ColourBy::rung;
+      by = ColorBy::rung;
       break;
     default:
       break;
   }
-  const Status status = this->tets_->set_colours(by);
+  const Status status = this->tets_->set_colors(by);
   if (status.ok())
   {
-    this->colours_ = colours;
+    this->colors_ = colors;
     Q_EMIT this->succeeded();
     return;
   }
-  this->panel_->set_colours(this->colours_);
-  Q_EMIT this->failed(
-    tr("Cannot colour the tets: %1.").arg(QString::fromStdString(status.message)));
+  this->panel_->set_colors(this->colors_);
+  Q_EMIT this->failed(tr("Cannot color the tets: %1.").arg(QString::fromStdString(status.message)));
 }
 
 // ---- Defects -----------------------------------------------------------------------------------
@@ -319,7 +318,7 @@ void Inspection::start_looking()
 void Inspection::defects_finished()
 {
   const Status& status = this->defect_job_.status();
-  if (status.code == StatusCode::cancelled)
+  if (status.code == StatusCode::canceled)
   {
     this->update_defects(); // for a surface that was opened meanwhile
     if (this->looking_)

@@ -61,7 +61,7 @@ private:
   void update_defects();
   void start_looking();
   void picture_drawn();
-  void choose_colours(int colours);
+  void choose_colors(int colors);
   void show_position();
   void update_panel();
 
@@ -73,7 +73,7 @@ private:
   bool active_ = false;
   bool looking_ = false; // defects_found() must be emitted if the search finds any
   bool waiting_ = false; // the search waits for the first picture of the surface
-  int colours_ = 0; // the shown TetPanel::Colours
+  int colors_ = 0; // the shown TetPanel::Colors
   std::shared_ptr<vtkSmartPointer<vtkUnstructuredGrid>> made_tets_;
   std::shared_ptr<vtkSmartPointer<vtkPolyData>> made_defects_;
   KernelJob tet_job_;

@@ -59,7 +59,7 @@ void KernelJob::start(Work work)
           this->status_ = status;
           if (this->cancel_) // canceled after its end, but before finished()
           {
-            this->status_ = Status::failure(StatusCode::cancelled, "cancelled");
+            this->status_ = Status::failure(StatusCode::canceled, "canceled");
           }
           this->running_ = false;
           Q_EMIT this->finished();

@@ -156,14 +156,14 @@ QUndoStack* MainWindow::history() const
 
 void MainWindow::make_layout()
 {
-  auto* centre = new QWidget(this);
-  auto* columns = new QHBoxLayout(centre);
+  auto* center = new QWidget(this);
+  auto* columns = new QHBoxLayout(center);
   columns->setContentsMargins(0, 0, 0, 0);
   columns->setSpacing(0);
   auto* rows = new QVBoxLayout;
   rows->setSpacing(0);
 
-  this->viewport_ = new Viewport(centre);
+  this->viewport_ = new Viewport(center);
   this->bars_ = new BarStack(this->viewport_);
   this->error_bar_ = new ErrorBar(this->bars_);
   this->bars_->add(this->error_bar_);
@@ -182,10 +182,10 @@ void MainWindow::make_layout()
       this->shape_handles_->auto_rig();
     });
   over->addWidget(this->empty_);
-  this->panels_ = new PanelColumn(centre);
+  this->panels_ = new PanelColumn(center);
   this->panel_ = this->panels_->side();
   rows->addWidget(this->viewport_, 1);
-  this->strip_ = new KeyStrip(centre);
+  this->strip_ = new KeyStrip(center);
   rows->addWidget(this->strip_);
   this->posing_ = new Posing(this->viewport_,
     { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
@@ -209,7 +209,7 @@ void MainWindow::make_layout()
     });
   columns->addLayout(rows, 1);
   columns->addWidget(this->panels_);
-  this->setCentralWidget(centre);
+  this->setCentralWidget(center);
   this->hint_ = new ElidedLabel(this);
   this->statusBar()->addWidget(this->hint_, 1);
   this->hint_->setContentsMargins(12, 3, 12, 4);

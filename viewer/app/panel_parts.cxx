@@ -104,7 +104,7 @@ QString sentence_of(const QString& phase)
       "lattice sample samples connect parts cut check",
       QT_TRANSLATE_NOOP("Panel", "Filling it with tets") },
     { "insert", QT_TRANSLATE_NOOP("Panel", "Placing the handles") },
-    { "analyse guide weights", QT_TRANSLATE_NOOP("Panel", "Solving for the weights") },
+    { "analyze guide weights", QT_TRANSLATE_NOOP("Panel", "Solving for the weights") },
     { "transfer", QT_TRANSLATE_NOOP("Panel", "Taking the weights to the surface") },
   };
   for (const auto& row : table)

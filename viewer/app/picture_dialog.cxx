@@ -40,7 +40,7 @@ PictureDialog::PictureDialog(Viewport* viewport, QWidget* parent)
        "grow along: the same picture, only finer"));
   this->transparent_->setObjectName(transparent_key);
   this->transparent_->setToolTip(
-    tr("Nothing where nothing is drawn, to be put over other colours; text stays as it is seen"));
+    tr("Nothing where nothing is drawn, to be put over other colors; text stays as it is seen"));
   this->size_->setObjectName("note");
   this->size_->setWordWrap(true);
   this->size_->setMinimumWidth(300);

@@ -3,7 +3,7 @@
 
 #include "viewport.h"
 
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "scene/outline.h"
 #include "scene/moved_surface_mapper.h"
 #include "scene/shaded_surface.h"
@@ -142,9 +142,9 @@ void PoseGhost::fade(bindpose::PointsView points, bindpose::PointsView first)
 void PoseGhost::look_as_beside()
 {
   vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();
-  const bindpose::Rgb& colour = picture ? bindpose::palette::white : bindpose::palette::surface;
+  const bindpose::Rgb& color = picture ? bindpose::palette::white : bindpose::palette::surface;
   vtkProperty* property = this->actor_->GetProperty();
-  property->SetColor(colour[0], colour[1], colour[2]);
+  property->SetColor(color[0], color[1], color[2]);
   property->SetLighting(!picture);
   this->actor_->SetTexture(picture);
   this->actor_->SetForceOpaque(picture != nullptr);

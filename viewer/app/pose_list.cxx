@@ -36,7 +36,7 @@ PoseList::PoseList(QWidget* parent) : QWidget(parent)
   blend->addWidget(new QLabel(tr("Blend"), this));
   this->slider_ = new QSlider(Qt::Horizontal, this);
   this->slider_->setRange(0, 100);
-  this->slider_->setToolTip(tr("From the pose as it is towards the chosen one"));
+  this->slider_->setToolTip(tr("From the pose as it is toward the chosen one"));
   blend->addWidget(this->slider_, 1);
   rows->addLayout(blend);
 

@@ -42,7 +42,7 @@ const struct
     QT_TRANSLATE_NOOP("PosePanel", "Stretchable bones"),
     QT_TRANSLATE_NOOP(
       "PosePanel", "Bones that stretch and twist along themselves, without bulging ends.") },
-  { PoseMethod::rotation_centres, QT_TRANSLATE_NOOP("PosePanel", "Centers"),
+  { PoseMethod::rotation_centers, QT_TRANSLATE_NOOP("PosePanel", "Centers"),
     QT_TRANSLATE_NOOP("PosePanel", "Centers of rotation"),
     QT_TRANSLATE_NOOP(
       "PosePanel", "Every place turns about a center of its own: thick twists, no bulge.") },
@@ -221,7 +221,7 @@ QWidget* PosePanel::option(QVBoxLayout* column, const QString& name, QWidget* wi
 void PosePanel::add_options(QVBoxLayout* column)
 {
   const std::vector<PoseMethod> skinning = { PoseMethod::linear_blend, PoseMethod::dual_quaternion,
-    PoseMethod::stretchable_bones, PoseMethod::rotation_centres };
+    PoseMethod::stretchable_bones, PoseMethod::rotation_centers };
   const std::vector<PoseMethod> reduced = { PoseMethod::reduced_arap };
   const std::vector<PoseMethod> smooth = { PoseMethod::variational };
   const auto value = [this](const char* key, double lowest, double highest, double at)
@@ -288,7 +288,7 @@ void PosePanel::add_options(QVBoxLayout* column)
   this->rotations_ =
     combo(this, "pose.rotations", { tr("not shown"), tr("clusters"), tr("angles") });
   this->option(column, tr("Rotations"), this->rotations_,
-    tr("Colours of what the shape is turned by: clusters of places that share a rotation, with\n"
+    tr("Colors of what the shape is turned by: clusters of places that share a rotation, with\n"
        "similar weights in reduced, each its own in full ARAP; or how far each is turned"),
     rigid);
 

@@ -14,7 +14,7 @@
 
 #include "conversion.h"
 #include "inside/tet_quality.h"
-#include "scene/colouring.h"
+#include "scene/coloring.h"
 #include "scene/shaded_surface.h"
 #include "scene/volume.h"
 
@@ -57,30 +57,30 @@ QString place_words(const Vec3& place)
 }
 
 /// Return the name of a category; for other values the number.
-QString value_words(const Colouring& colouring, double value)
+QString value_words(const Coloring& coloring, double value)
 {
-  const std::vector<double> shown = category_values(colouring.categories);
+  const std::vector<double> shown = category_values(coloring.categories);
   for (std::size_t k = 0; k < shown.size(); ++k)
   {
     if (shown[k] == value)
     {
-      return QString::fromStdString(colouring.categories[k].name);
+      return QString::fromStdString(coloring.categories[k].name);
     }
   }
   return std::isnan(value) ? Probe::tr("none") : QString::number(value, 'f', 3);
 }
 
-QString named_value(const Colouring& colouring, double value)
+QString named_value(const Coloring& coloring, double value)
 {
-  const QString name = QString::fromStdString(colouring.legend_name());
+  const QString name = QString::fromStdString(coloring.legend_name());
   return name == "Min. angle (°)" ? QString() // the text of every tet contains it
-                                  : Probe::tr("%1: %2").arg(name, value_words(colouring, value));
+                                  : Probe::tr("%1: %2").arg(name, value_words(coloring, value));
 }
 
 /// Return the value that is shown in colors: linear in a triangle's corners, or one per cell.
 std::optional<double> shown_value(vtkPolyData* data, const Index* corners, const SightHit& hit)
 {
-  if (vtkDataArray* array = data->GetPointData()->GetArray(colour_array_name))
+  if (vtkDataArray* array = data->GetPointData()->GetArray(color_array_name))
   {
     double value = 0.0;
     for (int k = 0; k < 3; ++k)
@@ -89,7 +89,7 @@ std::optional<double> shown_value(vtkPolyData* data, const Index* corners, const
     }
     return value;
   }
-  vtkDataArray* array = data->GetCellData()->GetArray(colour_array_name);
+  vtkDataArray* array = data->GetCellData()->GetArray(color_array_name);
   return array && hit.element < array->GetNumberOfTuples()
     ? std::optional(array->GetComponent(hit.element, 0))
     : std::nullopt;
@@ -349,7 +349,7 @@ QStringList Probe::weights(vtkPolyData* shape, const SightHit& hit) const
   {
     if (const auto value = shown_value(shaded->polydata(), corners, hit))
     {
-      lines << named_value(view->colouring(), *value);
+      lines << named_value(view->coloring(), *value);
     }
   }
   else if (column >= 0 && column < array->GetNumberOfComponents())
@@ -411,7 +411,7 @@ Probe::Maybe Probe::tets(const SightRay& ray) const
                    .arg(min_dihedral_angle(corner(0), corner(1), corner(2), corner(3)), 0, 'f', 1);
   if (view->values())
   {
-    found.lines << named_value(view->colouring(), view->values()->GetValue(hit.element));
+    found.lines << named_value(view->coloring(), view->values()->GetValue(hit.element));
   }
   found.lines << place_words(at(ray, hit.distance));
   return found;
@@ -432,7 +432,7 @@ Probe::Maybe Probe::weight_slice(const SightRay& ray) const
     shown_value(view->slice(), slice.triangles.view().data() + 3 * hit.element, hit);
   Found found;
   found.distance = hit.distance;
-  found.lines << tr("Slice") << (value ? named_value(view->colouring(), *value) : QString())
+  found.lines << tr("Slice") << (value ? named_value(view->coloring(), *value) : QString())
               << place_words(at(ray, hit.distance));
   return found;
 }

@@ -6,7 +6,7 @@
 #include "viewport.h"
 
 #include "scene/categories.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include "handle_edit_cells.h"
 
@@ -220,7 +220,7 @@ void RegionPainting::stroke_goes_on()
 
 void RegionPainting::stroke_ended()
 {
-  if (!this->viewport_->brush_widget()->GetCancelled())
+  if (!this->viewport_->brush_widget()->GetCanceled())
   {
     std::string region = this->region_;
     if (this->keep_stroke(region))
@@ -374,7 +374,7 @@ void RegionPainting::show_labels()
     values->InsertNextValue(category < 0 ? std::numeric_limits<double>::quiet_NaN()
                                          : shown[static_cast<std::size_t>(category)]);
   }
-  ColourMap map = category_map(categories);
+  ColorMap map = category_map(categories);
   const Rgb& plain = palette::surface;
   map.table->SetNanColor(plain[0], plain[1], plain[2], 1.0);
   const bool any = std::any_of(categories.begin(), categories.end(),

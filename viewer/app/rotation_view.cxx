@@ -7,8 +7,8 @@
 #include "viewport.h"
 
 #include "pose/transform_parts.h"
-#include "scene/colouring.h"
-#include "scene/rotation_colours.h"
+#include "scene/coloring.h"
+#include "scene/rotation_colors.h"
 
 #include "vtkIntArray.h"
 #include "vtkNew.h"
@@ -83,15 +83,15 @@ void RotationView::show_clusters(const PoseRotations& found)
   }
   drawn->GetPointData()->AddArray(clusters);
   PictureOptions options;
-  options.colour_by = ColourBy::rotation_cluster;
-  Colouring colouring;
-  if (choose_colouring({ { drawn.Get(), nullptr, "" } }, options, colouring).ok())
+  options.color_by = ColorBy::rotation_cluster;
+  Coloring coloring;
+  if (choose_coloring({ { drawn.Get(), nullptr, "" } }, options, coloring).ok())
   {
     bool on_points = false;
     this->scale_ = 0.0;
-    this->values_ = colour_values(drawn, colouring, on_points);
+    this->values_ = color_values(drawn, coloring, on_points);
     this->viewport_->show_values(
-      this->values_, on_points, QString::fromStdString(colouring.legend_name()), colouring.map);
+      this->values_, on_points, QString::fromStdString(coloring.legend_name()), coloring.map);
   }
 }
 
@@ -120,8 +120,8 @@ void RotationView::show_angles(const PoseRotations& found)
   this->values_->Modified();
   if (anew)
   {
-    Colouring named;
-    named.by = ColourBy::rotation;
+    Coloring named;
+    named.by = ColorBy::rotation;
     this->scale_ = scale;
     this->viewport_->show_values(this->values_, true, QString::fromStdString(named.legend_name()),
       sequential_map(0.0, scale, 0));

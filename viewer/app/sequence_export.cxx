@@ -127,11 +127,11 @@ void SequenceExport::frames_made()
 
 void SequenceExport::end(const Status& status)
 {
-  if (!status.usable() && status.code != StatusCode::cancelled)
+  if (!status.usable() && status.code != StatusCode::canceled)
   {
     this->error_ = QString::fromStdString(status.message);
   }
-  else if (status.code != StatusCode::cancelled)
+  else if (status.code != StatusCode::canceled)
   {
     this->said_ = tr("%1 frames")
                     .arg(this->frames_->points.empty() ? this->input_.poses.size()

@@ -132,7 +132,7 @@ void ShapeHandles::finish()
   const Status& status = this->job_.status();
   this->bar_->hide();
   this->update();
-  if (status.code == StatusCode::cancelled || this->surface_ != this->document_->surface())
+  if (status.code == StatusCode::canceled || this->surface_ != this->document_->surface())
   {
     return; // canceled, or another shape was opened meanwhile
   }

@@ -75,19 +75,18 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->tets_->setObjectName("tets.shown");
   this->tets_->setToolTip(tr("The tets (tetrahedra) in place of the surface, at rest"));
   column->addWidget(this->tets_);
-  this->colours_ = new QComboBox(this);
-  this->colours_->setObjectName("tets.colours");
-  this->colours_->addItem(tr("Plain"));
-  this->colours_->addItem(tr("By winding number"));
-  this->colours_->addItem(tr("By label"));
-  this->colours_->addItem(tr("By quality"));
-  this->colours_->addItem(tr("By method"));
-  this->colours_->setToolTip(
-    tr("Winding number: of the tet's centre.\n"
-       "Label: inside or outside, and where that goes against the number.\n"
-       "Quality: the smallest dihedral angle.\n"
-       "Method: what made the tets."));
-  column->addWidget(this->colours_);
+  this->colors_ = new QComboBox(this);
+  this->colors_->setObjectName("tets.colors");
+  this->colors_->addItem(tr("Plain"));
+  this->colors_->addItem(tr("By winding number"));
+  this->colors_->addItem(tr("By label"));
+  this->colors_->addItem(tr("By quality"));
+  this->colors_->addItem(tr("By method"));
+  this->colors_->setToolTip(tr("Winding number: of the tet's center.\n"
+                               "Label: inside or outside, and where that goes against the number.\n"
+                               "Quality: the smallest dihedral angle.\n"
+                               "Method: what made the tets."));
+  column->addWidget(this->colors_);
 
   column->addSpacing(10);
   column->addWidget(heading(tr("Cut"), this));
@@ -125,7 +124,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   column->addSpacing(10);
   column->addWidget(heading(tr("Surface"), this));
   this->defects_ = new QCheckBox(tr("Show its defects"), this);
-  this->defects_->setToolTip(tr("Open, crossing and doubled places, each kind in its colour"));
+  this->defects_->setToolTip(tr("Open, crossing and doubled places, each kind in its color"));
   this->defects_->setObjectName("defects.shown");
   column->addWidget(this->defects_);
   this->defects_note_ = note();
@@ -158,8 +157,8 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
     this->orientations_, &QButtonGroup::idClicked, this, &TetPanel::orientation_chosen);
   QObject::connect(this->position_, &ValueRow::value_chosen, this, &TetPanel::position_chosen);
   QObject::connect(this->shrink_, &ValueRow::value_chosen, this, &TetPanel::shrink_chosen);
-  QObject::connect(this->colours_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
-    &TetPanel::colours_chosen);
+  QObject::connect(this->colors_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    &TetPanel::colors_chosen);
   QObject::connect(this->defects_, &QCheckBox::toggled, this, &TetPanel::defects_wanted);
   this->set_state(false, false, false);
 }
@@ -182,7 +181,7 @@ void TetPanel::enable()
 {
   const bool shown = this->has_tets_ && this->tets_->isChecked();
   this->tets_->setEnabled(this->has_tets_);
-  for (QWidget* widget : { static_cast<QWidget*>(this->cut_), static_cast<QWidget*>(this->colours_),
+  for (QWidget* widget : { static_cast<QWidget*>(this->cut_), static_cast<QWidget*>(this->colors_),
          static_cast<QWidget*>(this->shrink_label_), static_cast<QWidget*>(this->shrink_) })
   {
     widget->setEnabled(shown);
@@ -249,8 +248,8 @@ void TetPanel::show_defects(bool shown)
   this->defects_->setChecked(shown);
 }
 
-void TetPanel::set_colours(int colours)
+void TetPanel::set_colors(int colors)
 {
-  const QSignalBlocker quiet(this->colours_);
-  this->colours_->setCurrentIndex(colours);
+  const QSignalBlocker quiet(this->colors_);
+  this->colors_->setCurrentIndex(colors);
 }

@@ -30,7 +30,7 @@ public:
     whole_hull
   };
   /// The values that color the tets, in the order of their list.
-  enum Colours
+  enum Colors
   {
     plain,
     winding_number,
@@ -54,7 +54,7 @@ public:
   void show_tets(bool shown);
   bool wants_defects() const;
   void show_defects(bool shown);
-  void set_colours(int colours);
+  void set_colors(int colors);
 
 Q_SIGNALS:
   void make_wanted(int method);
@@ -65,7 +65,7 @@ Q_SIGNALS:
   void orientation_chosen(int orientation); ///< a PlaneHandle::Orientation
   void position_chosen(double position);
   void shrink_chosen(double factor);
-  void colours_chosen(int colours);
+  void colors_chosen(int colors);
   void defects_wanted(bool shown);
 
 private:
@@ -77,7 +77,7 @@ private:
   QProgressBar* bar_;
   QLabel* note_;
   QCheckBox* tets_;
-  QComboBox* colours_;
+  QComboBox* colors_;
   QCheckBox* cut_;
   QCheckBox* other_side_;
   QButtonGroup* orientations_;

@@ -4,7 +4,7 @@
 
 #include "viewport.h"
 
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "scene/shaded_surface.h"
 
 #include "vtkCellData.h"
@@ -37,8 +37,8 @@ TetView::TetView(Viewport* viewport)
     property->SetAmbient(0.3);
     property->SetDiffuse(0.74);
     property->SetSpecular(0.04);
-    const Rgb& colour = part == 0 ? palette::surface : palette::cut;
-    property->SetColor(colour[0], colour[1], colour[2]);
+    const Rgb& color = part == 0 ? palette::surface : palette::cut;
+    property->SetColor(color[0], color[1], color[2]);
     const Rgb& edges = part == 0 ? palette::edges : palette::cut_edges;
     property->SetEdgeColor(edges[0], edges[1], edges[2]);
     property->EdgeVisibilityOn();
@@ -73,14 +73,14 @@ Status TetView::set_tets(vtkUnstructuredGrid* tets)
   this->input_ = std::move(input);
   this->cut_ = tets ? TetCut(this->input_.points.view(), this->input_.tets.view()) : TetCut();
   this->plane_->set_box(tets ? bounding_box(this->input_.points.view()) : Box());
-  const ColourBy by = this->colouring_.by;
-  const bool coloured = this->values_ != nullptr;
+  const ColorBy by = this->coloring_.by;
+  const bool colored = this->values_ != nullptr;
   this->values_ = nullptr;
-  this->colouring_ = Colouring();
-  Status status = tets && coloured ? this->set_colours(by) : this->set_colours(std::nullopt);
+  this->coloring_ = Coloring();
+  Status status = tets && colored ? this->set_colors(by) : this->set_colors(std::nullopt);
   if (!status.ok())
   {
-    this->set_colours(std::nullopt); // these tets lack the values that colored the last ones
+    this->set_colors(std::nullopt); // these tets lack the values that colored the last ones
   }
   return {};
 }
@@ -109,27 +109,27 @@ void TetView::set_shrink(double factor)
   this->update();
 }
 
-Status TetView::set_colours(std::optional<ColourBy> by)
+Status TetView::set_colors(std::optional<ColorBy> by)
 {
   if (by && this->grid_)
   {
     PictureOptions options;
-    options.colour_by = *by;
-    Colouring colouring;
-    Status status = choose_colouring({ { this->grid_, nullptr, "" } }, options, colouring);
+    options.color_by = *by;
+    Coloring coloring;
+    Status status = choose_coloring({ { this->grid_, nullptr, "" } }, options, coloring);
     if (!status.ok())
     {
       return status;
     }
     bool on_points = false;
-    const auto values = colour_values(this->grid_, colouring, on_points);
+    const auto values = color_values(this->grid_, coloring, on_points);
     if (!values || on_points)
     {
       return Status::invalid_input(
-        "the tets have no such number each: '" + colouring.legend_name() + "' is one of points");
+        "the tets have no such number each: '" + coloring.legend_name() + "' is one of points");
     }
     this->values_ = values;
-    this->colouring_ = colouring;
+    this->coloring_ = coloring;
   }
   else
   {
@@ -155,7 +155,7 @@ void TetView::draw(
       to[i] = from[tets[i]];
     }
     data->GetCellData()->SetScalars(values);
-    this->mappers_[part]->SetLookupTable(this->colouring_.map.table);
+    this->mappers_[part]->SetLookupTable(this->coloring_.map.table);
   }
   this->mappers_[part]->SetScalarVisibility(this->values_ != nullptr);
   this->mappers_[part]->SetInputData(data);
@@ -193,8 +193,8 @@ void TetView::update()
   const bool shown = this->is_shown();
   this->plane_->show(shown && this->cut_open_);
   this->viewport_->show_legend(Viewport::tet_legend,
-    shown && this->values_ ? QString::fromStdString(this->colouring_.legend_name()) : QString(),
-    this->colouring_.map);
+    shown && this->values_ ? QString::fromStdString(this->coloring_.legend_name()) : QString(),
+    this->coloring_.map);
   if (!shown)
   {
     for (const auto& actor : this->actors_)

@@ -4,7 +4,7 @@
 #include "base/status.h"
 #include "conversion.h"
 #include "plane_handle.h"
-#include "scene/colouring.h"
+#include "scene/coloring.h"
 #include "scene/tet_cut.h"
 
 #include "vtkActor.h"
@@ -45,7 +45,7 @@ public:
   void set_shrink(double factor);
   /// Set the values that color the tets; empty: plain. Return an error, and keep the colors, if
   /// the tets have no such values.
-  bindpose::Status set_colours(std::optional<bindpose::ColourBy> by);
+  bindpose::Status set_colors(std::optional<bindpose::ColorBy> by);
 
   /// Return the drawn data: the tets, which of them the cut keeps, and their size.
   const bindpose::TetInput& input() const { return this->input_; }
@@ -53,7 +53,7 @@ public:
   double shrink() const { return this->shrink_; }
   /// Return one number per tet; null if the tets are plain.
   vtkDoubleArray* values() const { return this->values_; }
-  const bindpose::Colouring& colouring() const { return this->colouring_; }
+  const bindpose::Coloring& coloring() const { return this->coloring_; }
 
   bindpose::Index shown_count() const { return this->is_shown() ? this->cut_.kept_count() : 0; }
   /// Return the milliseconds that the last change of plane or size took, without drawing.
@@ -75,7 +75,7 @@ private:
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
   bindpose::TetInput input_;
   bindpose::TetCut cut_;
-  bindpose::Colouring colouring_;
+  bindpose::Coloring coloring_;
   vtkSmartPointer<vtkDoubleArray> values_; // #T, null when plain
   bool shown_ = false;
   bool cut_open_ = true;

@@ -167,14 +167,14 @@ void draw_auto_rig(QPainter& painter)
   painter.drawLine(QPointF(13.5, 4), QPointF(18.5, 4));
 }
 
-QPixmap drawn(void (*draw)(QPainter&), const QColor& colour, int scale)
+QPixmap drawn(void (*draw)(QPainter&), const QColor& color, int scale)
 {
   QPixmap pixmap(static_cast<int>(side) * scale, static_cast<int>(side) * scale);
   pixmap.setDevicePixelRatio(scale);
   pixmap.fill(Qt::transparent);
   QPainter painter(&pixmap);
   painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(colour, 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.setPen(QPen(color, 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
   draw(painter);
   return pixmap;
 }

@@ -4,8 +4,8 @@
 
 #include "scene/camera.h"
 #include "scene/categories.h"
-#include "scene/colouring.h"
-#include "scene/colours.h"
+#include "scene/coloring.h"
+#include "scene/colors.h"
 #include "scene/curves.h"
 #include "scene/legend.h"
 #include "scene/outline.h"
@@ -102,7 +102,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->actor_->VisibilityOff();
   this->renderer_->AddActor(this->actor_);
   this->outline_ = std::make_unique<bindpose::Outline>(this->renderer_);
-  const bindpose::ColourMap map = bindpose::weight_map();
+  const bindpose::ColorMap map = bindpose::weight_map();
   for (vtkPolyDataMapper* mapper :
     { static_cast<vtkPolyDataMapper*>(this->mapper_), this->tint_mapper_.Get() })
   {
@@ -182,10 +182,10 @@ void Viewport::set_surface_look(int look)
   property->SetRepresentation(look == edges_only ? VTK_WIREFRAME : VTK_SURFACE);
   property->SetLighting(look != edges_only && !this->picture_);
   constexpr bindpose::Rgb white{ 1.0, 1.0, 1.0 };
-  const bindpose::Rgb& colour = look == edges_only ? bindpose::palette::edges
-    : this->picture_                               ? white
-                                                   : bindpose::palette::surface;
-  property->SetColor(colour[0], colour[1], colour[2]);
+  const bindpose::Rgb& color = look == edges_only ? bindpose::palette::edges
+    : this->picture_                              ? white
+                                                  : bindpose::palette::surface;
+  property->SetColor(color[0], color[1], color[2]);
   this->outline_->show(this->outlines_ && !this->picture_ && (look == solid || look == see_through),
     bindpose::outline_width * this->devicePixelRatioF());
   this->show_tint();
@@ -290,7 +290,7 @@ void Viewport::show_curves(bool shown)
   }
 }
 
-void Viewport::show_legend(LegendPlace place, const QString& name, const bindpose::ColourMap& map)
+void Viewport::show_legend(LegendPlace place, const QString& name, const bindpose::ColorMap& map)
 {
   this->legends_.erase(place);
   if (!name.isEmpty())
@@ -333,7 +333,7 @@ void Viewport::move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView p
     return;
   }
   bindpose::Points drawn = points;
-  drawn += this->depths_ * this->towards_.transpose();
+  drawn += this->depths_ * this->toward_.transpose();
   shape.move(drawn);
 }
 
@@ -472,7 +472,7 @@ const std::vector<bindpose::Index>& Viewport::drawn_points() const
 }
 
 void Viewport::show_values(
-  vtkDoubleArray* values, bool on_points, const QString& name, const bindpose::ColourMap& map)
+  vtkDoubleArray* values, bool on_points, const QString& name, const bindpose::ColorMap& map)
 {
   vtkPolyDataMapper* mapper = this->value_mapper();
   this->has_values_ = this->shaded_ && !name.isEmpty();
@@ -483,9 +483,9 @@ void Viewport::show_values(
   else if (this->has_values_)
   {
     vtkPolyData* drawn = this->drawn();
-    drawn->GetPointData()->RemoveArray(bindpose::colour_array_name);
-    drawn->GetCellData()->RemoveArray(bindpose::colour_array_name);
-    values->SetName(bindpose::colour_array_name);
+    drawn->GetPointData()->RemoveArray(bindpose::color_array_name);
+    drawn->GetCellData()->RemoveArray(bindpose::color_array_name);
+    values->SetName(bindpose::color_array_name);
     if (on_points)
     {
       drawn->GetPointData()->AddArray(values);
@@ -498,7 +498,7 @@ void Viewport::show_values(
     }
     mapper->SetInterpolateScalarsBeforeMapping(on_points);
     mapper->SetLookupTable(map.table);
-    mapper->SelectColorArray(bindpose::colour_array_name);
+    mapper->SelectColorArray(bindpose::color_array_name);
     mapper->SetArrayComponent(0);
     mapper->ScalarVisibilityOn();
   }
@@ -514,8 +514,8 @@ bool Viewport::shows(vtkDoubleArray* values) const
 {
   vtkPolyData* drawn = this->drawn();
   return values && drawn && this->has_values_ &&
-    (drawn->GetPointData()->GetArray(bindpose::colour_array_name) == values ||
-      drawn->GetCellData()->GetArray(bindpose::colour_array_name) == values);
+    (drawn->GetPointData()->GetArray(bindpose::color_array_name) == values ||
+      drawn->GetCellData()->GetArray(bindpose::color_array_name) == values);
 }
 
 void Viewport::use_appearance()
@@ -562,9 +562,9 @@ void Viewport::draw_legend()
   constexpr double line = 1.7, around = 2.5; // of the font's size
   const double room = scale * this->height() - 2 * box.y;
   const int most = std::max(2, static_cast<int>((room / font - around) / line));
-  const auto add = [&](const bindpose::ColourMap& all, const QString& name)
+  const auto add = [&](const bindpose::ColorMap& all, const QString& name)
   {
-    const bindpose::ColourMap map = bindpose::shortened(all, most);
+    const bindpose::ColorMap map = bindpose::shortened(all, most);
     box.height = map.texts.empty() && !map.ticks.empty()
       ? static_cast<int>(240 * scale)
       : static_cast<int>((around + line * static_cast<double>(map.texts.size())) * font);
@@ -604,8 +604,8 @@ void Viewport::add_name(double middle, double above, const QString& name)
   vtkTextProperty* font = text->GetTextProperty();
   font->SetFontSize(static_cast<int>(14 * scale));
   font->SetJustificationToCentered();
-  const bindpose::Rgb& colour = is_dark() ? bindpose::palette::dark_text : bindpose::palette::text;
-  font->SetColor(colour[0], colour[1], colour[2]);
+  const bindpose::Rgb& color = is_dark() ? bindpose::palette::dark_text : bindpose::palette::text;
+  font->SetColor(color[0], color[1], color[2]);
   text->SetPosition(std::round(middle * scale * this->width()), std::round(above * scale));
   this->legend_->AddViewProp(text);
 }

@@ -7,7 +7,7 @@
 
 #include "base/mesh.h"
 #include "base/status.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include "vtkNew.h"
 #include "vtkPolyDataMapper.h"
@@ -61,10 +61,10 @@ public:
   void move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView points) const;
   /// Set the offset of each point along a unit vector toward the eye. In a planar shape the
   /// offsets determine what is in front. They are valid until the next set_surface(); empty: none.
-  void set_depths(const Eigen::VectorXd& depths, const bindpose::Vec3& towards)
+  void set_depths(const Eigen::VectorXd& depths, const bindpose::Vec3& toward)
   {
     this->depths_ = depths;
-    this->towards_ = towards;
+    this->toward_ = toward;
   }
   /// Set whether something translucent is drawn over the surface. Both are then sorted by depth.
   void set_ghosted(bool ghosted);
@@ -91,7 +91,7 @@ public:
   /// bar. With null values only the scalar bar is shown. Without a name the column is shown again.
   /// set_surface() removes the colors.
   void show_values(vtkDoubleArray* values, bool on_points, const QString& name = QString(),
-    const bindpose::ColourMap& map = {});
+    const bindpose::ColorMap& map = {});
   /// Report whether the surface is colored by these numbers.
   bool shows(vtkDoubleArray* values) const;
   /// Return the shown column; -1: none.
@@ -132,7 +132,7 @@ public:
     tet_legend,
     defect_legend
   };
-  void show_legend(LegendPlace place, const QString& name, const bindpose::ColourMap& map = {});
+  void show_legend(LegendPlace place, const QString& name, const bindpose::ColorMap& map = {});
   /// Return the name of the legend in that place; empty: none.
   QString legend(LegendPlace place) const;
   /// Set a box that reset_view() shows in addition to surface and curves; empty: none.
@@ -194,7 +194,7 @@ private:
   std::unique_ptr<bindpose::Outline> outline_;
   bool outlines_ = true;
   Eigen::VectorXd depths_;
-  bindpose::Vec3 towards_ = bindpose::Vec3::UnitZ();
+  bindpose::Vec3 toward_ = bindpose::Vec3::UnitZ();
   std::optional<bindpose::Vec3> plane_;
   // Over a picture: the same surface again, in the colors of its numbers.
   vtkNew<vtkPolyDataMapper> tint_mapper_;
@@ -207,7 +207,7 @@ private:
   int column_ = -1;
   QString column_name_;
   bool has_values_ = false; // values are shown instead of the column
-  std::map<LegendPlace, std::pair<QString, bindpose::ColourMap>> legends_;
+  std::map<LegendPlace, std::pair<QString, bindpose::ColorMap>> legends_;
   int look_ = solid;
   bool ghosted_ = false;
   vtkRenderer* beside_ = nullptr; // in the right half; null: the view is whole

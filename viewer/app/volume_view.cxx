@@ -3,7 +3,7 @@
 
 #include "viewport.h"
 
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "scene/shaded_surface.h"
 #include "scene/volume.h"
 #include "scene/volume_rendering.h"
@@ -25,7 +25,7 @@ namespace
 {
 constexpr const char* array_name = "WindingNumber";
 
-void colour(vtkProperty* property, const bindpose::Rgb& rgb, double opacity)
+void color(vtkProperty* property, const bindpose::Rgb& rgb, double opacity)
 {
   property->SetColor(rgb[0], rgb[1], rgb[2]);
   property->SetOpacity(opacity);
@@ -36,7 +36,7 @@ VolumeView::VolumeView(Viewport* viewport)
   : QObject(viewport), viewport_(viewport), plane_(new PlaneHandle(viewport, this))
 {
   vtkRenderer* renderer = viewport->renderer();
-  const bindpose::ColourMap map = bindpose::winding_map();
+  const bindpose::ColorMap map = bindpose::winding_map();
   this->slice_mapper_->SetScalarModeToUsePointFieldData();
   this->slice_mapper_->SelectColorArray(array_name);
   this->slice_mapper_->SetColorModeToMapScalars();
@@ -51,7 +51,7 @@ VolumeView::VolumeView(Viewport* viewport)
   this->contour_mapper_->ScalarVisibilityOff();
   this->contour_actor_->SetMapper(this->contour_mapper_);
   this->contour_actor_->GetProperty()->LightingOff();
-  colour(this->contour_actor_->GetProperty(), bindpose::palette::line, 1.0);
+  color(this->contour_actor_->GetProperty(), bindpose::palette::line, 1.0);
   this->isosurface_mapper_->ScalarVisibilityOff();
   this->isosurface_actor_->SetMapper(this->isosurface_mapper_);
   bindpose::use_surface_material(this->isosurface_actor_);
@@ -179,7 +179,7 @@ void VolumeView::update_isosurface()
   {
     this->isosurface_->ShallowCopy(bindpose::isosurface(this->image_, array_name, this->level_));
     this->isosurface_mapper_->SetInputData(this->isosurface_);
-    colour(this->isosurface_actor_->GetProperty(), bindpose::winding_colour(this->level_), 1.0);
+    color(this->isosurface_actor_->GetProperty(), bindpose::winding_color(this->level_), 1.0);
     Q_EMIT this->area_changed(bindpose::surface_area(this->isosurface_));
   }
   this->isosurface_actor_->SetVisibility(shown && this->isosurface_->GetNumberOfPolys() > 0);

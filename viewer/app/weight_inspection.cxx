@@ -169,11 +169,11 @@ void WeightInspection::update()
     PictureOptions options;
     if (what == WeightPanel::row_sums)
     {
-      options.colour_by = ColourBy::row_sum;
+      options.color_by = ColorBy::row_sum;
     }
     else if (column < 0 && what == WeightPanel::weights)
     {
-      options.colour_by = ColourBy::handle;
+      options.color_by = ColorBy::handle;
     }
     else
     {
@@ -287,10 +287,10 @@ void WeightInspection::comparison_finished()
   const BindResult& result = this->job_.result();
   this->update_facts();
   const bool fits = this->surface_ && result.weights.rows() == this->surface_->GetNumberOfPoints();
-  if (result.status.code == StatusCode::cancelled || (result.status.usable() && !fits))
+  if (result.status.code == StatusCode::canceled || (result.status.usable() && !fits))
   {
     this->panel_->set_comparison(
-      this->compared_ ? tr("Cancelled; the last comparison stays.") : tr("Cancelled."));
+      this->compared_ ? tr("Canceled; the last comparison stays.") : tr("Canceled."));
     return;
   }
   if (!result.status.usable())

@@ -110,14 +110,14 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->column_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   this->column_->setMinimumContentsLength(8);
   this->column_->setToolTip(
-    tr("One handle's weights, or every triangle in the colour of the handle that is strongest "
+    tr("One handle's weights, or every triangle in the color of the handle that is strongest "
        "there"));
   column->addWidget(this->column_);
   this->what_ = this->add_choice({ tr("Weights"), tr("Row sums"), tr("Difference") },
     { tr("What the handles weigh"),
       tr("What a point's raw weights add up to: 1 where dividing by the sum changes nothing"),
       tr("How far these weights are from those of the other method below") });
-  this->raw_ = this->add_choice({ tr("Normalised"), tr("Raw") },
+  this->raw_ = this->add_choice({ tr("Normalized"), tr("Raw") },
     { tr("Rows divided by their sums: what bends the shape"),
       tr("As solved for, before that: what the certificate is about") });
   this->what_->setObjectName("weights.what");
@@ -129,7 +129,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->certificate_);
   auto* lines = new QHBoxLayout;
   this->bands_ =
-    box(tr("Bands"), tr("One colour for each tenth; else colours change smoothly"), true);
+    box(tr("Bands"), tr("One color for each tenth; else colors change smoothly"), true);
   this->isolines_ = box(tr("Isolines"), tr("A line where a weight is 0.1, 0.2, … 0.9"), true);
   this->bands_->setObjectName("weights.bands");
   this->isolines_->setObjectName("weights.isolines");
@@ -147,11 +147,11 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   auto* tint = new QVBoxLayout(this->tint_row_);
   tint->setContentsMargins(0, 0, 0, 0);
   tint->setSpacing(4);
-  tint->addWidget(new QLabel(tr("Colours over the picture"), this->tint_row_));
+  tint->addWidget(new QLabel(tr("Colors over the picture"), this->tint_row_));
   this->tint_ = new ValueRow(this->tint_row_);
   this->tint_->setObjectName("weights.over_picture");
   this->tint_->setToolTip(
-    tr("How much of the colours is seen: 0 the picture alone, 1 the colours alone; isolines stay"));
+    tr("How much of the colors is seen: 0 the picture alone, 1 the colors alone; isolines stay"));
   this->tint_->set_range(0.0, 1.0);
   this->tint_->set_value(0.5);
   tint->addWidget(this->tint_);
@@ -315,8 +315,8 @@ void WeightPanel::enable()
   enable_or_say(
     this->raw_->button(0), first(sums ? tr("Row sums are those of raw weights") : of_all));
   enable_or_say(this->raw_->button(1), first(no_raw.isEmpty() ? of_all : no_raw));
-  const QString not_a_column = sums ? tr("Row sums have colours of their own: white is 1")
-    : differs                       ? tr("Differences have colours of their own: white is 0")
+  const QString not_a_column = sums ? tr("Row sums have colors of their own: white is 1")
+    : differs                       ? tr("Differences have colors of their own: white is 0")
     : all                           ? tr("Choose one handle: this shows its numbers")
                                     : QString();
   enable_or_say(this->bands_, first(not_a_column));

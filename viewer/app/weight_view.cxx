@@ -7,7 +7,7 @@
 
 #include "conversion.h"
 #include "scene/categories.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "scene/tet_slice.h"
 
 #include "vtkCamera.h"
@@ -29,7 +29,7 @@ WeightView::WeightView(Viewport* viewport)
   vtkRenderer* renderer = viewport->renderer();
   this->slice_mapper_->SetColorModeToMapScalars();
   this->slice_mapper_->UseLookupTableScalarRangeOn();
-  this->slice_mapper_->SelectColorArray(colour_array_name);
+  this->slice_mapper_->SelectColorArray(color_array_name);
   // Lines have the depth of the surface under them and must be drawn in front of it.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->slice_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
@@ -92,7 +92,7 @@ void WeightView::move_surface(vtkPolyData* shape)
 void WeightView::hide()
 {
   this->shown_ = false;
-  this->colouring_ = Colouring();
+  this->coloring_ = Coloring();
   this->extrema_.clear();
   this->volume_values_ = nullptr;
   this->viewport_->show_values(nullptr, true);
@@ -111,15 +111,15 @@ Status WeightView::show(const PictureOptions& options)
   }
   const bool sliced = options.slice && this->volume_;
   const Tile tile{ sliced ? static_cast<vtkDataSet*>(this->volume_) : this->surface_, nullptr, "" };
-  Status status = choose_colouring({ tile }, options, this->colouring_);
+  Status status = choose_coloring({ tile }, options, this->coloring_);
   std::vector<std::vector<Extremum>> extrema;
   if (status.ok() && options.extrema)
   {
-    status = find_extrema({ tile }, this->colouring_, extrema);
+    status = find_extrema({ tile }, this->coloring_, extrema);
   }
   if (!status.ok())
   {
-    this->colouring_ = Colouring();
+    this->coloring_ = Coloring();
     return status;
   }
   this->options_ = options;
@@ -131,7 +131,7 @@ Status WeightView::show(const PictureOptions& options)
     this->volume_values_ = vtkSmartPointer<vtkUnstructuredGrid>::New();
     this->volume_values_->CopyStructure(this->volume_);
     bool on_points = true;
-    const auto values = colour_values(this->volume_, this->colouring_, on_points);
+    const auto values = color_values(this->volume_, this->coloring_, on_points);
     vtkDataSetAttributes* to = this->volume_values_->GetPointData();
     (on_points ? to : this->volume_values_->GetCellData())->AddArray(values);
   }
@@ -139,7 +139,7 @@ Status WeightView::show(const PictureOptions& options)
   if (options.extrema)
   {
     this->extrema_ = extrema.front();
-    ColourMap map = category_map(count_extrema(extrema));
+    ColorMap map = category_map(count_extrema(extrema));
     this->viewport_->show_legend(
       Viewport::extremum_legend, map.texts.empty() ? tr("No extrema") : tr("Extrema"), map);
   }
@@ -149,16 +149,15 @@ Status WeightView::show(const PictureOptions& options)
 
 void WeightView::show_surface()
 {
-  const QString name = QString::fromStdString(this->colouring_.legend_name());
+  const QString name = QString::fromStdString(this->coloring_.legend_name());
   if (this->options_.slice)
   {
-    this->viewport_->show_values(nullptr, true, name, this->colouring_.map);
+    this->viewport_->show_values(nullptr, true, name, this->coloring_.map);
     return; // colors of the surface would be mistaken for those of the slice
   }
   vtkPolyData* drawn = this->viewport_->drawn();
   bool on_points = true;
-  vtkSmartPointer<vtkDoubleArray> values =
-    colour_values(this->surface_, this->colouring_, on_points);
+  vtkSmartPointer<vtkDoubleArray> values = color_values(this->surface_, this->coloring_, on_points);
   if (on_points)
   {
     const auto at_rest = values;
@@ -170,9 +169,9 @@ void WeightView::show_surface()
   }
   else
   {
-    values = colour_values(drawn, this->colouring_, on_points); // one value per triangle
+    values = color_values(drawn, this->coloring_, on_points); // one value per triangle
   }
-  this->viewport_->show_values(values, on_points, name, this->colouring_.map);
+  this->viewport_->show_values(values, on_points, name, this->coloring_.map);
   this->draw_isolines(0, drawn);
 }
 
@@ -180,7 +179,7 @@ void WeightView::draw_isolines(int part, vtkPolyData* data)
 {
   const bool wanted = this->shown_ && data && this->options_.isolines && part == this->is_sliced();
   const auto lines =
-    wanted ? contour_lines(data, this->colouring_.isolines) : vtkSmartPointer<vtkPolyData>::New();
+    wanted ? contour_lines(data, this->coloring_.isolines) : vtkSmartPointer<vtkPolyData>::New();
   this->isolines_[part]->ShallowCopy(lines);
   this->isoline_actors_[part]->SetVisibility(lines->GetNumberOfLines() > 0);
   this->isoline_actors_[part]->GetProperty()->SetLineWidth(
@@ -202,7 +201,7 @@ void WeightView::update_slice()
     const Vec3 normal = this->plane_->normal();
     this->slice_ = slice_tets(this->volume_values_,
       this->plane_->origin() + (inside - this->plane_->position()) * normal, normal);
-    const bool on_points = this->slice_->GetPointData()->HasArray(colour_array_name) != 0;
+    const bool on_points = this->slice_->GetPointData()->HasArray(color_array_name) != 0;
     if (on_points)
     {
       this->slice_mapper_->SetScalarModeToUsePointFieldData();
@@ -212,7 +211,7 @@ void WeightView::update_slice()
       this->slice_mapper_->SetScalarModeToUseCellFieldData();
     }
     this->slice_mapper_->SetInterpolateScalarsBeforeMapping(on_points);
-    this->slice_mapper_->SetLookupTable(this->colouring_.map.table);
+    this->slice_mapper_->SetLookupTable(this->coloring_.map.table);
     this->slice_mapper_->SetInputData(this->slice_);
   }
   this->draw_isolines(1, shown ? this->slice_.Get() : nullptr);

@@ -3,7 +3,7 @@
 
 #include "base/status.h"
 #include "plane_handle.h"
-#include "scene/colouring.h"
+#include "scene/coloring.h"
 #include "scene/extrema.h"
 #include "scene/picture.h"
 
@@ -36,7 +36,7 @@ public:
   /// Move the points of the same surface: a pose.
   void move_surface(vtkPolyData* shape);
 
-  /// Show the weights. The options that count are array, component, colour_by, minus, bands,
+  /// Show the weights. The options that count are array, component, color_by, minus, bands,
   /// isolines, extrema and slice. Return an error, and show the plain surface, if the data has no
   /// such numbers.
   bindpose::Status show(const bindpose::PictureOptions& options);
@@ -46,9 +46,9 @@ public:
 
   PlaneHandle* plane() const { return this->plane_; }
 
-  const bindpose::Colouring& colouring() const { return this->colouring_; }
+  const bindpose::Coloring& coloring() const { return this->coloring_; }
   /// Return numbers about the shown data; see render_to_png().
-  const bindpose::Report& numbers() const { return this->colouring_.numbers; }
+  const bindpose::Report& numbers() const { return this->coloring_.numbers; }
   /// Return the extrema of the surface. While tets are sliced, return those of all tets; the
   /// surface is then plain.
   const std::vector<bindpose::Extremum>& extrema() const { return this->extrema_; }
@@ -74,7 +74,7 @@ private:
   vtkSmartPointer<vtkUnstructuredGrid> volume_;
   vtkSmartPointer<vtkUnstructuredGrid> volume_values_; // with the shown number only
   bindpose::PictureOptions options_;
-  bindpose::Colouring colouring_;
+  bindpose::Coloring coloring_;
   bool shown_ = false;
 
   std::vector<bindpose::Extremum> extrema_;

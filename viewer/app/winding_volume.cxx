@@ -100,9 +100,9 @@ void WindingVolume::finish()
   const vtkSmartPointer<vtkImageData> volume = *this->made_;
   this->made_.reset();
   this->update();
-  if (status.code == StatusCode::cancelled)
+  if (status.code == StatusCode::canceled)
   {
-    this->panel_->set_note(tr("Cancelled."));
+    this->panel_->set_note(tr("Canceled."));
   }
   else if (!status.ok() || !volume)
   {

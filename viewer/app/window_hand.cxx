@@ -482,7 +482,7 @@ namespace
 bool is_busy(Deformation* deformation)
 {
   return deformation->is_binding() ||
-    (deformation->can_pose() && !deformation->is_settled() && !deformation->is_cancelled() &&
+    (deformation->can_pose() && !deformation->is_settled() && !deformation->is_canceled() &&
       deformation->error().isEmpty());
 }
 } // namespace

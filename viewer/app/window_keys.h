@@ -65,7 +65,7 @@ constexpr std::array<WindowKey, 46> window_keys{ {
   { "find", "handles", "Ctrl+F", "Find a handle by its name" },
   { "select_all", "handles", "Ctrl+A", "Select all handles" },
   { "rename", "handles", "F2", "Rename" },
-  { "colour", "handles", "Ctrl+K", "Recolour" },
+  { "color", "handles", "Ctrl+K", "Recolor" },
   { "lock", "handles", "Ctrl+L", "Lock, or unlock: no hand moves it" },
   { "delete", "handles", "Delete", "Delete" },
   { "mirror.x", "handles", "Ctrl+M", "Mirror to the other side, left to right" },

@@ -20,7 +20,7 @@ namespace bindpose::cli
 
 namespace
 {
-constexpr int exit_cancelled = 4;
+constexpr int exit_canceled = 4;
 
 std::atomic<bool> signal_came{ false };
 std::atomic<bool> released{ false };
@@ -68,7 +68,7 @@ void watch()
     if (signal_came.exchange(true))
     {
       AtomicFile::discard_all();
-      _exit(exit_cancelled);
+      _exit(exit_canceled);
     }
     const std::lock_guard<std::mutex> lock(running_mutex);
     if (running)

@@ -37,7 +37,7 @@ int exit_code(StatusCode code)
       return 2;
     case StatusCode::not_converged:
       return 3;
-    case StatusCode::cancelled:
+    case StatusCode::canceled:
       return 4;
     case StatusCode::internal_error:
       break;
@@ -129,8 +129,8 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
 {
   if (interrupted())
   {
-    this->fail(Status::cancelled());
-    return Status::cancelled();
+    this->fail(Status::canceled());
+    return Status::canceled();
   }
   Stage stage{ &this->bar_, stage_name, begin, end };
   vtkNew<vtkCallbackCommand> progress;
@@ -160,7 +160,7 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
   Status status;
   status.code = static_cast<StatusCode>(algorithm->GetStatus());
   status.message = algorithm->GetStatusMessage();
-  if (status.code == StatusCode::cancelled)
+  if (status.code == StatusCode::canceled)
   {
     this->fail(status);
   }

@@ -96,17 +96,17 @@ bool read_section(Session& session, PictureOptions& options)
   return true;
 }
 
-ColourBy colour_by(const std::string& word)
+ColorBy color_by(const std::string& word)
 {
-  return word == "winding-number" ? ColourBy::winding_number
-    : word == "label"             ? ColourBy::label
-    : word == "quality"           ? ColourBy::quality
-    : word == "rung"              ? ColourBy::rung
-    : word == "handle"            ? ColourBy::handle
-    : word == "row-sum"           ? ColourBy::row_sum
-    : word == "rotation-cluster"  ? ColourBy::rotation_cluster
-    : word == "rotation"          ? ColourBy::rotation
-                                  : ColourBy::array;
+  return word == "winding-number" ? ColorBy::winding_number
+    : word == "label"             ? ColorBy::label
+    : word == "quality"           ? ColorBy::quality
+    : word == "rung"              ? ColorBy::rung
+    : word == "handle"            ? ColorBy::handle
+    : word == "row-sum"           ? ColorBy::row_sum
+    : word == "rotation-cluster"  ? ColorBy::rotation_cluster
+    : word == "rotation"          ? ColorBy::rotation
+                                  : ColorBy::array;
 }
 
 bool read_options(Session& session, PictureOptions& options)
@@ -130,16 +130,15 @@ bool read_options(Session& session, PictureOptions& options)
   }
   options.array = arguments.text("array");
   options.component = arguments.text("component");
-  options.colour_by = colour_by(arguments.text("color"));
-  if (options.colour_by != ColourBy::array &&
-    (!options.array.empty() || !options.component.empty()))
+  options.color_by = color_by(arguments.text("color"));
+  if (options.color_by != ColorBy::array && (!options.array.empty() || !options.component.empty()))
   {
     return session.invalid(
       "--color " + arguments.text("color") + " goes without --array and --component");
   }
   options.extrema = arguments.has("extrema");
   const bool of_weights = !options.component.empty() || options.extrema || arguments.has("minus");
-  if (options.array.empty() && options.colour_by == ColourBy::array && of_weights)
+  if (options.array.empty() && options.color_by == ColorBy::array && of_weights)
   {
     options.array = "Weights"; // the array with named components
   }
@@ -284,7 +283,7 @@ Status render_video(Session& session, std::vector<Tile> tiles, const PictureOpti
   {
     if (interrupted())
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     session.show(0.9 * static_cast<double>(k) / static_cast<double>(tiles.size()), "render");
     status =
@@ -414,7 +413,7 @@ void run_render(Session& session)
   }
   if (interrupted())
   {
-    session.fail(Status::cancelled());
+    session.fail(Status::canceled());
     return;
   }
   Status status = moving ? render_video(session, tiles, options, rate, output)

@@ -58,7 +58,7 @@ bool same_bind(const PoseOptions& a, const PoseOptions& b)
     // to it.
     const auto extra = [](const PoseOptions& o)
     {
-      return std::make_tuple(o.method == PoseMethod::rotation_centres,
+      return std::make_tuple(o.method == PoseMethod::rotation_centers,
         o.method == PoseMethod::stretchable_bones ? static_cast<int>(o.endpoints) : -1);
     };
     return a.single_precision == b.single_precision && extra(a) == extra(b) &&

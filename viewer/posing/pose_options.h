@@ -17,7 +17,7 @@ enum class PoseMethod : int
   dual_quaternion = 1,
   reduced_arap = 2,
   stretchable_bones = 3,
-  rotation_centres = 4,
+  rotation_centers = 4,
   full_arap = 5,
   variational = 6
 };

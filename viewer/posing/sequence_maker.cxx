@@ -28,9 +28,9 @@ Status make_frames(ExecutionContext& context, const std::shared_ptr<const PoseSo
       skinning_transforms(source->handles, poses[k], transforms);
       frames.transforms.push_back(std::move(transforms));
     }
-    if (context.cancelled())
+    if (context.canceled())
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
   }
   return status;
@@ -57,9 +57,9 @@ Status make_frames(ExecutionContext& context, const std::shared_ptr<const PoseSo
     [&](std::size_t /*step*/, const Points& points)
     {
       frames.points.push_back(points);
-      return !context.cancelled();
+      return !context.canceled();
     });
-  return context.cancelled() ? Status::cancelled() : status;
+  return context.canceled() ? Status::canceled() : status;
 }
 
 } // namespace bindpose

@@ -2,7 +2,7 @@
 // are phases of bind(), so that the window can show their progress and cancel them.
 #include "posing/skinning_poser.h"
 
-#include "pose/rotation_centres.h"
+#include "pose/rotation_centers.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/surface_weights.h"
 
@@ -39,7 +39,7 @@ bool SkinningPoser::has_endpoints(const PoseOptions& options) const
 bool SkinningPoser::is_bound(const PoseOptions& options) const
 {
   return this->single_ == options.single_precision && this->has_endpoints(options) &&
-    (options.method != PoseMethod::rotation_centres || this->centres_.rows() > 0) &&
+    (options.method != PoseMethod::rotation_centers || this->centers_.rows() > 0) &&
     (options.pseudo_edges != PseudoEdgeChoice::automatic || this->automatic_edges_);
 }
 
@@ -74,17 +74,17 @@ Status SkinningPoser::bind_missing(ExecutionContext& context, const PoseOptions&
     status.warnings.insert(status.warnings.end(), found.warnings.begin(), found.warnings.end());
     this->automatic_edges_ = std::move(edges);
   }
-  if (options.method == PoseMethod::rotation_centres && this->centres_.rows() == 0)
+  if (options.method == PoseMethod::rotation_centers && this->centers_.rows() == 0)
   {
     Phase phase(context, "centers", 0.1, 1.0);
-    Points centres;
+    Points centers;
     const Status found =
-      rotation_centres(context, {}, source.points, source.triangles, source.weights, centres);
+      rotation_centers(context, {}, source.points, source.triangles, source.weights, centers);
     if (!found.ok())
     {
       return found;
     }
-    this->centres_ = std::move(centres);
+    this->centers_ = std::move(centers);
   }
   if (!this->has_endpoints(options))
   {
@@ -176,9 +176,9 @@ Status SkinningPoser::pose(ExecutionContext& context, const Pose& given, const P
                                                             : WeightsView(this->endpoints_),
         posed);
       break;
-    case PoseMethod::rotation_centres:
-      moved = this->skinning_.about_centres(
-        context, source.points, this->transforms_, this->centres_, posed);
+    case PoseMethod::rotation_centers:
+      moved = this->skinning_.about_centers(
+        context, source.points, this->transforms_, this->centers_, posed);
       break;
     default:
       moved = this->skinning_.linear_blend(context, source.points, this->transforms_, posed);

@@ -30,7 +30,7 @@ private:
   std::optional<bool> single_; ///< precision of the bound weights; empty before a bind
   Skinning skinning_;
   Points pivots_;
-  Points centres_;
+  Points centers_;
   std::optional<EndpointMethod> endpoint_method_;
   Weights endpoints_;
   std::optional<PseudoEdges> automatic_edges_;

@@ -48,13 +48,13 @@ const std::vector<Category>& defect_categories()
 {
   static const std::vector<Category> table = []
   {
-    constexpr Rgb colours[defect_kinds] = { { 0.20, 0.13, 0.53 }, { 0.55, 0.55, 0.13 },
+    constexpr Rgb colors[defect_kinds] = { { 0.20, 0.13, 0.53 }, { 0.55, 0.55, 0.13 },
       { 0.05, 0.46, 0.32 }, { 0.80, 0.20, 0.07 }, { 0.95, 0.60, 0.15 }, { 0.30, 0.30, 0.30 },
       { 0.00, 0.40, 0.75 }, { 0.87, 0.15, 0.52 }, { 0.20, 0.70, 0.90 } };
     std::vector<Category> categories;
     for (int kind = 0; kind < defect_kinds; ++kind)
     {
-      categories.push_back({ kind, to_string(static_cast<Defect>(kind)), colours[kind] });
+      categories.push_back({ kind, to_string(static_cast<Defect>(kind)), colors[kind] });
     }
     return categories;
   }();
@@ -70,12 +70,12 @@ const std::vector<Category>& extremum_categories()
   return table;
 }
 
-Rgb handle_colour(std::size_t column)
+Rgb handle_color(std::size_t column)
 {
-  static const Colors colours = categorical_colors(16);
-  const auto at = static_cast<Index>(column % handle_colours);
+  static const Colors colors = categorical_colors(16);
+  const auto at = static_cast<Index>(column % handle_colors);
   const double shade = at < 16 ? 1.0 : 0.55;
-  const auto its = colours.row(at < 16 ? at : at - 16);
+  const auto its = colors.row(at < 16 ? at : at - 16);
   return { shade * its[0], shade * its[1], shade * its[2] };
 }
 
@@ -84,7 +84,7 @@ std::vector<Category> handle_categories(const std::vector<std::string>& names)
   std::vector<Category> categories;
   for (std::size_t j = 0; j < names.size(); ++j)
   {
-    categories.push_back({ static_cast<int>(j), names[j], handle_colour(j) });
+    categories.push_back({ static_cast<int>(j), names[j], handle_color(j) });
   }
   return categories;
 }
@@ -183,9 +183,9 @@ std::string grouped(Index count)
 }
 } // namespace
 
-ColourMap category_map(const std::vector<Category>& categories)
+ColorMap category_map(const std::vector<Category>& categories)
 {
-  ColourMap map;
+  ColorMap map;
   std::vector<Category> used;
   std::copy_if(categories.begin(), categories.end(), std::back_inserter(used),
     [](const Category& category) { return category.count > 0; });
@@ -197,7 +197,7 @@ ColourMap category_map(const std::vector<Category>& categories)
   map.table->SetNanColor(palette::missing[0], palette::missing[1], palette::missing[2], 1.0);
   for (int i = 0; i < count; ++i)
   {
-    const Rgb& c = used[i].colour;
+    const Rgb& c = used[i].color;
     map.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
     map.ticks.push_back(i + 0.5);
     map.texts.push_back(used[i].name + ": " + grouped(used[i].count));
@@ -205,14 +205,14 @@ ColourMap category_map(const std::vector<Category>& categories)
   return map;
 }
 
-ColourMap shortened(const ColourMap& map, int most)
+ColorMap shortened(const ColorMap& map, int most)
 {
   const int count = static_cast<int>(map.texts.size());
   if (count <= most || most < 2)
   {
     return map;
   }
-  ColourMap result = map;
+  ColorMap result = map;
   result.upper = most;
   result.table = vtkSmartPointer<vtkLookupTable>::New();
   result.table->SetNumberOfTableValues(most);

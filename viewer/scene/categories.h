@@ -3,7 +3,7 @@
 
 #include "base/mesh.h"
 #include "base/status.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ struct Category
 {
   int value = 0;
   std::string name;
-  Rgb colour{};
+  Rgb color{};
   Index count = 0;
 };
 
@@ -38,9 +38,9 @@ const std::vector<Category>& defect_categories();
 const std::vector<Category>& extremum_categories();
 /// Number of distinct handle colors: those that vtkWeightedColors gives to handles without a color,
 /// their lighter variants and their darker variants.
-constexpr std::size_t handle_colours = 24;
+constexpr std::size_t handle_colors = 24;
 /// Return the color of the handle of a column. After the last color, the first is used again.
-Rgb handle_colour(std::size_t column);
+Rgb handle_color(std::size_t column);
 /// Return one category per handle name, in the order of the columns.
 std::vector<Category> handle_categories(const std::vector<std::string>& names);
 
@@ -59,10 +59,10 @@ void count_defects(vtkPolyData* defects, std::vector<Category>& categories);
 
 /// Return a legend and a lookup table of the categories that occur, in their order from the bottom.
 /// The i-th of them has the value i + 0.5. Tick texts are name and count.
-ColourMap category_map(const std::vector<Category>& categories);
+ColorMap category_map(const std::vector<Category>& categories);
 /// Shorten the legend to at most `most` lines. The last line states how many more categories there
 /// are.
-ColourMap shortened(const ColourMap& map, int most);
+ColorMap shortened(const ColorMap& map, int most);
 /// Return the table's value for each category that occurs, -1 for the other categories.
 std::vector<double> category_values(const std::vector<Category>& categories);
 

@@ -1,6 +1,6 @@
 #include "scene/curves.h"
 
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"

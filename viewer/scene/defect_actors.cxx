@@ -25,20 +25,20 @@ vtkSmartPointer<vtkActor> make_actor(
 {
   const auto& categories = defect_categories();
   vtkDataArray* kinds = defects->GetCellData()->GetArray("Defect");
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetNumberOfComponents(3);
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetNumberOfComponents(3);
   for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i)
   {
     const double kind = kinds->GetComponent(first + i, 0);
     const auto last = static_cast<double>(categories.size() - 1);
-    const Rgb& c = categories[static_cast<std::size_t>(std::clamp(kind, 0.0, last))].colour;
+    const Rgb& c = categories[static_cast<std::size_t>(std::clamp(kind, 0.0, last))].color;
     for (const double channel : c)
     {
-      colours->InsertNextValue(static_cast<unsigned char>(std::lround(255.0 * channel)));
+      colors->InsertNextValue(static_cast<unsigned char>(std::lround(255.0 * channel)));
     }
   }
   part->SetPoints(defects->GetPoints());
-  part->GetCellData()->SetScalars(colours);
+  part->GetCellData()->SetScalars(colors);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(part);
   mapper->SetScalarModeToUseCellData();

@@ -4,7 +4,7 @@
 #include "scene/extrema.h"
 
 #include "conversion.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
@@ -48,7 +48,7 @@ std::vector<char> points_of_handles(vtkDataSet* data)
 
 } // namespace
 
-Status find_extrema(const std::vector<Tile>& tiles, const Colouring& colouring,
+Status find_extrema(const std::vector<Tile>& tiles, const Coloring& coloring,
   std::vector<std::vector<Extremum>>& extrema)
 {
   extrema.assign(tiles.size(), {});
@@ -59,8 +59,8 @@ Status find_extrema(const std::vector<Tile>& tiles, const Colouring& colouring,
     bool on_points = true;
     Domain domain;
     std::vector<Index> cells;
-    const bool by_number = colouring.kind != Colouring::Kind::none && colouring.categories.empty();
-    const auto shown = by_number ? colour_values(data, colouring, on_points) : nullptr;
+    const bool by_number = coloring.kind != Coloring::Kind::none && coloring.categories.empty();
+    const auto shown = by_number ? color_values(data, coloring, on_points) : nullptr;
     if (!shown || !on_points || !to_domain(data, domain, cells).ok())
     {
       continue;
@@ -71,7 +71,7 @@ Status find_extrema(const std::vector<Tile>& tiles, const Colouring& colouring,
     if (!values.allFinite())
     {
       return Status::invalid_input(
-        "extrema need finite numbers, and '" + colouring.array + "' holds one that is not");
+        "extrema need finite numbers, and '" + coloring.array + "' holds one that is not");
     }
     extrema[i] = interior_extrema(vertex_graph(domain), values, points_of_handles(data));
   }
@@ -136,8 +136,8 @@ ExtremumBalls::ExtremumBalls()
       }
       else
       {
-        const Rgb& colour = extremum_categories()[maximum].colour;
-        look->SetColor(colour[0], colour[1], colour[2]);
+        const Rgb& color = extremum_categories()[maximum].color;
+        look->SetColor(color[0], color[1], color[2]);
         look->SetAmbient(0.45);
         look->SetDiffuse(0.65);
       }
@@ -163,8 +163,8 @@ void ExtremumBalls::face(const Vec3& eye)
     {
       if (place.maximum == (maximum == 1))
       {
-        const Vec3 towards = (eye - place.at).normalized();
-        points->InsertNextPoint(Vec3(place.at + rim_size * this->radius_ * towards).data());
+        const Vec3 toward = (eye - place.at).normalized();
+        points->InsertNextPoint(Vec3(place.at + rim_size * this->radius_ * toward).data());
       }
     }
     this->clouds_[maximum]->SetPoints(points);

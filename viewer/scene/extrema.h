@@ -2,7 +2,7 @@
 #define bindpose_scene_extrema_h
 
 #include "scene/categories.h"
-#include "scene/colouring.h"
+#include "scene/coloring.h"
 #include "scene/picture.h"
 #include "weights/extrema.h"
 
@@ -31,7 +31,7 @@ namespace bindpose
 ///
 /// Return invalid_input if no tile has the number at the points of a surface or of tets, or if a
 /// number is not finite.
-Status find_extrema(const std::vector<Tile>& tiles, const Colouring& colouring,
+Status find_extrema(const std::vector<Tile>& tiles, const Coloring& coloring,
   std::vector<std::vector<Extremum>>& extrema);
 
 /// Return extremum_categories() with counts over all tiles.

@@ -27,7 +27,7 @@ namespace bindpose
 {
 namespace
 {
-std::string tick_text(const ColourMap& map, std::size_t tick)
+std::string tick_text(const ColorMap& map, std::size_t tick)
 {
   if (!map.texts.empty())
   {
@@ -65,25 +65,25 @@ int bar_width(int font_size)
 class FlatShapes
 {
 public:
-  void add_box(double x0, double y0, double x1, double y1, const Rgb& colour)
+  void add_box(double x0, double y0, double x1, double y1, const Rgb& color)
   {
     const vtkIdType corners[4] = { this->points_->InsertNextPoint(x0, y0, 0.0),
       this->points_->InsertNextPoint(x1, y0, 0.0), this->points_->InsertNextPoint(x1, y1, 0.0),
       this->points_->InsertNextPoint(x0, y1, 0.0) };
     this->quads_->InsertNextCell(4, corners);
-    for (const double c : colour)
+    for (const double c : color)
     {
-      this->colours_->InsertNextValue(static_cast<unsigned char>(std::lround(255.0 * c)));
+      this->colors_->InsertNextValue(static_cast<unsigned char>(std::lround(255.0 * c)));
     }
   }
 
   void add_to(vtkRenderer* renderer)
   {
-    this->colours_->SetName("Colours");
+    this->colors_->SetName("Colors");
     vtkNew<vtkPolyData> data;
     data->SetPoints(this->points_);
     data->SetPolys(this->quads_);
-    data->GetCellData()->SetScalars(this->colours_);
+    data->GetCellData()->SetScalars(this->colors_);
     vtkNew<vtkPolyDataMapper2D> mapper;
     mapper->SetInputData(data);
     vtkNew<vtkActor2D> actor;
@@ -91,12 +91,12 @@ public:
     renderer->AddActor2D(actor);
   }
 
-  FlatShapes() { this->colours_->SetNumberOfComponents(3); }
+  FlatShapes() { this->colors_->SetNumberOfComponents(3); }
 
 private:
   vtkNew<vtkPoints> points_;
   vtkNew<vtkCellArray> quads_;
-  vtkNew<vtkUnsignedCharArray> colours_;
+  vtkNew<vtkUnsignedCharArray> colors_;
 };
 } // namespace
 
@@ -123,7 +123,7 @@ void add_text(vtkRenderer* renderer, const std::string& text, double x, double y
   renderer->AddActor2D(actor);
 }
 
-int legend_width(const ColourMap& map, const std::string& name, int font_size)
+int legend_width(const ColorMap& map, const std::string& name, int font_size)
 {
   double ticks = 0.0;
   for (std::size_t i = 0; i < map.ticks.size(); ++i)
@@ -134,7 +134,7 @@ int legend_width(const ColourMap& map, const std::string& name, int font_size)
   return static_cast<int>(std::ceil(std::max(bar, text_width(name, font_size))));
 }
 
-void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& name,
+void add_legend(vtkRenderer* renderer, const ColorMap& map, const std::string& name,
   const PixelBox& box, int font_size, const Rgb& ink)
 {
   const double name_height = 2.0 * font_size;
@@ -154,13 +154,13 @@ void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& 
   const int count = static_cast<int>(map.table->GetNumberOfTableValues());
   for (int i = 0; i < count; ++i)
   {
-    Rgb colour{};
+    Rgb color{};
     double rgba[4];
     map.table->GetTableValue(i, rgba);
-    std::copy_n(rgba, 3, colour.begin());
+    std::copy_n(rgba, 3, color.begin());
     const int place = map.downwards ? count - 1 - i : i;
     shapes.add_box(left, bottom + (top - bottom) * place / count, right,
-      bottom + (top - bottom) * (place + 1) / count, colour);
+      bottom + (top - bottom) * (place + 1) / count, color);
   }
   for (std::size_t i = 0; i < map.ticks.size(); ++i)
   {

@@ -1,7 +1,7 @@
 #ifndef bindpose_scene_legend_h
 #define bindpose_scene_legend_h
 
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include <string>
 
@@ -30,11 +30,11 @@ void add_text(vtkRenderer* renderer, const std::string& text, double x, double y
 
 /// Add a vertical bar with the map's colors that fills the box, its ticks on the right and the name
 /// above. For a map without ticks, only the name is drawn.
-void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& name,
+void add_legend(vtkRenderer* renderer, const ColorMap& map, const std::string& name,
   const PixelBox& box, int font_size, const Rgb& ink = palette::text);
 
 /// Return the width in pixels that add_legend needs.
-int legend_width(const ColourMap& map, const std::string& name, int font_size);
+int legend_width(const ColorMap& map, const std::string& name, int font_size);
 
 } // namespace bindpose
 

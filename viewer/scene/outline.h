@@ -1,7 +1,7 @@
 #ifndef bindpose_scene_outline_h
 #define bindpose_scene_outline_h
 
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "scene/silhouette.h"
 
 #include "vtkNew.h"

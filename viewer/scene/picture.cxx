@@ -36,7 +36,7 @@ namespace
 /// A color map with its name.
 struct Legend
 {
-  ColourMap map;
+  ColorMap map;
   std::string name;
 };
 
@@ -202,16 +202,16 @@ std::vector<Category> all_defects(const std::vector<Tile>& tiles, bool& any)
 // Check whether the data allows the requested isosurfaces and volume rendering. Warn of levels that
 // no value reaches.
 Status check_volumes(
-  const std::vector<Tile>& tiles, const PictureOptions& options, const Colouring& colouring)
+  const std::vector<Tile>& tiles, const PictureOptions& options, const Coloring& coloring)
 {
-  if (colouring.minus && !options.isosurfaces.empty())
+  if (coloring.minus && !options.isosurfaces.empty())
   {
     return Status::invalid_input("a difference is shown by a slice, not by isosurfaces");
   }
-  if (options.volume && colouring.kind != Colouring::Kind::winding)
+  if (options.volume && coloring.kind != Coloring::Kind::winding)
   {
     return Status::invalid_input("volume rendering shows the array WindingNumber of a volume (a "
-                                 ".vti file) in its own colours; it takes no other array or range");
+                                 ".vti file) in its own colors; it takes no other array or range");
   }
   Status result;
   double lower = 1e300;
@@ -222,7 +222,7 @@ Status check_volumes(
     {
       continue;
     }
-    const Status status = check_volume(tile.data, colouring.array);
+    const Status status = check_volume(tile.data, coloring.array);
     if (!status.ok())
     {
       return status;
@@ -275,7 +275,7 @@ int choose_columns(int count, double width, double height, double shape_aspect)
 constexpr double list_share = 0.94;
 
 // Return the map that a legend shows: a bar, or one field per isosurface level.
-ColourMap make_legend_map(const PictureOptions& options, const ColourMap& map)
+ColorMap make_legend_map(const PictureOptions& options, const ColorMap& map)
 {
   if (options.isosurfaces.empty())
   {
@@ -345,9 +345,9 @@ Layout make_layout(const std::vector<Tile>& tiles, const PictureOptions& options
   const int columns = options.columns > 0 ? std::min(options.columns, count)
                                           : choose_columns(count, right, top, shape_aspect);
   const int rows = (count + columns - 1) / columns;
-  const bool labelled =
+  const bool labeled =
     std::any_of(tiles.begin(), tiles.end(), [](const Tile& tile) { return !tile.label.empty(); });
-  const int label_height = labelled ? static_cast<int>(2.0 * layout.font) : 0;
+  const int label_height = labeled ? static_cast<int>(2.0 * layout.font) : 0;
   for (int i = 0; i < count; ++i)
   {
     const int column = i % columns;
@@ -382,13 +382,13 @@ Eigen::Matrix4d world_to_pixel(vtkCamera* camera, const PixelBox& box, double sc
 }
 
 Points all_points(const std::vector<Tile>& tiles, const PictureOptions& options,
-  const Colouring& colouring, const Frame* frame)
+  const Coloring& coloring, const Frame* frame)
 {
   std::vector<Points> parts;
   Index count = 0;
   for (const Tile& tile : tiles)
   {
-    parts.push_back(shown_points(tile, options, colouring, frame));
+    parts.push_back(shown_points(tile, options, coloring, frame));
     count += parts.back().rows();
   }
   Points points(count, 3);
@@ -440,19 +440,19 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   std::vector<Tile> seen = tiles;
   seen.insert(seen.end(), options.around.begin(), options.around.end());
   Status status = tiles.empty() ? check_options(tiles, options) : check_options(seen, options);
-  Colouring colouring;
+  Coloring coloring;
   if (status.ok())
   {
-    status = choose_colouring(seen, options, colouring);
+    status = choose_coloring(seen, options, coloring);
   }
   if (status.ok() && (options.volume || !options.isosurfaces.empty()))
   {
-    status = check_volumes(tiles, options, colouring);
+    status = check_volumes(tiles, options, coloring);
   }
   std::vector<std::vector<Extremum>> extrema(tiles.size());
   if (status.ok() && options.extrema)
   {
-    status = find_extrema(tiles, colouring, extrema);
+    status = find_extrema(tiles, coloring, extrema);
   }
   const Status useful = status.ok() ? check_tets(tiles, options) : Status();
   if (!useful.ok())
@@ -468,7 +468,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     return Status::failure(StatusCode::unavailable, no_display_message());
   }
 
-  const Points all = all_points(seen, options, colouring, nullptr);
+  const Points all = all_points(seen, options, coloring, nullptr);
   if (all.rows() == 0)
   {
     return Status::invalid_input("there is nothing to draw");
@@ -478,17 +478,17 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     return Status::invalid_input("a coordinate is not finite");
   }
   const Frame frame = choose_frame(bounding_box(all), options.view.up);
-  const Points points = all_points(seen, options, colouring, &frame);
+  const Points points = all_points(seen, options, coloring, &frame);
   const Vec3 size = bounding_box(points).size();
   const int across = 3 - frame.up - frame.depth;
   const double shape_aspect = std::clamp(
     (size[across] + 1e-9 * size.norm() + 1e-300) / (size[frame.up] + 1e-9 * size.norm() + 1e-300),
     0.2, 5.0);
   std::vector<Legend> legends;
-  const bool tells = !colouring.map.ticks.empty(); // clusters have no names
-  if (options.legend && colouring.kind != Colouring::Kind::none && tells)
+  const bool tells = !coloring.map.ticks.empty(); // clusters have no names
+  if (options.legend && coloring.kind != Coloring::Kind::none && tells)
   {
-    legends.push_back({ make_legend_map(options, colouring.map), colouring.legend_name() });
+    legends.push_back({ make_legend_map(options, coloring.map), coloring.legend_name() });
   }
   bool with_defects = false;
   const std::vector<Category> defects = all_defects(tiles, with_defects);
@@ -545,7 +545,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     add_lights(renderer);
     shown.extrema = 0;
     const Status drawn =
-      add_tile(renderer, tiles[i], options, colouring, extrema[i], frame, scale, shown);
+      add_tile(renderer, tiles[i], options, coloring, extrema[i], frame, scale, shown);
     if (!drawn.ok())
     {
       return drawn;
@@ -599,23 +599,23 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   {
     status.report.set("picture.tets", shown.tets);
   }
-  status.report.merge(colouring.numbers);
+  status.report.merge(coloring.numbers);
   if (options.extrema)
   {
     report_extrema(extrema, extrema_drawn, status.report);
   }
-  report_categories(colouring.categories, "picture.colours[]", status.report);
+  report_categories(coloring.categories, "picture.colors[]", status.report);
   report_categories(defects, "picture.defects[]", status.report);
-  if (colouring.kind != Colouring::Kind::none && colouring.categories.empty())
+  if (coloring.kind != Coloring::Kind::none && coloring.categories.empty())
   {
     status.report.set("picture.array",
-      Report::Value(colouring.by == ColourBy::quality ? std::string("quality") : colouring.array));
-    if (!colouring.component_name.empty())
+      Report::Value(coloring.by == ColorBy::quality ? std::string("quality") : coloring.array));
+    if (!coloring.component_name.empty())
     {
-      status.report.set("picture.component", Report::Value(colouring.component_name));
+      status.report.set("picture.component", Report::Value(coloring.component_name));
     }
     status.report.set("picture.range",
-      Report::Value(std::vector<double>{ colouring.map.lower, colouring.map.upper }));
+      Report::Value(std::vector<double>{ coloring.map.lower, coloring.map.upper }));
   }
   if (!options.isosurfaces.empty())
   {

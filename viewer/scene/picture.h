@@ -43,7 +43,7 @@ struct Tile
 };
 
 /// Source of the colors.
-enum class ColourBy
+enum class ColorBy
 {
   array, ///< the array named by PictureOptions::array
   winding_number, ///< the array WindingNumber
@@ -80,8 +80,8 @@ struct PictureOptions
   /// Point or cell array that gives the colors. Empty: no colors; for an image volume,
   /// WindingNumber or else its first array.
   std::string array;
-  ColourBy colour_by = ColourBy::array; ///< `array` must be empty for all values except
-                                        ///< ColourBy::array
+  ColorBy color_by = ColorBy::array; ///< `array` must be empty for all values except
+                                     ///< ColorBy::array
   /// Dataset whose numbers are subtracted from the shown number, point by point or cell by cell. It
   /// needs the same array and component and the same number of points or cells. Null: no
   /// subtraction.
@@ -172,7 +172,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& opt
 ///
 /// Report where applicable: picture.width, picture.height, picture.tiles, picture.array,
 /// picture.component, picture.range, picture.isosurfaces, picture.tets (drawn),
-/// picture.colours[].name and .count (labels, rungs, cells of handles), picture.defects[].name and
+/// picture.colors[].name and .count (labels, rungs, cells of handles), picture.defects[].name and
 /// .count, picture.extrema[].maxima, .minima and .drawn (one entry per tile),
 /// picture.difference.largest (absolute) and .rms, picture.row_sum.minimum and .maximum.
 Status render_to_png(const std::vector<Tile>& tiles, const PictureOptions& options,

@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 #include "conversion.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"

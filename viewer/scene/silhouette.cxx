@@ -52,9 +52,8 @@ void Silhouette::find(PointsView points, const Eye& eye, std::vector<Edge>& edge
       {
         const auto a = at(this->triangles_(t, 0));
         const Vec3 normal = (at(this->triangles_(t, 1)) - a).cross(at(this->triangles_(t, 2)) - a);
-        const double towards =
-          eye.parallel ? -normal.dot(eye.direction) : normal.dot(eye.place - a);
-        this->facing_[static_cast<std::size_t>(t)] = towards >= 0.0 ? 1 : -1;
+        const double toward = eye.parallel ? -normal.dot(eye.direction) : normal.dot(eye.place - a);
+        this->facing_[static_cast<std::size_t>(t)] = toward >= 0.0 ? 1 : -1;
       }
     });
   constexpr Index block = 8192;

@@ -45,12 +45,12 @@ namespace
 {
 // Return a shallow copy with the shown number as its only array.
 template <typename Data>
-vtkSmartPointer<Data> with_colour_values(Data* data, const Colouring& colouring)
+vtkSmartPointer<Data> with_color_values(Data* data, const Coloring& coloring)
 {
   auto copy = vtkSmartPointer<Data>::New();
   copy->CopyStructure(data);
   bool on_points = true;
-  if (const auto values = colour_values(data, colouring, on_points))
+  if (const auto values = color_values(data, coloring, on_points))
   {
     if (on_points)
     {
@@ -64,10 +64,10 @@ vtkSmartPointer<Data> with_colour_values(Data* data, const Colouring& colouring)
   return copy;
 }
 
-void colour_by_values(vtkPolyDataMapper* mapper, vtkPolyData* data, const Colouring& colouring)
+void color_by_values(vtkPolyDataMapper* mapper, vtkPolyData* data, const Coloring& coloring)
 {
-  const bool on_points = data->GetPointData()->HasArray(colour_array_name) != 0;
-  if (!on_points && !data->GetCellData()->HasArray(colour_array_name))
+  const bool on_points = data->GetPointData()->HasArray(color_array_name) != 0;
+  if (!on_points && !data->GetCellData()->HasArray(color_array_name))
   {
     mapper->ScalarVisibilityOff();
     return;
@@ -81,19 +81,19 @@ void colour_by_values(vtkPolyDataMapper* mapper, vtkPolyData* data, const Colour
   {
     mapper->SetScalarModeToUseCellFieldData();
   }
-  mapper->SelectColorArray(colour_array_name);
+  mapper->SelectColorArray(color_array_name);
   mapper->SetColorModeToMapScalars();
   mapper->SetInterpolateScalarsBeforeMapping(on_points);
-  mapper->SetLookupTable(colouring.map.table);
+  mapper->SetLookupTable(coloring.map.table);
   mapper->UseLookupTableScalarRangeOn();
 }
 
 vtkSmartPointer<vtkActor> add_actor(
-  vtkRenderer* renderer, vtkPolyData* data, const Colouring& colouring)
+  vtkRenderer* renderer, vtkPolyData* data, const Coloring& coloring)
 {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
-  colour_by_values(mapper, data, colouring);
+  color_by_values(mapper, data, coloring);
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   use_surface_material(actor);
@@ -116,7 +116,7 @@ void push_back(vtkActor* actor)
   actor->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
 }
 
-void add_lines(vtkRenderer* renderer, vtkPolyData* data, const Rgb& colour, double width)
+void add_lines(vtkRenderer* renderer, vtkPolyData* data, const Rgb& color, double width)
 {
   if (data->GetNumberOfLines() == 0)
   {
@@ -127,7 +127,7 @@ void add_lines(vtkRenderer* renderer, vtkPolyData* data, const Rgb& colour, doub
   mapper->ScalarVisibilityOff();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+  actor->GetProperty()->SetColor(color[0], color[1], color[2]);
   actor->GetProperty()->LightingOff();
   actor->GetProperty()->SetLineWidth(static_cast<float>(width));
   renderer->AddActor(actor);
@@ -141,22 +141,22 @@ void switch_off_light(vtkActor* actor)
   actor->GetProperty()->SetDiffuse(1.0);
 }
 
-void use_edges(vtkActor* actor, const Rgb& colour, double width)
+void use_edges(vtkActor* actor, const Rgb& color, double width)
 {
   actor->GetProperty()->EdgeVisibilityOn();
-  actor->GetProperty()->SetEdgeColor(colour[0], colour[1], colour[2]);
+  actor->GetProperty()->SetEdgeColor(color[0], color[1], color[2]);
   actor->GetProperty()->SetLineWidth(static_cast<float>(width));
 }
 
 vtkSmartPointer<vtkActor> add_surface(vtkRenderer* renderer, vtkPolyData* surface,
-  const PictureOptions& options, const Colouring& colouring, double scale)
+  const PictureOptions& options, const Coloring& coloring, double scale)
 {
   const ShadedSurface shaded(surface);
   if (shaded.polydata()->GetNumberOfPolys() == 0)
   {
     return nullptr;
   }
-  const auto actor = add_actor(renderer, shaded.polydata(), colouring);
+  const auto actor = add_actor(renderer, shaded.polydata(), coloring);
   push_back(actor);
   if (options.edges)
   {
@@ -164,20 +164,20 @@ vtkSmartPointer<vtkActor> add_surface(vtkRenderer* renderer, vtkPolyData* surfac
   }
   if (options.isolines)
   {
-    add_lines(renderer, contour_lines(shaded.polydata(), colouring.isolines), palette::line,
+    add_lines(renderer, contour_lines(shaded.polydata(), coloring.isolines), palette::line,
       isoline_width * scale);
   }
   return actor;
 }
 
-void add_flat(vtkRenderer* renderer, vtkPolyData* faces, const Colouring& colouring, double scale)
+void add_flat(vtkRenderer* renderer, vtkPolyData* faces, const Coloring& coloring, double scale)
 {
   if (faces->GetNumberOfPolys() == 0)
   {
     return;
   }
   const ShadedSurface facets(faces, 0.01);
-  const auto actor = add_actor(renderer, facets.polydata(), colouring);
+  const auto actor = add_actor(renderer, facets.polydata(), coloring);
   actor->GetProperty()->SetColor(palette::cut[0], palette::cut[1], palette::cut[2]);
   actor->GetProperty()->SetAmbient(0.3);
   use_edges(actor, palette::cut_edges, 0.7 * scale);
@@ -207,10 +207,10 @@ vtkSmartPointer<vtkPolyData> face_polydata(
   data->SetPoints(grid->GetPoints());
   data->GetPointData()->ShallowCopy(grid->GetPointData());
   if (auto* cell_values =
-        vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetArray(colour_array_name)))
+        vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetArray(color_array_name)))
   {
     vtkNew<vtkDoubleArray> values;
-    values->SetName(colour_array_name);
+    values->SetName(color_array_name);
     for (const Index owner : owners)
     {
       values->InsertNextValue(cell_values->GetValue(owner));
@@ -221,30 +221,30 @@ vtkSmartPointer<vtkPolyData> face_polydata(
 }
 
 void add_shrunk(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
-  const std::vector<char>& kept, double factor, const Colouring& colouring, double scale)
+  const std::vector<char>& kept, double factor, const Coloring& coloring, double scale)
 {
   const ShrunkTets shrunk = shrink_tets(input.points.view(), input.tets.view(), kept, factor);
   const auto data = face_polydata(grid, shrunk.triangles, shrunk.tets);
   data->SetPoints(to_vtk_points(shrunk.points));
   data->GetPointData()->Initialize();
   if (auto* point_values =
-        vtkDoubleArray::SafeDownCast(grid->GetPointData()->GetArray(colour_array_name)))
+        vtkDoubleArray::SafeDownCast(grid->GetPointData()->GetArray(color_array_name)))
   {
     vtkNew<vtkDoubleArray> values;
-    values->SetName(colour_array_name);
+    values->SetName(color_array_name);
     for (const Index vertex : shrunk.vertices)
     {
       values->InsertNextValue(point_values->GetValue(vertex));
     }
     data->GetPointData()->AddArray(values);
   }
-  add_flat(renderer, data, colouring, scale);
+  add_flat(renderer, data, coloring, scale);
 }
 
 // Add the cut of the plane, unlit so that its colors are readable, and the outside behind the
 // plane.
 Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
-  const Plane& plane, const PictureOptions& options, const Colouring& colouring, double scale,
+  const Plane& plane, const PictureOptions& options, const Coloring& coloring, double scale,
   Index& shown, std::vector<char>& seen)
 {
   const std::vector<Index> met = tets_at_plane(input, plane.origin, plane.normal);
@@ -254,19 +254,18 @@ Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const Tet
     return Status::invalid_input("the section goes through no tet");
   }
   shown += static_cast<Index>(met.size());
-  const auto actor = add_actor(renderer, cut, colouring);
+  const auto actor = add_actor(renderer, cut, coloring);
   actor->GetProperty()->SetColor(palette::cut[0], palette::cut[1], palette::cut[2]);
   switch_off_light(actor);
   push_back(actor);
   if (options.isolines)
   {
     add_lines(
-      renderer, contour_lines(cut, colouring.isolines), palette::line, isoline_width * scale);
+      renderer, contour_lines(cut, coloring.isolines), palette::line, isoline_width * scale);
   }
   const TetCut whole(input.points.view(), input.tets.view());
   const auto outside = face_polydata(grid, whole.outside().triangles, whole.outside().tets);
-  add_surface(
-    renderer, part_behind(outside, plane.origin, plane.normal), options, colouring, scale);
+  add_surface(renderer, part_behind(outside, plane.origin, plane.normal), options, coloring, scale);
   const auto is_behind = [&](Index v)
   { return (input.points.view().row(v).transpose() - plane.origin).dot(plane.normal) <= 0.0; };
   for (Index i = 0; i < whole.outside().triangles.size(); ++i)
@@ -285,25 +284,25 @@ Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const Tet
 }
 
 Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
-  const PictureOptions& options, const Colouring& colouring, const Frame& frame, double scale,
+  const PictureOptions& options, const Coloring& coloring, const Frame& frame, double scale,
   Index& shown, std::vector<char>& seen)
 {
   TetCut cut(input.points.view(), input.tets.view());
   if (options.cut)
   {
     const Plane plane = section_of(bounding_box(input.points.view()), options, frame);
-    const bool towards = view_direction(frame, options.view).dot(plane.normal) >= 0.0;
-    const Vec3 normal = towards ? plane.normal : Vec3(-plane.normal);
+    const bool toward = view_direction(frame, options.view).dot(plane.normal) >= 0.0;
+    const Vec3 normal = toward ? plane.normal : Vec3(-plane.normal);
     if (options.slice)
     {
       return add_tet_slice(
-        renderer, grid, input, { plane.origin, normal }, options, colouring, scale, shown, seen);
+        renderer, grid, input, { plane.origin, normal }, options, coloring, scale, shown, seen);
     }
     cut.keep_behind(plane.origin, normal);
   }
   if (cut.kept_count() == 0)
   {
-    return Status::invalid_input("the section leaves no tet: all lie towards the camera");
+    return Status::invalid_input("the section leaves no tet: all lie toward the camera");
   }
   shown += cut.kept_count();
   if (options.shrink < 1.0)
@@ -315,7 +314,7 @@ Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
         seen[input.tets.view()(t, k)] = 1;
       }
     }
-    add_shrunk(renderer, grid, input, cut.kept(), options.shrink, colouring, scale);
+    add_shrunk(renderer, grid, input, cut.kept(), options.shrink, coloring, scale);
     return {};
   }
   for (const TetCut::Sides* sides : { &cut.outside(), &cut.laid_open() })
@@ -326,9 +325,9 @@ Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
     }
   }
   const auto outside = face_polydata(grid, cut.outside().triangles, cut.outside().tets);
-  add_surface(renderer, outside, options, colouring, scale);
-  add_flat(renderer, face_polydata(grid, cut.laid_open().triangles, cut.laid_open().tets),
-    colouring, scale);
+  add_surface(renderer, outside, options, coloring, scale);
+  add_flat(renderer, face_polydata(grid, cut.laid_open().triangles, cut.laid_open().tets), coloring,
+    scale);
   return {};
 }
 
@@ -338,11 +337,11 @@ Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
 vtkSmartPointer<vtkPolyData> slice_faces(
   vtkImageData* image, const PictureOptions& options, const Frame& frame)
 {
-  if (options.section_plane && image->GetPointData()->HasArray(colour_array_name) &&
+  if (options.section_plane && image->GetPointData()->HasArray(color_array_name) &&
     image->GetDataDimension() == 3)
   {
     return slice(
-      image, colour_array_name, options.section_plane->origin, options.section_plane->normal);
+      image, color_array_name, options.section_plane->origin, options.section_plane->normal);
   }
   int extent[6];
   image->GetExtent(extent);
@@ -360,25 +359,25 @@ vtkSmartPointer<vtkPolyData> slice_faces(
 }
 
 void add_slice(vtkRenderer* renderer, vtkImageData* image, const PictureOptions& options,
-  const Colouring& colouring, const Frame& frame, double scale, bool shell_wanted)
+  const Coloring& coloring, const Frame& frame, double scale, bool shell_wanted)
 {
   const auto faces = slice_faces(image, options, frame);
-  const auto actor = add_actor(renderer, faces, colouring);
+  const auto actor = add_actor(renderer, faces, coloring);
   switch_off_light(actor);
   push_back(actor);
-  if (colouring.kind != Colouring::Kind::winding)
+  if (coloring.kind != Coloring::Kind::winding)
   {
     return;
   }
   add_lines(renderer, contour_lines(faces, { 0.5 }), palette::line, 1.6 * scale);
   if (shell_wanted && image->GetDataDimension() == 3 &&
-    image->GetPointData()->HasArray(colour_array_name))
+    image->GetPointData()->HasArray(color_array_name))
   {
-    const auto shell = isosurface(image, colour_array_name, 0.5);
+    const auto shell = isosurface(image, color_array_name, 0.5);
     if (shell->GetNumberOfPolys() > 0)
     {
       const ShadedSurface shaded(shell);
-      const auto glass = add_actor(renderer, shaded.polydata(), Colouring());
+      const auto glass = add_actor(renderer, shaded.polydata(), Coloring());
       glass->GetProperty()->SetOpacity(0.2);
     }
   }
@@ -393,16 +392,16 @@ void sort_by_depth(vtkRenderer* renderer)
 }
 
 void add_isosurfaces(vtkRenderer* renderer, vtkImageData* image, const PictureOptions& options,
-  const Colouring& colouring)
+  const Coloring& coloring)
 {
   const auto [lowest, highest] =
     std::minmax_element(options.isosurfaces.begin(), options.isosurfaces.end());
   for (const double level : options.isosurfaces)
   {
-    const auto surface = isosurface(image, colour_array_name, level);
-    const auto actor = add_actor(renderer, surface, Colouring());
-    const Rgb colour = colour_of(colouring.map, level);
-    actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+    const auto surface = isosurface(image, color_array_name, level);
+    const auto actor = add_actor(renderer, surface, Coloring());
+    const Rgb color = color_of(coloring.map, level);
+    actor->GetProperty()->SetColor(color[0], color[1], color[2]);
     // Slightly darker than the map, so that its white at 0.5 stands out from a white background.
     actor->GetProperty()->SetAmbient(0.14);
     actor->GetProperty()->SetDiffuse(0.76);
@@ -432,7 +431,7 @@ void add_handles(
 }
 
 void add_lines_and_points(
-  vtkRenderer* renderer, vtkPolyData* data, const Colouring& colouring, double scale)
+  vtkRenderer* renderer, vtkPolyData* data, const Coloring& coloring, double scale)
 {
   vtkNew<vtkPolyData> copy;
   copy->ShallowCopy(data);
@@ -455,11 +454,11 @@ void add_lines_and_points(
   {
     copy->GetCellData()->Initialize(); // the values include those of the removed cells
   }
-  const auto actor = add_actor(renderer, copy, colouring);
+  const auto actor = add_actor(renderer, copy, coloring);
   actor->GetProperty()->SetLineWidth(static_cast<float>(2.0 * scale));
   actor->GetProperty()->SetPointSize(static_cast<float>(4.0 * scale));
   switch_off_light(actor);
-  if (!copy->GetPointData()->HasArray(colour_array_name))
+  if (!copy->GetPointData()->HasArray(color_array_name))
   {
     actor->GetProperty()->SetColor(palette::line[0], palette::line[1], palette::line[2]);
   }
@@ -507,7 +506,7 @@ void add_used_points(vtkDataSet* data, std::vector<Vec3>& places)
 } // namespace
 
 Points shown_points(
-  const Tile& tile, const PictureOptions& options, const Colouring& colouring, const Frame* frame)
+  const Tile& tile, const PictureOptions& options, const Coloring& coloring, const Frame* frame)
 {
   std::vector<Vec3> places;
   if (auto* image = vtkImageData::SafeDownCast(tile.data))
@@ -516,8 +515,8 @@ Points shown_points(
     image->GetBounds(bounds);
     if (shows_solids(options))
     {
-      const Box box = occupied_box(with_colour_values(image, colouring), colour_array_name,
-        options.isosurfaces, options.volume);
+      const Box box = occupied_box(
+        with_color_values(image, coloring), color_array_name, options.isosurfaces, options.volume);
       for (int axis = 0; axis < 3; ++axis)
       {
         bounds[2 * axis] = box.lower[axis];
@@ -569,9 +568,9 @@ namespace
 {
 // Return the radius of curves' tubes. 0.25 % of the picture's diagonal is readable, like lines in a
 // drawing.
-double tube_radius(const Tile& tile, const PictureOptions& options, const Colouring& colouring)
+double tube_radius(const Tile& tile, const PictureOptions& options, const Coloring& coloring)
 {
-  return 0.0025 * bounding_box(shown_points(tile, options, colouring)).diagonal();
+  return 0.0025 * bounding_box(shown_points(tile, options, coloring)).diagonal();
 }
 
 void add_curves(vtkRenderer* renderer, vtkPolyData* data, double radius, double scale)
@@ -609,7 +608,7 @@ void add_context(vtkRenderer* renderer, vtkDataSet* data, double radius, double 
   const ShadedSurface shaded(surface);
   if (shaded.polydata()->GetNumberOfPolys() > 0)
   {
-    const auto glass = add_actor(renderer, shaded.polydata(), Colouring());
+    const auto glass = add_actor(renderer, shaded.polydata(), Coloring());
     glass->GetProperty()->SetOpacity(0.25);
     sort_by_depth(renderer);
   }
@@ -617,51 +616,51 @@ void add_context(vtkRenderer* renderer, vtkDataSet* data, double radius, double 
 } // namespace
 
 Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
-  const Colouring& colouring, const std::vector<Extremum>& extrema, const Frame& frame,
-  double scale, Drawn& shown)
+  const Coloring& coloring, const std::vector<Extremum>& extrema, const Frame& frame, double scale,
+  Drawn& shown)
 {
   // Points whose extrema are drawn. Empty: all points of a surface. For tets, the points of the
   // drawn sides.
   std::vector<char> seen;
   if (auto* image = vtkImageData::SafeDownCast(tile.data))
   {
-    const auto values = with_colour_values(image, colouring);
+    const auto values = with_color_values(image, coloring);
     if (options.volume)
     {
-      renderer->AddVolume(make_winding_volume(values, colour_array_name, scale));
+      renderer->AddVolume(make_winding_volume(values, color_array_name, scale));
     }
     if (!options.isosurfaces.empty())
     {
-      add_isosurfaces(renderer, values, options, colouring);
+      add_isosurfaces(renderer, values, options, coloring);
     }
     if (!shows_solids(options))
     {
-      add_slice(renderer, values, options, colouring, frame, scale, tile.context.empty());
+      add_slice(renderer, values, options, coloring, frame, scale, tile.context.empty());
     }
   }
   else if (is_handle_data(tile.data))
   {
     add_handles(renderer, vtkPolyData::SafeDownCast(tile.data), options, scale);
   }
-  else if (is_defect_data(tile.data) && colouring.kind == Colouring::Kind::none)
+  else if (is_defect_data(tile.data) && coloring.kind == Coloring::Kind::none)
   {
     add_defects(renderer, vtkPolyData::SafeDownCast(tile.data), scale);
   }
-  else if (is_curve_data(tile.data) && colouring.kind == Colouring::Kind::none)
+  else if (is_curve_data(tile.data) && coloring.kind == Coloring::Kind::none)
   {
     add_curves(
-      renderer, vtkPolyData::SafeDownCast(tile.data), tube_radius(tile, options, colouring), scale);
+      renderer, vtkPolyData::SafeDownCast(tile.data), tube_radius(tile, options, coloring), scale);
   }
   else if (auto* polydata = vtkPolyData::SafeDownCast(tile.data))
   {
-    const auto surface = with_colour_values(polydata, colouring);
-    const auto actor = add_surface(renderer, surface, options, colouring, scale);
+    const auto surface = with_color_values(polydata, coloring);
+    const auto actor = add_surface(renderer, surface, options, coloring, scale);
     if (actor && tile.defects)
     {
       actor->GetProperty()->SetOpacity(0.4); // most defects are inside or behind
       sort_by_depth(renderer);
     }
-    add_lines_and_points(renderer, surface, colouring, scale);
+    add_lines_and_points(renderer, surface, coloring, scale);
   }
   else if (tile.data)
   {
@@ -670,8 +669,8 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
     if (grid && to_tets(grid, tets).ok())
     {
       seen.assign(static_cast<std::size_t>(grid->GetNumberOfPoints()), 0);
-      const Status status = add_tets(renderer, with_colour_values(grid, colouring), tets, options,
-        colouring, frame, scale, shown.tets, seen);
+      const Status status = add_tets(renderer, with_color_values(grid, coloring), tets, options,
+        coloring, frame, scale, shown.tets, seen);
       if (!status.ok())
       {
         return status;
@@ -683,7 +682,7 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
       auto copy = vtkSmartPointer<vtkDataSet>::Take(tile.data->NewInstance());
       copy->CopyStructure(tile.data);
       bool on_points = true;
-      if (const auto values = colour_values(tile.data, colouring, on_points))
+      if (const auto values = color_values(tile.data, coloring, on_points))
       {
         if (on_points)
         {
@@ -696,18 +695,18 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
       }
       faces->SetInputData(copy);
       faces->Update();
-      add_surface(renderer, faces->GetOutput(), options, colouring, scale);
-      add_lines_and_points(renderer, faces->GetOutput(), colouring, scale);
+      add_surface(renderer, faces->GetOutput(), options, coloring, scale);
+      add_lines_and_points(renderer, faces->GetOutput(), coloring, scale);
     }
   }
   if (!extrema.empty())
   {
-    const double radius = 4.0 * tube_radius(tile, options, colouring);
+    const double radius = 4.0 * tube_radius(tile, options, coloring);
     shown.extrema += add_extrema(renderer, tile.data, extrema, seen, radius);
   }
   for (const auto& data : tile.context)
   {
-    add_context(renderer, data, tube_radius(tile, options, colouring), scale);
+    add_context(renderer, data, tube_radius(tile, options, coloring), scale);
   }
   if (tile.defects)
   {

@@ -2,7 +2,7 @@
 #define bindpose_scene_tile_actors_h
 
 #include "scene/camera.h"
-#include "scene/colouring.h"
+#include "scene/coloring.h"
 #include "scene/picture.h"
 #include "weights/extrema.h"
 
@@ -18,7 +18,7 @@ bool is_handle_data(vtkDataSet* data);
 /// Return the points that a tile shows: all points that cells use, the posed handles, and the
 /// corners of an image. For an image these are the corners of its slice if the frame is known, or
 /// of the box that contains its isosurfaces and its volume rendering.
-Points shown_points(const Tile& tile, const PictureOptions& options, const Colouring& colouring,
+Points shown_points(const Tile& tile, const PictureOptions& options, const Coloring& coloring,
   const Frame* frame = nullptr);
 
 /// Amount of the data that a picture shows.
@@ -34,8 +34,8 @@ struct Drawn
 /// @param shown  counts, increased by what is drawn
 /// @return invalid_input if the section leaves none of a tile's tets
 Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
-  const Colouring& colouring, const std::vector<Extremum>& extrema, const Frame& frame,
-  double scale, Drawn& shown);
+  const Coloring& coloring, const std::vector<Extremum>& extrema, const Frame& frame, double scale,
+  Drawn& shown);
 
 /// Add key, fill and back lights that move with the camera.
 void add_lights(vtkRenderer* renderer);

@@ -1,6 +1,6 @@
 #include "scene/volume_rendering.h"
 
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
@@ -64,18 +64,18 @@ vtkSmartPointer<vtkVolume> make_winding_volume(
   double spacing[3];
   image->GetSpacing(spacing);
   const double step = *std::min_element(spacing, spacing + 3);
-  vtkNew<vtkColorTransferFunction> colours;
+  vtkNew<vtkColorTransferFunction> colors;
   vtkNew<vtkPiecewiseFunction> opacities;
   constexpr int count = 600; // steps of 0.005, so that the map's jumps at -0.02 and 1.02 stay sharp
   for (int i = 0; i <= count; ++i)
   {
     const double w = lowest + (highest - lowest) * i / count;
-    const Rgb c = winding_colour(w);
-    colours->AddRGBPoint(w, c[0], c[1], c[2]);
+    const Rgb c = winding_color(w);
+    colors->AddRGBPoint(w, c[0], c[1], c[2]);
     opacities->AddPoint(w, winding_opacity(w, step / (0.01 * image->GetLength())));
   }
   vtkNew<vtkVolumeProperty> property;
-  property->SetColor(colours);
+  property->SetColor(colors);
   property->SetScalarOpacity(opacities);
   property->SetScalarOpacityUnitDistance(step);
   property->SetInterpolationTypeToLinear();

@@ -147,21 +147,21 @@ public:
   }
 
 private:
-  using Colour = std::array<double, 3>;
-  Colour ground(double height) const
+  using Color = std::array<double, 3>;
+  Color ground(double height) const
   {
-    Colour colour{};
+    Color color{};
     for (std::size_t k = 0; k < 3; ++k)
     {
-      colour[k] = (1.0 - height) * this->below_[k] + height * this->above_[k];
+      color[k] = (1.0 - height) * this->below_[k] + height * this->above_[k];
     }
-    return colour;
+    return color;
   }
 
   vtkSmartPointer<vtkRenderer> renderer_;
   vtkSmartPointer<vtkCamera> camera_;
   int drawn_;
-  Colour below_{}, above_{}; // background
+  Color below_{}, above_{}; // background
   bool gradient_ = false;
   std::array<double, 4> viewport_{};
   Rect whole_; // in the picture

@@ -139,7 +139,7 @@ void Gizmo::add_axes()
     if (cosine < along_sight && layout.shaft > 0.0)
     {
       Part arrow;
-      arrow.colour = this->setup_.axes[k];
+      arrow.color = this->setup_.axes[k];
       arrow.path = { this->at(k, gap), this->at(k, layout.shaft) };
       arrow.thickness = thin;
       arrow.rank = 2;
@@ -175,7 +175,7 @@ void Gizmo::add_axes()
       Part plate;
       plate.part = move_yz + k;
       plate.rank = 1;
-      plate.colour = this->setup_.axes[k];
+      plate.color = this->setup_.axes[k];
       const Vector3d u = this->setup_.frame.col((k + 1) % 3) * this->unit_ * this->pixel_;
       const Vector3d v = this->setup_.frame.col((k + 2) % 3) * this->unit_ * this->pixel_;
       for (const auto& [a, b] : { std::pair{ -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } })
@@ -221,7 +221,7 @@ void Gizmo::add_rings()
   {
     Part ring = this->ring(turn_x + k, origin, this->setup_.frame.col(k), layout.ring,
       this->marks_.active == turn_x + k);
-    ring.colour = this->setup_.axes[k];
+    ring.color = this->setup_.axes[k];
     if (this->marks_.hovered == ring.part)
     {
       ring.label = letters[k];
@@ -233,7 +233,7 @@ void Gizmo::add_rings()
     const bool scales = this->setup_.kind == GizmoKind::scale;
     Part ring = this->ring(scales ? scale_all : turn_view, origin, -this->view_.sight_to(origin),
       layout.view_ring, true);
-    ring.colour = this->setup_.plain;
+    ring.color = this->setup_.plain;
     ring.rank = 4;
     ring.quiet = true;
     ring.thickness = 1.8;
@@ -277,7 +277,7 @@ void Gizmo::add_bone()
   {
     Part knob;
     knob.part = stretch_bone;
-    knob.colour = this->setup_.bone;
+    knob.color = this->setup_.bone;
     const double pixel = this->unit_ * this->pixel_;
     // Move the knob farther out if an arrow's tip is in its position.
     double out = stretch_to;
@@ -317,7 +317,7 @@ void Gizmo::add_bone()
       Part ring = this->ring(
         part, head + share * (tail - head), axis, twist_radius, this->marks_.active == part);
       ring.rank = 0;
-      ring.colour = this->setup_.bone;
+      ring.color = this->setup_.bone;
       this->parts_.push_back(ring);
     }
   }
@@ -328,14 +328,14 @@ void Gizmo::add_bone()
 void Gizmo::add_drag()
 {
   const int part = this->marks_.active;
-  const auto line = [&](const Vector3d& from, const Vector3d& to, const Colour& colour)
+  const auto line = [&](const Vector3d& from, const Vector3d& to, const Color& color)
   {
     Part guide;
     guide.part = part;
     guide.guide = true;
     guide.path = { from, to };
     guide.thickness = 1.4;
-    guide.colour = colour;
+    guide.color = color;
     this->parts_.push_back(guide);
   };
   const double far = 30.0;
@@ -429,15 +429,15 @@ int Gizmo::pick(const Vector2d& mouse, double tolerance) const
 
 void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
 {
-  const Colour dark = { 0.13, 0.13, 0.15 };
+  const Color dark = { 0.13, 0.13, 0.15 };
   for (const Part& part : this->parts_)
   {
     const bool hot =
       !part.guide && (part.part == this->marks_.hovered || part.part == this->marks_.active);
     // Mixing halfway with white would lose the axis color. Lighten the color less, and enlarge the
     // part.
-    Colour colour = part.colour;
-    for (double& c : colour)
+    Color color = part.color;
+    for (double& c : color)
     {
       c += hot ? 0.35 * (1.0 - c) : 0.0;
     }
@@ -447,7 +447,7 @@ void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
     const double tube = 0.5 * pixel * (hot ? std::max(thick, part.thickness) : part.thickness);
     if (part.path.size() > 1)
     {
-      solid.add_tube(part.path, tube, colour);
+      solid.add_tube(part.path, tube, color);
       if (!part.guide && !(part.quiet && !hot))
       {
         hull.add_tube(part.path, tube + margin, dark);
@@ -461,14 +461,14 @@ void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
       {
         frame << this->view_.right(), this->view_.up(), -this->view_.sight();
       }
-      solid.add_box(box, frame, Vector3d::Constant(half), colour);
+      solid.add_box(box, frame, Vector3d::Constant(half), color);
       hull.add_box(box, frame, Vector3d::Constant(half + margin), dark);
     }
     if (!part.cone.empty())
     {
       const double radius = grow * part.cone_radius * pixel;
       const Vector3d axis = (part.cone[1] - part.cone[0]).normalized();
-      solid.add_cone(part.cone[0], part.cone[1], radius, colour);
+      solid.add_cone(part.cone[0], part.cone[1], radius, color);
       hull.add_cone(part.cone[0] - margin * axis, part.cone[1] + 2.5 * margin * axis,
         radius + 1.3 * margin, dark);
     }
@@ -481,7 +481,7 @@ void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
       frame.col(1) = (part.plate[3] - part.plate[0]).normalized();
       frame.col(2) = frame.col(0).cross(frame.col(1));
       const double half = 0.5 * grow * (part.plate[1] - part.plate[0]).norm();
-      solid.add_box(middle, frame, Vector3d(half, half, 0.6 * pixel), colour);
+      solid.add_box(middle, frame, Vector3d(half, half, 0.6 * pixel), color);
       hull.add_box(
         middle, frame, Vector3d(half + margin, half + margin, 0.6 * pixel + margin), dark);
     }
@@ -505,7 +505,7 @@ std::vector<Gizmo::Label> Gizmo::labels() const
     Vector2d aside = display - origin;
     aside = aside.norm() > 0.0 ? Vector2d(aside.normalized()) : Vector2d(1.0, 0.0);
     labels.push_back({ part.label,
-      display + (part.cone.empty() ? 18.0 : 12.0) * this->unit_ * aside, part.colour });
+      display + (part.cone.empty() ? 18.0 : 12.0) * this->unit_ * aside, part.color });
   }
   return labels;
 }

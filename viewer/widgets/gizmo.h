@@ -68,9 +68,9 @@ struct GizmoSetup
   double pixels = 80.0; ///< length of the axes of a gizmo that only moves
   /// Red, green and blue by convention, in shades that viewers with any type of color blindness can
   /// distinguish.
-  Colour axes[3] = { { 0.80, 0.15, 0.25 }, { 0.50, 0.80, 0.25 }, { 0.18, 0.43, 0.93 } };
-  Colour bone = { 0.72, 0.40, 0.72 };
-  Colour plain = { 0.60, 0.61, 0.65 }; ///< parts without an axis
+  Color axes[3] = { { 0.80, 0.15, 0.25 }, { 0.50, 0.80, 0.25 }, { 0.18, 0.43, 0.93 } };
+  Color bone = { 0.72, 0.40, 0.72 };
+  Color plain = { 0.60, 0.61, 0.65 }; ///< parts without an axis
 };
 
 /// Return the kind of gizmo that has a part: the given kind if it has the part.
@@ -107,7 +107,7 @@ public:
   {
     std::string text;
     Eigen::Vector2d display;
-    Colour colour;
+    Color color;
   };
   std::vector<Label> labels() const;
   /// Return a screen position at which a part can be grabbed, or nothing if the part is not shown.
@@ -118,7 +118,7 @@ private:
   {
     int part = no_part;
     int rank = 0;
-    Colour colour{};
+    Color color{};
     std::vector<Eigen::Vector3d> path; // a tube
     double thickness = 2.4; // pixels
     std::vector<Eigen::Vector3d> plate; // four corners

@@ -56,10 +56,10 @@ public:
   Reader(vtkPolyData* data, bool at_rest)
     : data_(data), at_rest_(at_rest), kinds_(data, "HandleKind", 1), modes_(data, "Mode", 1),
       locks_(data, "Locked", 1), parents_(data, "Parent", 1), transforms_(data, "Transform", 12),
-      stretches_(data, "Stretch", 1), twists_(data, "Twist", 2), colours_(data, "Color", 3)
+      stretches_(data, "Stretch", 1), twists_(data, "Twist", 2), colors_(data, "Color", 3)
   {
-    vtkDataArray* colours = data->GetCellData()->GetArray("Color");
-    this->colour_unit_ = colours && colours->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
+    vtkDataArray* colors = data->GetCellData()->GetArray("Color");
+    this->color_unit_ = colors && colors->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
     if (data->NeedToBuildCells())
     {
       data->BuildCells();
@@ -79,13 +79,13 @@ public:
     this->transforms_.read(cell, place.transform.data());
     place.stretch = this->stretches_.value(cell, 1.0);
     this->twists_.read(cell, place.twist.data());
-    if (this->colours_.has(cell))
+    if (this->colors_.has(cell))
     {
-      Vec3 colour;
-      this->colours_.read(cell, colour.data());
-      if (colour.allFinite())
+      Vec3 color;
+      this->colors_.read(cell, color.data());
+      if (color.allFinite())
       {
-        place.colour = colour / this->colour_unit_;
+        place.color = color / this->color_unit_;
       }
     }
     if (size == 0)
@@ -109,8 +109,8 @@ public:
 private:
   vtkPolyData* data_;
   bool at_rest_;
-  double colour_unit_ = 1.0;
-  CellNumbers kinds_, modes_, locks_, parents_, transforms_, stretches_, twists_, colours_;
+  double color_unit_ = 1.0;
+  CellNumbers kinds_, modes_, locks_, parents_, transforms_, stretches_, twists_, colors_;
 };
 
 /// Return the array in the form that a drag requires: doubles, one tuple per cell.

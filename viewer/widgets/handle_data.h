@@ -30,7 +30,7 @@ struct HandlePlace
   Affine transform = identity_affine();
   double stretch = 1.0;
   Eigen::Vector2d twist = Eigen::Vector2d::Zero();
-  std::optional<Eigen::Vector3d> colour; ///< from the array `Color`, 0 to 1
+  std::optional<Eigen::Vector3d> color; ///< from the array `Color`, 0 to 1
 
   bool is_handle() const { return this->kind >= 0; }
   bool is_bone() const { return this->kind == static_cast<int>(HandleKind::bone); }

@@ -14,9 +14,9 @@ constexpr double bar_pixels = 0.9;
 constexpr double hot_growth = 1.2;
 } // namespace
 
-Colour lighter(const Colour& colour)
+Color lighter(const Color& color)
 {
-  Colour result = colour;
+  Color result = color;
   for (double& c : result)
   {
     c += 0.45 * (1.0 - c);
@@ -44,13 +44,13 @@ void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places
     const bool hot = cell == marks.hovered || cell == marks.active;
     const bool selected =
       std::find(marks.selected.begin(), marks.selected.end(), cell) != marks.selected.end();
-    const Colour base = place.colour
-      ? Colour{ (*place.colour)[0], (*place.colour)[1], (*place.colour)[2] }
+    const Color base = place.color
+      ? Color{ (*place.color)[0], (*place.color)[1], (*place.color)[2] }
       : look.modes[place.is_free() ? 2
             : place.mode > 0       ? 1
                                    : 0];
-    const Colour colour = hot ? lighter(base) : base;
-    const Colour edge = selected ? look.selected : look.outline;
+    const Color color = hot ? lighter(base) : base;
+    const Color edge = selected ? look.selected : look.outline;
     const double growth = hot ? hot_growth : 1.0;
     const double line = look.pixel_scale * outline_pixels * (selected ? 1.6 : 1.0);
     // Surround the selected handle's outline with another one, so that it is visible on any
@@ -59,7 +59,7 @@ void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places
     const auto add_ball = [&](const Vec3& center, double size)
     {
       const double pixel = view.pixel_at(center);
-      solid.add_ball(center, size * growth * pixel, colour);
+      solid.add_ball(center, size * growth * pixel, color);
       outline.add_ball(center, (size * growth + line) * pixel, edge);
       if (selected)
       {
@@ -73,7 +73,7 @@ void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places
     }
     const double pixel = view.pixel_at(0.5 * (place.head + place.tail));
     const double width = growth * sizes.half_width((place.tail - place.head).norm(), pixel);
-    solid.add_bone(place.head, place.tail, width, colour);
+    solid.add_bone(place.head, place.tail, width, color);
     outline.add_bone(place.head, place.tail, width, edge, line * pixel);
     if (selected)
     {

@@ -14,9 +14,9 @@ namespace bindpose
 /// The appearance of handles; colors by mode.
 struct HandleLook
 {
-  Colour modes[3];
-  Colour outline;
-  Colour selected; ///< outline of selected handles, inside another outline in the color `outline`
+  Color modes[3];
+  Color outline;
+  Color selected; ///< outline of selected handles, inside another outline in the color `outline`
   double pixel_scale = 1.0; ///< factor on the width of outlines
 };
 
@@ -29,7 +29,7 @@ struct HandleMarks
 };
 
 /// Return a color mixed with white.
-Colour lighter(const Colour& colour);
+Color lighter(const Color& color);
 
 /// Add all handles and bars to the shapes: the bodies, and slightly larger copies for the outline
 /// hull.

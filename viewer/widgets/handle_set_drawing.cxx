@@ -29,7 +29,7 @@ namespace
 constexpr unsigned int gl_depth_test = 0x0B71;
 constexpr unsigned int gl_depth_buffer_bit = 0x00000100;
 
-bindpose::Colour to_colour(const double rgb[3])
+bindpose::Color to_color(const double rgb[3])
 {
   return { rgb[0], rgb[1], rgb[2] };
 }
@@ -69,15 +69,15 @@ void vtkHandleSetRepresentation::BuildRepresentation()
   bindpose::HandleSizes sizes;
   sizes.ball = this->PixelScale * this->PointSize;
   sizes.bone_width = this->BoneWidth;
-  const bindpose::HandleLook look{ { to_colour(this->FullColor), to_colour(this->PositionColor),
-                                     to_colour(this->FreeColor) },
-    to_colour(this->OutlineColor), to_colour(this->SelectedColor), this->PixelScale };
+  const bindpose::HandleLook look{ { to_color(this->FullColor), to_color(this->PositionColor),
+                                     to_color(this->FreeColor) },
+    to_color(this->OutlineColor), to_color(this->SelectedColor), this->PixelScale };
   const bindpose::HandleMarks marks{ this->HoveredHandle, this->ActiveHandle, self.Selected };
   bindpose::draw_handles(view, places,
     places.empty() ? std::vector<bindpose::HandleData::Bar>() : self.Data.bars(places), sizes, look,
     marks, solid, outline);
   const bindpose::RestEditor::Preview& preview = self.Editor.preview();
-  const bindpose::Colour fresh = bindpose::lighter(look.modes[0]);
+  const bindpose::Color fresh = bindpose::lighter(look.modes[0]);
   if (preview.bone)
   {
     const auto& [head, tail] = *preview.bone;
@@ -156,7 +156,7 @@ void vtkHandleSetRepresentation::BuildRepresentation()
       gizmo.draw(gizmo_solid, gizmo_outline);
       for (const bindpose::Gizmo::Label& label : gizmo.labels())
       {
-        self.Labels.add(label.text, label.display, this->PixelScale, label.colour.data());
+        self.Labels.add(label.text, label.display, this->PixelScale, label.color.data());
       }
     }
   }

@@ -73,26 +73,26 @@ Ball make_ball(int levels)
 } // namespace
 
 long long HandleShapes::add_vertex(
-  const Eigen::Vector3d& place, const Eigen::Vector3d& normal, const Colour& colour)
+  const Eigen::Vector3d& place, const Eigen::Vector3d& normal, const Color& color)
 {
   for (int k = 0; k < 3; ++k)
   {
     this->points_.push_back(static_cast<float>(place[k]));
     this->normals_.push_back(static_cast<float>(normal[k]));
-    this->colours_.push_back(
-      static_cast<unsigned char>(std::lround(255.0 * std::clamp(colour[k], 0.0, 1.0))));
+    this->colors_.push_back(
+      static_cast<unsigned char>(std::lround(255.0 * std::clamp(color[k], 0.0, 1.0))));
   }
   return static_cast<long long>(this->points_.size() / 3) - 1;
 }
 
-void HandleShapes::add_ball(const Eigen::Vector3d& center, double radius, const Colour& colour)
+void HandleShapes::add_ball(const Eigen::Vector3d& center, double radius, const Color& color)
 {
   static const Ball balls[2] = { make_ball(1), make_ball(2) };
   const Ball& ball = balls[this->fine_];
   const auto first = static_cast<long long>(this->points_.size() / 3);
   for (const Eigen::Vector3d& vertex : ball.vertices)
   {
-    this->add_vertex(center + radius * vertex, vertex, colour);
+    this->add_vertex(center + radius * vertex, vertex, color);
   }
   for (const auto& triangle : ball.triangles)
   {
@@ -104,7 +104,7 @@ void HandleShapes::add_ball(const Eigen::Vector3d& center, double radius, const 
 }
 
 void HandleShapes::add_bone(const Eigen::Vector3d& head, const Eigen::Vector3d& tail,
-  double half_width, const Colour& colour, double margin)
+  double half_width, const Color& color, double margin)
 {
   const double length = (tail - head).norm();
   if (!(length > 0.0))
@@ -127,23 +127,23 @@ void HandleShapes::add_bone(const Eigen::Vector3d& head, const Eigen::Vector3d& 
       const Eigen::Vector3d& first = at_tail ? a : b;
       const Eigen::Vector3d& second = at_tail ? b : a;
       const Eigen::Vector3d& third = ends[at_tail ? 1 : 0];
-      this->add_triangle(first, second, third, colour);
+      this->add_triangle(first, second, third, color);
     }
   }
 }
 
-void HandleShapes::add_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-  const Eigen::Vector3d& c, const Colour& colour)
+void HandleShapes::add_triangle(
+  const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Color& color)
 {
   const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
   for (const Eigen::Vector3d* corner : { &a, &b, &c })
   {
-    this->triangles_.push_back(this->add_vertex(*corner, normal, colour));
+    this->triangles_.push_back(this->add_vertex(*corner, normal, color));
   }
 }
 
 void HandleShapes::add_tube(
-  const std::vector<Eigen::Vector3d>& path, double radius, const Colour& colour)
+  const std::vector<Eigen::Vector3d>& path, double radius, const Color& color)
 {
   constexpr int sides = 10;
   const std::size_t count = path.size();
@@ -169,7 +169,7 @@ void HandleShapes::add_tube(
     {
       const double angle = 2.0 * EIGEN_PI * side / sides;
       const Eigen::Vector3d normal = std::cos(angle) * u + std::sin(angle) * v;
-      rings.push_back(this->add_vertex(path[i] + radius * normal, normal, colour));
+      rings.push_back(this->add_vertex(path[i] + radius * normal, normal, color));
     }
   }
   for (std::size_t i = 0; i + 1 < count; ++i)
@@ -191,7 +191,7 @@ void HandleShapes::add_tube(
     }
     const std::size_t i = end ? count - 1 : 0;
     const Eigen::Vector3d normal = (end ? 1.0 : -1.0) * direction(i);
-    const long long center = this->add_vertex(path[i], normal, colour);
+    const long long center = this->add_vertex(path[i], normal, color);
     for (int side = 0; side < sides; ++side)
     {
       const long long a = rings[i * sides + side];
@@ -202,7 +202,7 @@ void HandleShapes::add_tube(
 }
 
 void HandleShapes::add_cone(
-  const Eigen::Vector3d& base, const Eigen::Vector3d& tip, double radius, const Colour& colour)
+  const Eigen::Vector3d& base, const Eigen::Vector3d& tip, double radius, const Color& color)
 {
   constexpr int sides = 20;
   const Eigen::Vector3d axis = (tip - base).normalized();
@@ -216,22 +216,22 @@ void HandleShapes::add_cone(
   };
   const auto normal_at = [&](double side)
   { return Eigen::Vector3d((around(side) + slope * axis).normalized()); };
-  const long long center = this->add_vertex(base, -axis, colour);
+  const long long center = this->add_vertex(base, -axis, color);
   for (int side = 0; side < sides; ++side)
   {
     const Eigen::Vector3d a = base + radius * around(side);
     const Eigen::Vector3d b = base + radius * around(side + 1);
-    const long long corners[5] = { this->add_vertex(a, normal_at(side), colour),
-      this->add_vertex(b, normal_at(side + 1), colour),
-      this->add_vertex(tip, normal_at(side + 0.5), colour), this->add_vertex(a, -axis, colour),
-      this->add_vertex(b, -axis, colour) };
+    const long long corners[5] = { this->add_vertex(a, normal_at(side), color),
+      this->add_vertex(b, normal_at(side + 1), color),
+      this->add_vertex(tip, normal_at(side + 0.5), color), this->add_vertex(a, -axis, color),
+      this->add_vertex(b, -axis, color) };
     this->triangles_.insert(this->triangles_.end(),
       { corners[0], corners[1], corners[2], center, corners[4], corners[3] });
   }
 }
 
 void HandleShapes::add_box(const Eigen::Vector3d& center, const Eigen::Matrix3d& frame,
-  const Eigen::Vector3d& half, const Colour& colour)
+  const Eigen::Vector3d& half, const Color& color)
 {
   for (int k = 0; k < 3; ++k)
   {
@@ -245,8 +245,8 @@ void HandleShapes::add_box(const Eigen::Vector3d& center, const Eigen::Matrix3d&
       const Eigen::Vector3d b = middle + u - v;
       const Eigen::Vector3d c = middle + u + v;
       const Eigen::Vector3d d = middle - u + v;
-      this->add_triangle(a, up ? b : c, up ? c : b, colour);
-      this->add_triangle(a, up ? c : d, up ? d : c, colour);
+      this->add_triangle(a, up ? b : c, up ? c : b, color);
+      this->add_triangle(a, up ? c : d, up ? d : c, color);
     }
   }
 }
@@ -262,11 +262,11 @@ vtkSmartPointer<vtkPolyData> HandleShapes::polydata() const
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(count);
   std::copy(this->normals_.begin(), this->normals_.end(), normals->GetPointer(0));
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetName("Colours");
-  colours->SetNumberOfComponents(3);
-  colours->SetNumberOfTuples(count);
-  std::copy(this->colours_.begin(), this->colours_.end(), colours->GetPointer(0));
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName("Colors");
+  colors->SetNumberOfComponents(3);
+  colors->SetNumberOfTuples(count);
+  std::copy(this->colors_.begin(), this->colors_.end(), colors->GetPointer(0));
   const auto triangles = static_cast<vtkIdType>(this->triangles_.size() / 3);
   vtkNew<vtkTypeInt64Array> offsets;
   offsets->SetNumberOfValues(triangles + 1);
@@ -286,7 +286,7 @@ vtkSmartPointer<vtkPolyData> HandleShapes::polydata() const
   result->SetPoints(points);
   result->SetPolys(cells);
   result->GetPointData()->SetNormals(normals);
-  result->GetPointData()->SetScalars(colours);
+  result->GetPointData()->SetScalars(colors);
   return result;
 }
 

@@ -14,7 +14,7 @@ namespace bindpose
 {
 
 /// Red, green, blue in [0, 1].
-using Colour = std::array<double, 3>;
+using Color = std::array<double, 3>;
 
 /// Collects balls, bones and the parts of a gizmo in one polydata with point normals and a color
 /// per point, oriented outward. One actor draws any number of handles.
@@ -24,36 +24,36 @@ public:
   /// @param fine  true: balls of 320 triangles; false: of 80 (for hundreds of handles)
   explicit HandleShapes(bool fine) : fine_(fine) {}
   /// Add a smooth ball.
-  void add_ball(const Eigen::Vector3d& center, double radius, const Colour& colour);
+  void add_ball(const Eigen::Vector3d& center, double radius, const Color& color);
   /// Add an elongated octahedron with flat sides. Its waist is at 1/8 of its length from the head.
   /// @param half_width  distance of the four waist corners from the axis, world units
   /// @param margin      distance by which every corner moves outward (for the outline hull), world
   ///   units
   void add_bone(const Eigen::Vector3d& head, const Eigen::Vector3d& tail, double half_width,
-    const Colour& colour, double margin = 0.0);
+    const Color& color, double margin = 0.0);
 
   /// Add a round tube along a polyline, with caps at both ends. A closed polyline ends at its first
   /// point.
-  void add_tube(const std::vector<Eigen::Vector3d>& path, double radius, const Colour& colour);
+  void add_tube(const std::vector<Eigen::Vector3d>& path, double radius, const Color& color);
   /// Add a cone with its base.
   void add_cone(
-    const Eigen::Vector3d& base, const Eigen::Vector3d& tip, double radius, const Colour& colour);
+    const Eigen::Vector3d& base, const Eigen::Vector3d& tip, double radius, const Color& color);
   /// Add a box with flat sides along the columns of the frame.
   void add_box(const Eigen::Vector3d& center, const Eigen::Matrix3d& frame,
-    const Eigen::Vector3d& half, const Colour& colour);
+    const Eigen::Vector3d& half, const Color& color);
 
   vtkSmartPointer<vtkPolyData> polydata() const;
 
 private:
   void add_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-    const Colour& colour);
+    const Color& color);
   long long add_vertex(
-    const Eigen::Vector3d& place, const Eigen::Vector3d& normal, const Colour& colour);
+    const Eigen::Vector3d& place, const Eigen::Vector3d& normal, const Color& color);
 
   bool fine_;
   std::vector<float> points_;
   std::vector<float> normals_;
-  std::vector<unsigned char> colours_;
+  std::vector<unsigned char> colors_;
   std::vector<long long> triangles_;
 };
 

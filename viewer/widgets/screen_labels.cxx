@@ -9,7 +9,7 @@ namespace bindpose
 {
 
 void ScreenLabels::add(
-  const std::string& text, const Eigen::Vector2d& display, double scale, const double* colour)
+  const std::string& text, const Eigen::Vector2d& display, double scale, const double* color)
 {
   if (this->actors_.size() == this->shown_)
   {
@@ -17,13 +17,13 @@ void ScreenLabels::add(
     this->actors_.back()->GetPositionCoordinate()->SetCoordinateSystemToDisplay();
   }
   vtkTextActor* label = this->actors_[this->shown_++];
-  label->SetInput((colour ? text : " " + text + " ").c_str());
+  label->SetInput((color ? text : " " + text + " ").c_str());
   vtkTextProperty* property = label->GetTextProperty();
   property->ShallowCopy(this->text_);
   property->SetFontSize(static_cast<int>(this->text_->GetFontSize() * scale + 0.5));
-  if (colour)
+  if (color)
   {
-    property->SetColor(colour[0], colour[1], colour[2]);
+    property->SetColor(color[0], color[1], color[2]);
     property->SetBackgroundOpacity(0.0);
     property->SetJustificationToCentered();
     property->BoldOn();

@@ -24,9 +24,9 @@ public:
   vtkTextProperty* text() const { return this->text_; }
   void clear() { this->shown_ = 0; }
   /// @param scale   factor on the font's size
-  /// @param colour  text color, without a background plate; null: the font's own color and plate
+  /// @param color  text color, without a background plate; null: the font's own color and plate
   void add(const std::string& text, const Eigen::Vector2d& display, double scale,
-    const double* colour = nullptr);
+    const double* color = nullptr);
   int render(vtkViewport* viewport);
   void release(vtkWindow* window);
 

@@ -666,13 +666,13 @@ void vtkHandleSetRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MoveDescendants: " << this->MoveDescendants << "\n";
   os << indent << "DragFree: " << this->DragFree << "\n";
   os << indent << "FindsRotations: " << this->FindsRotations << "\n";
-  const auto print_colour = [&](const char* name, const double c[3])
+  const auto print_color = [&](const char* name, const double c[3])
   { os << indent << name << ": (" << c[0] << ", " << c[1] << ", " << c[2] << ")\n"; };
-  print_colour("FullColor", this->FullColor);
-  print_colour("PositionColor", this->PositionColor);
-  print_colour("FreeColor", this->FreeColor);
-  print_colour("OutlineColor", this->OutlineColor);
-  print_colour("SelectedColor", this->SelectedColor);
+  print_color("FullColor", this->FullColor);
+  print_color("PositionColor", this->PositionColor);
+  print_color("FreeColor", this->FreeColor);
+  print_color("OutlineColor", this->OutlineColor);
+  print_color("SelectedColor", this->SelectedColor);
   os << indent << "HoveredHandle: " << this->HoveredHandle << "\n";
   os << indent << "SelectedHandle: " << this->GetSelectedHandle() << "\n";
   os << indent << "ActiveHandle: " << this->ActiveHandle << "\n";

@@ -451,23 +451,23 @@ void vtkHandleSetWidget::BeginDragging()
 {
   this->State = DRAGGING;
   this->Moved = false;
-  this->Cancelled = false;
+  this->Canceled = false;
   this->GrabFocus(this->EventCallbackCommand, this->EventCallbackCommand);
   this->Superclass::StartInteraction();
   this->InvokeEvent(vtkCommand::StartInteractionEvent, nullptr);
 }
 
-void vtkHandleSetWidget::FinishDragging(bool cancelled)
+void vtkHandleSetWidget::FinishDragging(bool canceled)
 {
   this->State = HOVERING;
-  this->Cancelled = cancelled;
+  this->Canceled = canceled;
   this->ReleaseFocus();
   this->Superclass::EndInteraction();
   if (this->Edits())
   {
     this->TellEdit();
   }
-  else if (cancelled)
+  else if (canceled)
   {
     this->InvokeEvent(vtkCommand::InteractionEvent, nullptr);
   }
@@ -539,5 +539,5 @@ void vtkHandleSetWidget::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "State: " << (this->State == DRAGGING ? "dragging" : "hovering") << "\n";
   os << indent << "StartKeys: " << this->StartKeys << "\n";
-  os << indent << "Cancelled: " << (this->Cancelled ? "yes" : "no") << "\n";
+  os << indent << "Canceled: " << (this->Canceled ? "yes" : "no") << "\n";
 }

@@ -37,7 +37,7 @@
  *   SelectionChangedEvent   the selection has changed
  *   StartInteractionEvent   a drag begins; GetInteractionName() returns its type
  *   InteractionEvent        poses have changed (also when a cancel restores them)
- *   EndInteractionEvent     the drag has ended; GetCancelled() reports whether nothing has changed,
+ *   EndInteractionEvent     the drag has ended; GetCanceled() reports whether nothing has changed,
  *                           GetInteractionName() returns a name for an undo step
  *   PlacePointEvent         an edit mode has added or removed a handle or an edge; invoked between
  *                           StartInteractionEvent (the dataset is unchanged) and InteractionEvent
@@ -100,7 +100,7 @@ public:
   ///@}
 
   /// Report whether the last drag was canceled or changed nothing.
-  vtkGetMacro(Cancelled, bool);
+  vtkGetMacro(Canceled, bool);
   /// Return the type of the current or last drag; see
   /// vtkHandleSetRepresentation::GetInteractionName().
   std::string GetInteractionName();
@@ -154,13 +154,13 @@ private:
   void TellEdit();
   void ReadModifiers();
   void BeginDragging();
-  void FinishDragging(bool cancelled);
+  void FinishDragging(bool canceled);
 
   vtkTypeBool StartKeys = 1;
   int State = HOVERING;
   bool ByKey = false; // the drag was started by a key and needs no button
   bool Moved = false; // the mouse has moved since the button was pressed
-  bool Cancelled = false;
+  bool Canceled = false;
 };
 
 #endif

@@ -339,8 +339,8 @@ void vtkRegionBrushRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Geodesic: " << this->Geodesic << "\n";
   os << indent << "Erase: " << this->Erase << "\n";
   os << indent << "PixelScale: " << this->PixelScale << "\n";
-  const auto print_colour = [&](const char* name, const double c[3])
+  const auto print_color = [&](const char* name, const double c[3])
   { os << indent << name << ": (" << c[0] << ", " << c[1] << ", " << c[2] << ")\n"; };
-  print_colour("PaintColor", this->PaintColor);
-  print_colour("EraseColor", this->EraseColor);
+  print_color("PaintColor", this->PaintColor);
+  print_color("EraseColor", this->EraseColor);
 }

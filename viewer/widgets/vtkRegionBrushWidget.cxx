@@ -133,7 +133,7 @@ void vtkRegionBrushWidget::SelectAction(vtkAbstractWidget* widget)
   }
   self->EventCallbackCommand->SetAbortFlag(1);
   self->State = PAINTING;
-  self->Cancelled = false;
+  self->Canceled = false;
   self->Erased = self->Interactor->GetControlKey() != 0;
   self->GrabFocus(self->EventCallbackCommand, self->EventCallbackCommand);
   self->Superclass::StartInteraction();
@@ -159,10 +159,10 @@ void vtkRegionBrushWidget::EndSelectAction(vtkAbstractWidget* widget)
   }
 }
 
-void vtkRegionBrushWidget::Finish(bool cancelled)
+void vtkRegionBrushWidget::Finish(bool canceled)
 {
   this->State = HOVERING;
-  this->Cancelled = cancelled;
+  this->Canceled = canceled;
   this->ReleaseFocus();
   this->Superclass::EndInteraction();
   this->InvokeEvent(vtkCommand::EndInteractionEvent, nullptr);
@@ -266,5 +266,5 @@ void vtkRegionBrushWidget::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "State: " << (this->State == PAINTING ? "painting" : "hovering") << "\n";
-  os << indent << "Cancelled: " << (this->Cancelled ? "yes" : "no") << "\n";
+  os << indent << "Canceled: " << (this->Canceled ? "yes" : "no") << "\n";
 }

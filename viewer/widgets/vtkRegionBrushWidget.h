@@ -22,7 +22,7 @@
  * <pre>
  *   StartInteractionEvent   a stroke begins; the labels are unchanged
  *   InteractionEvent        labels have changed (also when a cancel restores them)
- *   EndInteractionEvent     the stroke has ended; GetCancelled() is true if nothing has changed,
+ *   EndInteractionEvent     the stroke has ended; GetCanceled() is true if nothing has changed,
  *                           GetInteractionName() returns "paint region" or "erase region"
  *   StateChangedEvent       the radius of the disc has changed
  * </pre>
@@ -58,7 +58,7 @@ public:
   /// Report whether a stroke is in progress.
   bool IsPainting() { return this->State == PAINTING; }
   /// Report whether the last stroke was canceled or changed nothing.
-  vtkGetMacro(Cancelled, bool);
+  vtkGetMacro(Canceled, bool);
   /// Return "paint region" or "erase region".
   std::string GetInteractionName();
   /// Cancel a stroke in progress, as the Escape key does.
@@ -97,10 +97,10 @@ private:
   bool Hover();
   void Resize(double factor);
   bool TurnsWheel();
-  void Finish(bool cancelled);
+  void Finish(bool canceled);
 
   int State = HOVERING;
-  bool Cancelled = false;
+  bool Canceled = false;
   bool Erased = false; // the last stroke erased
 };
 

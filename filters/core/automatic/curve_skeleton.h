@@ -52,7 +52,7 @@ struct CurveSkeleton
 /// report of thick_solid.
 /// invalid_input: coordinates not finite, ids out of range, no triangle with an area, an option out
 /// of range. unavailable: no helper. internal_error: the helper failed or ran out of time.
-/// cancelled: within 20 ms during the flow.
+/// canceled: within 20 ms during the flow.
 /// Cost: some seconds for 10,000 contracted triangles, for any number of triangles of the surface.
 Status curve_skeleton(PointsView points, TrianglesView triangles,
   const CurveSkeletonOptions& options, CurveSkeleton& skeleton, TriangleMesh& solid,

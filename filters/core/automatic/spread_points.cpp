@@ -49,7 +49,7 @@ public:
     this->distance_.assign(static_cast<std::size_t>(this->points_.rows()), infinite);
     if (this->options_.distance == PointDistance::along_edges)
     {
-      this->find_neighbours();
+      this->find_neighbors();
     }
     if (!this->options_.inside)
     {
@@ -94,7 +94,7 @@ public:
       }
       if (!this->update(*component, place, std::move(near)))
       {
-        return Status::cancelled();
+        return Status::canceled();
       }
       places.push_back(place);
       result.vertices.push_back(vertex);
@@ -146,13 +146,13 @@ private:
     }
   }
 
-  void find_neighbours()
+  void find_neighbors()
   {
-    this->neighbours_.resize(static_cast<std::size_t>(this->points_.rows()));
+    this->neighbors_.resize(static_cast<std::size_t>(this->points_.rows()));
     for (const Edge& edge : mesh_edges(this->welded_))
     {
-      this->neighbours_[edge.a].push_back(edge.b);
-      this->neighbours_[edge.b].push_back(edge.a);
+      this->neighbors_[edge.a].push_back(edge.b);
+      this->neighbors_[edge.b].push_back(edge.a);
     }
   }
 
@@ -323,7 +323,7 @@ private:
           std::min(this->distance_[v], (this->points_.row(v).transpose() - place).norm());
       }
       this->distance_[near.front().second] = 0.0;
-      return !this->context_.cancelled();
+      return !this->context_.canceled();
     }
     using Entry = std::pair<double, Index>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -342,7 +342,7 @@ private:
     constexpr Index seldom = 4096;
     for (Index count = 1; !open.empty(); ++count)
     {
-      if (count % seldom == 0 && this->context_.cancelled())
+      if (count % seldom == 0 && this->context_.canceled())
       {
         return false;
       }
@@ -352,12 +352,12 @@ private:
       {
         continue;
       }
-      for (const Index w : this->neighbours_[v])
+      for (const Index w : this->neighbors_[v])
       {
         bring(distance + (this->points_.row(v) - this->points_.row(w)).norm(), w);
       }
     }
-    return !this->context_.cancelled();
+    return !this->context_.canceled();
   }
 
   PointsView points_;
@@ -368,7 +368,7 @@ private:
   std::vector<Component> components_;
   double largest_area_ = 0.0;
   double diagonal_ = 0.0;
-  std::vector<std::vector<Index>> neighbours_;
+  std::vector<std::vector<Index>> neighbors_;
   Points normals_;
   std::vector<double> distance_;
   WindingNumber winding_;

@@ -10,15 +10,15 @@ ExecutionContext::ExecutionContext(ProgressCallback progress, CancelCallback can
 {
 }
 
-bool ExecutionContext::cancelled() const
+bool ExecutionContext::canceled() const
 {
-  if (this->cancelled_.load(std::memory_order_relaxed))
+  if (this->canceled_.load(std::memory_order_relaxed))
   {
     return true;
   }
   if (this->cancel_ && this->cancel_())
   {
-    this->cancelled_.store(true, std::memory_order_relaxed);
+    this->canceled_.store(true, std::memory_order_relaxed);
     return true;
   }
   return false;

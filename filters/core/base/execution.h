@@ -35,10 +35,10 @@ public:
   void set_threads(int threads) { this->threads_ = threads; }
   int threads() const { return this->threads_; }
 
-  void request_cancel() { this->cancelled_.store(true, std::memory_order_relaxed); }
+  void request_cancel() { this->canceled_.store(true, std::memory_order_relaxed); }
   /// Report whether the work is canceled. Thread-safe. Once true, it stays true. Kernels call it at
   /// least every 100 ms.
-  bool cancelled() const;
+  bool canceled() const;
 
   /// Report progress within the current phase, in [0, 1]. It is cheap. Calls on threads other than
   /// the one that created the context are ignored, so that parallel bodies may call it.
@@ -58,7 +58,7 @@ private:
 
   ProgressCallback progress_;
   CancelCallback cancel_;
-  mutable std::atomic<bool> cancelled_{ false };
+  mutable std::atomic<bool> canceled_{ false };
   std::thread::id owner_ = std::this_thread::get_id();
   int threads_ = 0;
   double begin_ = 0.0; // range of the current phase within the whole

@@ -54,7 +54,7 @@ struct Plan
   // Depth of each supernode below its root, modulo 2. It is the index of its stack.
   std::vector<unsigned char> depth;
   std::size_t stack_size[2] = { 0, 0 }; // number of floats
-  std::atomic<Index> factorisations{ 0 };
+  std::atomic<Index> factorizations{ 0 };
 
   int count() const { return static_cast<int>(this->parent.size()); }
   int size() const { return static_cast<int>(this->nodes->order.size()); }
@@ -101,7 +101,7 @@ FloatCholesky::~FloatCholesky() = default;
 FloatCholesky::FloatCholesky(FloatCholesky&&) noexcept = default;
 FloatCholesky& FloatCholesky::operator=(FloatCholesky&&) noexcept = default;
 
-bool FloatCholesky::analysed() const
+bool FloatCholesky::analyzed() const
 {
   return this->impl_->plan != nullptr;
 }
@@ -134,12 +134,12 @@ double FloatCholesky::workspace_bytes() const
               : 0.0;
 }
 
-Index FloatCholesky::factorisations() const
+Index FloatCholesky::factorizations() const
 {
-  return this->impl_->plan ? this->impl_->plan->factorisations.load() : 0;
+  return this->impl_->plan ? this->impl_->plan->factorizations.load() : 0;
 }
 
-Status FloatCholesky::analyse(const SparseSolver& solver, const SparseMatrix& matrix)
+Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& matrix)
 {
   this->impl_ = std::make_unique<Impl>();
   auto plan = std::make_shared<Plan>();
@@ -147,14 +147,14 @@ Status FloatCholesky::analyse(const SparseSolver& solver, const SparseMatrix& ma
   if (!plan->nodes)
   {
     return Status::failure(
-      StatusCode::unavailable, "the factorisation in single precision needs CHOLMOD's supernodes");
+      StatusCode::unavailable, "the factorization in single precision needs CHOLMOD's supernodes");
   }
   const Supernodes& nodes = *plan->nodes;
   const int n = plan->size();
   if (matrix.rows() != n || matrix.cols() != n || !matrix.isCompressed())
   {
     return Status::failure(
-      StatusCode::internal_error, "the matrix to be factored has not the analysed pattern");
+      StatusCode::internal_error, "the matrix to be factored has not the analyzed pattern");
   }
   const auto count = static_cast<int>(nodes.first_column.size()) - 1;
   std::vector<int> node_of_column(static_cast<std::size_t>(n));
@@ -217,7 +217,7 @@ Status FloatCholesky::analyse(const SparseSolver& solver, const SparseMatrix& ma
       if (at == end || *at != row)
       {
         return Status::failure(
-          StatusCode::internal_error, "the matrix to be factored has not the analysed pattern");
+          StatusCode::internal_error, "the matrix to be factored has not the analyzed pattern");
       }
       plan->position[k] = nodes.first_value[s] + (column - nodes.first_column[s]) * plan->rows(s) +
         static_cast<int>(at - begin);
@@ -386,10 +386,10 @@ Status FloatCholesky::factor(
     matrix.nonZeros() != static_cast<Index>(impl.plan->position.size()))
   {
     return Status::failure(
-      StatusCode::internal_error, "the matrix to be factored has not the analysed pattern");
+      StatusCode::internal_error, "the matrix to be factored has not the analyzed pattern");
   }
   Plan& plan = *impl.plan;
-  plan.factorisations += 1;
+  plan.factorizations += 1;
   impl.values.resize(static_cast<std::size_t>(plan.nodes->first_value.back()));
   for (const int k : { 0, 1 })
   {
@@ -402,9 +402,9 @@ Status FloatCholesky::factor(
   const SerialBlas serial;
   for (int s = 0; s < plan.count(); ++s)
   {
-    if (context.cancelled())
+    if (context.canceled())
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     const int failed = impl.eliminate(s);
     if (failed)

@@ -30,11 +30,11 @@ public:
 
   /// Reuse the analysis that the solver made of this matrix. The status is unavailable if the
   /// solver has no supernodes (Eigen's backend, or a build without CHOLMOD).
-  Status analyse(const SparseSolver& solver, const SparseMatrix& matrix);
+  Status analyze(const SparseSolver& solver, const SparseMatrix& matrix);
   /// Return an object with the same analysis and no factorization, for use on another thread.
   FloatCholesky clone() const;
-  /// Report whether analyse() succeeded.
-  bool analysed() const;
+  /// Report whether analyze() succeeded.
+  bool analyzed() const;
 
   /// Factor a matrix of the analyzed pattern plus shift times its diagonal. The status is
   /// invalid_input if the sum is not positive definite in single precision; the message names the
@@ -51,7 +51,7 @@ public:
   double factor_bytes() const;
   double workspace_bytes() const;
   /// Return how often this object and all its clones factored.
-  Index factorisations() const;
+  Index factorizations() const;
 
 private:
   struct Impl;

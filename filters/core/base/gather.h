@@ -23,7 +23,7 @@ bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, cons
       auto& list = of_block[static_cast<std::size_t>(begin / block)];
       for (Index i = begin; i < end; ++i)
       {
-        if (i % 16 == 0 && context.cancelled())
+        if (i % 16 == 0 && context.canceled())
         {
           return;
         }
@@ -36,7 +36,7 @@ bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, cons
     all.insert(all.end(), list.begin(), list.end());
     std::vector<Item>().swap(list);
   }
-  return whole && !context.cancelled();
+  return whole && !context.canceled();
 }
 
 } // namespace bindpose

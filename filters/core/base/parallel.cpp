@@ -26,7 +26,7 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
 {
   if (count <= 0)
   {
-    return !context.cancelled();
+    return !context.canceled();
   }
   const Index block = std::max<Index>(1, block_size);
   const Index blocks = (count + block - 1) / block;
@@ -34,7 +34,7 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
   std::atomic<bool> stopped{ false };
   const auto run = [&](Index b)
   {
-    if (stopped.load(std::memory_order_relaxed) || context.cancelled())
+    if (stopped.load(std::memory_order_relaxed) || context.canceled())
     {
       stopped.store(true, std::memory_order_relaxed);
       return;

@@ -36,7 +36,7 @@ double refined_solve(const FloatCholesky& factor,
   VectorXd last;
   for (int step = 0; step < options.most_steps && !open.empty(); ++step)
   {
-    if (options.context && options.context->cancelled())
+    if (options.context && options.context->canceled())
     {
       return 1.0;
     }

@@ -48,7 +48,7 @@ void SideTask::run()
       return;
     }
   }
-  ExecutionContext context({}, [this] { return this->dropped_ || this->context_.cancelled(); });
+  ExecutionContext context({}, [this] { return this->dropped_ || this->context_.canceled(); });
   context.set_threads(1);
   try
   {

@@ -14,7 +14,7 @@ namespace bindpose
 {
 
 /// Work that may be needed later and runs on a separate thread while the owner does something else.
-/// The owner decides afterwards whether to use the result, so an early start changes only the time
+/// The owner decides afterward whether to use the result, so an early start changes only the time
 /// until the result is available.
 class SideTask
 {

@@ -146,13 +146,13 @@ Index SimplexLocator::build(Index begin, Index end)
   const auto self = static_cast<Index>(this->nodes_.size());
   this->nodes_.emplace_back();
   Box box;
-  Box centres;
+  Box centers;
   for (Index i = begin; i < end; ++i)
   {
     const Index e = this->order_[i];
     box.add(this->lower_[e]);
     box.add(this->upper_[e]);
-    centres.add(this->lower_[e] + this->upper_[e]);
+    centers.add(this->lower_[e] + this->upper_[e]);
   }
   this->nodes_[self].lower = box.lower;
   this->nodes_[self].upper = box.upper;
@@ -161,7 +161,7 @@ Index SimplexLocator::build(Index begin, Index end)
   if (end - begin > leaf_size)
   {
     int axis;
-    centres.size().maxCoeff(&axis);
+    centers.size().maxCoeff(&axis);
     const Index middle = (begin + end) / 2;
     std::nth_element(this->order_.begin() + begin, this->order_.begin() + middle,
       this->order_.begin() + end,

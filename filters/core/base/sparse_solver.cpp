@@ -35,20 +35,20 @@ namespace
 struct Counters
 {
   std::atomic<Index> analyses{ 0 };
-  std::atomic<Index> factorisations{ 0 };
+  std::atomic<Index> factorizations{ 0 };
 };
 
 /// Interface of a backend; SparseSolver counts and checks.
-class Factorisation
+class Factorization
 {
 public:
-  virtual ~Factorisation() = default;
+  virtual ~Factorization() = default;
   virtual const char* name() const = 0;
-  virtual Status analyse(const SparseMatrix& matrix) = 0;
+  virtual Status analyze(const SparseMatrix& matrix) = 0;
   virtual Status factor(const SparseMatrix& matrix) = 0;
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) = 0;
   virtual void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) = 0;
-  virtual std::unique_ptr<Factorisation> clone() const = 0;
+  virtual std::unique_ptr<Factorization> clone() const = 0;
   virtual std::shared_ptr<const Supernodes> supernodes() const { return nullptr; }
   virtual bool has_factor() const = 0;
   virtual double bytes() const = 0;
@@ -62,14 +62,14 @@ Status not_positive_definite(Index unknown)
     std::to_string(unknown) + " is not positive");
 }
 
-class EigenFactorisation : public Factorisation
+class EigenFactorization : public Factorization
 {
 public:
   using Solver = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>>;
 
   const char* name() const override { return "eigen"; }
 
-  Status analyse(const SparseMatrix& matrix) override
+  Status analyze(const SparseMatrix& matrix) override
   {
     this->pattern_ = std::make_shared<SparseMatrix>(matrix);
     this->solver_.analyzePattern(matrix);
@@ -96,10 +96,10 @@ public:
     x = this->solver_.solve(rhs);
   }
 
-  std::unique_ptr<Factorisation> clone() const override
+  std::unique_ptr<Factorization> clone() const override
   {
     // Eigen's solver cannot be copied; its analysis is cheap compared with a factorization.
-    auto copy = std::make_unique<EigenFactorisation>();
+    auto copy = std::make_unique<EigenFactorization>();
     copy->pattern_ = this->pattern_;
     if (copy->pattern_)
     {
@@ -136,17 +136,17 @@ private:
 };
 
 #ifdef BINDPOSE_HAS_CHOLMOD
-class CholmodFactorisation : public Factorisation
+class CholmodFactorization : public Factorization
 {
 public:
-  explicit CholmodFactorisation(SparseSolver::Ordering ordering) : ordering_(ordering)
+  explicit CholmodFactorization(SparseSolver::Ordering ordering) : ordering_(ordering)
   {
     cholmod_start(&this->common_);
     this->common_.print = 0;
     this->common_.supernodal = CHOLMOD_SUPERNODAL;
     this->common_.final_ll = 1;
   }
-  ~CholmodFactorisation() override
+  ~CholmodFactorization() override
   {
     cholmod_free_factor(&this->factor_, &this->common_);
     cholmod_free_dense(&this->x_, &this->common_);
@@ -154,12 +154,12 @@ public:
     cholmod_free_dense(&this->e_, &this->common_);
     cholmod_finish(&this->common_);
   }
-  CholmodFactorisation(const CholmodFactorisation&) = delete;
-  CholmodFactorisation& operator=(const CholmodFactorisation&) = delete;
+  CholmodFactorization(const CholmodFactorization&) = delete;
+  CholmodFactorization& operator=(const CholmodFactorization&) = delete;
 
   const char* name() const override { return "cholmod"; }
 
-  Status analyse(const SparseMatrix& matrix) override
+  Status analyze(const SparseMatrix& matrix) override
   {
     const bool metis = this->ordering_ == SparseSolver::Ordering::metis ||
       (this->ordering_ == SparseSolver::Ordering::automatic && matrix.rows() > 500);
@@ -172,7 +172,7 @@ public:
     cholmod_factor* pattern = cholmod_analyze(&a, &this->common_);
     if (!pattern)
     {
-      return this->failure("analysed");
+      return this->failure("analyzed");
     }
     this->pattern_.reset(pattern, free_factor);
     this->copy_supernodes();
@@ -230,9 +230,9 @@ public:
     x = Eigen::Map<Eigen::VectorXd>(static_cast<double*>(this->x_->x), rhs.size());
   }
 
-  std::unique_ptr<Factorisation> clone() const override
+  std::unique_ptr<Factorization> clone() const override
   {
-    auto copy = std::make_unique<CholmodFactorisation>(this->ordering_);
+    auto copy = std::make_unique<CholmodFactorization>(this->ordering_);
     copy->pattern_ = this->pattern_;
     copy->supernodes_ = this->supernodes_;
     copy->nonzeros_ = this->nonzeros_;
@@ -338,7 +338,7 @@ private:
 struct SparseSolver::Impl
 {
   Options options;
-  std::unique_ptr<Factorisation> factorisation; // null: the backend is not built in
+  std::unique_ptr<Factorization> factorization; // null: the backend is not built in
   std::shared_ptr<Counters> counters = std::make_shared<Counters>();
   Index size = 0;
   Index nonzeros = 0;
@@ -353,12 +353,12 @@ SparseSolver::SparseSolver(const Options& options) : impl_(new Impl)
     (options.backend == Backend::automatic && SparseSolver::has_cholmod());
   if (!cholmod)
   {
-    this->impl_->factorisation = std::make_unique<EigenFactorisation>();
+    this->impl_->factorization = std::make_unique<EigenFactorization>();
   }
 #ifdef BINDPOSE_HAS_CHOLMOD
   else
   {
-    this->impl_->factorisation = std::make_unique<CholmodFactorisation>(options.ordering);
+    this->impl_->factorization = std::make_unique<CholmodFactorization>(options.ordering);
   }
 #endif
 }
@@ -396,12 +396,12 @@ std::string SparseSolver::blas_warning()
 
 const char* SparseSolver::backend_name() const
 {
-  return this->impl_->factorisation ? this->impl_->factorisation->name() : "cholmod";
+  return this->impl_->factorization ? this->impl_->factorization->name() : "cholmod";
 }
 
-Status SparseSolver::analyse(const SparseMatrix& matrix)
+Status SparseSolver::analyze(const SparseMatrix& matrix)
 {
-  if (!this->impl_->factorisation)
+  if (!this->impl_->factorization)
   {
     return Status::failure(
       StatusCode::unavailable, "this build has no CHOLMOD (package libsuitesparse-dev)");
@@ -417,7 +417,7 @@ Status SparseSolver::analyse(const SparseMatrix& matrix)
   this->impl_->size = matrix.rows();
   this->impl_->nonzeros = matrix.nonZeros();
   this->impl_->counters->analyses += 1;
-  return this->impl_->factorisation->analyse(matrix);
+  return this->impl_->factorization->analyze(matrix);
 }
 
 Status SparseSolver::factor(const SparseMatrix& matrix)
@@ -426,9 +426,9 @@ Status SparseSolver::factor(const SparseMatrix& matrix)
     this->impl_->counters->analyses == 0)
   {
     return Status::failure(
-      StatusCode::internal_error, "the matrix to be factored has not the analysed pattern");
+      StatusCode::internal_error, "the matrix to be factored has not the analyzed pattern");
   }
-  if (!this->impl_->factorisation->has_factor())
+  if (!this->impl_->factorization->has_factor())
   {
     Status status = check_memory("the factor of " + std::to_string(this->impl_->size) + " unknowns",
       this->factor_bytes(), this->impl_->options.memory_limit);
@@ -437,13 +437,13 @@ Status SparseSolver::factor(const SparseMatrix& matrix)
       return status;
     }
   }
-  this->impl_->counters->factorisations += 1;
-  return this->impl_->factorisation->factor(matrix);
+  this->impl_->counters->factorizations += 1;
+  return this->impl_->factorization->factor(matrix);
 }
 
 Eigen::MatrixXd SparseSolver::solve(const Eigen::MatrixXd& rhs) const
 {
-  return rhs.size() ? this->impl_->factorisation->solve(rhs) : rhs;
+  return rhs.size() ? this->impl_->factorization->solve(rhs) : rhs;
 }
 
 void SparseSolver::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const
@@ -453,7 +453,7 @@ void SparseSolver::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const
     x.resize(0);
     return;
   }
-  this->impl_->factorisation->solve(rhs, x);
+  this->impl_->factorization->solve(rhs, x);
 }
 
 SparseSolver SparseSolver::clone() const
@@ -462,21 +462,21 @@ SparseSolver SparseSolver::clone() const
   copy.impl_->counters = this->impl_->counters;
   copy.impl_->size = this->impl_->size;
   copy.impl_->nonzeros = this->impl_->nonzeros;
-  if (this->impl_->factorisation)
+  if (this->impl_->factorization)
   {
-    copy.impl_->factorisation = this->impl_->factorisation->clone();
+    copy.impl_->factorization = this->impl_->factorization->clone();
   }
   return copy;
 }
 
 std::shared_ptr<const Supernodes> SparseSolver::supernodes() const
 {
-  return this->impl_->factorisation ? this->impl_->factorisation->supernodes() : nullptr;
+  return this->impl_->factorization ? this->impl_->factorization->supernodes() : nullptr;
 }
 
 double SparseSolver::factor_bytes() const
 {
-  return this->impl_->factorisation ? this->impl_->factorisation->bytes() : 0.0;
+  return this->impl_->factorization ? this->impl_->factorization->bytes() : 0.0;
 }
 
 Index SparseSolver::size() const
@@ -486,12 +486,12 @@ Index SparseSolver::size() const
 
 double SparseSolver::factor_nonzeros() const
 {
-  return this->impl_->factorisation ? this->impl_->factorisation->nonzeros() : 0.0;
+  return this->impl_->factorization ? this->impl_->factorization->nonzeros() : 0.0;
 }
 
 double SparseSolver::factor_operations() const
 {
-  return this->impl_->factorisation ? this->impl_->factorisation->operations() : 0.0;
+  return this->impl_->factorization ? this->impl_->factorization->operations() : 0.0;
 }
 
 Index SparseSolver::analyses() const
@@ -499,9 +499,9 @@ Index SparseSolver::analyses() const
   return this->impl_->counters->analyses;
 }
 
-Index SparseSolver::factorisations() const
+Index SparseSolver::factorizations() const
 {
-  return this->impl_->counters->factorisations;
+  return this->impl_->counters->factorizations;
 }
 
 } // namespace bindpose

@@ -66,7 +66,7 @@ public:
   /// Order the unknowns and find the pattern of the factor. The status is unavailable if the chosen
   /// backend is not built in. It is invalid_input if the matrix is not square or the factor would
   /// be too large.
-  Status analyse(const SparseMatrix& matrix);
+  Status analyze(const SparseMatrix& matrix);
   /// Factor a matrix of the analyzed pattern. The status is invalid_input if the matrix is not
   /// positive definite; the message names the unknown whose pivot failed. It is internal_error if
   /// the factor does not fit into memory.
@@ -79,11 +79,11 @@ public:
   /// Return a solver with the same analysis and no factorization, for use on another thread.
   SparseSolver clone() const;
 
-  /// Return the positions of the factor's nonzeros; null for Eigen's backend and before analyse().
+  /// Return the positions of the factor's nonzeros; null for Eigen's backend and before analyze().
   /// Other factorizations use them (see FloatCholesky).
   std::shared_ptr<const Supernodes> supernodes() const;
 
-  /// Return the bytes of this object's factor, which are known after analyse().
+  /// Return the bytes of this object's factor, which are known after analyze().
   double factor_bytes() const;
   /// Return the number of unknowns, of nonzeros of the factor, and of floating-point operations of
   /// one factorization.
@@ -92,7 +92,7 @@ public:
   double factor_operations() const;
   /// Return how often this solver and all its clones analyzed and factored.
   Index analyses() const;
-  Index factorisations() const;
+  Index factorizations() const;
 
 private:
   struct Impl;

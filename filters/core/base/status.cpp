@@ -16,8 +16,8 @@ const char* to_string(StatusCode code)
       return "not_converged";
     case StatusCode::invalid_input:
       return "invalid_input";
-    case StatusCode::cancelled:
-      return "cancelled";
+    case StatusCode::canceled:
+      return "canceled";
     case StatusCode::unavailable:
       return "unavailable";
     case StatusCode::internal_error:
@@ -153,9 +153,9 @@ Status Status::invalid_input(std::string message)
   return failure(StatusCode::invalid_input, std::move(message));
 }
 
-Status Status::cancelled()
+Status Status::canceled()
 {
-  return failure(StatusCode::cancelled, "cancelled");
+  return failure(StatusCode::canceled, "canceled");
 }
 
 } // namespace bindpose

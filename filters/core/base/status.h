@@ -17,7 +17,7 @@ enum class StatusCode
   ok = 0,
   not_converged, ///< a result exists; its residuals are in the report and exceed the tolerance
   invalid_input, ///< the caller's data cannot be used; the message names the first violation
-  cancelled,
+  canceled,
   unavailable, ///< a component is missing, or the method cannot do it; the message says what to do
   internal_error
 };
@@ -83,7 +83,7 @@ struct Status
   /// Return a failed status. The message is passed through one_line().
   static Status failure(StatusCode code, std::string message);
   static Status invalid_input(std::string message);
-  static Status cancelled();
+  static Status canceled();
 };
 
 } // namespace bindpose

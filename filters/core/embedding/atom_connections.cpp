@@ -46,7 +46,7 @@ public:
     this->cut_.assign(static_cast<std::size_t>(this->atoms_.first_full), 0);
     if (!this->cut_lines())
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     const Status status = this->connect_crossings();
     if (!status.ok())
@@ -55,7 +55,7 @@ public:
     }
     if (!this->connect_samples() || !this->connect_triangles())
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     this->connect_links();
     this->connect_cubes();
@@ -154,9 +154,9 @@ private:
       {
         ++end;
       }
-      if (begin / often != end / often && this->context_.cancelled())
+      if (begin / often != end / often && this->context_.canceled())
       {
-        return Status::cancelled();
+        return Status::canceled();
       }
       this->connect_line(begin, end, inside_after);
       begin = end;
@@ -234,7 +234,7 @@ private:
   {
     for (Id cube = 0; cube < static_cast<Id>(this->atoms_.sampled.size()); ++cube)
     {
-      if (cube % 64 == 0 && this->context_.cancelled())
+      if (cube % 64 == 0 && this->context_.canceled())
       {
         return false;
       }
@@ -323,7 +323,7 @@ private:
     std::vector<Side> sides;
     for (std::size_t f = 0; f < triangles.size(); ++f)
     {
-      if (f % often == 0 && this->context_.cancelled())
+      if (f % often == 0 && this->context_.canceled())
       {
         return false;
       }
@@ -353,7 +353,7 @@ private:
     }
     for (std::size_t i = 0; i + 1 < sides.size(); ++i)
     {
-      if (i % often == 0 && this->context_.cancelled())
+      if (i % often == 0 && this->context_.canceled())
       {
         return false;
       }

@@ -30,7 +30,7 @@ Status EmbeddingAtoms::number(ExecutionContext& context)
   }
   if (static_cast<Index>(this->sampled.size()) > most_sampled_cubes)
   {
-    return context.cancelled() ? Status::cancelled() : LatticeCover::too_many_cubes();
+    return context.canceled() ? Status::canceled() : LatticeCover::too_many_cubes();
   }
   std::sort(this->sampled.begin(), this->sampled.end());
   std::sort(this->full.begin(), this->full.end());
@@ -51,7 +51,7 @@ Status EmbeddingAtoms::number(ExecutionContext& context)
   }
   if (!parallel_sort(context, this->tets, std::less<>()))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   this->tets.erase(std::unique(this->tets.begin(), this->tets.end()), this->tets.end());
   this->half_tets_.resize(of_half.size());
@@ -86,7 +86,7 @@ Status EmbeddingAtoms::number(ExecutionContext& context)
   this->first_full = static_cast<Id>(this->sampled.size()) * CubeSamples::of_cube;
   this->first_piece = this->first_full + static_cast<Id>(this->full.size()) * halves;
   this->inside_.assign(static_cast<std::size_t>(this->first_full), 0);
-  return context.cancelled() ? Status::cancelled() : Status();
+  return context.canceled() ? Status::canceled() : Status();
 }
 
 Status EmbeddingAtoms::find_inside(

@@ -46,7 +46,7 @@ private:
     this->part_of_.assign(static_cast<std::size_t>(count), -1);
     for (Id atom = 0; atom < count; ++atom)
     {
-      if (atom % often == 0 && this->context_.cancelled())
+      if (atom % often == 0 && this->context_.canceled())
       {
         return false;
       }
@@ -98,7 +98,7 @@ private:
   {
     for (std::size_t i = 0; i < this->connections_.across.size(); ++i)
     {
-      if (i % often == 0 && this->context_.cancelled())
+      if (i % often == 0 && this->context_.canceled())
       {
         return false;
       }
@@ -120,7 +120,7 @@ private:
     const auto& first = this->cover_.first_piece;
     for (std::size_t f = 0; f + 1 < first.size(); ++f)
     {
-      if (f % often == 0 && this->context_.cancelled())
+      if (f % often == 0 && this->context_.canceled())
       {
         return false;
       }

@@ -67,7 +67,7 @@ Status embed(PointsView points, const LatticeSurface& surface, const WindingNumb
   const MaterialProbes probes(cover, winding, threshold);
   const bool made =
     make_embedding(points, surface, cover, atoms, std::move(connections), probes, result, context);
-  return made && !context.cancelled() ? Status() : Status::cancelled();
+  return made && !context.canceled() ? Status() : Status::canceled();
 }
 
 Index count_branching_facets(TetsView tets)
@@ -164,7 +164,7 @@ Status embed_surface(PointsView points, TrianglesView triangles, const WindingNu
     const Phase phase(context, "lattice", 0.0, 0.4);
     status = surface.build(points, triangles, options.links, context)
       ? cover.choose(options.resolution, options.tets, context)
-      : Status::cancelled();
+      : Status::canceled();
     if (!status.ok())
     {
       return status;

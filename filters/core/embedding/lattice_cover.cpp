@@ -166,7 +166,7 @@ Status LatticeCover::build(double spacing, ExecutionContext& context)
         }) ||
     !this->find_pieces(context))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   return this->find_cubes(context);
 }

@@ -291,9 +291,9 @@ Status run_child(const ChildRequest& request,
 {
   using Clock = std::chrono::steady_clock;
   end = ChildEnd();
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   int ends[2] = { -1, -1 };
   if (::pipe2(ends, O_CLOEXEC) != 0)
@@ -324,9 +324,9 @@ Status run_child(const ChildRequest& request,
       open = lines.read(lines_read.get());
     }
     end.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    if (context.cancelled())
+    if (context.canceled())
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     // The pipe is first read to its end, because the last line may explain the failure. A
     // grandchild may keep the pipe open, so the end of the child counts when no output is ready.

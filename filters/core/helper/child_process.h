@@ -44,7 +44,7 @@ struct ChildEnd
 /// `take_line` is called on this thread with each printed line, without the line end.
 /// - ok: the program ended; see `end`;
 /// - unavailable: it could not be started;
-/// - cancelled: the context was canceled (the group is killed within 20 ms);
+/// - canceled: the context was canceled (the group is killed within 20 ms);
 /// - internal_error: it was stopped at a time limit, or no pipe could be created.
 Status run_child(const ChildRequest& request,
   const std::function<void(const std::string&)>& take_line, ChildEnd& end,

@@ -147,9 +147,9 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
   ExecutionContext& context)
 {
   answer = MesherAnswer();
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   const std::string path = find_mesher();
   if (path.empty())

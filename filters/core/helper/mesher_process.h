@@ -40,7 +40,7 @@ std::string find_mesher();
 /// memory on bad input. This function converts these failures to a status:
 /// - unavailable: there is no helper; the message contains the packages that are needed to build
 ///   it;
-/// - cancelled: the context was canceled (the helper is killed within 20 ms);
+/// - canceled: the context was canceled (the helper is killed within 20 ms);
 /// - internal_error: the helper crashed, ended with an error, ran out of time or memory, or wrote
 ///   an invalid mesh; the message contains the reason.
 ///

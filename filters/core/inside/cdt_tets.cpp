@@ -435,7 +435,7 @@ Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherD
 /// Report whether no other rung can help after this status.
 bool CdtTets::final(const Status& status) const
 {
-  return status.code == StatusCode::cancelled || status.code == StatusCode::unavailable ||
+  return status.code == StatusCode::canceled || status.code == StatusCode::unavailable ||
     (!status.ok() &&
       (this->finer_is_no_better_ || this->context_.elapsed_seconds() >= this->deadline_));
 }
@@ -563,7 +563,7 @@ Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet
   if (!improve_tets(mesh, std::vector<char>(static_cast<std::size_t>(points.rows()), 1), {},
         options, done, this->context_))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   tets = std::move(mesh.tets);
   facets = tet_facets(tets);
@@ -608,18 +608,18 @@ Status CdtTets::complete()
   {
     const Phase phase(this->context_, "fill", 0.0, 0.35);
     status = this->fill();
-    if (!status.ok() && status.code != StatusCode::cancelled)
+    if (!status.ok() && status.code != StatusCode::canceled)
     {
       this->warnings_.push_back("no vertices were added inside (" + status.message + ")");
     }
   }
-  if (!this->options_.bare && status.code != StatusCode::cancelled)
+  if (!this->options_.bare && status.code != StatusCode::canceled)
   {
     const Phase phase(this->context_, "improve", 0.35, 1.0);
     status = this->improve();
   }
   this->renumber();
-  return status.code == StatusCode::cancelled ? status : Status();
+  return status.code == StatusCode::canceled ? status : Status();
 }
 
 double CdtTets::mean_surface_edge() const

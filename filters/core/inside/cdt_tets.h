@@ -65,7 +65,7 @@ public:
   /// Return the volume of the tets inside.
   double volume() const { return this->volume_; }
   /// Add vertices inside (those of handles first), improve flat tets and renumber the vertices so
-  /// that those of the input come first. The only failure is cancelled; any other problem becomes a
+  /// that those of the input come first. The only failure is canceled; any other problem becomes a
   /// warning.
   Status complete();
 

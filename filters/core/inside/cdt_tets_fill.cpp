@@ -156,7 +156,7 @@ Status CdtTets::find_even_places(
 {
   if (!split_long_edges(this->mesh_, long_edge, most_tets, this->context_))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   const Status status = this->look_inside(length, inside);
   return status.ok() ? this->find_inner_places(most, inside) : status;
@@ -166,7 +166,7 @@ Status CdtTets::find_inner_places(Index most, Inside& inside)
 {
   return inner_points(inside.interior, *inside.sizes, most, this->context_, inside.places)
     ? Status()
-    : Status::cancelled();
+    : Status::canceled();
 }
 
 /// Set the lengths of edges inside. Near the boundary they equal its shortest edges. They grow by
@@ -238,7 +238,7 @@ Status CdtTets::insert(const Points& places, std::vector<Index>& vertices)
   TetMesh mesh = this->mesh_;
   if (!insert_vertices(mesh, places, vertices, this->context_))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   const Status status = this->accept(mesh);
   this->log_.add("vertices inside", this->context_.elapsed_seconds() - start, status);
@@ -284,7 +284,7 @@ Status CdtTets::improve()
   Improvement done;
   if (!improve_tets(mesh, std::move(held), {}, options, done, this->context_))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   std::vector<TetFacet> facets = tet_facets(mesh.tets);
   peel_slivers(mesh.points, mesh.tets, facets, flat_height * this->diagonal_);

@@ -118,9 +118,9 @@ Status EnclosedRegion::sample(
       break;
     }
   }
-  return status.code == StatusCode::cancelled ? status
-    : status.usable()                         ? Status()
-                                              : Status::failure(status.code, status.message);
+  return status.code == StatusCode::canceled ? status
+    : status.usable()                        ? Status()
+                                             : Status::failure(status.code, status.message);
 }
 
 double EnclosedRegion::misfit(double volume) const
@@ -219,7 +219,7 @@ Status EnclosedRegion::label_regions(
   {
     w[t] = of_region[data.regions[t]];
   }
-  return context.cancelled() ? Status::cancelled() : Status();
+  return context.canceled() ? Status::canceled() : Status();
 }
 
 /// Label the tets of an open surface at their centers, or, for large tets near the threshold, by
@@ -254,7 +254,7 @@ Status EnclosedRegion::label_tets(
           }
         }))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   constexpr double large = 0.05; // in bounding-box diagonals
   std::vector<Index> tets;

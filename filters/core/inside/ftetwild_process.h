@@ -37,7 +37,7 @@ std::string find_ftetwild();
 ///
 /// invalid_input: coordinates not finite or larger than 1e100, ids out of range, no triangles, all
 /// points equal, an option out of range. unavailable: no executable; the message names it and says
-/// where to get it. cancelled: fTetWild is killed within 20 ms. internal_error: fTetWild crashed,
+/// where to get it. canceled: fTetWild is killed within 20 ms. internal_error: fTetWild crashed,
 /// failed, ran out of time or memory, or wrote no mesh; or the temporary folder cannot be created.
 /// Cost: seconds to minutes.
 Status run_ftetwild(PointsView points, TrianglesView triangles, const FtetwildOptions& options,

@@ -57,7 +57,7 @@ void put(const Residuals& map, const Arc& arc, Flow value)
   if (--*map.countdown <= 0)
   {
     *map.countdown = often;
-    if (map.context->cancelled())
+    if (map.context->canceled())
     {
       throw Stop();
     }
@@ -277,9 +277,9 @@ Status cut(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext&
     [](const Line& x, const Line& y) {
       return x.from != y.from ? x.from < y.from : x.to != y.to ? x.to < y.to : x.pair < y.pair;
     });
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
 
   std::vector<std::pair<Index, Index>> ends;
@@ -330,7 +330,7 @@ Status cut(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext&
   }
   catch (const Stop&)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   inside.resize(static_cast<std::size_t>(nodes));
   for (Index i = 0; i < nodes; ++i)

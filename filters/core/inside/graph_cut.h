@@ -32,7 +32,7 @@ struct CutEnergy
 /// with the fewest nodes inside is returned. Cost: about 1 us per node and edge if the node costs
 /// are decisive, ten times that if they hardly differ.
 /// @return invalid_input for costs that are negative or not finite and for nodes out of range;
-/// cancelled.
+/// canceled.
 Status minimize(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext& context);
 
 } // namespace bindpose

@@ -387,7 +387,7 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
     Lattice lattice(interior, sizes, context);
     const bool whole =
       lattice.build(static_cast<Index>(std::max(few_cells, too_many * wanted)) + 1);
-    if (context.cancelled())
+    if (context.canceled())
     {
       return false;
     }

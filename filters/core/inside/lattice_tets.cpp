@@ -228,7 +228,7 @@ public:
     { return std::any_of(tet.begin(), tet.end(), [&](Index v) { return this->sign_[v] > 0; }); };
     if (!this->numbering_.collect(context, any_inside, tets) || !this->find_cuts(tets, context))
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     this->snap();
     std::vector<Tet> result;

@@ -30,7 +30,7 @@ struct Lattice
 Points lattice_points(const Lattice& lattice);
 
 /// Compute the winding numbers at the vertices of a lattice, #N, in the order of lattice_points().
-/// @return cancelled or ok.
+/// @return canceled or ok.
 Status sample_lattice(const WindingNumber& winding, const Lattice& lattice,
   Eigen::VectorXd& winding_numbers, ExecutionContext& context);
 
@@ -47,7 +47,7 @@ struct LatticeRegion
 };
 
 /// Compute tets of a region by isosurface stuffing, as described at the overload below.
-/// @return cancelled or ok.
+/// @return canceled or ok.
 Status stuff_lattice(
   const Lattice& lattice, const LatticeRegion& region, TetMesh& mesh, ExecutionContext& context);
 
@@ -58,7 +58,7 @@ Status stuff_lattice(
 /// the vertices of the surface are not kept. Every surface works, because only winding numbers are
 /// evaluated: about 2 per cube and 8 per cut edge. There are no tets if w is below the threshold
 /// everywhere in the box.
-/// @return cancelled or ok.
+/// @return canceled or ok.
 Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, const Box& box,
   double threshold, TetMesh& mesh, ExecutionContext& context);
 

@@ -20,7 +20,7 @@ void report_turned(PreparedSurface& prepared)
   {
     prepared.report.set("counts.turned_triangles", Report::Value(surface.turned_triangles));
     prepared.warnings.push_back(counted(surface.turned_triangles, "triangle", "triangles") +
-      " turned to agree with the neighbours");
+      " turned to agree with the neighbors");
   }
   if (surface.turned_components > 0)
   {

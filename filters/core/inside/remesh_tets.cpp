@@ -187,7 +187,7 @@ Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumb
   const Ids ids = ids_of(points, triangles);
   if (!improve(ids, region, answer, context))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   number_vertices(ids, answer.data, result);
   status = check_tets(result.mesh.points, result.mesh.tets);
@@ -204,7 +204,7 @@ Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumb
   if (!measure_distance(result.mesh, region, result.distance, context))
   {
     result = RemeshResult();
-    return Status::cancelled();
+    return Status::canceled();
   }
   status.report.set("distance_max", Report::Value(100.0 * result.distance.maximum / diagonal));
   status.report.set("distance_mean", Report::Value(100.0 * result.distance.mean / diagonal));

@@ -46,7 +46,7 @@ struct Segmentation
 /// using Generalized Winding Numbers, 2013, equation 10 with its misprint corrected). The boundary
 /// then follows the jumps of the winding number, which are at the surface. Across openings its area
 /// is small, whereas the border of a threshold is ragged.
-/// @return invalid_input for options out of range, cancelled. Cost: 3 us per tet.
+/// @return invalid_input for options out of range, canceled. Cost: 3 us per tet.
 Status segment_tets(PointsView points, TetsView tets, const Eigen::VectorXd& winding_numbers,
   const SegmentationOptions& options, Segmentation& result, ExecutionContext& context);
 

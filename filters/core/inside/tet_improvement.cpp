@@ -31,7 +31,7 @@ public:
   Improver(TetMesh& mesh, std::vector<char> held, const OntoSurface& surface,
     const ImproveOptions& options, Improvement& done, ExecutionContext& context)
     : mesh_(mesh), tets_(mesh), options_(options), rules_(options, surface), done_(done),
-      context_(context), quiet_({}, [&context] { return context.cancelled(); }),
+      context_(context), quiet_({}, [&context] { return context.canceled(); }),
       moved_(static_cast<std::size_t>(mesh.points.rows()), 0)
   {
     const auto tets = static_cast<double>(mesh.tets.rows() + small);

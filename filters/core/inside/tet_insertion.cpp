@@ -150,7 +150,7 @@ public:
       t = range.begin < range.end ? range.begin : -1;
       for (Index other = range.begin; other < range.end; ++other)
       {
-        if (this->side_towards(other, p) < 0)
+        if (this->side_toward(other, p) < 0)
         {
           t = other;
           break;
@@ -207,7 +207,7 @@ private:
 
   /// Return the side of tet t that separates it from p, as an index into facet_corners, or -1 if p
   /// is in the tet.
-  int side_towards(Index t, const Vec3& p, int first = 0) const
+  int side_toward(Index t, const Vec3& p, int first = 0) const
   {
     const Tet& tet = this->tets_.tet(t);
     for (int k = 0; k < 4; ++k)
@@ -238,7 +238,7 @@ private:
     for (int step = 0; step < longest && t >= 0; ++step)
     {
       // Each step starts at another side, so that the walk does not cycle.
-      const int side = this->side_towards(t, p, step);
+      const int side = this->side_toward(t, p, step);
       if (side < 0)
       {
         return t;
@@ -262,7 +262,7 @@ class Inserter
 public:
   Inserter(TetComplex& tets, ExecutionContext& context)
     : tets_(tets), finder_(tets), context_(context),
-      quiet_({}, [&context] { return context.cancelled(); })
+      quiet_({}, [&context] { return context.canceled(); })
   {
     this->quiet_.set_threads(context.threads());
   }
@@ -517,7 +517,7 @@ bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionC
         }
       }
     }
-    whole = count % often != 0 || !context.cancelled();
+    whole = count % often != 0 || !context.canceled();
   }
   tets.write(mesh);
   return whole;

@@ -36,7 +36,7 @@ constexpr double cdt_built = 0.45;
 /// Return the failure of both cdt and remesh. The message recommends embed, whatever the reason.
 Status no_method_fits(Status status)
 {
-  if (status.code == StatusCode::cancelled)
+  if (status.code == StatusCode::canceled)
   {
     return status;
   }
@@ -151,7 +151,7 @@ private:
       constexpr double share = 0.75; // leave time for vertices inside
       status = cdt.build(share * this->time_limit_);
     }
-    if (status.ok() || status.code == StatusCode::cancelled)
+    if (status.ok() || status.code == StatusCode::canceled)
     {
       status = status.ok() ? this->take_cdt(cdt) : status;
       return automatic && status.ok() && !this->is_good_enough() ? this->leave_cdt_for_quality()
@@ -166,7 +166,7 @@ private:
         this->warn("method cdt was left (" + why +
           "); the tets are remesh's and do not keep the surface's triangles");
       }
-      if (status.ok() || status.code == StatusCode::cancelled)
+      if (status.ok() || status.code == StatusCode::canceled)
       {
         return status;
       }
@@ -239,7 +239,7 @@ private:
   /// none.
   Status take_lattice(const Status& status)
   {
-    if (this->lattice_misfit_ > worst_misfit || status.code == StatusCode::cancelled)
+    if (this->lattice_misfit_ > worst_misfit || status.code == StatusCode::canceled)
     {
       return status;
     }
@@ -261,7 +261,7 @@ private:
 
   /// Run another rung. Keep its tets only if their smallest angle is larger than that of the
   /// present tets.
-  /// @return ok or cancelled.
+  /// @return ok or canceled.
   template <typename Rung>
   Status improve_by(const Rung& rung)
   {
@@ -271,7 +271,7 @@ private:
     result.defects = this->result_.defects;
     std::swap(result, this->result_);
     const Status status = rung();
-    if (status.code == StatusCode::cancelled)
+    if (status.code == StatusCode::canceled)
     {
       return status;
     }
@@ -303,7 +303,7 @@ private:
       const Phase phase(this->context_, "remesh", 0.0, 0.7);
       refined = this->refine_inside();
     }
-    if (refined.code == StatusCode::cancelled || (refined.ok() && this->is_good_enough()))
+    if (refined.code == StatusCode::canceled || (refined.ok() && this->is_good_enough()))
     {
       return refined;
     }
@@ -587,7 +587,7 @@ private:
     SurfaceDistance distance;
     if (!measure_distance(this->result_.mesh, region, distance, this->context_))
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     const double percent = 100.0 / this->box_.diagonal();
     this->report_.set("distance_max", Report::Value(percent * distance.maximum));

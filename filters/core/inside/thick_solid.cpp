@@ -141,7 +141,7 @@ Status thick_solid(PointsView points, TrianglesView triangles, const WindingNumb
       });
     if (!whole)
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
   }
   region.contains = [&](Index v, Index u, double t)

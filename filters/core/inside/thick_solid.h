@@ -32,7 +32,7 @@ struct ThickSolidOptions
 ///
 /// Report: resolution (cubes along the longest side of the surface's box),
 /// counts.thickened_triangles.
-/// @return cancelled or ok. The surface must have a diagonal above 0 (check_frame).
+/// @return canceled or ok. The surface must have a diagonal above 0 (check_frame).
 /// Cost: about 1 us per triangle, 1 us per lattice vertex and 10 us per triangle of the result, in
 /// addition to the winding numbers of the lattice vertices.
 Status thick_solid(PointsView points, TrianglesView triangles, const WindingNumber& winding,

@@ -618,7 +618,7 @@ Status check(const GltfSkin& skin, const GltfOptions& options)
   {
     return Status::invalid_input(skin.triangles.rows() == 0
         ? "there is no triangle"
-        : "normals, texture coordinates, colours or weights do not fit the mesh");
+        : "normals, texture coordinates, colors or weights do not fit the mesh");
   }
   if (!are_floats(skin.points) || !are_floats(skin.normals) || !are_floats(skin.texture) ||
     !are_floats(skin.weights))
@@ -722,9 +722,9 @@ Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const Gltf
     std::vector<std::vector<Trs>> tracks;
     for (const GltfFrame& frame : skin.frames)
     {
-      if (context.cancelled())
+      if (context.canceled())
       {
-        return Status::cancelled();
+        return Status::canceled();
       }
       context.progress(
         static_cast<double>(tracks.size()) / static_cast<double>(skin.frames.size()));
@@ -736,7 +736,7 @@ Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const Gltf
     animate_joints(builder, skin, tracks);
   }
   status =
-    context.cancelled() ? Status::cancelled() : write_model(path, builder.model, options.binary);
+    context.canceled() ? Status::canceled() : write_model(path, builder.model, options.binary);
   if (!status.ok())
   {
     return status;

@@ -408,7 +408,7 @@ openvdb::math::Transform::Ptr make_transform(const SampleGrid& grid, const VdbOp
       matrix(axis, k) = options.direction(k, axis) * grid.spacing[axis];
     }
   }
-  // OpenVDB selects the simplest type of map for this matrix. The origin is added afterwards: with
+  // OpenVDB selects the simplest type of map for this matrix. The origin is added afterward: with
   // the origin in the matrix, OpenVDB would compute the spacing as a rounded difference of two
   // points.
   auto transform = openvdb::math::Transform::createLinearTransform(matrix);
@@ -429,7 +429,7 @@ public:
 protected:
   std::streamsize xsputn(const char* text, std::streamsize size) override
   {
-    if (this->context_.cancelled())
+    if (this->context_.canceled())
     {
       return 0; // the stream treats this as a failure and throws
     }
@@ -499,7 +499,7 @@ bool settle_tag(const std::string& path, const std::string& tag, ExecutionContex
   Hash first(0);
   Hash second(0x9e3779b97f4a7c15ull);
   std::streamoff at = -1;
-  for (bool head = true; file && !context.cancelled(); head = false)
+  for (bool head = true; file && !context.canceled(); head = false)
   {
     file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
     const std::streamsize size = file.gcount();
@@ -565,9 +565,9 @@ Status write_file(const std::string& path, const openvdb::FloatGrid::Ptr& grid,
   }
   written = buffer.close() && written;
   written = written && settle_tag(file.temporary(), archive.getUniqueTag(), context);
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   return written ? file.commit() : cannot_write();
 }
@@ -589,7 +589,7 @@ Status write_any(const std::string& path, const SampleGrid& samples, const Value
   Sides sides;
   if (options.band == VdbBand::narrow && !find_sides(samples, values, options, context, sides))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   const auto grid = openvdb::FloatGrid::create(static_cast<float>(options.background));
   grid->setName(options.grid_name);
@@ -601,7 +601,7 @@ Status write_any(const std::string& path, const SampleGrid& samples, const Value
   Index not_finite = -1;
   if (!make_tree(samples, values, sides, options, context, grid->tree(), not_finite))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   if (not_finite >= 0)
   {

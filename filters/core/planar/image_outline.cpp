@@ -51,9 +51,9 @@ public:
     inside = 0;
     for (Index row = -1; row < this->rows_; ++row) // cells between row and row + 1
     {
-      if (context.cancelled())
+      if (context.canceled())
       {
-        return Status::cancelled();
+        return Status::canceled();
       }
       context.progress(static_cast<double>(row + 1) / static_cast<double>(this->rows_ + 1));
       this->read(row + 1, inside);
@@ -355,18 +355,18 @@ public:
     constexpr double first = 0.25;
     for (bool fewer = true; fewer;)
     {
-      if (context.cancelled())
+      if (context.canceled())
       {
-        return Status::cancelled();
+        return Status::canceled();
       }
       fewer = this->halve(first * tolerance);
     }
     context.progress(0.5);
     for (bool fewer = true; fewer;)
     {
-      if (context.cancelled())
+      if (context.canceled())
       {
-        return Status::cancelled();
+        return Status::canceled();
       }
       fewer = this->leap(tolerance);
     }

@@ -352,7 +352,7 @@ Status Builder::keep()
     });
   if (!complete)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   std::set<std::pair<Index, Index>> edges;
   Index kept = 0;
@@ -626,9 +626,9 @@ Status planar_shape(PlanePointsView points, SegmentsView segments, const PlanarH
   {
     return status;
   }
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   return Builder(points, segments, handles, options, context).run(shape);
 }

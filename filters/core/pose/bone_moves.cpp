@@ -159,7 +159,7 @@ BINDPOSE_OF_SCALAR(double)
 
 template <typename Scalar>
 BoneFrames<Scalar> bone_frames(
-  const std::vector<BoneChange>& bones, const std::vector<Affine>& transforms, const Vec3& centre)
+  const std::vector<BoneChange>& bones, const std::vector<Affine>& transforms, const Vec3& center)
 {
   BoneFrames<Scalar> result;
   for (std::size_t j = 0; j < bones.size(); ++j)
@@ -177,7 +177,7 @@ BoneFrames<Scalar> bone_frames(
     axes.row(2) = bone.vector.stableNormalized();
     axes.row(0) = Vec3(axes.row(2)).unitOrthogonal();
     axes.row(1) = axes.row(2).cross(axes.row(0));
-    const Vec3 origin = axes * (centre - bone.head);
+    const Vec3 origin = axes * (center - bone.head);
     const Vec3 directions[3] = { 4.0 * linear * axes.row(0).transpose(),
       4.0 * linear * axes.row(1).transpose(), linear * ((bone.stretch - 1.0) * bone.vector) };
     BoneFrame<Scalar> frame;

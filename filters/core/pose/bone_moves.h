@@ -30,10 +30,10 @@ struct BoneFrames
   std::vector<BoneFrame<Scalar>> frames;
 };
 
-/// @param centre origin of the tiles' points (load_points()).
+/// @param center origin of the tiles' points (load_points()).
 template <typename Scalar>
 BoneFrames<Scalar> bone_frames(
-  const std::vector<BoneChange>& bones, const std::vector<Affine>& transforms, const Vec3& centre);
+  const std::vector<BoneChange>& bones, const std::vector<Affine>& transforms, const Vec3& center);
 
 /// Add to `moves` the displacements that stretch and twist add to linear blending, see
 /// Skinning::stretchable_bones(). The rotations are accurate to the last digits of a Scalar.

@@ -96,7 +96,7 @@ Status ConstrainedStiffness::prepare(const SparseMatrix& stiffness,
   {
     SparseMatrix matrix(size, size);
     matrix.setFromTriplets(inner.begin(), inner.end());
-    Status status = this->solver_.analyse(matrix);
+    Status status = this->solver_.analyze(matrix);
     if (status.ok())
     {
       status = this->solver_.factor(matrix);

@@ -39,9 +39,9 @@ Status Crowd::solve(
   ReducedSpace::Rows d;
   for (std::size_t i = 0; i < poses.size(); ++i)
   {
-    if (context.cancelled())
+    if (context.canceled())
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     if (this->rotations_[i].empty())
     {
@@ -57,7 +57,7 @@ Status Crowd::solve(
     {
       // The transforms of the last successful pose remain; the next solve starts without rotations.
       this->rotations_[i].clear();
-      if (status.code != StatusCode::cancelled)
+      if (status.code != StatusCode::canceled)
       {
         status.message = "instance " + std::to_string(i) + ": " + status.message;
       }

@@ -299,7 +299,7 @@ Status over_elements(
     });
   if (!done)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   Block all;
   for (const Block& block : blocks)

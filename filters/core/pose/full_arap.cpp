@@ -56,7 +56,7 @@ Status FullArap::prepare(const Pose& pose)
   {
     return status;
   }
-  this->factorisations_ += 1;
+  this->factorizations_ += 1;
   this->modes_ = modes_of(pose);
   return status;
 }
@@ -208,7 +208,7 @@ bool FullArap::global_step(ExecutionContext& context, Rows& d)
   {
     this->system_.solve(this->force_, this->given_, this->held_, d);
   }
-  return done && !context.cancelled();
+  return done && !context.canceled();
 }
 
 /// Return 1/2 <D, L D>.
@@ -249,9 +249,9 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
       return status;
     }
   }
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   status.warnings = this->grips_.redundancy(pose, this->system_.redundant());
   this->grips_.targets(pose, this->given_, this->held_);
@@ -282,7 +282,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   Rows g, d; // the plain iterate and the candidate iterate
   if (!this->global_step(context, g))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   d = g;
   this->energies_.assign(1, energy_after_global(g));
@@ -311,7 +311,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
     this->energies_.push_back(energy);
     if (!done || !this->global_step(context, g))
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     const double energy_after = energy_after_global(g);
     ++iterations;
@@ -334,9 +334,9 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   }
   const double microseconds =
     std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   this->warm_ = true;
 

@@ -109,7 +109,7 @@ public:
   /// 1/2 tr(V^T L V): the scale of round-off in an energy.
   double rest_energy() const { return this->rest_energy_; }
   /// Number of factorizations: one for each choice of modes.
-  Index factorisations() const { return this->factorisations_; }
+  Index factorizations() const { return this->factorizations_; }
 
 private:
   using Rows = ConstrainedStiffness::Rows;
@@ -150,7 +150,7 @@ private:
   // ---- per choice of modes
   std::vector<HandleMode> modes_;
   ConstrainedStiffness system_;
-  Index factorisations_ = 0;
+  Index factorizations_ = 0;
 
   // ---- per pose
   Rows given_, held_; ///< target displacements of given vertices and held points

@@ -183,9 +183,9 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   const Elements view = kept;
   const Eigen::RowVector3d middle = points.colwise().mean();
   this->radius_ = std::sqrt((points.rowwise() - middle).rowwise().squaredNorm().mean());
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   {
     Phase phase(context, "grips", 0.3, 0.6);
@@ -219,9 +219,9 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   {
     status.warnings.push_back(left_out_warning(left_out));
   }
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   this->take_covariance(covariance_matrix(points, view, this->groups_));
   const Points centered = points.rowwise() - bounding_box(points).center().transpose();
@@ -229,9 +229,9 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   this->covariance_ = this->rotations_ = this->rest_covariance_;
   this->turn_.assign(static_cast<std::size_t>(9 * this->groups_.count), 0.0);
   this->posed_ = points;
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   status.report.set("counts.vertices", points.rows());
   status.report.set(tets ? "counts.tets" : "counts.triangles", elements.rows());

@@ -196,7 +196,7 @@ Status MovingLeastSquares::bind(ExecutionContext& context, const MovingLeastSqua
   if (!done)
   {
     *this = MovingLeastSquares();
-    return Status::cancelled();
+    return Status::canceled();
   }
   this->handles_ = static_cast<Index>(count);
   this->rest_ = rest;
@@ -342,7 +342,7 @@ Status MovingLeastSquares::warp(
     });
   if (!done)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   status.report.set("planar", planar ? 1 : 0);
   return status;

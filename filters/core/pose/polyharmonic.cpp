@@ -199,9 +199,9 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
     patch.row(count++) = this->triangles_.row(t);
   }
   patch.conservativeResize(count, Eigen::NoChange);
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
 
   this->stiffness_ = stiffness_matrix(this->parameters_, patch);
@@ -241,9 +241,9 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
     this->edge_mass_.resize(n, n);
     this->edge_mass_.setFromTriplets(entries.begin(), entries.end());
   }
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   Status status = this->system_.prepare(this->matrix_, parts.of_vertex, parts.count, given, held);
   if (!status.ok())
@@ -256,7 +256,7 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
   status.report.set(
     "counts.free", std::count(this->is_free_.begin(), this->is_free_.end(), char(1)));
   this->estimate_condition(status.report);
-  return context.cancelled() ? Status::cancelled() : status;
+  return context.canceled() ? Status::canceled() : status;
 }
 
 /// Estimate the largest and the smallest eigenvalue of the system, with ones on its diagonal, by

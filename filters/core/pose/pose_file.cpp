@@ -1,7 +1,7 @@
 // The JSON library parses the text. This file rejects everything that the library would accept
 // silently (unknown keys, duplicate keys, numbers out of range), because a pose that is partly
 // understood would move the wrong handles. Names are resolved during reading. Transforms are built
-// afterwards, parents first, so the order of handles in the file does not matter.
+// afterward, parents first, so the order of handles in the file does not matter.
 #include "pose/pose_file.h"
 
 #include "base/number_text.h"

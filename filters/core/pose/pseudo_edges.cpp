@@ -16,16 +16,16 @@ namespace bindpose
 namespace
 {
 /// Adjacency of the vertices: the neighbors of v are to[start[v]] to to[start[v + 1] - 1].
-struct Neighbours
+struct Neighbors
 {
   std::vector<Index> start, to;
 };
 
 /// List each edge once per element that uses it; duplicates do not change shortest paths.
 template <typename Elements>
-Neighbours neighbours_of(Index vertices, const Elements& elements)
+Neighbors neighbors_of(Index vertices, const Elements& elements)
 {
-  Neighbours list;
+  Neighbors list;
   const Index others = elements.cols() - 1;
   list.start.assign(static_cast<std::size_t>(vertices) + 1, 0);
   for (Index k = 0; k < elements.size(); ++k)
@@ -53,7 +53,7 @@ Neighbours neighbours_of(Index vertices, const Elements& elements)
 }
 
 /// Return the nearest vertex that an element uses, or -1 if there is none.
-Index nearest_vertex(PointsView points, const Neighbours& neighbours, const Vec3& to)
+Index nearest_vertex(PointsView points, const Neighbors& neighbors, const Vec3& to)
 {
   Index nearest = -1;
   double least = std::numeric_limits<double>::infinity();
@@ -61,7 +61,7 @@ Index nearest_vertex(PointsView points, const Neighbours& neighbours, const Vec3
   {
     const double distance = (points.row(v).transpose() - to).squaredNorm();
     const auto at = static_cast<std::size_t>(v);
-    if (neighbours.start[at] < neighbours.start[at + 1] && distance < least)
+    if (neighbors.start[at] < neighbors.start[at + 1] && distance < least)
     {
       least = distance;
       nearest = v;
@@ -107,7 +107,7 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
   {
     return valid;
   }
-  const Neighbours neighbours = neighbours_of(points.rows(), elements);
+  const Neighbors neighbors = neighbors_of(points.rows(), elements);
   const auto size = static_cast<std::size_t>(points.rows());
   std::vector<double> distance(size, std::numeric_limits<double>::infinity());
   std::vector<Index> owner(size, -1);
@@ -121,7 +121,7 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
     {
       continue;
     }
-    const Index vertex = nearest_vertex(points, neighbours, handles[h].head);
+    const Index vertex = nearest_vertex(points, neighbors, handles[h].head);
     if (vertex >= 0)
     {
       count += 1;
@@ -145,9 +145,9 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
     }
     owner[at] = handle;
     distance[at] = length;
-    for (Index k = neighbours.start[at]; k < neighbours.start[at + 1]; ++k)
+    for (Index k = neighbors.start[at]; k < neighbors.start[at + 1]; ++k)
     {
-      const Index u = neighbours.to[static_cast<std::size_t>(k)];
+      const Index u = neighbors.to[static_cast<std::size_t>(k)];
       const auto next = static_cast<std::size_t>(u);
       const double farther = length + (points.row(u) - points.row(v)).norm();
       if (owner[next] < 0)
@@ -166,9 +166,9 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
     if (++steps % 1024 == 0)
     {
       context.progress(static_cast<double>(steps) / static_cast<double>(points.rows()));
-      if (context.cancelled())
+      if (context.canceled())
       {
-        return Status::cancelled();
+        return Status::canceled();
       }
     }
   }

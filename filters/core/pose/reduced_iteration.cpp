@@ -280,9 +280,9 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
   progress.converged = false;
   while (iterations < limits.iterations && !progress.converged && progress.in_time && can_see)
   {
-    if (iterations % 64 == 63 && context.cancelled())
+    if (iterations % 64 == 63 && context.canceled())
     {
-      progress.cancelled = true;
+      progress.canceled = true;
       break;
     }
     bool accelerated = accelerates && iterations > 0 &&

@@ -32,7 +32,7 @@ struct ReducedProgress
   double change = 0.0; ///< decrease of the energy in the last iteration
   bool converged = false;
   bool in_time = true;
-  bool cancelled = false;
+  bool canceled = false;
 };
 
 /// The alternation of reduced as-rigid-as-possible in its coordinates Y, as described in

@@ -222,7 +222,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
     }
     progress.in_time = true; // in time for one iteration in double precision
   }
-  if (!progress.cancelled)
+  if (!progress.canceled)
   {
     // A converged result needs one more iteration for its last digits.
     const bool converged = progress.converged;
@@ -230,9 +230,9 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
     this->iteration_.run(context, limits, options.anderson_window, star_energy, progress);
     progress.converged |= converged;
   }
-  if (progress.cancelled)
+  if (progress.canceled)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   this->iteration_.rotations(stride, this->rotations_);
   const double microseconds =

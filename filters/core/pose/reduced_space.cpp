@@ -180,7 +180,7 @@ bool ReducedSpace::project_stiffness(ExecutionContext& context, PointsView point
       Eigen::RowVectorXd row(size);
       for (Index begin = s * strip; begin < std::min(n, (s + 1) * strip); begin += rows_at_once)
       {
-        if (context.cancelled())
+        if (context.canceled())
         {
           return;
         }
@@ -202,7 +202,7 @@ bool ReducedSpace::project_stiffness(ExecutionContext& context, PointsView point
         square += m.topRows(rows).colwise().squaredNorm().transpose();
       }
     });
-  if (!done || context.cancelled())
+  if (!done || context.canceled())
   {
     return false;
   }
@@ -384,7 +384,7 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
     }
     else if (!cluster_rows(context, weights, wanted, clusters))
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     this->groups = rotation_groups(energy, elements, clusters.count, std::move(clusters.of_row));
     if (wanted >= points.rows() && energy == ArapEnergy::elements)
@@ -414,7 +414,7 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
   {
     if (!this->project_stiffness(context, points, laplacian, all))
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     const Points centered = points.rowwise() - bounding_box(points).center().transpose();
     this->rest_energy = 0.5 * (centered.array() * (laplacian * centered).array()).sum();
@@ -426,9 +426,9 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
   this->project_covariance(
     points, covariance_matrix(points, elements, this->groups), all, handle_count);
   this->find_pivots(points, elements, all);
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   status.report.set("counts.vertices", Report::Value(std::int64_t(points.rows())));
   status.report.set(element_key(elements), Report::Value(std::int64_t(elements.rows())));

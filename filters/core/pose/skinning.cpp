@@ -25,7 +25,7 @@ constexpr double row_sum_tolerance = 1e-6;
 
 /// Return the transforms minus the identity, for points relative to the center.
 template <typename Scalar>
-BlendValues<Scalar, 12> displacements(const std::vector<Affine>& transforms, const Vec3& centre)
+BlendValues<Scalar, 12> displacements(const std::vector<Affine>& transforms, const Vec3& center)
 {
   BlendValues<Scalar, 12> moves;
   moves.values.reserve(12 * transforms.size());
@@ -33,7 +33,7 @@ BlendValues<Scalar, 12> displacements(const std::vector<Affine>& transforms, con
   {
     Affine t = transform;
     t.leftCols<3>() -= Eigen::Matrix3d::Identity();
-    t.col(3) += t.leftCols<3>() * centre;
+    t.col(3) += t.leftCols<3>() * center;
     for (int e = 0; e < 12; ++e)
     {
       moves.values.push_back(static_cast<Scalar>(t.data()[e]));
@@ -44,7 +44,7 @@ BlendValues<Scalar, 12> displacements(const std::vector<Affine>& transforms, con
 
 /// Return a point near the middle of the points, the mean of a few of them. Floats relative to it
 /// are most accurate.
-Vec3 centre_of(PointsView points)
+Vec3 center_of(PointsView points)
 {
   const Index few = std::min<Index>(points.rows(), 64);
   Vec3 sum = Vec3::Zero();
@@ -370,7 +370,7 @@ Status Skinning::bind(
     });
   if (!done)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   Block all;
   for (const Block& block : blocks)
@@ -396,7 +396,7 @@ Status Skinning::bind(
   if (!done)
   {
     *this = Skinning();
-    return Status::cancelled();
+    return Status::canceled();
   }
   Status status;
   status.report.set("row_sum_error", Report::Value(all.error));
@@ -444,8 +444,8 @@ bool Skinning::blend_affine(ExecutionContext& context, PointsView rest,
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
-  const Vec3 centre = normals ? Vec3::Zero() : centre_of(rest);
-  const auto moves = displacements<Scalar>(transforms, centre);
+  const Vec3 center = normals ? Vec3::Zero() : center_of(rest);
+  const auto moves = displacements<Scalar>(transforms, center);
   posed.resize(rest.rows(), 3);
   return parallel_for(context, rest.rows(), block_size,
     [&](Index begin, Index end)
@@ -457,7 +457,7 @@ bool Skinning::blend_affine(ExecutionContext& context, PointsView rest,
         if (!normals)
         {
           blend_points_of_tile(
-            tiles, v / lanes, moves, centre, rest.data() + 3 * v, count, posed.data() + 3 * v);
+            tiles, v / lanes, moves, center, rest.data() + 3 * v, count, posed.data() + 3 * v);
           continue;
         }
         blend_tile(tiles, v / lanes, moves, nullptr, blended);
@@ -483,7 +483,7 @@ Status Skinning::linear_blend(ExecutionContext& context, PointsView rest,
   const bool done = this->single_
     ? this->blend_affine<float>(context, rest, transforms, false, posed)
     : this->blend_affine<double>(context, rest, transforms, false, posed);
-  return done ? status : Status::cancelled();
+  return done ? status : Status::canceled();
 }
 
 Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
@@ -524,7 +524,7 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
     return fits;
   }
   constexpr Index lanes = WeightTiles<float>::lanes;
-  const Vec3 centre = centre_of(rest);
+  const Vec3 center = center_of(rest);
   std::vector<BlendValues<float, 12>> moves;
   for (std::size_t i = 0; i < transforms.size(); ++i)
   {
@@ -539,7 +539,7 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
     {
       placed[j] = identity_affine() + placements[i].leftCols<3>() * (placed[j] - identity_affine());
     }
-    moves.push_back(displacements<float>(placed, centre));
+    moves.push_back(displacements<float>(placed, center));
   }
   const bool done = parallel_for(context, rest.rows(), block_size,
     [&](Index begin, Index end)
@@ -549,7 +549,7 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
       {
         const auto tile = static_cast<std::size_t>((v - begin) / lanes);
         const Index count = std::min(lanes, end - v);
-        load_points(rest.data() + 3 * v, count, centre, points[tile]);
+        load_points(rest.data() + 3 * v, count, center, points[tile]);
         load_points(rest.data() + 3 * v, count, Vec3::Zero(), at[tile]);
       }
       TilePoints<float> placed;
@@ -567,7 +567,7 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
         }
       }
     });
-  return done ? Status() : Status::cancelled();
+  return done ? Status() : Status::canceled();
 }
 
 Status Skinning::linear_blend_normals(ExecutionContext& context, PointsView rest_normals,
@@ -581,7 +581,7 @@ Status Skinning::linear_blend_normals(ExecutionContext& context, PointsView rest
   const bool done = this->single_
     ? this->blend_affine<float>(context, rest_normals, transforms, true, posed_normals)
     : this->blend_affine<double>(context, rest_normals, transforms, true, posed_normals);
-  return done ? status : Status::cancelled();
+  return done ? status : Status::canceled();
 }
 
 template <typename Scalar>
@@ -591,9 +591,9 @@ bool Skinning::blend_bones(ExecutionContext& context, PointsView rest,
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
-  const Vec3 centre = centre_of(rest);
-  const auto moves = displacements<Scalar>(transforms, centre);
-  const auto frames = bone_frames<Scalar>(bones, transforms, centre);
+  const Vec3 center = center_of(rest);
+  const auto moves = displacements<Scalar>(transforms, center);
+  const auto frames = bone_frames<Scalar>(bones, transforms, center);
   posed.resize(rest.rows(), 3);
   return parallel_for(context, rest.rows(), block_size,
     [&](Index begin, Index end)
@@ -604,7 +604,7 @@ bool Skinning::blend_bones(ExecutionContext& context, PointsView rest,
       {
         const Index count = std::min(lanes, end - v);
         blend_tile(tiles, v / lanes, moves, nullptr, blended);
-        load_points(rest.data() + 3 * v, count, centre, points);
+        load_points(rest.data() + 3 * v, count, center, points);
         affine_moves(blended, points, moved);
         add_bone_moves(tiles, frames, endpoints, v, count, points, moved);
         store_moved(rest.data() + 3 * v, count, moved, posed.data() + 3 * v);
@@ -636,7 +636,7 @@ Status Skinning::stretchable_bones(ExecutionContext& context, PointsView rest,
   const bool done = this->single_
     ? this->blend_bones<float>(context, rest, transforms, bones, endpoints, posed)
     : this->blend_bones<double>(context, rest, transforms, bones, endpoints, posed);
-  return done ? status : Status::cancelled();
+  return done ? status : Status::canceled();
 }
 
 template <typename Scalar>
@@ -645,7 +645,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
-  const Vec3 centre = normals ? Vec3::Zero() : centre_of(rest);
+  const Vec3 center = normals ? Vec3::Zero() : center_of(rest);
   // x -> L x + t is the scale and shear x -> c + P (x - c), followed by the rigid y -> R y + u.
   std::vector<Affine> shears(transforms.size());
   std::vector<DualQuaternion> motions(transforms.size());
@@ -660,7 +660,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
     shears[j].col(3) = -shear * c;
     const Vec3 translation = transforms[j].col(3) + rotation * (shear * c);
     motions[j] =
-      dual_quaternion_of(rotation, translation + (rotation - Eigen::Matrix3d::Identity()) * centre);
+      dual_quaternion_of(rotation, translation + (rotation - Eigen::Matrix3d::Identity()) * center);
     for (int e = 0; e < 8; ++e)
     {
       quaternions.values.push_back(
@@ -668,7 +668,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
     }
   }
   set_signs(motions, quaternions);
-  const auto shear_moves = displacements<Scalar>(shears, centre);
+  const auto shear_moves = displacements<Scalar>(shears, center);
   posed.resize(rest.rows(), 3);
   return parallel_for(context, rest.rows(), block_size,
     [&](Index begin, Index end)
@@ -703,7 +703,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
           // Directions do not translate.
           std::fill(&blended.sums[4][0], &blended.sums[4][0] + 4 * lanes, Scalar(0));
         }
-        load_points(from, count, centre, points);
+        load_points(from, count, center, points);
         if (any_shear && !normals)
         {
           affine_moves(sheared, points, first);
@@ -732,7 +732,7 @@ Status Skinning::dual_quaternion(ExecutionContext& context, PointsView rest,
   const bool done = this->single_
     ? this->blend_dual<float>(context, rest, transforms, pivots, false, posed)
     : this->blend_dual<double>(context, rest, transforms, pivots, false, posed);
-  return done ? status : Status::cancelled();
+  return done ? status : Status::canceled();
 }
 
 Status Skinning::dual_quaternion_normals(ExecutionContext& context, PointsView rest_normals,
@@ -747,17 +747,17 @@ Status Skinning::dual_quaternion_normals(ExecutionContext& context, PointsView r
   const bool done = this->single_
     ? this->blend_dual<float>(context, rest_normals, transforms, pivots, true, posed_normals)
     : this->blend_dual<double>(context, rest_normals, transforms, pivots, true, posed_normals);
-  return done ? status : Status::cancelled();
+  return done ? status : Status::canceled();
 }
 
-/// @param centres null: `rest` contains normals.
+/// @param centers null: `rest` contains normals.
 template <typename Scalar>
 bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
-  const std::vector<Affine>& transforms, const PointsView* centres, Points& posed) const
+  const std::vector<Affine>& transforms, const PointsView* centers, Points& posed) const
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
-  const Vec3 middle = centres ? centre_of(*centres) : Vec3::Zero();
+  const Vec3 middle = centers ? center_of(*centers) : Vec3::Zero();
   const auto moves = displacements<Scalar>(transforms, middle);
   std::vector<Affine> shears;
   std::vector<DualQuaternion> motions;
@@ -791,7 +791,7 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
         {
           blend_tile(tiles, v / lanes, shear_moves, nullptr, sheared);
         }
-        if (centres)
+        if (centers)
         {
           blend_tile(tiles, v / lanes, moves, nullptr, moved);
         }
@@ -805,7 +805,7 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
           const Eigen::Matrix3d shear = any_shear
             ? Eigen::Matrix3d(affine_of(sheared, i).template leftCols<3>())
             : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
-          if (!centres)
+          if (!centers)
           {
             const Eigen::Matrix3d linear =
               Eigen::Quaterniond(q).toRotationMatrix() * (Eigen::Matrix3d::Identity() + shear);
@@ -813,13 +813,13 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
             continue;
           }
           // Only displacements are added: a handle that does not move adds exactly zero.
-          const Vec3 centre = centres->row(v + i);
+          const Vec3 center = centers->row(v + i);
           const Affine move = affine_of(moved, i);
-          const Vec3 arm = rest.row(v + i).transpose() - centre;
+          const Vec3 arm = rest.row(v + i).transpose() - center;
           const Vec3 longer = shear * arm;
           const Vec3 across = axis.cross(arm + longer);
           posed.row(v + i) = rest.row(v + i) +
-            (move.leftCols<3>() * (centre - middle) + move.col(3) + longer +
+            (move.leftCols<3>() * (center - middle) + move.col(3) + longer +
               2.0 * (q[3] * across + axis.cross(across)))
               .transpose();
         }
@@ -827,26 +827,26 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
     });
 }
 
-Status Skinning::about_centres(ExecutionContext& context, PointsView rest,
-  const std::vector<Affine>& transforms, PointsView centres, Points& posed) const
+Status Skinning::about_centers(ExecutionContext& context, PointsView rest,
+  const std::vector<Affine>& transforms, PointsView centers, Points& posed) const
 {
   Status status = this->check(rest, transforms);
-  if (status.ok() && centres.rows() != rest.rows())
+  if (status.ok() && centers.rows() != rest.rows())
   {
-    status = Status::invalid_input("there are " + std::to_string(centres.rows()) +
-      " centres of rotation for " + std::to_string(rest.rows()) + " vertices");
+    status = Status::invalid_input("there are " + std::to_string(centers.rows()) +
+      " centers of rotation for " + std::to_string(rest.rows()) + " vertices");
   }
   if (!status.ok())
   {
     return status;
   }
   const bool done = this->single_
-    ? this->blend_about<float>(context, rest, transforms, &centres, posed)
-    : this->blend_about<double>(context, rest, transforms, &centres, posed);
-  return done ? status : Status::cancelled();
+    ? this->blend_about<float>(context, rest, transforms, &centers, posed)
+    : this->blend_about<double>(context, rest, transforms, &centers, posed);
+  return done ? status : Status::canceled();
 }
 
-Status Skinning::about_centres_normals(ExecutionContext& context, PointsView rest_normals,
+Status Skinning::about_centers_normals(ExecutionContext& context, PointsView rest_normals,
   const std::vector<Affine>& transforms, Points& posed_normals) const
 {
   const Status status = this->check(rest_normals, transforms);
@@ -857,7 +857,7 @@ Status Skinning::about_centres_normals(ExecutionContext& context, PointsView res
   const bool done = this->single_
     ? this->blend_about<float>(context, rest_normals, transforms, nullptr, posed_normals)
     : this->blend_about<double>(context, rest_normals, transforms, nullptr, posed_normals);
-  return done ? status : Status::cancelled();
+  return done ? status : Status::canceled();
 }
 
 Status skinning_transforms(

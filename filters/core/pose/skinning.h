@@ -65,7 +65,7 @@ public:
 
   /// Compute v' = sum_j w_j T_j v (Magnenat-Thalmann et al. 1988). `transforms` has one entry per
   /// handle. `rest` and `posed` are #V x 3 and must be different arrays. The status is ok,
-  /// cancelled or invalid_input (sizes).
+  /// canceled or invalid_input (sizes).
   Status linear_blend(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, Points& posed) const;
 
@@ -103,10 +103,10 @@ public:
   /// rotation. A twist therefore keeps its radius if the center is on the axis, and a bent joint
   /// does not bulge as with dual quaternions. The result is exact if all handles have the same
   /// affine map.
-  /// @param centres #V x 3 at rest, from rotation_centres().
-  Status about_centres(ExecutionContext& context, PointsView rest,
-    const std::vector<Affine>& transforms, PointsView centres, Points& posed) const;
-  Status about_centres_normals(ExecutionContext& context, PointsView rest_normals,
+  /// @param centers #V x 3 at rest, from rotation_centers().
+  Status about_centers(ExecutionContext& context, PointsView rest,
+    const std::vector<Affine>& transforms, PointsView centers, Points& posed) const;
+  Status about_centers_normals(ExecutionContext& context, PointsView rest_normals,
     const std::vector<Affine>& transforms, Points& posed_normals) const;
 
   /// Stretchable, twistable bones (Jacobson and Sorkine 2011). A bone with head a and tail b first
@@ -143,7 +143,7 @@ private:
     PointsView pivots, bool normals, Points& posed) const;
   template <typename Scalar>
   bool blend_about(ExecutionContext& context, PointsView rest,
-    const std::vector<Affine>& transforms, const PointsView* centres, Points& posed) const;
+    const std::vector<Affine>& transforms, const PointsView* centers, Points& posed) const;
   template <typename Scalar>
   bool blend_bones(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,

@@ -29,7 +29,7 @@ constexpr Index dense_size = 100;
 constexpr double tolerance = 1e-10;
 constexpr Index most_restarts = 300;
 
-struct Cancelled
+struct Canceled
 {
 };
 
@@ -47,9 +47,9 @@ public:
   Eigen::Index cols() const { return this->root_.size(); }
   void perform_op(const double* x, double* y) const
   {
-    if (this->context_.cancelled())
+    if (this->context_.canceled())
     {
-      throw Cancelled();
+      throw Canceled();
     }
     const Eigen::Map<const Eigen::VectorXd> from(x, this->root_.size());
     Eigen::Map<Eigen::VectorXd> to(y, this->root_.size());
@@ -148,7 +148,7 @@ Status skinning_eigenmodes(ExecutionContext& context, const SparseMatrix& stiffn
   else
   {
     SparseSolver solver;
-    status = solver.analyse(shifted);
+    status = solver.analyze(shifted);
     status = status.ok() ? solver.factor(shifted) : status;
     if (!status.ok())
     {
@@ -162,9 +162,9 @@ Status skinning_eigenmodes(ExecutionContext& context, const SparseMatrix& stiffn
       eigen.init();
       eigen.compute(Spectra::SortRule::LargestAlge, most_restarts, tolerance);
     }
-    catch (const Cancelled&)
+    catch (const Canceled&)
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     vectors = eigen.eigenvectors();
     result.eigenvalues = eigen.eigenvalues().cwiseInverse().array() - shift;

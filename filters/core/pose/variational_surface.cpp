@@ -102,7 +102,7 @@ Status VariationalSurface::bind(ExecutionContext& context, PointsView points,
   status.report.set("method", "variational");
   status.report.set("order", options.order);
   status.report.set("boundary", to_string(options.boundary));
-  return context.cancelled() ? Status::cancelled() : status;
+  return context.canceled() ? Status::canceled() : status;
 }
 
 Status VariationalSurface::prepare(ExecutionContext& context, const Pose& pose)
@@ -135,7 +135,7 @@ Status VariationalSurface::prepare(ExecutionContext& context, const Pose& pose)
   {
     return status;
   }
-  this->factorisations_ += 1;
+  this->factorizations_ += 1;
   status.report.set("counts.constrained", this->grips_.given().size() + this->grips_.held().size());
   const int order = options.order;
   if (options.boundary == PatchBoundary::curve && order > 1 && options.load.rows() == 0)
@@ -266,7 +266,7 @@ Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
     status.report.set(
       "constraint_residual", this->grips_.residual(pose, x - Rows(this->rest_), status.warnings));
   }
-  return context.cancelled() ? Status::cancelled() : status;
+  return context.canceled() ? Status::canceled() : status;
 }
 
 } // namespace bindpose

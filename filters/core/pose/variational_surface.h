@@ -81,7 +81,7 @@ public:
   /// The vertices in the last solved pose.
   const Points& posed() const { return this->posed_; }
   /// Number of factorizations: one for each choice of modes.
-  Index factorisations() const { return this->factorisations_; }
+  Index factorizations() const { return this->factorizations_; }
 
 private:
   using Rows = Polyharmonic::Rows;
@@ -101,7 +101,7 @@ private:
   std::vector<HandleMode> modes_;
   Polyharmonic system_;
   Status prepared_status_; ///< its report and warnings are part of every solve's status
-  Index factorisations_ = 0;
+  Index factorizations_ = 0;
 
   Points posed_;
 };

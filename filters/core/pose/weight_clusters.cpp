@@ -136,7 +136,7 @@ bool cluster_rows(ExecutionContext& context, WeightsView rows, Index count, Clus
   clusters.of_row.assign(static_cast<std::size_t>(rows.rows()), 0);
   if (rows.rows() == 0)
   {
-    return !context.cancelled();
+    return !context.canceled();
   }
   count = std::max<Index>(1, std::min(count, rows.rows()));
   const Index wanted = std::max<Index>(5000, rows_a_cluster * count);

@@ -173,7 +173,7 @@ BINDPOSE_ALWAYS_INLINE void put_together(const Scalar* points, Scalar* line)
 
 template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void load_tile(
-  const double* rest, Index count, const double* centre, Scalar* points)
+  const double* rest, Index count, const double* center, Scalar* points)
 {
   constexpr Index lanes = tile_lanes<Scalar>, part = part_lanes<Scalar, bytes>;
   if (count == lanes)
@@ -183,7 +183,7 @@ BINDPOSE_ALWAYS_INLINE void load_tile(
     {
       for (int c = 0; c < 3; ++c)
       {
-        line[3 * i + c] = static_cast<Scalar>(rest[3 * i + c] - centre[c]);
+        line[3 * i + c] = static_cast<Scalar>(rest[3 * i + c] - center[c]);
       }
     }
     for (Index p = 0; p < lanes; p += part)
@@ -197,7 +197,7 @@ BINDPOSE_ALWAYS_INLINE void load_tile(
     const double* from = rest + 3 * (i < count ? i : 0);
     for (int c = 0; c < 3; ++c)
     {
-      points[c * lanes + i] = static_cast<Scalar>(from[c] - centre[c]);
+      points[c * lanes + i] = static_cast<Scalar>(from[c] - center[c]);
     }
   }
 }
@@ -326,9 +326,9 @@ BINDPOSE_ALWAYS_INLINE void affine_parts(const Scalar* blended, const Scalar* po
         columns, weights + p, count, values, signs, handles, &of_part, blended + p);               \
     }                                                                                              \
   }                                                                                                \
-  version void load(const double* rest, Index count, const double* centre, Scalar* points)         \
+  version void load(const double* rest, Index count, const double* center, Scalar* points)         \
   {                                                                                                \
-    load_tile<bytes>(rest, count, centre, points);                                                 \
+    load_tile<bytes>(rest, count, center, points);                                                 \
   }                                                                                                \
   version void affine(const Scalar* blended, const Scalar* points, Scalar* moves)                  \
   {                                                                                                \
@@ -346,12 +346,12 @@ BINDPOSE_ALWAYS_INLINE void affine_parts(const Scalar* blended, const Scalar* po
     store_tile<bytes>(rest, count, moves, posed);                                                  \
   }                                                                                                \
   version void blend_points(const std::int32_t* columns, const Scalar* weights, Index count,       \
-    const Scalar* values, const double* centre, const double* rest, Index vertices, double* posed) \
+    const Scalar* values, const double* center, const double* rest, Index vertices, double* posed) \
   {                                                                                                \
     constexpr Index lanes = tile_lanes<Scalar>;                                                    \
     alignas(64) Scalar blended[12 * lanes], points[3 * lanes], moves[3 * lanes];                   \
     blend_parts<12, bytes>(columns, weights, count, values, blended);                              \
-    load_tile<bytes>(rest, vertices, centre, points);                                              \
+    load_tile<bytes>(rest, vertices, center, points);                                              \
     affine_parts<bytes>(blended, points, moves);                                                   \
     store_tile<bytes>(rest, vertices, moves, posed);                                               \
   }
@@ -435,9 +435,9 @@ void blend_tile(const WeightTiles<Scalar>& weights, Index tile,
 }
 
 template <typename Scalar>
-void load_points(const double* rest, Index count, const Vec3& centre, TilePoints<Scalar>& points)
+void load_points(const double* rest, Index count, const Vec3& center, TilePoints<Scalar>& points)
 {
-  load(rest, count, centre.data(), &points.at[0][0]);
+  load(rest, count, center.data(), &points.at[0][0]);
 }
 
 template <typename Scalar>
@@ -462,14 +462,14 @@ void store_moved(const double* rest, Index count, const TilePoints<Scalar>& move
 
 template <typename Scalar>
 void blend_points_of_tile(const WeightTiles<Scalar>& weights, Index tile,
-  const BlendValues<Scalar, 12>& values, const Vec3& centre, const double* rest, Index count,
+  const BlendValues<Scalar, 12>& values, const Vec3& center, const double* rest, Index count,
   double* posed)
 {
   const Index begin = weights.start[static_cast<std::size_t>(tile)];
   const Index columns = weights.start[static_cast<std::size_t>(tile) + 1] - begin;
   blend_points(weights.columns.data() + begin,
     weights.weights.data() + begin * WeightTiles<Scalar>::lanes, columns, values.values.data(),
-    centre.data(), rest, count, posed);
+    center.data(), rest, count, posed);
 }
 
 void pose_tile(const WeightTiles<float>& weights, Index tile, const BlendValues<float, 12>& values,

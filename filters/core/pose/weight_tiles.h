@@ -67,7 +67,7 @@ struct alignas(64) TilePoints
 
 /// Load points relative to the center; lanes beyond `count` repeat the first point.
 template <typename Scalar>
-void load_points(const double* rest, Index count, const Vec3& centre, TilePoints<Scalar>& points);
+void load_points(const double* rest, Index count, const Vec3& center, TilePoints<Scalar>& points);
 
 /// Compute the displacements of points by x -> x + A x + b, where A and b differ per vertex (3 x 4,
 /// row by row).
@@ -88,7 +88,7 @@ void store_moved(const double* rest, Index count, const TilePoints<Scalar>& move
 /// Combine blend_tile, load_points, affine_moves and store_moved in one call.
 template <typename Scalar>
 void blend_points_of_tile(const WeightTiles<Scalar>& weights, Index tile,
-  const BlendValues<Scalar, 12>& values, const Vec3& centre, const double* rest, Index count,
+  const BlendValues<Scalar, 12>& values, const Vec3& center, const double* rest, Index count,
   double* posed);
 
 /// Combine blend_tile, affine_moves and posed = rest + moves for the first `count` vertices in one

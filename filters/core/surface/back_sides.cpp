@@ -24,13 +24,13 @@ struct Copies
 };
 
 /// Triangles whose copies cancel, sorted by their corners.
-struct CancellingTriangles
+struct CancelingTriangles
 {
   std::vector<Copies> copies;
   Triangles triangles; ///< with the orientation of the forward copies
 };
 
-CancellingTriangles find_cancelling(TrianglesView triangles)
+CancelingTriangles find_canceling(TrianglesView triangles)
 {
   struct Item
   {
@@ -53,7 +53,7 @@ CancellingTriangles find_cancelling(TrianglesView triangles)
   std::sort(items.begin(), items.end(),
     [](const Item& a, const Item& b)
     { return a.key != b.key ? a.key < b.key : a.triangle < b.triangle; });
-  CancellingTriangles result;
+  CancelingTriangles result;
   std::vector<std::array<Index, 3>> keys;
   for (std::size_t i = 0, j = 0; i < items.size(); i = j)
   {
@@ -83,17 +83,17 @@ CancellingTriangles find_cancelling(TrianglesView triangles)
 
 std::vector<Index> back_sides(PointsView points, TrianglesView triangles)
 {
-  const CancellingTriangles cancelling = find_cancelling(triangles);
+  const CancelingTriangles canceling = find_canceling(triangles);
   std::vector<Index> backs;
-  for (const OrientedPatch& patch : oriented_patches(cancelling.triangles))
+  for (const OrientedPatch& patch : oriented_patches(canceling.triangles))
   {
     double area = 0.0, volume = 0.0;
     Vec3 sum = Vec3::Zero();
-    const Vec3 origin = points.row(cancelling.triangles(patch.triangles[0], 0));
+    const Vec3 origin = points.row(canceling.triangles(patch.triangles[0], 0));
     for (std::size_t i = 0; i < patch.triangles.size(); ++i)
     {
       const auto corner = [&](int k) -> Vec3
-      { return points.row(cancelling.triangles(patch.triangles[i], k)).transpose() - origin; };
+      { return points.row(canceling.triangles(patch.triangles[i], k)).transpose() - origin; };
       const double way = patch.turned[i] ? -1.0 : 1.0;
       const Vec3 normal = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0));
       area += normal.norm();
@@ -106,7 +106,7 @@ std::vector<Index> back_sides(PointsView points, TrianglesView triangles)
     }
     for (std::size_t i = 0; i < patch.triangles.size(); ++i)
     {
-      const Copies& copies = cancelling.copies[patch.triangles[i]];
+      const Copies& copies = canceling.copies[patch.triangles[i]];
       const bool forward = (patch.turned[i] == 0) == (volume >= 0.0);
       const Index kept = forward ? copies.forward : copies.backward;
       std::copy_if(copies.all.begin(), copies.all.end(), std::back_inserter(backs),

@@ -238,7 +238,7 @@ private:
         {
           continue;
         }
-        if (this->context_.cancelled())
+        if (this->context_.canceled())
         {
           return false;
         }
@@ -292,7 +292,7 @@ private:
       {
         continue;
       }
-      if (i % 256 == 0 && this->context_.cancelled())
+      if (i % 256 == 0 && this->context_.canceled())
       {
         return false;
       }
@@ -426,7 +426,7 @@ Status link_parts(PointsView points, TrianglesView triangles, const std::vector<
       "links need a spacing above 0, and parts that touch a distance of at least 0");
   }
   return Linker(points, triangles, parts, held, options, context).run(links) ? Status()
-                                                                             : Status::cancelled();
+                                                                             : Status::canceled();
 }
 
 } // namespace bindpose

@@ -277,7 +277,7 @@ bool winding_numbers(const Points& points, const Triangles& triangles, const She
     {
       numbers[static_cast<Index>(i)] = winding_of_shell(points, triangles, shell, places[i]);
     }
-    return !context.cancelled();
+    return !context.canceled();
   }
   // Copy the shell with separate vertices, because it may be a small part of the surface.
   std::vector<Index> vertices;
@@ -310,7 +310,7 @@ bool winding_numbers(const Points& points, const Triangles& triangles, const She
   {
     queries.row(i) = places[i].transpose();
   }
-  ExecutionContext quiet({}, [&context] { return context.cancelled(); });
+  ExecutionContext quiet({}, [&context] { return context.canceled(); });
   quiet.set_threads(context.threads());
   WindingNumber::Options options;
   options.method = WindingMethod::exact;
@@ -593,9 +593,9 @@ Status repair_surface(PointsView points, TrianglesView triangles, const RepairOp
   found.nonmanifold_edges = edges.nonmanifold;
   found.misoriented_edges = edges.misoriented;
   found.closed = edges.closed && repaired.triangles.rows() > 0;
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   if (options.orient && found.misoriented_edges > 0)
   {
@@ -606,7 +606,7 @@ Status repair_surface(PointsView points, TrianglesView triangles, const RepairOp
   InwardShells inward;
   if (!inward_shells(repaired.points, repaired.triangles, shells, context, inward))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   found.components = components.count;
   found.inward_components = static_cast<Index>(inward.roots.size());
@@ -635,7 +635,7 @@ Status repair_surface(PointsView points, TrianglesView triangles, const RepairOp
   {
     if (!crossing_pairs(repaired.points, repaired.triangles, repaired.crossings, context))
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     found.self_intersections = static_cast<Index>(repaired.crossings.size());
     std::vector<char> crosses(static_cast<std::size_t>(repaired.triangles.rows()), 0);
@@ -645,7 +645,7 @@ Status repair_surface(PointsView points, TrianglesView triangles, const RepairOp
     }
     found.crossing_triangles = std::count(crosses.begin(), crosses.end(), 1);
   }
-  return context.cancelled() ? Status::cancelled() : Status();
+  return context.canceled() ? Status::canceled() : Status();
 }
 
 Status diagnose_surface(PointsView points, TrianglesView triangles, SurfaceDiagnosis& diagnosis,

@@ -270,7 +270,7 @@ bool crossing_pairs(PointsView points, TrianglesView triangles,
           [&](Index f, Index g)
           {
             constexpr Index often = 1024;
-            const bool goes_on = ++looked % often != 0 || !context.cancelled();
+            const bool goes_on = ++looked % often != 0 || !context.canceled();
             if (!triangles_cross(points, triangles, f, g))
             {
               return goes_on;
@@ -286,7 +286,7 @@ bool crossing_pairs(PointsView points, TrianglesView triangles,
     pairs.insert(pairs.end(), list.begin(), list.end());
   }
   std::sort(pairs.begin(), pairs.end());
-  return whole && !context.cancelled();
+  return whole && !context.canceled();
 }
 
 } // namespace bindpose

@@ -32,7 +32,7 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
   BoxQpWorkspace& workspace, ExecutionContext& context)
 {
   const Stopwatch watch;
-  constexpr int most_factorisations = 10;
+  constexpr int most_factorizations = 10;
   constexpr int sure = 2; // factorizations that are exempt from the test for stalling
   constexpr double nearer = 0.5; // a later factorization must reduce the least move by this factor
   constexpr int rounds = 6; // per factorization
@@ -42,7 +42,7 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
   BoxQpSolution solution;
   VectorXd x = start.x;
   std::vector<char> held = start.held;
-  const int most = std::min(most_factorisations, options.maximum_iterations);
+  const int most = std::min(most_factorizations, options.maximum_iterations);
   const bool given = std::all_of(
     problem.pinned.begin(), problem.pinned.end(), [](char pinned) { return pinned != 0; });
   double moved = given ? 0.0 : 1e300;
@@ -58,7 +58,7 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
   while (!(moved <= enough && certified()))
   {
     const bool stalled = solution.iterations > sure && !(moved < nearer * least_move);
-    if (stalled || solution.iterations >= most || context.cancelled())
+    if (stalled || solution.iterations >= most || context.canceled())
     {
       solution.status = Status::failure(StatusCode::not_converged, "");
       break;
@@ -73,7 +73,7 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
       workspace.matrix.valuePtr());
     SplitForm::decouple(held, workspace.matrix);
     const Status factored = workspace.single.factor(workspace.matrix, 0.0, context);
-    solution.factorisations += 1;
+    solution.factorizations += 1;
     solution.factor_seconds += factor_watch.seconds();
     if (!factored.ok())
     {
@@ -90,9 +90,9 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
   {
     solution.status = Status();
   }
-  if (context.cancelled())
+  if (context.canceled())
   {
-    solution.status = Status::cancelled();
+    solution.status = Status::canceled();
   }
   solution.solve_seconds = watch.seconds() - solution.factor_seconds;
   return solution;

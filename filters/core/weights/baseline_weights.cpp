@@ -140,7 +140,7 @@ Status inverse_distances(
         w.row(v) /= w.row(v).sum();
       }
     });
-  return whole ? Status() : Status::cancelled();
+  return whole ? Status() : Status::canceled();
 }
 
 SparseMatrix with_diagonal(const SparseMatrix& matrix, double factor, const VectorXd& diagonal)
@@ -290,7 +290,7 @@ Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext
       }
     });
   heated = (h.array() > 0.0).count();
-  return whole ? Status() : Status::cancelled();
+  return whole ? Status() : Status::canceled();
 }
 
 Status bone_heat(const WeightsProblem& problem, const BaselineWeightsOptions& options,

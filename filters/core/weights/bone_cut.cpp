@@ -171,9 +171,9 @@ Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles
   BoneEdges cut;
   for (std::size_t b = 0; b < handles.size(); ++b)
   {
-    if (context.cancelled())
+    if (context.canceled())
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     if (handles[b].kind != HandleKind::bone)
     {

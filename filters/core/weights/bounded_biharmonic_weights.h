@@ -13,7 +13,7 @@ struct BoundedWeightsOptions : WeightsOptions
 };
 
 /// Compute bounded biharmonic weights. The weights of a handle minimize the k-harmonic energy
-/// subject to 0 <= w <= 1, are 1 on the handle and 0 on all other handles. Afterwards rows are
+/// subject to 0 <= w <= 1, are 1 on the handle and 0 on all other handles. Afterward rows are
 /// divided by their sums. Every column has a certificate.
 /// Cost: see BoxQp.
 /// Jacobson et al. 2011, Bounded biharmonic weights for real-time deformation.

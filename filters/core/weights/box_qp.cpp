@@ -91,7 +91,7 @@ struct BoxQp::Impl : SplitForm
       : static_cast<double>(this->lower.nonZeros()) * (sizeof(double) + sizeof(int)) +
         40.0 * sizeof(double) * vertices + this->single.factor_bytes() +
         this->single.workspace_bytes() +
-        (ordered || !this->single.analysed() ? in_double_precision : 0.0);
+        (ordered || !this->single.analyzed() ? in_double_precision : 0.0);
     const double left = memory_left(this->options.solver.memory_limit);
     const double wanted = std::min(count, static_cast<double>(thread_count(threads)));
     const double fitting = each > 0.0 ? std::floor((left - once) / each) : wanted;
@@ -123,7 +123,7 @@ struct BoxQp::Impl : SplitForm
       return true;
     }
     const std::lock_guard<std::mutex> lock(this->solver_mutex);
-    if (!this->in_double && !(context && context->cancelled()))
+    if (!this->in_double && !(context && context->canceled()))
     {
       this->in_double = this->solver.factor(this->lower).ok();
     }
@@ -175,7 +175,7 @@ struct BoxQp::Impl : SplitForm
     {
       this->single_of_a = FloatCholesky();
     }
-    return status.code == StatusCode::cancelled ? status : Status();
+    return status.code == StatusCode::canceled ? status : Status();
   }
   /// Compute A^-1 r over all vertices.
   VectorXd inverse(const VectorXd& r) const
@@ -185,7 +185,7 @@ struct BoxQp::Impl : SplitForm
   }
   /// Return the minimizers without bounds (#V x m). They are used even if solve_a() fails, because
   /// the results that are derived from them have their own certificates.
-  Eigen::MatrixXd minimisers(
+  Eigen::MatrixXd minimizers(
     const Eigen::MatrixXd& fixed_values, const ExecutionContext* context) const
   {
     Eigen::MatrixXd x;
@@ -233,12 +233,12 @@ public:
           this->solutions_[j].iterations < this->qp_.options.maximum_iterations)
         {
           // Until the interior-point method solves it.
-          this->solutions_[j].status = Status::cancelled();
+          this->solutions_[j].status = Status::canceled();
           left.push_back(j);
         }
       }
     }
-    if (this->context_.cancelled())
+    if (this->context_.canceled())
     {
       return;
     }
@@ -263,7 +263,7 @@ private:
   /// finite bounds.
   bool may_start(const BoxQpColumn& column) const
   {
-    return this->qp_.single.analysed() && column.pairs.empty() && column.start.size() == 0 &&
+    return this->qp_.single.analyzed() && column.pairs.empty() && column.start.size() == 0 &&
       column.bounds.lower.allFinite() && column.bounds.upper.allFinite();
   }
 
@@ -319,7 +319,7 @@ private:
               BoxQpSolution& before = this->solutions_[chosen[k]];
               BoxQpSolution solution = solve(chosen[k], workspace);
               solution.iterations += before.iterations;
-              solution.factorisations += before.factorisations;
+              solution.factorizations += before.factorizations;
               solution.factor_seconds += before.factor_seconds;
               solution.solve_seconds += before.solve_seconds;
               before = std::move(solution);
@@ -355,36 +355,36 @@ Status BoxQp::prepare(ExecutionContext& context, const std::vector<BoxQpColumn>&
   }
   Status status;
   {
-    Phase phase(context, "analyse");
-    status = impl.solver.analyse(impl.lower);
+    Phase phase(context, "analyze");
+    status = impl.solver.analyze(impl.lower);
     if (status.ok())
     {
-      const Status single = impl.single.analyse(impl.solver, impl.lower);
+      const Status single = impl.single.analyze(impl.solver, impl.lower);
       status = single.code == StatusCode::unavailable ? status : single;
     }
   }
   const Stopwatch watch;
   if (status.ok())
   {
-    status = impl.plan_memory(columns, context.threads(), impl.single.analysed());
+    status = impl.plan_memory(columns, context.threads(), impl.single.analyzed());
   }
-  if (status.ok() && !context.cancelled() && impl.single.analysed())
+  if (status.ok() && !context.canceled() && impl.single.analyzed())
   {
     status = impl.factor_single(context);
   }
-  if (status.ok() && !context.cancelled() && !impl.in_single)
+  if (status.ok() && !context.canceled() && !impl.in_single)
   {
     status = impl.plan_memory(columns, context.threads(), false);
     status = status.ok() ? without_minimum(impl.solver.factor(impl.lower)) : status;
     impl.in_double = status.ok();
   }
   context.add_seconds("factor", watch.seconds());
-  return status.ok() && context.cancelled() ? Status::cancelled() : status;
+  return status.ok() && context.canceled() ? Status::canceled() : status;
 }
 
 Eigen::MatrixXd BoxQp::unconstrained(const Eigen::MatrixXd& fixed_values) const
 {
-  return this->impl_->minimisers(fixed_values, nullptr);
+  return this->impl_->minimizers(fixed_values, nullptr);
 }
 
 Eigen::MatrixXd BoxQp::inverse(const Eigen::MatrixXd& rhs) const
@@ -404,9 +404,9 @@ std::vector<BoxQpSolution> BoxQp::solve_unbounded(
     fixed_values.col(static_cast<Index>(j)) = columns[j].fixed_values;
   }
   const Stopwatch watch;
-  const Eigen::MatrixXd w = impl.minimisers(fixed_values, &context);
+  const Eigen::MatrixXd w = impl.minimizers(fixed_values, &context);
   const double seconds = watch.seconds() / std::max<double>(1.0, double(columns.size()));
-  for (std::size_t j = 0; j < columns.size() && !context.cancelled(); ++j)
+  for (std::size_t j = 0; j < columns.size() && !context.canceled(); ++j)
   {
     const Stopwatch column_watch;
     BoxQpSolution& solution = solutions[j];
@@ -454,11 +454,11 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
   for (std::size_t j = 0; j < columns.size(); ++j)
   {
     fixed_values.col(static_cast<Index>(j)) = columns[j].fixed_values;
-    solutions[j].status = Status::cancelled();
+    solutions[j].status = Status::canceled();
     solutions[j].w = VectorXd::Zero(impl.q.rows());
   }
-  Eigen::MatrixXd free_of_bounds = impl.minimisers(fixed_values, &context);
-  if (!context.cancelled())
+  Eigen::MatrixXd free_of_bounds = impl.minimizers(fixed_values, &context);
+  if (!context.canceled())
   {
     const FewerThreads fewer(context, impl.most_threads);
     Impl::ColumnsSolve(impl, columns, std::move(free_of_bounds), solutions, context).run();
@@ -476,9 +476,9 @@ Index BoxQp::analyses() const
   return this->impl_->solver.analyses();
 }
 
-Index BoxQp::factorisations() const
+Index BoxQp::factorizations() const
 {
-  return this->impl_->solver.factorisations() + this->impl_->single.factorisations();
+  return this->impl_->solver.factorizations() + this->impl_->single.factorizations();
 }
 
 double BoxQp::memory_estimate() const

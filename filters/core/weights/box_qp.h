@@ -41,12 +41,12 @@ struct BoxQpColumn
 
 struct BoxQpSolution
 {
-  Status status; ///< ok, not_converged or cancelled; internal_error if a factorization fails
+  Status status; ///< ok, not_converged or canceled; internal_error if a factorization fails
   Eigen::VectorXd w; ///< #V; bounds and pairs are satisfied exactly
   Certificate certificate;
   Eigen::VectorXd multipliers; ///< multipliers of column.pairs, >= 0
   int iterations = 0;
-  int factorisations = 0;
+  int factorizations = 0;
   double factor_seconds = 0.0;
   double solve_seconds = 0.0; ///< everything but factorizations
 };
@@ -84,7 +84,7 @@ public:
   BoxQp(const BoxQp&) = delete;
   BoxQp& operator=(const BoxQp&) = delete;
 
-  /// Analyze and factor Q once. This must succeed before any other call. Phase "analyse". Return
+  /// Analyze and factor Q once. This must succeed before any other call. Phase "analyze". Return
   /// internal_error, before anything is factored, if the memory is insufficient for these columns.
   /// @param columns the columns that solve_all() will receive. If the memory does not suffice for
   /// one factor per thread, solve_all() uses fewer threads.
@@ -106,13 +106,13 @@ public:
   BoxQpSolution solve(const BoxQpColumn& column, ExecutionContext& context) const;
 
   /// Solve all columns on the context's threads. The bits of the result do not depend on the number
-  /// of threads. After a cancel, columns that were not reached have the status cancelled.
+  /// of threads. After a cancel, columns that were not reached have the status canceled.
   std::vector<BoxQpSolution> solve_all(
     const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const;
 
   Index free_count() const;
   Index analyses() const;
-  Index factorisations() const;
+  Index factorizations() const;
   /// Return the largest memory of the process in bytes, as estimated by prepare() after the
   /// analysis.
   double memory_estimate() const;

@@ -473,7 +473,7 @@ VertexGraph merge_graph(
   const ColumnGroup& group, const VertexGraph& graph, const std::vector<VertexRole>& roles)
 {
   const auto n = static_cast<Index>(roles.size());
-  std::vector<std::vector<Index>> neighbours(static_cast<std::size_t>(group.count));
+  std::vector<std::vector<Index>> neighbors(static_cast<std::size_t>(group.count));
   for (Index k = 0; k < group.copies; ++k)
   {
     for (Index v = 0; v < n; ++v)
@@ -481,23 +481,23 @@ VertexGraph merge_graph(
       const Index u = group.unknown(v, k, n);
       for (Index i = graph.begin[v]; i < graph.begin[v + 1]; ++i)
       {
-        const Index other = graph.neighbours[i];
+        const Index other = graph.neighbors[i];
         const Index there = group.unknown(other, k, n);
         if (there != u && roles[v] != VertexRole::follower && roles[other] != VertexRole::follower)
         {
-          neighbours[u].push_back(there);
+          neighbors[u].push_back(there);
         }
       }
     }
   }
   VertexGraph merged;
-  for (std::vector<Index>& list : neighbours)
+  for (std::vector<Index>& list : neighbors)
   {
-    merged.begin.push_back(static_cast<Index>(merged.neighbours.size()));
+    merged.begin.push_back(static_cast<Index>(merged.neighbors.size()));
     sort_unique(list);
-    merged.neighbours.insert(merged.neighbours.end(), list.begin(), list.end());
+    merged.neighbors.insert(merged.neighbors.end(), list.begin(), list.end());
   }
-  merged.begin.push_back(static_cast<Index>(merged.neighbours.size()));
+  merged.begin.push_back(static_cast<Index>(merged.neighbors.size()));
   return merged;
 }
 

@@ -361,7 +361,7 @@ Status CoupledQp::factor()
         }
       }
     });
-  this->result_.factorisations += static_cast<int>(this->m_);
+  this->result_.factorizations += static_cast<int>(this->m_);
   for (const Status& status : statuses)
   {
     if (!status.ok())
@@ -390,7 +390,7 @@ Status CoupledQp::factor()
     this->share_[i] = count > 0.0 ? 1.0 / std::sqrt(count) : 0.0;
   }
   this->factor_seconds_ += watch.seconds();
-  return whole && !this->context_.cancelled() ? Status() : Status::cancelled();
+  return whole && !this->context_.canceled() ? Status() : Status::canceled();
 }
 
 /// Apply H_j^-1 to every column; 0 for weights that are not solved for.
@@ -437,7 +437,7 @@ void CoupledQp::find_multipliers(const VectorXd& rhs, double accuracy, VectorXd&
   const double wanted = accuracy * accuracy * rhs.dot(precondition(rhs));
   VectorXd z, p;
   double last = 0.0;
-  for (int k = 0; k < most_steps && !this->context_.cancelled(); ++k)
+  for (int k = 0; k < most_steps && !this->context_.canceled(); ++k)
   {
     z = precondition(r);
     const double now = r.dot(z);
@@ -681,10 +681,10 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     const double back = 0.995;
     primal = primal < 1.0 ? back * primal : 1.0;
     dual = dual < 1.0 ? back * dual : 1.0;
-    if (this->context_.cancelled() || !d.x.allFinite())
+    if (this->context_.canceled() || !d.x.allFinite())
     {
-      status = this->context_.cancelled()
-        ? Status::cancelled()
+      status = this->context_.canceled()
+        ? Status::canceled()
         : Status::failure(StatusCode::not_converged, "a step is not finite");
       break;
     }
@@ -707,7 +707,7 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
       std::clamp(std::log(worst(this->best_.certificate)) / std::log(tolerance), 0.0, 1.0));
   }
   this->best_.iterations = this->result_.iterations;
-  this->best_.factorisations = this->result_.factorisations;
+  this->best_.factorizations = this->result_.factorizations;
   this->best_.inner_iterations = this->result_.inner_iterations;
   this->best_.vertex = this->result_.vertex;
   this->best_.status = status;
@@ -721,7 +721,7 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
   {
     column.status = this->best_.status;
     column.iterations = this->best_.iterations;
-    column.factorisations = this->best_.iterations;
+    column.factorizations = this->best_.iterations;
     column.factor_seconds = share * this->factor_seconds_;
     column.solve_seconds = share * (seconds - this->factor_seconds_);
   }

@@ -17,7 +17,7 @@ struct CoupledSolution
   Eigen::VectorXd multipliers; ///< #V, of the row sums
   Index vertex = -1; ///< the vertex that an invalid_input refers to
   int iterations = 0;
-  int factorisations = 0;
+  int factorizations = 0;
   int inner_iterations = 0; ///< iterations of conjugate gradients
 };
 

@@ -60,9 +60,9 @@ Status depth_order(WeightsView weights, const Eigen::VectorXd& layers,
       }
       return not_finite;
     });
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   if (bad > 0.0)
   {

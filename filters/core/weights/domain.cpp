@@ -115,12 +115,12 @@ double mean_edge_length(const Domain& domain, Index element)
 
 bool is_flat(PointsView points, double diagonal, Vec3& normal)
 {
-  const Vec3 centre = points.colwise().mean();
-  const Points centred = points.rowwise() - centre.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centred.transpose() * centred);
+  const Vec3 center = points.colwise().mean();
+  const Points centered = points.rowwise() - center.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centered.transpose() * centered);
   normal = axes.eigenvectors().col(0);
   constexpr double flat = 1e-9;
-  return (centred * normal).cwiseAbs().maxCoeff() <= flat * diagonal;
+  return (centered * normal).cwiseAbs().maxCoeff() <= flat * diagonal;
 }
 
 VertexGraph vertex_graph(const Domain& domain)
@@ -147,11 +147,11 @@ VertexGraph vertex_graph(const Domain& domain)
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   VertexGraph graph;
   graph.begin.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
-  graph.neighbours.reserve(edges.size());
+  graph.neighbors.reserve(edges.size());
   for (const auto& [from, to] : edges)
   {
     graph.begin[from + 1] += 1;
-    graph.neighbours.push_back(to);
+    graph.neighbors.push_back(to);
   }
   for (Index v = 0; v < vertex_count; ++v)
   {

@@ -65,8 +65,8 @@ bool is_flat(PointsView points, double diagonal, Vec3& normal);
 /// The neighbors of every vertex along edges, ascending, without duplicates.
 struct VertexGraph
 {
-  std::vector<Index> begin; ///< #V + 1 offsets into neighbours
-  std::vector<Index> neighbours;
+  std::vector<Index> begin; ///< #V + 1 offsets into neighbors
+  std::vector<Index> neighbors;
 };
 VertexGraph vertex_graph(const Domain& domain);
 

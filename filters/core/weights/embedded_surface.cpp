@@ -112,7 +112,7 @@ EmbeddedSurface::EmbeddedSurface(PointsView points, TrianglesView triangles,
     (lattice.points.row(lattice.tets(0, 0)) - lattice.points.row(lattice.tets(0, 3))).norm());
   for (Index t = 0; t < lattice.tets.rows(); ++t)
   {
-    this->copies_[this->centre_of(t)].push_back(t);
+    this->copies_[this->center_of(t)].push_back(t);
   }
   for (auto at = this->copies_.begin(); at != this->copies_.end();)
   {
@@ -123,7 +123,7 @@ EmbeddedSurface::EmbeddedSurface(PointsView points, TrianglesView triangles,
     this->first_corner_, this->corners_at_);
 }
 
-EmbeddedSurface::Place EmbeddedSurface::centre_of(Index tet) const
+EmbeddedSurface::Place EmbeddedSurface::center_of(Index tet) const
 {
   Vec3 sum = Vec3::Zero();
   for (int k = 0; k < 4; ++k)
@@ -156,7 +156,7 @@ Domain EmbeddedSurface::domain(const Eigen::VectorXd& inside_fractions) const
 Index EmbeddedSurface::tet_of(const Vec3& place) const
 {
   const Index found = this->tets_.locate(place).element;
-  const auto copies = found < 0 ? this->copies_.end() : this->copies_.find(this->centre_of(found));
+  const auto copies = found < 0 ? this->copies_.end() : this->copies_.find(this->center_of(found));
   if (copies == this->copies_.end())
   {
     return found;
@@ -256,7 +256,7 @@ Status EmbeddedSurface::interpolate(
         result.row(i) = result.row(i).cwiseMax(lowest).cwiseMin(highest);
       }
     });
-  return whole ? Status() : Status::cancelled();
+  return whole ? Status() : Status::canceled();
 }
 
 /// Return the surface's point at a position; -1: none.
@@ -282,7 +282,7 @@ Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double le
     const ProgressRange range(context, 0.0, built);
     if (!welded.build(this->points_, this->triangles_, {}, context))
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
   }
   const ProgressRange range(context, built, 1.0);
@@ -317,7 +317,7 @@ Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double le
   }
   if (!smooth_on_surface(points, triangles, fixed, length, smooth, context))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   const Eigen::RowVectorXd lowest = result.colwise().minCoeff();
   const Eigen::RowVectorXd highest = result.colwise().maxCoeff();

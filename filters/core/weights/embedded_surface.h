@@ -54,7 +54,7 @@ private:
   {
     std::size_t operator()(const Place& place) const;
   };
-  Place centre_of(Index tet) const;
+  Place center_of(Index tet) const;
   Status interpolate(const HandleInsertion& mesh, WeightsView values, ExecutionContext& context,
     Weights& result) const;
   /// @param fixed_points ids of points whose values do not change.

@@ -62,7 +62,7 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
     rank[v] = static_cast<Index>(i);
     for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
     {
-      const Index u = graph.neighbours[k];
+      const Index u = graph.neighbors[k];
       if (rank[u] < 0)
       {
         continue;

@@ -17,14 +17,14 @@ namespace bindpose
 namespace
 {
 /// Report whether every vertex that is not listed has a higher (above) or lower neighbor.
-bool has_neighbours(const VertexGraph& graph, const ExtremaList& list,
+bool has_neighbors(const VertexGraph& graph, const ExtremaList& list,
   const std::vector<Index>& rank, const std::vector<Index>& order, bool above)
 {
   return std::all_of(order.begin(), order.end(),
     [&](Index v)
     {
-      const auto begin = graph.neighbours.begin() + graph.begin[v];
-      const auto end = graph.neighbours.begin() + graph.begin[v + 1];
+      const auto begin = graph.neighbors.begin() + graph.begin[v];
+      const auto end = graph.neighbors.begin() + graph.begin[v + 1];
       return list[v] != 0 ||
         std::any_of(
           begin, end, [&](Index u) { return above ? rank[u] > rank[v] : rank[u] < rank[v]; });
@@ -73,7 +73,7 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
   {
     for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
     {
-      const Index u = graph.neighbours[k];
+      const Index u = graph.neighbors[k];
       if (place[u] >= 0)
       {
         open.push(place[u]);
@@ -125,7 +125,7 @@ std::vector<std::vector<Index>> parts_without(
       found = found || list[v] * kind > 0;
       for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
       {
-        const Index u = graph.neighbours[k];
+        const Index u = graph.neighbors[k];
         if (!seen[u] && taking_part[u] && list[u] * kind >= 0)
         {
           seen[u] = 1;
@@ -158,11 +158,11 @@ int order_with_extrema(const VertexGraph& graph, const std::vector<char>& taking
   }
   std::sort(order.begin(), order.end(),
     [&](Index a, Index b) { return values[a] != values[b] ? values[a] < values[b] : a < b; });
-  for (int floods = 1; floods <= most_floods && !context.cancelled(); ++floods)
+  for (int floods = 1; floods <= most_floods && !context.canceled(); ++floods)
   {
     const bool upwards = floods % 2 == 1;
     flood(graph, list, upwards ? -1 : 1, rank, order);
-    if (has_neighbours(graph, list, rank, order, upwards))
+    if (has_neighbors(graph, list, rank, order, upwards))
     {
       return floods;
     }
@@ -204,7 +204,7 @@ std::vector<OrderedPair> pairs_of_order(
     Index highest = v;
     for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
     {
-      const Index u = graph.neighbours[k];
+      const Index u = graph.neighbors[k];
       lowest = rank[u] < rank[lowest] ? u : lowest;
       highest = rank[u] > rank[highest] ? u : highest;
       if (list[v] != 0 && list[u] * list[v] <= 0)

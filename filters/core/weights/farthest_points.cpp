@@ -52,9 +52,9 @@ Status farthest_points(PointsView points, TrianglesView triangles, Index count,
   Vec3 from = centroid;
   for (Index n = 0; n < count; ++n)
   {
-    if (context.cancelled())
+    if (context.canceled())
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
     context.progress(static_cast<double>(n) / static_cast<double>(count));
     std::size_t best = 0;

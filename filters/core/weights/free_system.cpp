@@ -18,15 +18,15 @@ Status FreeSystem::factor(const SparseSolver::Options& options, ExecutionContext
     return {};
   }
   this->solver_ = SparseSolver(options);
-  Status status = this->solver_.analyse(this->form_.lower);
-  if (status.ok() && !context.cancelled())
+  Status status = this->solver_.analyze(this->form_.lower);
+  if (status.ok() && !context.canceled())
   {
     status = without_minimum(this->solver_.factor(this->form_.lower));
   }
-  return context.cancelled() ? Status::cancelled() : status;
+  return context.canceled() ? Status::canceled() : status;
 }
 
-MatrixXd FreeSystem::minimisers(const MatrixXd& fixed_values) const
+MatrixXd FreeSystem::minimizers(const MatrixXd& fixed_values) const
 {
   return this->form_.whole(
     this->solver_.solve(-(this->form_.to_fixed * fixed_values)), fixed_values);

@@ -23,7 +23,7 @@ public:
   /// Return the minimizers (#V x m) of 1/2 w' A w with these values at the fixed vertices (#fixed x
   /// m). If all off-diagonal entries of the matrix are <= 0, the relative errors are small even for
   /// tiny values.
-  Eigen::MatrixXd minimisers(const Eigen::MatrixXd& fixed_values) const;
+  Eigen::MatrixXd minimizers(const Eigen::MatrixXd& fixed_values) const;
 
   /// Solve for the free rows of w, given the right-hand side (#V x m) and w's fixed rows.
   /// @return the largest residual of each column, as the change of a single vertex that would

@@ -543,9 +543,9 @@ Status Inserter::run(ExecutionContext& context)
       ends.push_back({ handle.tail, at, -1 });
       this->add_bone_samples(at, earlier, between);
     }
-    if (context.cancelled())
+    if (context.canceled())
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
   }
   this->add_cage_samples(earlier, between);
@@ -574,9 +574,9 @@ Status Inserter::run(ExecutionContext& context)
       }
     }
     context.progress(static_cast<double>(i) / static_cast<double>(samples.size()));
-    if (context.cancelled())
+    if (context.canceled())
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
   }
   this->finish();

@@ -265,7 +265,7 @@ Status InteriorPoint::factor(const VectorXd& d)
   }
   Status status;
   this->in_single_ = false;
-  if (this->workspace_.single.analysed() && this->single_is_enough_)
+  if (this->workspace_.single.analyzed() && this->single_is_enough_)
   {
     this->extra_ = VectorXd::Zero(this->problem_.c.size());
     for (Index i = 0; i < nb; ++i)
@@ -285,13 +285,13 @@ Status InteriorPoint::factor(const VectorXd& d)
     do
     {
       status = this->workspace_.single.factor(matrix, this->shift_, this->context_);
-      this->result_.factorisations += 1;
+      this->result_.factorizations += 1;
     } while (status.code == StatusCode::invalid_input &&
       (this->shift_ = std::max(least_shift, 10.0 * this->shift_)) < 1.5 * largest_shift);
     this->in_single_ = status.ok();
     this->single_is_enough_ = status.code != StatusCode::invalid_input;
   }
-  if (!this->in_single_ && status.code != StatusCode::cancelled)
+  if (!this->in_single_ && status.code != StatusCode::canceled)
   {
     status = this->factor_double();
   }
@@ -306,11 +306,11 @@ Status InteriorPoint::factor_double()
   SparseMatrix& matrix = this->workspace_.matrix;
   double* values = matrix.valuePtr();
   Status status = this->workspace_.solver.factor(matrix);
-  this->result_.factorisations += 1;
+  this->result_.factorizations += 1;
   // Round-off can make a pivot fail that is positive in exact arithmetic. A relative shift of the
   // diagonal makes the step slightly shorter, but the solution stays correct.
   for (double shift = 1e-14; !status.ok() && status.code == StatusCode::invalid_input &&
-       shift < 1e-6 && !this->context_.cancelled();
+       shift < 1e-6 && !this->context_.canceled();
        shift *= 100.0)
   {
     for (const int k : matrices.diagonal)
@@ -318,7 +318,7 @@ Status InteriorPoint::factor_double()
       values[k] *= 1.0 + shift;
     }
     status = this->workspace_.solver.factor(matrix);
-    this->result_.factorisations += 1;
+    this->result_.factorizations += 1;
   }
   return status;
 }
@@ -381,7 +381,7 @@ InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target, double acc
     }
   }
   Direction d;
-  if (this->in_single_ && !this->solve_refined(rhs, accuracy, d.x) && !this->context_.cancelled())
+  if (this->in_single_ && !this->solve_refined(rhs, accuracy, d.x) && !this->context_.canceled())
   {
     // This column uses double precision from here on.
     const Stopwatch watch;
@@ -443,7 +443,7 @@ InteriorPoint::Direction InteriorPoint::find_direction()
 
   constexpr int correctors = 5;
   constexpr double reach = 0.35; // increase of the step length that each corrector aims for
-  for (int k = 0; k < correctors && !this->context_.cancelled(); ++k)
+  for (int k = 0; k < correctors && !this->context_.canceled(); ++k)
   {
     const double p = std::min(1.0, primal + reach);
     const double q = std::min(1.0, dual + reach);
@@ -521,7 +521,7 @@ void InteriorPoint::balance_start()
   }
 }
 
-/// @param least smallest slack afterwards, times the distance of the bounds if that is below 1.
+/// @param least smallest slack afterward, times the distance of the bounds if that is below 1.
 void InteriorPoint::raise_slacks(double least)
 {
   VectorXd floor = VectorXd::Constant(this->h_.size(), least);
@@ -653,9 +653,9 @@ BoxQpSolution InteriorPoint::run()
   };
   while (status.ok() && !done() && this->result_.iterations < this->options_.maximum_iterations)
   {
-    if (this->context_.cancelled())
+    if (this->context_.canceled())
     {
-      status = Status::cancelled();
+      status = Status::canceled();
       break;
     }
     if (this->result_.iterations == begin_anew_after && this->start_.mu > 0.0 &&
@@ -670,7 +670,7 @@ BoxQpSolution InteriorPoint::run()
     this->mu_ = this->s_.dot(this->z_) / static_cast<double>(this->s_.size());
     this->quotient_ = this->z_.cwiseQuotient(this->s_);
     status = this->factor(this->quotient_);
-    if (!status.ok() || this->context_.cancelled())
+    if (!status.ok() || this->context_.canceled())
     {
       continue;
     }
@@ -721,7 +721,7 @@ BoxQpSolution InteriorPoint::run()
     }
   }
   this->best_.iterations = this->result_.iterations;
-  this->best_.factorisations = this->result_.factorisations;
+  this->best_.factorizations = this->result_.factorizations;
   this->best_.factor_seconds = this->result_.factor_seconds;
   this->best_.solve_seconds = watch.seconds() - this->result_.factor_seconds;
   this->best_.status = status;
@@ -745,11 +745,11 @@ BoxQpSolution interior_point(const SplitForm& matrices, const BoxQpOptions& opti
   };
   BoxQpSolution solution = run(true);
   // With ordered pairs, a solve that fails in single precision is repeated in double precision.
-  if (!column.pairs.empty() && workspace.single.analysed() && !solution.status.ok() &&
-    solution.status.code != StatusCode::cancelled)
+  if (!column.pairs.empty() && workspace.single.analyzed() && !solution.status.ok() &&
+    solution.status.code != StatusCode::canceled)
   {
     BoxQpSolution exact = run(false);
-    exact.factorisations += solution.factorisations;
+    exact.factorizations += solution.factorizations;
     exact.factor_seconds += solution.factor_seconds;
     exact.solve_seconds += solution.solve_seconds;
     return exact;

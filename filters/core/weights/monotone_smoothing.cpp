@@ -415,7 +415,7 @@ Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
   {
     const Eigen::MatrixXd boundary =
       Eigen::Map<VectorXd>(given_values.data(), static_cast<Index>(given_values.size()));
-    values = harmonic.minimisers(boundary).col(0);
+    values = harmonic.minimizers(boundary).col(0);
   }
   return status;
 }
@@ -479,9 +479,9 @@ Status Smoothing::solve()
   column.bounds.upper = VectorXd::Constant(n + 1, infinity);
   std::vector<BoxQpSolution> unconstrained =
     this->solver_->solve_unbounded({ column }, this->context_);
-  if (this->context_.cancelled())
+  if (this->context_.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   BoxQpSolution& best = unconstrained.front();
   VectorXd values;
@@ -492,9 +492,9 @@ Status Smoothing::solve()
   }
   this->floods_ = order_with_extrema(
     this->graph_, this->taking_part_, this->result_.list, values, this->context_, this->rank_);
-  if (this->context_.cancelled())
+  if (this->context_.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   if (this->floods_ == 0)
   {
@@ -532,7 +532,7 @@ Status Smoothing::solve()
     this->take(best);
   }
   this->solution_ = std::move(best);
-  return this->context_.cancelled() ? Status::cancelled() : Status();
+  return this->context_.canceled() ? Status::canceled() : Status();
 }
 
 /// Convert the result to the data's unit; compute extrema and report.

@@ -42,7 +42,7 @@ Status pinned_guide(const SparseMatrix& laplacian, const std::vector<Index>& fix
   const Status status = solver.factor(options, context);
   if (status.ok())
   {
-    const Eigen::MatrixXd both = solver.minimisers(values);
+    const Eigen::MatrixXd both = solver.minimizers(values);
     u = both.col(0);
     rest = both.col(1);
   }
@@ -102,7 +102,7 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
   {
     fixed_values.col(j) = group.columns[j].fixed_values;
   }
-  result.guide = solver.minimisers(fixed_values);
+  result.guide = solver.minimizers(fixed_values);
   // Column j contains the sum of the guides after j; the sums of the guides before j are
   // accumulated in the loop. This requires that all columns are in the group, because only they sum
   // to one together.
@@ -114,7 +114,7 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
   }
   if (!whole)
   {
-    behind = solver.minimisers((1.0 - fixed_values.array()).matrix());
+    behind = solver.minimizers((1.0 - fixed_values.array()).matrix());
   }
   Eigen::VectorXd before = Eigen::VectorXd::Zero(n);
   result.pairs.assign(static_cast<std::size_t>(m), {});
@@ -184,7 +184,7 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
       Index highest = v;
       for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
       {
-        const Index other = graph.neighbours[k];
+        const Index other = graph.neighbors[k];
         if (!merged && problem.constraints.roles[other] == VertexRole::follower)
         {
           continue;
@@ -212,9 +212,9 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
       return Status::invalid_input("the bounds and pins of " + place_of(problem, group, j, tight) +
         " leave no monotone weight there");
     }
-    if (context.cancelled())
+    if (context.canceled())
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
   }
   return {};

@@ -15,13 +15,13 @@ SparseMatrix positive_stiffness(
   const Eigen::VectorXd diagonal = stiffness.diagonal();
   const auto n = static_cast<int>(stiffness.rows());
   std::vector<Eigen::Triplet<double, int>> entries;
-  entries.reserve(graph.neighbours.size() + static_cast<std::size_t>(n));
+  entries.reserve(graph.neighbors.size() + static_cast<std::size_t>(n));
   for (int v = 0; v < n; ++v)
   {
     double degree = 0;
     for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
     {
-      const Index other = graph.neighbours[k];
+      const Index other = graph.neighbors[k];
       if (pulls[v] && pulls[other])
       {
         const double least = least_weight * std::sqrt(diagonal[v] * diagonal[other]);

@@ -39,12 +39,12 @@ public:
     {
       return {};
     }
-    Status status = this->solver_.analyse(this->form_.lower);
-    if (status.ok() && !context.cancelled())
+    Status status = this->solver_.analyze(this->form_.lower);
+    if (status.ok() && !context.canceled())
     {
       status = this->solver_.factor(this->form_.lower);
     }
-    return context.cancelled() ? Status::cancelled() : status;
+    return context.canceled() ? Status::canceled() : status;
   }
 
   /// Return 1 for each free vertex, #V.
@@ -129,7 +129,7 @@ private:
       const Index width = std::min(block, rank - begin);
       g.middleCols(begin, width) = this->product(Eigen::MatrixXd(u.middleCols(begin, width)));
       context.progress(static_cast<double>(begin + width) / static_cast<double>(rank));
-      if (context.cancelled())
+      if (context.canceled())
       {
         return false;
       }
@@ -169,7 +169,7 @@ private:
       x += step;
       r -= q * length.asDiagonal();
       context.progress(static_cast<double>(i) / most);
-      if (context.cancelled())
+      if (context.canceled())
       {
         return false;
       }
@@ -208,7 +208,7 @@ Status preview_weights(const WeightsProblem& problem, const WeightsOptions& opti
   Eigen::MatrixXd w;
   if (!preview.biharmonic(harmonic, context, w))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   w = w.cwiseMax(0.0).cwiseMin(1.0);
 
@@ -233,7 +233,7 @@ Status preview_weights(const WeightsProblem& problem, const WeightsOptions& opti
     });
   if (!whole)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   result.analyses = 1;
   status = finish_weights(problem, "bounded-biharmonic", std::numeric_limits<double>::infinity(),

@@ -54,7 +54,7 @@ double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
   double before = 1e300;
   // If the moves do not get smaller, the set of held vertices has not been found yet.
   for (int round = 0;
-       round < rounds && moved > enough && moved < 0.9 * before && !context.cancelled(); ++round)
+       round < rounds && moved > enough && moved < 0.9 * before && !context.canceled(); ++round)
   {
     before = round == 0 ? 1e300 : moved;
     held = held_vertices(matrices, problem, g, x);

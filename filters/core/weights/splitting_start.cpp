@@ -193,7 +193,7 @@ std::vector<ColumnStart> splitting_start(const SplitForm& matrices,
       };
       std::vector<Index> active(static_cast<std::size_t>(width)); // columns that have not converged
       std::iota(active.begin(), active.end(), 0);
-      for (int step = 0; step < steps && !active.empty() && !context.cancelled(); ++step)
+      for (int step = 0; step < steps && !active.empty() && !context.canceled(); ++step)
       {
         rhs.resize(n, static_cast<Index>(active.size()));
         for (std::size_t j = 0; j < active.size(); ++j)
@@ -224,7 +224,7 @@ std::vector<ColumnStart> splitting_start(const SplitForm& matrices,
           context.progress(static_cast<double>(step) / steps / static_cast<double>(blocks));
         }
       }
-      for (Index k = 0; k < width && !context.cancelled(); ++k)
+      for (Index k = 0; k < width && !context.canceled(); ++k)
       {
         step_to_bounds(k);
         if (!z.col(k).allFinite() || !y.col(k).allFinite() || (barriers && !(mu[k] > 0.0)))

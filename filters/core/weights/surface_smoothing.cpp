@@ -78,7 +78,7 @@ public:
     const Lanes enough = reduction * reduction * first;
     // Columns that have converged, or that round-off has stopped, are not changed any more.
     Eigen::Array<bool, 1, lanes> goes_on = now > enough;
-    for (int i = 0; i < most_iterations && goes_on.any() && !context.cancelled(); ++i)
+    for (int i = 0; i < most_iterations && goes_on.any() && !context.canceled(); ++i)
     {
       this->find_curvature(p, curvature);
       Lanes along = Lanes::Zero();
@@ -168,17 +168,17 @@ private:
     }
     a += SparseMatrix(this->mass_.asDiagonal());
     constexpr double assembled = 0.15; // fractions of the time, for progress
-    constexpr double analysed = 0.6;
+    constexpr double analyzed = 0.6;
     context.progress(assembled);
     // The time of METIS exceeds the time that its better ordering saves.
     SparseSolver::Options options;
     options.ordering = SparseSolver::Ordering::amd;
     SparseSolver analysis(options);
-    if (!analysis.analyse(a).ok() || !this->factor_.analyse(analysis, a).ok())
+    if (!analysis.analyze(a).ok() || !this->factor_.analyze(analysis, a).ok())
     {
       return false;
     }
-    context.progress(analysed);
+    context.progress(analyzed);
     return this->factor_.factor(a, 0.0, context).ok();
   }
 
@@ -282,7 +282,7 @@ private:
   /// @return r · z.
   Lanes precondition(const Columns& r, Columns& z, Work& work) const
   {
-    if (this->factor_.analysed())
+    if (this->factor_.analyzed())
     {
       this->solve_with_factor(r, z, work);
       this->correct(z);
@@ -320,7 +320,7 @@ bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::ve
 {
   if (points.rows() == 0 || values.cols() == 0)
   {
-    return !context.cancelled();
+    return !context.canceled();
   }
   const SmoothingEnergy energy(points, triangles, fixed, length, context);
   const ProgressRange range(context, prepared, 1.0);
@@ -340,7 +340,7 @@ bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::ve
         });
       values.middleCols(begin, end - begin) = w.leftCols(end - begin);
     });
-  return whole && !context.cancelled();
+  return whole && !context.canceled();
 }
 
 } // namespace bindpose

@@ -135,7 +135,7 @@ private:
 };
 
 /// Divide rows by their sums. Rows with a sum of zero do not change.
-void normalise(Weights& weights)
+void normalize(Weights& weights)
 {
   for (Index i = 0; i < weights.rows(); ++i)
   {
@@ -275,7 +275,7 @@ Status Solver::solve(const Domain& domain, const std::vector<Index>& region_ids,
       status = preview_weights(result.problem, options, this->context_, result.solved);
       if (status.usable() && carry_preview(result.solved.weights, this->preview_).usable())
       {
-        normalise(this->preview_);
+        normalize(this->preview_);
         this->options_.preview(this->preview_);
       }
     }
@@ -324,7 +324,7 @@ Status Solver::carry_weights(const Carry& carry, SurfaceWeights& result) const
     result.weights = std::move(at_points);
     if (result.domain == WeightsDomain::embedding)
     {
-      normalise(result.weights); // clamping and smoothing have changed the sums
+      normalize(result.weights); // clamping and smoothing have changed the sums
     }
   }
   return carried;
@@ -363,9 +363,8 @@ Status Solver::solve_volume(Status filled, SurfaceWeights& result)
     }
     if (std::all_of(labels.begin(), labels.end(), [](Index label) { return label <= 0; }))
     {
-      return Status::invalid_input(
-        "the tets share no labelled point with the surface; solve on the "
-        "surface itself, or give tets with labels");
+      return Status::invalid_input("the tets share no labeled point with the surface; solve on the "
+                                   "surface itself, or give tets with labels");
     }
   }
   result.domain = WeightsDomain::volume;
@@ -628,7 +627,7 @@ LatticePtr Solver::best_lattice()
     const ProgressRange range(this->context_, 0.0, lattice_ends[0]);
     best = this->embed(asked > 0 ? std::max<Index>(4, (2 * asked + 1) / 3) : 0, first_tets);
   }
-  if (best->resolution == 0 || best->status.code == StatusCode::cancelled)
+  if (best->resolution == 0 || best->status.code == StatusCode::canceled)
   {
     return best;
   }
@@ -648,7 +647,7 @@ LatticePtr Solver::best_lattice()
     }
     const ProgressRange range(this->context_, lattice_ends[level - 1], lattice_ends[level]);
     LatticePtr finer = this->embed(resolution, first_tets);
-    if (finer->status.code == StatusCode::cancelled)
+    if (finer->status.code == StatusCode::canceled)
     {
       return finer;
     }
@@ -753,7 +752,7 @@ Status Solver::automatic_volume(SurfaceWeights& result)
 {
   result.domain = WeightsDomain::volume;
   Status status = this->fill(result.tets);
-  if (status.code == StatusCode::cancelled)
+  if (status.code == StatusCode::canceled)
   {
     return status;
   }
@@ -777,7 +776,7 @@ Status Solver::automatic_volume(SurfaceWeights& result)
 /// @param first status of the other domain; it is returned if the embedding fails, too.
 Status Solver::take_over(const Status& first, SurfaceWeights& result)
 {
-  if (first.code == StatusCode::cancelled)
+  if (first.code == StatusCode::canceled)
   {
     return first;
   }
@@ -786,7 +785,7 @@ Status Solver::take_over(const Status& first, SurfaceWeights& result)
   Status status = this->in_embedding(embedded);
   if (!status.usable() || (first.usable() && !status.ok()))
   {
-    return status.code == StatusCode::cancelled ? status : first;
+    return status.code == StatusCode::canceled ? status : first;
   }
   result = std::move(embedded);
   status.report.set("domain_fallback.from", Report::Value(domain));

@@ -80,7 +80,7 @@ Status transfer(const Domain& mesh, WeightsView values, PointsView points,
     });
   if (!whole)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   for (Index i = 0; i < points.rows(); ++i)
   {

@@ -20,13 +20,13 @@ bool fixed_vertices_span(const WeightsProblem& problem)
   const Points& points = problem.mesh.domain.points;
   const auto spread = [&](const std::vector<Index>& vertices) -> Eigen::Vector3d
   {
-    Points centred(static_cast<Index>(vertices.size()), 3);
-    for (Index i = 0; i < centred.rows(); ++i)
+    Points centered(static_cast<Index>(vertices.size()), 3);
+    for (Index i = 0; i < centered.rows(); ++i)
     {
-      centred.row(i) = points.row(vertices[i]) / problem.diagonal;
+      centered.row(i) = points.row(vertices[i]) / problem.diagonal;
     }
-    centred.rowwise() -= centred.colwise().mean().eval();
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(centred.transpose() * centred)
+    centered.rowwise() -= centered.colwise().mean().eval();
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(centered.transpose() * centered)
       .eigenvalues()
       .cwiseMax(0.0)
       .cwiseSqrt();
@@ -142,9 +142,9 @@ Status unconstrained_weights(const WeightsProblem& problem,
   }
   const std::vector<BoxQpSolution> solutions =
     solver.solve_unbounded(plain_columns(problem), context);
-  if (context.cancelled())
+  if (context.canceled())
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   result.analyses = solver.analyses();
   Eigen::MatrixXd fallback(problem.vertex_count(), problem.handle_count());

@@ -119,14 +119,14 @@ public:
 
   /// Solve all columns together, starting from the separate solutions.
   Status solve_coupled(
-    const Weights& normalised, double begin, double end, Round& round, Status& outcome)
+    const Weights& normalized, double begin, double end, Round& round, Status& outcome)
   {
     const Phase phase(this->context_, "coupled", begin, end);
     const ColumnGroup& group = this->groups_.front();
-    Eigen::MatrixXd start(group.count, normalised.cols());
-    for (Index v = 0; v < normalised.rows(); ++v)
+    Eigen::MatrixXd start(group.count, normalized.cols());
+    for (Index v = 0; v < normalized.rows(); ++v)
     {
-      start.row(group.unknown(v, 0, normalised.rows())) = normalised.row(v);
+      start.row(group.unknown(v, 0, normalized.rows())) = normalized.row(v);
     }
     CoupledSolution solved = solve_coupled_qp(this->solvers_.front().q, group.fixed, group.columns,
       start, *this->solvers_.front().solver,
@@ -136,7 +136,7 @@ public:
     if (outcome.code == StatusCode::invalid_input && solved.vertex >= 0)
     {
       Index v = 0;
-      while (group.unknown(v, 0, normalised.rows()) != solved.vertex)
+      while (group.unknown(v, 0, normalized.rows()) != solved.vertex)
       {
         ++v;
       }
@@ -208,14 +208,14 @@ private:
   std::vector<GroupSolver> solvers_;
 };
 
-Weights normalised(const WeightsProblem& problem, const Round& round, const Exclusions& excluded)
+Weights normalized(const WeightsProblem& problem, const Round& round, const Exclusions& excluded)
 {
   Weights weights(problem.vertex_count(), problem.handle_count());
   for (Index j = 0; j < weights.cols(); ++j)
   {
     weights.col(j) = round.solutions[j].w;
   }
-  normalise_rows(problem, round.fallback, excluded, weights);
+  normalize_rows(problem, round.fallback, excluded, weights);
   return weights;
 }
 
@@ -277,7 +277,7 @@ Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, i
 
 /// Return the largest violation of the bounds by normalized weights, over vertices that are solved
 /// for.
-double normalised_violation(const WeightsProblem& problem, const Weights& weights)
+double normalized_violation(const WeightsProblem& problem, const Weights& weights)
 {
   const WeightTerms& terms = problem.terms;
   double worst = 0.0;
@@ -361,12 +361,12 @@ Status solve_weights(const WeightsProblem& problem, int order, const std::string
     status = status.ok() ? solver.solve_alone(begin, middle, round) : status;
     if (status.ok() && coupled)
     {
-      alone = normalised(problem, round, excluded);
+      alone = normalized(problem, round, excluded);
       status = solver.solve_coupled(alone, middle, begin + length, round, outcome);
     }
     if (status.ok() && limited && pass == 0)
     {
-      unlimited = normalised(problem, round, excluded);
+      unlimited = normalized(problem, round, excluded);
       status = exclude_smallest(problem, unlimited, options.maximum_influences, excluded, capped);
     }
     if (!status.ok())
@@ -384,7 +384,7 @@ Status solve_weights(const WeightsProblem& problem, int order, const std::string
   status.report.set("memory_estimate_bytes", static_cast<std::int64_t>(solver.memory_estimate()));
   if (problem.terms.has_bounds())
   {
-    status.report.set("normalised_bounds_violation", normalised_violation(problem, result.weights));
+    status.report.set("normalized_bounds_violation", normalized_violation(problem, result.weights));
   }
   if (problem.terms.has_mirror())
   {

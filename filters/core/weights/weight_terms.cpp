@@ -107,18 +107,18 @@ std::vector<Index> mirror_of_plane(const Points& points, const Vec3& origin, con
   const auto key = [&](const Vec3& p) -> Key {
     return { std::llround(p[0] / cell), std::llround(p[1] / cell), std::llround(p[2] / cell) };
   };
-  const Vec3 centre = bounding_box(points).center();
+  const Vec3 center = bounding_box(points).center();
   std::map<Key, std::vector<Index>> cells;
   for (Index v = 0; v < points.rows(); ++v)
   {
-    cells[key(points.row(v).transpose() - centre)].push_back(v);
+    cells[key(points.row(v).transpose() - center)].push_back(v);
   }
   std::vector<Index> nearest(static_cast<std::size_t>(points.rows()), -1);
   for (Index v = 0; v < points.rows(); ++v)
   {
     const Vec3 p = points.row(v);
     const Vec3 image = p - 2.0 * unit.dot(p - origin) * unit;
-    const Key at = key(image - centre);
+    const Key at = key(image - center);
     double best = tolerance;
     for (int k = 0; k < 27; ++k)
     {

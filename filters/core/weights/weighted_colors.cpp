@@ -74,7 +74,7 @@ Status weighted_colors(WeightsView weights, ColorsView handle_colors,
   if (weights.cols() != handle_colors.rows() || weights.cols() == 0)
   {
     return Status::invalid_input("there are weights of " + std::to_string(weights.cols()) +
-      " handles, but " + std::to_string(handle_colors.rows()) + " colours");
+      " handles, but " + std::to_string(handle_colors.rows()) + " colors");
   }
   for (Index j = 0; j < handle_colors.rows(); ++j)
   {
@@ -82,7 +82,7 @@ Status weighted_colors(WeightsView weights, ColorsView handle_colors,
     if (!(color >= 0.0).all() || !(color <= 1.0).all())
     {
       return Status::invalid_input(
-        "the colour of handle number " + std::to_string(j) + " is not within 0 to 1");
+        "the color of handle number " + std::to_string(j) + " is not within 0 to 1");
     }
   }
   Colors blended = handle_colors;
@@ -129,7 +129,7 @@ Status weighted_colors(WeightsView weights, ColorsView handle_colors,
     });
   if (!done)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   Tally all;
   for (const Tally& tally : tallies)

@@ -182,7 +182,7 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
   collect_fixed(problem);
   report_problem(problem, status);
   problem.status = status;
-  return context.cancelled() ? Status::cancelled() : status;
+  return context.canceled() ? Status::canceled() : status;
 }
 
 SparseMatrix WeightsProblem::energy(int order) const
@@ -196,7 +196,7 @@ SparseMatrix WeightsProblem::energy(int order) const
   return q;
 }
 
-Index normalise_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallback,
+Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallback,
   const std::vector<char>& excluded, Weights& weights)
 {
   const Eigen::MatrixXd& pinned = problem.terms.pinned;
@@ -273,7 +273,7 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
     }
     result.row_sum_error = std::max(result.row_sum_error, std::abs(1.0 - result.raw.row(v).sum()));
   }
-  const Index thin_rows = normalise_rows(problem, fallback, excluded, result.weights);
+  const Index thin_rows = normalize_rows(problem, fallback, excluded, result.weights);
   for (Index v = 0; v < n; ++v)
   {
     if (constraints.roles[v] == VertexRole::follower)
@@ -301,27 +301,27 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
       {
         WeightsColumn& column = result.columns[j];
         const Eigen::VectorXd raw = result.raw.col(j);
-        const Eigen::VectorXd normalised = result.weights.col(j);
+        const Eigen::VectorXd normalized = result.weights.col(j);
         column.certificate = solutions[j].certificate;
         column.iterations = solutions[j].iterations;
-        column.factorisations = solutions[j].factorisations;
+        column.factorizations = solutions[j].factorizations;
         column.minimum = raw.minCoeff();
         column.maximum = raw.maxCoeff();
         column.zeros = static_cast<double>((raw.array() == 0.0).count()) / static_cast<double>(n);
         column.ones = static_cast<double>((raw.array() == 1.0).count()) / static_cast<double>(n);
         column.extrema = interior_extrema(problem.graph, raw, exempt);
-        column.normalised_interior_extrema =
-          static_cast<Index>(interior_extrema(problem.graph, normalised, exempt).size());
+        column.normalized_interior_extrema =
+          static_cast<Index>(interior_extrema(problem.graph, normalized, exempt).size());
       }
     });
   if (!whole)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
 
   Report& report = status.report;
   std::vector<double> gaps, residuals, energies, zeros, ones;
-  std::vector<std::int64_t> iterations, factorisations, extrema, normalised_extrema;
+  std::vector<std::int64_t> iterations, factorizations, extrema, normalized_extrema;
   double bounds = 0.0;
   std::int64_t total = 0;
   std::string late;
@@ -332,11 +332,11 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
     residuals.push_back(column.certificate.kkt_residual);
     energies.push_back(column.certificate.energy);
     iterations.push_back(column.iterations);
-    factorisations.push_back(column.factorisations);
+    factorizations.push_back(column.factorizations);
     extrema.push_back(static_cast<std::int64_t>(column.extrema.size()));
     zeros.push_back(column.zeros);
     ones.push_back(column.ones);
-    normalised_extrema.push_back(column.normalised_interior_extrema);
+    normalized_extrema.push_back(column.normalized_interior_extrema);
     bounds = problem.terms.has_bounds()
       ? std::max(bounds, column.certificate.bounds_violation)
       : std::max({ bounds, -column.minimum, column.maximum - 1.0 });
@@ -360,9 +360,9 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
   report.set("handles[].kkt_residual", residuals);
   report.set("handles[].energy", energies);
   report.set("handles[].iterations", iterations);
-  report.set("handles[].factorisations", factorisations);
+  report.set("handles[].factorizations", factorizations);
   report.set("handles[].interior_extrema", extrema);
-  report.set("handles[].interior_extrema_normalised", normalised_extrema);
+  report.set("handles[].interior_extrema_normalized", normalized_extrema);
   report.set("handles[].zeros", zeros);
   report.set("handles[].ones", ones);
   if (!late.empty())

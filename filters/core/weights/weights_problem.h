@@ -13,7 +13,7 @@ namespace bindpose
 /// How the rows of bounded weights are made to sum to one.
 enum class PartitionOfUnity
 {
-  normalise, ///< each column is solved separately; then rows are divided by their sums
+  normalize, ///< each column is solved separately; then rows are divided by their sums
   coupled ///< all columns are solved together with this constraint (see solve_coupled_qp)
 };
 
@@ -27,7 +27,7 @@ struct WeightsOptions
   /// Largest number of iterations per column, > 0: see BoxQpOptions.
   int maximum_iterations = 100;
   /// How rows are made to sum to one, for bounded weights only.
-  PartitionOfUnity partition = PartitionOfUnity::normalise;
+  PartitionOfUnity partition = PartitionOfUnity::normalize;
   /// Largest number of handles with a weight above 0 at a vertex; 0: no limit. The handles with the
   /// largest weights are kept. Columns of bounded and monotone weights are then solved again, with
   /// the other weights fixed at 0. Rows of vertices on handles do not change.
@@ -79,12 +79,12 @@ struct WeightsColumn
   double minimum = 0.0;
   double maximum = 0.0;
   int iterations = 0;
-  int factorisations = 0;
+  int factorizations = 0;
   /// Fraction of the vertices where the raw column is exactly 0; measures its locality.
   double zeros = 0.0;
   double ones = 0.0; ///< fraction where it is exactly 1
   std::vector<Extremum> extrema; ///< of the raw column: interior ones with persistence above 1e-3
-  Index normalised_interior_extrema = 0; ///< of the column in WeightsResult::weights
+  Index normalized_interior_extrema = 0; ///< of the column in WeightsResult::weights
 };
 
 struct WeightsResult
@@ -103,12 +103,12 @@ struct WeightsResult
 /// @param fallback rows used if the sum to scale is below 1e-3 (#V x #handles).
 /// @param excluded #V * #handles, row by row: weights that must stay 0; empty: none.
 /// @return the number of rows taken from the fallback.
-Index normalise_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallback,
+Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallback,
   const std::vector<char>& excluded, Weights& weights);
 
 /// Compute weights from solved columns: rows of followers, normalization, extrema, report. The
 /// status is that of the problem, or not_converged if a column is not certified.
-/// @param fallback, excluded see normalise_rows.
+/// @param fallback, excluded see normalize_rows.
 Status finish_weights(const WeightsProblem& problem, const std::string& method, double tolerance,
   const std::vector<BoxQpSolution>& solutions, const Eigen::MatrixXd& fallback,
   ExecutionContext& context, WeightsResult& result, const std::vector<char>& excluded = {});

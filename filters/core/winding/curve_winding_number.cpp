@@ -7,7 +7,7 @@
 // of the chords, seen from start to end. The loops contain the chords in the other direction.
 //
 // The winding number of a loop is the signed number of times it crosses the ray from the point
-// towards -x. A vertex at the ray's height counts as above it, and an exact predicate decides
+// toward -x. A vertex at the ray's height counts as above it, and an exact predicate decides
 // whether a segment passes left of the point. Therefore no crossing is missed or counted twice.
 //
 // Crossings are counted in a tree over the pieces of the loop. If the point is outside a piece's
@@ -51,7 +51,7 @@ bool is_above(const Vec2& a, const Vec2& p)
   return a.y() >= p.y();
 }
 
-/// Return how often the segment a, b crosses the ray from p towards -x: +1 downwards, -1 upwards. A
+/// Return how often the segment a, b crosses the ray from p toward -x: +1 downwards, -1 upwards. A
 /// segment through p crosses the ray.
 int crossing(const Vec2& a, const Vec2& b, const Vec2& p)
 {
@@ -358,7 +358,7 @@ private:
   bool stopped(Id size)
   {
     constexpr Id large = 1 << 14; // takes about a millisecond
-    this->stopped_ = this->stopped_ || (size >= large && this->context_.cancelled());
+    this->stopped_ = this->stopped_ || (size >= large && this->context_.canceled());
     return this->stopped_;
   }
 
@@ -589,7 +589,7 @@ Status CurveWindingNumber::build(
   if (!done)
   {
     this->parts_.reset(new Parts);
-    this->parts_->status = Status::cancelled();
+    this->parts_->status = Status::canceled();
   }
   return this->parts_->status;
 }

@@ -70,14 +70,14 @@ public:
   /// `on_curve` gets 1 for every point that touches a segment, else 0. A point that is not finite
   /// gets NaN and causes a warning. The status reports counts.queries, counts.on_surface and, if it
   /// is not 0, counts.not_finite.
-  /// cancelled: `out` is incomplete.
+  /// canceled: `out` is incomplete.
   Status evaluate(PlanePointsView queries, ExecutionContext& context, double* out,
     unsigned char* on_curve = nullptr) const;
   Status evaluate(PlanePointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
   /// Compute the derivatives along x and y, #Q x 2 numbers. The jump across the curve is excluded.
   /// The derivatives of closed curves are 0. They have no limit at an open end; an open end that
   /// the point touches adds 0.
-  /// cancelled: `out` is incomplete.
+  /// canceled: `out` is incomplete.
   Status evaluate_gradient(PlanePointsView queries, ExecutionContext& context, double* out) const;
 
   /// Return the winding number at one point, or NaN if the point is not finite. Thread-safe, does

@@ -324,7 +324,7 @@ bool DipoleField::Build::sort_triangles()
   this->order.resize(this->ids.size());
   std::iota(this->order.begin(), this->order.end(), 0);
   this->split(0, count);
-  if (this->context.cancelled())
+  if (this->context.canceled())
   {
     return false;
   }
@@ -416,9 +416,9 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
   this->nodes.push_back(node);
   int axis = 0;
   const double longest = box_of_centers.size().maxCoeff(&axis);
-  if (count == 1 || !(longest > 0.0) || (count > 4096 && this->context.cancelled()))
+  if (count == 1 || !(longest > 0.0) || (count > 4096 && this->context.canceled()))
   {
-    if (count <= triangle_lanes || this->context.cancelled())
+    if (count <= triangle_lanes || this->context.canceled())
     {
       return id;
     }
@@ -1020,7 +1020,7 @@ void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t 
     this->emit_leaf(tree, entry, 0.5 * size, local, near);
     tree.leaves.push_back({ doubt, center, 0.5 * size });
   }
-  else if (!this->context.cancelled())
+  else if (!this->context.canceled())
   {
     HarmonicLanes shift[3];
     for (int lane = 0; lane < harmonic_lanes; ++lane)
@@ -1120,7 +1120,7 @@ bool DipoleField::Build::fill_cells()
               nothing.data(), Doubt(), root, *scratch, 0);
           }
         }) ||
-    this->context.cancelled())
+    this->context.canceled())
   {
     return false;
   }
@@ -1258,7 +1258,7 @@ bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>&
   this->take(triangles, multiplicities);
   if (this->ids.empty())
   {
-    return !this->context.cancelled();
+    return !this->context.canceled();
   }
   const Tuning* tuning = tunings;
   while (tuning->tolerance > this->options.tolerance)
@@ -1313,7 +1313,7 @@ bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>&
       }
     }
     f.measured_error_ = this->measure();
-    if (this->context.cancelled())
+    if (this->context.canceled())
     {
       return false;
     }

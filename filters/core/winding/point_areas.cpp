@@ -20,16 +20,16 @@ double cross(const Vec2& a, const Vec2& b)
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Keep the part of a convex polygon where x . towards <= limit.
-void cut(std::vector<Vec2>& polygon, const Vec2& towards, double limit, std::vector<Vec2>& room)
+/// Keep the part of a convex polygon where x . toward <= limit.
+void cut(std::vector<Vec2>& polygon, const Vec2& toward, double limit, std::vector<Vec2>& room)
 {
   room.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i)
   {
     const Vec2& a = polygon[i];
     const Vec2& b = polygon[(i + 1) % polygon.size()];
-    const double out_a = a.dot(towards) - limit;
-    const double out_b = b.dot(towards) - limit;
+    const double out_a = a.dot(toward) - limit;
+    const double out_b = b.dot(toward) - limit;
     if (out_a <= 0.0)
     {
       room.push_back(a);

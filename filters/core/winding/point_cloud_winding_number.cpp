@@ -321,7 +321,7 @@ Status check_input(PointsView points, PointsView normals, NumbersView areas,
   if (count == 1 && areas.size() == 0)
   {
     return Status::invalid_input(
-      "a single point has no neighbours to tell its area from: give its area");
+      "a single point has no neighbors to tell its area from: give its area");
   }
   if (options.method == WindingMethod::hierarchical || options.method == WindingMethod::crossings)
   {
@@ -781,7 +781,7 @@ Status PointCloudWindingNumber::build(PointsView points, PointsView normals, Num
   if (!done)
   {
     this->parts_.reset(new Parts);
-    this->parts_->status = Status::cancelled();
+    this->parts_->status = Status::canceled();
     return this->parts_->status;
   }
 
@@ -867,7 +867,7 @@ Status PointCloudWindingNumber::build(PointsView points, PointsView normals, Num
   if (!done)
   {
     this->parts_.reset(new Parts);
-    this->parts_->status = Status::cancelled();
+    this->parts_->status = Status::canceled();
   }
   return this->parts_->status;
 }

@@ -19,7 +19,7 @@ using NumbersView = MatrixView<Eigen::VectorXd>;
 ///
 /// - **Near the samples** the sum is singular, and the values are not corrected. Within about one
 ///   spacing of the samples (reported) the values are meaningless, and they grow without bound
-///   towards each sample. Largest errors, measured on a sphere: for evenly spread samples 0.1 at
+///   toward each sample. Largest errors, measured on a sphere: for evenly spread samples 0.1 at
 ///   half a spacing, 2e-2 at one and 2e-3 at two spacings; for random samples 0.4 at one, 0.2 at
 ///   two and 0.05 at eight spacings.
 /// - **On a sample**: a point at the position of samples (within 2^-49 of the largest coordinate)
@@ -85,7 +85,7 @@ public:
   /// `on_surface` gets 1 for every point on a sample, else 0. A point that is not finite gets NaN
   /// and causes a warning. The status reports counts.queries, counts.on_surface and, if it is not
   /// 0, counts.not_finite.
-  /// cancelled: `out` is incomplete.
+  /// canceled: `out` is incomplete.
   Status evaluate(PointsView queries, ExecutionContext& context, double* out,
     unsigned char* on_surface = nullptr) const;
   Status evaluate(PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
@@ -97,7 +97,7 @@ public:
   /// that are not finite. Near a sample they grow with the third power of the inverse distance,
   /// faster than the value. Samples at the position of the point add nothing. The measured error of
   /// the fast method is at most 10 x tolerance / (distance to the nearest sample).
-  /// cancelled: `out` is incomplete. Cost: about twice that of a value.
+  /// canceled: `out` is incomplete. Cost: about twice that of a value.
   Status evaluate_gradient(PointsView queries, ExecutionContext& context, double* out) const;
   Status evaluate_gradient(const SampleGrid& grid, ExecutionContext& context, double* out) const;
 

@@ -31,7 +31,7 @@ bool PointTree::build(const Points& points, Id leaf_size, ExecutionContext& cont
   const auto count = static_cast<Id>(points.rows());
   if (count == 0)
   {
-    return !context.cancelled();
+    return !context.canceled();
   }
   std::vector<Item> items;
   items.reserve(static_cast<std::size_t>(count));
@@ -51,7 +51,7 @@ bool PointTree::build(const Points& points, Id leaf_size, ExecutionContext& cont
 void PointTree::divide(
   std::vector<Item>& items, Id group, Id first, Id count, ExecutionContext& context)
 {
-  this->stopped_ = this->stopped_ || (count >= large && context.cancelled());
+  this->stopped_ = this->stopped_ || (count >= large && context.canceled());
   if (this->stopped_)
   {
     return;

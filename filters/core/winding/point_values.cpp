@@ -43,7 +43,7 @@ Status point_values(ExecutionContext& context, Index count, double nanoseconds_a
     });
   if (!done)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   Status status;
   status.report.set("counts.queries", count);
@@ -68,7 +68,7 @@ Status point_gradients(ExecutionContext& context, Index count, double nanosecond
         body(i);
       }
     });
-  return done ? Status() : Status::cancelled();
+  return done ? Status() : Status::canceled();
 }
 
 } // namespace bindpose

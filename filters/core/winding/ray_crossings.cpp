@@ -330,7 +330,7 @@ bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& con
       sorted.z[at] = points[i][v];
     }
   }
-  if (context.cancelled())
+  if (context.canceled())
   {
     return false;
   }
@@ -385,7 +385,7 @@ bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& con
       const Index face_count = slabs > 1 ? face_begin[slab + 1] - face_begin[slab] : this->faces_;
       for (Index i = 0; i < face_count; ++i)
       {
-        if (i % 65536 == 65535 && context.cancelled())
+        if (i % 65536 == 65535 && context.canceled())
         {
           return;
         }

@@ -67,7 +67,7 @@ bool sort_vertices(
       other[next[digit(v)]++] = v;
     }
     vertices.swap(other);
-    if (context.cancelled())
+    if (context.canceled())
     {
       return false;
     }
@@ -125,7 +125,7 @@ bool lay_out(ExecutionContext& context, Index vertices, const Visit& visit,
   begin.assign(static_cast<std::size_t>(vertices) + 1, 0);
   visit([&](Index vertex, std::uint64_t) { begin[vertex + 1] += 1; });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  if (context.cancelled())
+  if (context.canceled())
   {
     return false;
   }

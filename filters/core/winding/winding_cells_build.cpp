@@ -106,20 +106,20 @@ std::vector<std::int32_t> without_opposites(const Triangles& triangles, const Tr
   kept.reserve(static_cast<std::size_t>(triangles.rows() + caps.rows()));
   for (Index t = 0; t < triangles.rows(); ++t)
   {
-    bool cancelled = false;
+    bool canceled = false;
     if (!of_caps.empty())
     {
       const SortedCorners own = sorted_corners(triangles, t);
       auto cap = std::lower_bound(of_caps.begin(), of_caps.end(), own.ids,
         [](const SortedCorners& x, const std::array<Index, 3>& ids) { return x.ids < ids; });
-      for (; cap != of_caps.end() && cap->ids == own.ids && !cancelled; ++cap)
+      for (; cap != of_caps.end() && cap->ids == own.ids && !canceled; ++cap)
       {
         char& is_gone = gone[static_cast<std::size_t>(cap - of_caps.begin())];
-        cancelled = !is_gone && cap->turn != own.turn;
-        is_gone = is_gone || cancelled;
+        canceled = !is_gone && cap->turn != own.turn;
+        is_gone = is_gone || canceled;
       }
     }
-    if (!cancelled)
+    if (!canceled)
     {
       kept.push_back(static_cast<std::int32_t>(t));
     }
@@ -316,7 +316,7 @@ bool WindingCells::Builder::find(
   const double inverse = 1.0 / grid.cell;
   for (Index i = begin; i < end; ++i)
   {
-    if (found.size() > most || (i % 16384 == 16383 && this->context_.cancelled()))
+    if (found.size() > most || (i % 16384 == 16383 && this->context_.canceled()))
     {
       return false;
     }
@@ -415,7 +415,7 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
   grid.counts.assign(static_cast<std::size_t>(cells), 0);
   for (Id c = 0; c < cells; ++c)
   {
-    if (c % 256 == 255 && this->context_.cancelled())
+    if (c % 256 == 255 && this->context_.canceled())
     {
       return false;
     }
@@ -473,7 +473,7 @@ bool WindingCells::Builder::cut_whole(const Box& whole)
   {
     const ProgressRange range(this->context_, 0.0, 0.3);
     bool sorted = false;
-    for (double along = most_cells_along; !sorted && along >= 1.0 && !this->context_.cancelled();
+    for (double along = most_cells_along; !sorted && along >= 1.0 && !this->context_.canceled();
          along = 0.5 * whole.size.maxCoeff() / grid.cell)
     {
       grid = this->cells_of(whole, along);
@@ -535,7 +535,7 @@ bool WindingCells::Builder::cut_whole(const Box& whole)
     this->append(parts[i], first, std::min(cells, first + static_cast<Id>(cells_at_once)));
     parts[i] = Arrays();
   }
-  return !this->context_.cancelled();
+  return !this->context_.canceled();
 }
 
 /// Append the contents of the cells [first, end) of the whole box to the arrays of the owner.
@@ -570,7 +570,7 @@ void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
 bool WindingCells::Builder::cut(const Box& box, Arrays& made, std::size_t entries) const
 {
   Grid grid = this->cells_of(box, most_cells_along);
-  if (this->context_.cancelled() || !this->sort(box, false, entries, grid) ||
+  if (this->context_.canceled() || !this->sort(box, false, entries, grid) ||
     !this->refer(box, grid))
   {
     return false;
@@ -623,7 +623,7 @@ bool WindingCells::Builder::fill(
     {
       return true;
     }
-    if (this->context_.cancelled())
+    if (this->context_.canceled())
     {
       return false;
     }

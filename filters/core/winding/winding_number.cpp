@@ -312,7 +312,7 @@ Status WindingNumber::build(
   if (!done)
   {
     this->parts_.reset(new Parts);
-    this->parts_->status = Status::cancelled();
+    this->parts_->status = Status::canceled();
   }
   return this->parts_->status;
 }
@@ -531,12 +531,12 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
       resolved.resize(static_cast<std::size_t>(count));
       if (!parts.rays->count(framed.data(), count, context, counts.data(), resolved.data()))
       {
-        return Status::cancelled();
+        return Status::canceled();
       }
     }
     else if (!parts.cells_built && !parts.build_cells(context))
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
   }
   const ProgressRange range(context, by_rays ? 0.5 : 0.0, 1.0);
@@ -724,7 +724,7 @@ Status WindingNumber::evaluate_rows(
   }
   if (!by_rays && !parts.cells_built && !parts.build_cells(context))
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   const Index cost = fast ? 10 : 1 + parts.caps.rows();
   const Index rows_per_block =
@@ -807,7 +807,7 @@ Status WindingNumber::evaluate_rows(
     });
   if (!done)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   Status status;
   status.report.set("counts.queries", grid.count());

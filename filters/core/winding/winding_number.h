@@ -103,7 +103,7 @@ public:
   /// Compute the winding numbers of #Q x 3 points. A point that is not finite gets NaN and causes a
   /// warning. The status reports counts.queries, counts.on_surface and, if it is not 0,
   /// counts.not_finite.
-  /// cancelled: `out` is incomplete.
+  /// canceled: `out` is incomplete.
   Status evaluate(PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
   /// Compute the winding numbers of the samples of a grid, x fastest.
   Status evaluate(const SampleGrid& grid, ExecutionContext& context, Eigen::VectorXd& out) const;
@@ -117,7 +117,7 @@ public:
   /// the surface is excluded. The derivatives of closed surfaces are 0. The derivatives are
   /// unbounded near a boundary edge; an edge that the point touches adds 0. The error of the fast
   /// method is about 10 x tolerance / (distance to the boundary).
-  /// cancelled: `out` is incomplete. Cost: 10 ns x #open edges per point; for the fast method about
+  /// canceled: `out` is incomplete. Cost: 10 ns x #open edges per point; for the fast method about
   /// that of a value.
   Status evaluate_gradient(PointsView queries, ExecutionContext& context, double* out) const;
   Status evaluate_gradient(const SampleGrid& grid, ExecutionContext& context, double* out) const;

@@ -55,7 +55,7 @@ bool WindingTree::build(const Points& points, const Triangles& triangles, double
     this->centers_[t] =
       (points.row(triangles(t, 0)) + points.row(triangles(t, 1)) + points.row(triangles(t, 2)));
   }
-  bool done = !context.cancelled();
+  bool done = !context.canceled();
   if (count > 0 && done)
   {
     this->nodes_.emplace_back();
@@ -75,7 +75,7 @@ bool WindingTree::build_node(Id id, ExecutionContext& context, std::vector<NetEd
   const Id count = this->nodes_[id].count;
   if (count > 1024)
   {
-    if (context.cancelled())
+    if (context.canceled())
     {
       return false;
     }

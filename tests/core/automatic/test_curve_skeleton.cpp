@@ -264,7 +264,7 @@ TEST_F(CurveSkeletonTest, BadInputIsOneSentence)
     HasSubstr("skeleton_triangles"));
 }
 
-TEST_F(CurveSkeletonTest, CanBeCancelledWhileItContracts)
+TEST_F(CurveSkeletonTest, CanBeCanceledWhileItContracts)
 {
   const TriangleMesh mesh = test::torus(200, 100, 1.0, 0.3);
   CurveSkeletonOptions options;
@@ -276,7 +276,7 @@ TEST_F(CurveSkeletonTest, CanBeCancelledWhileItContracts)
   const Status status =
     curve_skeleton(mesh.points, mesh.triangles, options, skeleton, solid, context);
   EXPECT_LT(user.waited(), 0.5);
-  EXPECT_EQ(status.code, StatusCode::cancelled);
+  EXPECT_EQ(status.code, StatusCode::canceled);
 }
 
 TEST(CurveSkeleton, WithoutTheHelperItSaysSo)

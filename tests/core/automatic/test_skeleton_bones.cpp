@@ -140,10 +140,10 @@ Drawing arms(const std::vector<Vec3>& ends, double radius = 0.05)
 {
   Drawing drawing;
   drawing.centroids = { Vec3::Zero() };
-  const Index centre = drawing.point(Vec3::Zero(), radius);
+  const Index center = drawing.point(Vec3::Zero(), radius);
   for (const Vec3& end : ends)
   {
-    drawing.line(centre, end);
+    drawing.line(center, end);
   }
   return drawing;
 }
@@ -291,12 +291,12 @@ TEST(SkeletonBones, TheBoneWithTheLargestVolumeIsTheRoot)
   // A thick vertical trunk and two thin limbs. One limb has a second bone.
   Drawing drawing;
   drawing.centroids = { Vec3::Zero() };
-  const Index centre = drawing.point(Vec3::Zero(), 0.1);
-  drawing.line(centre, Vec3(2.0, 0.0, 0.0));
+  const Index center = drawing.point(Vec3::Zero(), 0.1);
+  drawing.line(center, Vec3(2.0, 0.0, 0.0));
   const Index trunk = drawing.point(Vec3(0.0, 0.0, 0.2), 0.4);
-  drawing.segments.push_back({ centre, trunk });
+  drawing.segments.push_back({ center, trunk });
   drawing.line(trunk, Vec3(0.0, 0.0, 1.5));
-  drawing.line(drawing.line(centre, Vec3(-2.0, 0.0, 0.0)), Vec3(-2.0, 1.5, 0.0));
+  drawing.line(drawing.line(center, Vec3(-2.0, 0.0, 0.0)), Vec3(-2.0, 1.5, 0.0));
   const SkeletonBones bones = run(drawing);
   ASSERT_EQ(bones.handles.size(), 4u);
   EXPECT_EQ(bones.handles[0].tail, Vec3(0.0, 0.0, 1.5));

@@ -285,12 +285,12 @@ TEST(SpreadPoints, BadInputIsOneSentence)
   EXPECT_THAT(message(fail(TriangleMesh(), SpreadPointsOptions())), HasSubstr("only 0"));
 }
 
-TEST(SpreadPoints, CanBeCancelled)
+TEST(SpreadPoints, CanBeCanceled)
 {
   ExecutionContext context;
   context.request_cancel();
   SpreadPoints result;
   const TriangleMesh mesh = test::sphere(3);
   EXPECT_EQ(spread_points(mesh.points, mesh.triangles, SpreadPointsOptions(), result, context).code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
 }

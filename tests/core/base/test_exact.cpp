@@ -75,8 +75,8 @@ TEST(ParallelSort, SameAsStableSortForAnyThreads)
     EXPECT_EQ(sorted, expected);
   }
   std::vector<std::pair<Index, Index>> nothing;
-  ExecutionContext cancelled;
-  EXPECT_TRUE(parallel_sort(cancelled, nothing, less));
-  cancelled.request_cancel();
-  EXPECT_FALSE(parallel_sort(cancelled, items, less));
+  ExecutionContext canceled;
+  EXPECT_TRUE(parallel_sort(canceled, nothing, less));
+  canceled.request_cancel();
+  EXPECT_FALSE(parallel_sort(canceled, items, less));
 }

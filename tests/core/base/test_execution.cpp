@@ -67,9 +67,9 @@ TEST(Execution, CancelLatches)
 {
   bool wanted = false;
   ExecutionContext context(nullptr, [&] { return wanted; });
-  EXPECT_FALSE(context.cancelled());
+  EXPECT_FALSE(context.canceled());
   wanted = true;
-  EXPECT_TRUE(context.cancelled());
+  EXPECT_TRUE(context.canceled());
   wanted = false;
-  EXPECT_TRUE(context.cancelled());
+  EXPECT_TRUE(context.canceled());
 }

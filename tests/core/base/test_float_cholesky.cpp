@@ -45,11 +45,11 @@ protected:
 
   /// Analyze the matrix with both solvers. The double-precision factorization remains available in
   /// `solver`.
-  FloatCholesky analysed(const SparseMatrix& matrix, SparseSolver& solver)
+  FloatCholesky analyzed(const SparseMatrix& matrix, SparseSolver& solver)
   {
     FloatCholesky single;
-    EXPECT_TRUE(solver.analyse(matrix).ok());
-    EXPECT_TRUE(single.analyse(solver, matrix).ok());
+    EXPECT_TRUE(solver.analyze(matrix).ok());
+    EXPECT_TRUE(single.analyze(solver, matrix).ok());
     return single;
   }
 
@@ -57,7 +57,7 @@ protected:
 };
 } // namespace
 
-TEST_F(FloatCholeskyTest, SolvesAsADenseFactorisationDoes)
+TEST_F(FloatCholeskyTest, SolvesAsADenseFactorizationDoes)
 {
   test::Random random;
   for (const int n : { 1, 2, 3, 5 })
@@ -71,7 +71,7 @@ TEST_F(FloatCholeskyTest, SolvesAsADenseFactorisationDoes)
         Eigen::MatrixXd(Eigen::MatrixXd(a).selfadjointView<Eigen::Lower>());
       const Eigen::MatrixXd expected = dense.ldlt().solve(rhs);
       SparseSolver solver({ SparseSolver::Backend::cholmod, ordering });
-      FloatCholesky single = analysed(a, solver);
+      FloatCholesky single = analyzed(a, solver);
       ASSERT_TRUE(single.factor(a, 0.0, context_).ok());
       Eigen::MatrixXd x;
       single.solve(rhs, x);
@@ -95,7 +95,7 @@ TEST_F(FloatCholeskyTest, SolvesAnyNumberOfColumnsAsItSolvesOne)
   test::Random random(2);
   const SparseMatrix a = definite_matrix(9, 0.1);
   SparseSolver solver;
-  FloatCholesky single = analysed(a, solver);
+  FloatCholesky single = analyzed(a, solver);
   ASSERT_TRUE(single.factor(a, 0.0, context_).ok());
   for (const int columns : { 1, 2, 4, 5, 8, 9, 10, 13, 16 })
   {
@@ -117,7 +117,7 @@ TEST_F(FloatCholeskyTest, ResidualsAreThoseOfSinglePrecisionAtAnyScale)
 {
   const SparseMatrix a = definite_matrix(11, 0.01);
   SparseSolver solver;
-  FloatCholesky single = analysed(a, solver);
+  FloatCholesky single = analyzed(a, solver);
   ASSERT_TRUE(solver.factor(a).ok());
   test::Random random(4);
   const Eigen::VectorXd rhs =
@@ -150,7 +150,7 @@ TEST_F(FloatCholeskyTest, NamesThePivotThatIsNotPositive)
 {
   SparseMatrix a = definite_matrix(4, 0.1);
   SparseSolver solver;
-  FloatCholesky single = analysed(a, solver);
+  FloatCholesky single = analyzed(a, solver);
   for (const double bad : { -1e6, 0.0, std::nan("") })
   {
     SparseMatrix b = a;
@@ -163,7 +163,7 @@ TEST_F(FloatCholeskyTest, NamesThePivotThatIsNotPositive)
     }
   }
   EXPECT_TRUE(single.factor(a, 0.0, context_).ok()) << "still good for another matrix";
-  EXPECT_EQ(single.factorisations(), 4);
+  EXPECT_EQ(single.factorizations(), 4);
 }
 
 TEST_F(FloatCholeskyTest, ClonesAndThreadsGiveTheSameBits)
@@ -171,7 +171,7 @@ TEST_F(FloatCholeskyTest, ClonesAndThreadsGiveTheSameBits)
   constexpr int count = 4;
   const SparseMatrix a = definite_matrix(9, 0.01);
   SparseSolver solver;
-  FloatCholesky single = analysed(a, solver);
+  FloatCholesky single = analyzed(a, solver);
   ASSERT_TRUE(single.factor(a, 0.0, context_).ok());
   const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(a.rows(), -1.0, 1.0);
   Eigen::VectorXd alone;
@@ -208,28 +208,28 @@ TEST_F(FloatCholeskyTest, ClonesAndThreadsGiveTheSameBits)
     EXPECT_EQ(shared[i], alone);
   }
   EXPECT_EQ(solver.analyses(), 1);
-  EXPECT_EQ(single.factorisations(), 1 + 3 * count);
+  EXPECT_EQ(single.factorizations(), 1 + 3 * count);
 }
 
 TEST_F(FloatCholeskyTest, CancelEndsItAndOtherPatternsAreRefused)
 {
   const SparseMatrix a = definite_matrix(4, 0.1);
   SparseSolver solver;
-  FloatCholesky single = analysed(a, solver);
+  FloatCholesky single = analyzed(a, solver);
   int asked = 0;
   const ExecutionContext stopped(nullptr, [&] { return ++asked > 3; });
-  EXPECT_EQ(single.factor(a, 0.0, stopped).code, StatusCode::cancelled);
+  EXPECT_EQ(single.factor(a, 0.0, stopped).code, StatusCode::canceled);
   EXPECT_FALSE(single.factor(definite_matrix(3, 0.1), 0.0, context_).ok());
   EXPECT_FALSE(FloatCholesky().factor(a, 0.0, context_).ok());
-  EXPECT_FALSE(FloatCholesky().analyse(solver, definite_matrix(3, 0.1)).ok());
+  EXPECT_FALSE(FloatCholesky().analyze(solver, definite_matrix(3, 0.1)).ok());
 }
 
 TEST(FloatCholesky, IsUnavailableWithoutSupernodes)
 {
   const SparseMatrix a = definite_matrix(3, 0.1);
   SparseSolver solver({ SparseSolver::Backend::eigen, SparseSolver::Ordering::automatic });
-  ASSERT_TRUE(solver.analyse(a).ok());
+  ASSERT_TRUE(solver.analyze(a).ok());
   FloatCholesky single;
-  EXPECT_EQ(single.analyse(solver, a).code, StatusCode::unavailable);
-  EXPECT_FALSE(single.analysed());
+  EXPECT_EQ(single.analyze(solver, a).code, StatusCode::unavailable);
+  EXPECT_FALSE(single.analyzed());
 }

@@ -35,8 +35,8 @@ protected:
     this->lower = this->a.triangularView<Eigen::Lower>();
     this->lower.makeCompressed();
     SparseSolver solver;
-    ASSERT_TRUE(solver.analyse(this->lower).ok());
-    ASSERT_TRUE(this->factor.analyse(solver, this->lower).ok());
+    ASSERT_TRUE(solver.analyze(this->lower).ok());
+    ASSERT_TRUE(this->factor.analyze(solver, this->lower).ok());
     ASSERT_TRUE(this->factor.factor(this->lower, 0.0, {}).ok());
     this->inverse_diagonal = this->a.diagonal().cwiseInverse();
     test::Random random;
@@ -78,7 +78,7 @@ protected:
 };
 } // namespace
 
-TEST_F(RefinedSolve, IsAsGoodAsADenseFactorisation)
+TEST_F(RefinedSolve, IsAsGoodAsADenseFactorization)
 {
   // Without this scale per column, squares of the other columns would overflow.
   this->rhs.col(3) *= 1e-100;

@@ -64,24 +64,24 @@ TEST(SideTask, WithOneThreadItWaitsForFinish)
   EXPECT_EQ(there, here);
 }
 
-TEST(SideTask, IsCancelledWithItsMakerAndWhenItIsDropped)
+TEST(SideTask, IsCanceledWithItsMakerAndWhenItIsDropped)
 {
   for (const bool drop : { false, true })
   {
     ExecutionContext context;
     context.set_threads(2);
     std::atomic<bool> begun{ false };
-    std::atomic<bool> cancelled{ false };
+    std::atomic<bool> canceled{ false };
     {
       SideTask task(0.0, context,
         [&](ExecutionContext& side)
         {
           begun = true;
-          while (!side.cancelled())
+          while (!side.canceled())
           {
             sleep_for(0.001);
           }
-          cancelled = true;
+          canceled = true;
         });
       while (!begun && std::thread::hardware_concurrency() > 1)
       {
@@ -91,10 +91,10 @@ TEST(SideTask, IsCancelledWithItsMakerAndWhenItIsDropped)
       {
         context.request_cancel();
         task.finish();
-        EXPECT_TRUE(cancelled);
+        EXPECT_TRUE(canceled);
       }
     }
-    EXPECT_TRUE(cancelled || std::thread::hardware_concurrency() == 1);
+    EXPECT_TRUE(canceled || std::thread::hardware_concurrency() == 1);
   }
 }
 

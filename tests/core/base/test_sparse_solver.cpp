@@ -48,7 +48,7 @@ protected:
     if (GetParam() == SparseSolver::Backend::cholmod && !SparseSolver::has_cholmod())
     {
       SparseSolver solver({ GetParam(), SparseSolver::Ordering::automatic });
-      EXPECT_EQ(solver.analyse(definite_matrix(2, 1.0)).code, StatusCode::unavailable);
+      EXPECT_EQ(solver.analyze(definite_matrix(2, 1.0)).code, StatusCode::unavailable);
       GTEST_SKIP() << "this build has no CHOLMOD (package libsuitesparse-dev)";
     }
   }
@@ -62,7 +62,7 @@ TEST_P(SparseSolverTest, WhatHasNoRoomIsRefusedBeforeItIsFactored)
   options.backend = GetParam();
   options.memory_limit = 1;
   SparseSolver solver(options);
-  ASSERT_TRUE(solver.analyse(a).ok());
+  ASSERT_TRUE(solver.analyze(a).ok());
   EXPECT_GE(solver.factor_bytes(), 8.0 * solver.factor_nonzeros());
   EXPECT_LT(solver.factor_bytes(), 16.0 * solver.factor_nonzeros() + 1e5);
   if (GetParam() == SparseSolver::Backend::cholmod)
@@ -71,11 +71,11 @@ TEST_P(SparseSolverTest, WhatHasNoRoomIsRefusedBeforeItIsFactored)
     EXPECT_EQ(status.code, StatusCode::internal_error);
     EXPECT_THAT(status.message, testing::StartsWith("the factor of 729 unknowns would bring"));
     EXPECT_EQ(solver.clone().factor(a).code, StatusCode::internal_error);
-    EXPECT_EQ(solver.factorisations(), 0);
+    EXPECT_EQ(solver.factorizations(), 0);
   }
 }
 
-TEST_P(SparseSolverTest, SolvesAsADenseFactorisationDoes)
+TEST_P(SparseSolverTest, SolvesAsADenseFactorizationDoes)
 {
   const SparseMatrix a = definite_matrix(3, 0.1);
   test::Random random;
@@ -85,7 +85,7 @@ TEST_P(SparseSolverTest, SolvesAsADenseFactorisationDoes)
   for (const auto ordering : { SparseSolver::Ordering::amd, SparseSolver::Ordering::metis })
   {
     SparseSolver solver({ GetParam(), ordering });
-    ASSERT_TRUE(solver.analyse(a).ok());
+    ASSERT_TRUE(solver.analyze(a).ok());
     ASSERT_TRUE(solver.factor(a).ok());
     EXPECT_LT((solver.solve(rhs) - expected).cwiseAbs().maxCoeff(), 1e-11);
     Eigen::VectorXd x;
@@ -101,13 +101,13 @@ TEST_P(SparseSolverTest, ReadsOnlyTheLowerTriangle)
   const SparseMatrix a = definite_matrix(3, 0.1);
   const SparseMatrix lower = a.triangularView<Eigen::Lower>();
   SparseSolver solver({ GetParam(), SparseSolver::Ordering::automatic });
-  ASSERT_TRUE(solver.analyse(lower).ok());
+  ASSERT_TRUE(solver.analyze(lower).ok());
   ASSERT_TRUE(solver.factor(lower).ok());
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(a.rows(), -1.0, 1.0);
   EXPECT_LT((solver.solve(a * x) - x).cwiseAbs().maxCoeff(), 1e-10);
 }
 
-TEST_P(SparseSolverTest, OneAnalysisServesManyFactorisationsAndThreads)
+TEST_P(SparseSolverTest, OneAnalysisServesManyFactorizationsAndThreads)
 {
   constexpr int count = 4;
   SparseSolver solver({ GetParam(), SparseSolver::Ordering::automatic });
@@ -116,7 +116,7 @@ TEST_P(SparseSolverTest, OneAnalysisServesManyFactorisationsAndThreads)
   {
     matrices.push_back(definite_matrix(9, 0.01 * (i + 1)));
   }
-  ASSERT_TRUE(solver.analyse(matrices[0]).ok());
+  ASSERT_TRUE(solver.analyze(matrices[0]).ok());
   const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(matrices[0].rows(), 0.0, 1.0);
   std::vector<Eigen::VectorXd> alone(count);
   for (int i = 0; i < count; ++i)
@@ -153,14 +153,14 @@ TEST_P(SparseSolverTest, OneAnalysisServesManyFactorisationsAndThreads)
     EXPECT_EQ(alone[i], together[i]) << "the same bits on any thread";
   }
   EXPECT_EQ(solver.analyses(), 1);
-  EXPECT_EQ(solver.factorisations(), count + 3 * count);
+  EXPECT_EQ(solver.factorizations(), count + 3 * count);
 }
 
 TEST_P(SparseSolverTest, NamesThePivotThatIsNotPositive)
 {
   SparseMatrix a = definite_matrix(3, 0.1);
   SparseSolver solver({ GetParam(), SparseSolver::Ordering::automatic });
-  ASSERT_TRUE(solver.analyse(a).ok());
+  ASSERT_TRUE(solver.analyze(a).ok());
   // A large negative diagonal entry makes its own pivot fail, at any position of the elimination
   // order.
   a.coeffRef(17, 17) = -1e6;
@@ -173,13 +173,13 @@ TEST_P(SparseSolverTest, NamesThePivotThatIsNotPositive)
   EXPECT_TRUE(solver.factor(definite_matrix(3, 1.0)).ok());
 }
 
-TEST_P(SparseSolverTest, RefusesWhatItHasNotAnalysed)
+TEST_P(SparseSolverTest, RefusesWhatItHasNotAnalyzed)
 {
   SparseSolver solver({ GetParam(), SparseSolver::Ordering::automatic });
   EXPECT_FALSE(solver.factor(definite_matrix(2, 1.0)).ok());
-  ASSERT_TRUE(solver.analyse(definite_matrix(2, 1.0)).ok());
+  ASSERT_TRUE(solver.analyze(definite_matrix(2, 1.0)).ok());
   EXPECT_FALSE(solver.factor(definite_matrix(3, 1.0)).ok());
-  EXPECT_EQ(solver.analyse(SparseMatrix(3, 4)).code, StatusCode::invalid_input);
+  EXPECT_EQ(solver.analyze(SparseMatrix(3, 4)).code, StatusCode::invalid_input);
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, SparseSolverTest,

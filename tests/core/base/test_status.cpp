@@ -69,6 +69,6 @@ TEST(Status, UsableMeansThereIsAResult)
   EXPECT_TRUE(Status().usable());
   EXPECT_TRUE(Status::failure(StatusCode::not_converged, "x").usable());
   EXPECT_FALSE(Status::failure(StatusCode::not_converged, "x").ok());
-  EXPECT_FALSE(Status::cancelled().usable());
+  EXPECT_FALSE(Status::canceled().usable());
   EXPECT_STREQ(to_string(StatusCode::not_converged), "not_converged");
 }

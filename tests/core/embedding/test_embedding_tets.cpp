@@ -648,7 +648,7 @@ TEST(EmbeddingTets, CancelEndsSoon)
     EmbeddingTets result;
     const Status status =
       embed_surface(mesh.points, mesh.triangles, winding, options, result, context);
-    EXPECT_TRUE(status.ok() || status.code == StatusCode::cancelled);
+    EXPECT_TRUE(status.ok() || status.code == StatusCode::canceled);
     EXPECT_EQ(status.ok(), !stop) << after;
     EXPECT_EQ(status.ok(), result.mesh.tets.rows() > 0);
   }

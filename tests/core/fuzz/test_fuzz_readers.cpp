@@ -292,7 +292,7 @@ TEST(FuzzReaders, Off)
 {
   fuzz_polygons("OFF texts", 3000,
     { written(write_off),
-      "COFF # colours\n4 2 0\n0 0 0 255 0 0 255\n1 0 0 1 0 0 1\n\n1 1 0\n0 1 0\n# faces\n"
+      "COFF # colors\n4 2 0\n0 0 0 255 0 0 255\n1 0 0 1 0 0 1\n\n1 1 0\n0 1 0\n# faces\n"
       "3 0 1 2 200 0 0\n4 0 1 2 3\n2 0 1\n",
       "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n" },
     read_off);

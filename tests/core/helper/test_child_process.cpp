@@ -115,11 +115,11 @@ TEST(ChildProcess, ItsGroupIsKilledWhateverTheEnd)
     Shell shell(leaves_one + "wait");
     ExecutionContext context;
     const test::CancelLater user(context, 300);
-    EXPECT_EQ(shell.run(&context).code, StatusCode::cancelled);
+    EXPECT_EQ(shell.run(&context).code, StatusCode::canceled);
     ASSERT_EQ(shell.lines.size(), 1u);
     EXPECT_TRUE(dies_soon(shell.lines[0])) << "after a cancel";
-    EXPECT_EQ(shell.run(&context).code, StatusCode::cancelled);
-    EXPECT_EQ(shell.lines.size(), 1u) << "cancelled before: not started";
+    EXPECT_EQ(shell.run(&context).code, StatusCode::canceled);
+    EXPECT_EQ(shell.lines.size(), 1u) << "canceled before: not started";
   }
 }
 

@@ -189,12 +189,12 @@ TEST(MesherProcess, CancelKillsTheHelperAtOnce)
   test::CancelLater user(context, 300);
   const Status status = helper.run(60.0, &context);
   const double waited = user.waited();
-  EXPECT_EQ(status.code, StatusCode::cancelled);
+  EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_LT(waited, 0.2);
   ASSERT_GT(helper.process(), 0);
   EXPECT_NE(::kill(helper.process(), 0), 0) << "still running";
   // A run that is canceled before it starts does not start the helper.
-  EXPECT_EQ(helper.run(60.0, &context).code, StatusCode::cancelled);
+  EXPECT_EQ(helper.run(60.0, &context).code, StatusCode::canceled);
 }
 
 TEST(MesherProcess, ADetachedGrandchildDoesNotHang)
@@ -226,7 +226,7 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
     const MesherData& refined = answer.data;
     EXPECT_GT(refined.triangles.rows(), mesh.triangles.rows());
     EXPECT_EQ(refined.points.topRows(mesh.points.rows()), mesh.points) << "vertices keep their ids";
-    // Reference: exact predicates of Bindpose find no crossings afterwards, and as many pairs as
+    // Reference: exact predicates of Bindpose find no crossings afterward, and as many pairs as
     // CGAL before.
     ExecutionContext context;
     std::vector<std::pair<Index, Index>> pairs;

@@ -216,7 +216,7 @@ TEST(Ftetwild, TimeLimitAndCancelKillItAtOnce)
   test::CancelLater user(context, 400);
   status = fake.run(test::cube(), {}, &context);
   const double waited = user.waited();
-  EXPECT_EQ(status.code, StatusCode::cancelled);
+  EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_LT(waited, 0.2);
   EXPECT_TRUE(gone(fake.process())) << "still running";
 }

@@ -165,7 +165,7 @@ TEST(GraphCut, CancelStopsIt)
   std::vector<char> inside;
   const Status status = minimize(energy, inside, context);
   const double waited = user.waited();
-  if (status.code == StatusCode::cancelled)
+  if (status.code == StatusCode::canceled)
   {
     EXPECT_LT(waited, test::sanitized ? 10.0 : 1.0); // about 200 ms on an idle machine
   }

@@ -111,5 +111,5 @@ TEST(LatticeTets, CancelEndsSoon)
   context.request_cancel();
   TetMesh tets;
   EXPECT_EQ(stuff_lattice(winding, Lattice::around(box, 60), box, 0.5, tets, context).code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
 }

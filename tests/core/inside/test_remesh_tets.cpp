@@ -423,7 +423,7 @@ TEST(RemeshTets, CancelKillsTheHelper)
   RemeshResult result;
   const Status status = remesh_tets(mesh.points, mesh.triangles, winding, {}, result, context);
   const double waited = user.waited();
-  EXPECT_EQ(status.code, StatusCode::cancelled);
+  EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_LT(waited, 0.2);
   EXPECT_EQ(result.mesh.tets.rows(), 0);
 }

@@ -185,7 +185,7 @@ TEST(TetImprovement, OfTwoFlatTetsOnOneEdgeOnlyOneGoes)
   EXPECT_EQ(count_edges(boundary_triangles(mesh.tets)).nonmanifold, 0);
 }
 
-TEST(TetImprovement, CancelledAtOnceIsStillAMesh)
+TEST(TetImprovement, CanceledAtOnceIsStillAMesh)
 {
   TetMesh mesh = shaken_box(0.055);
   ExecutionContext context;

@@ -152,7 +152,7 @@ TEST(Tetrahedralize, CancelEndsAtOnce)
   TetrahedralizeResult result;
   const Status status = tetrahedralize(mesh.points, mesh.triangles, {}, result, context);
   const double waited = user.waited();
-  EXPECT_EQ(status.code, StatusCode::cancelled);
+  EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_LT(waited, 0.2);
   EXPECT_EQ(result.mesh.tets.rows(), 0);
 }

@@ -116,5 +116,5 @@ TEST(ThickSolid, CancelEndsSoon)
   context.request_cancel();
   TriangleMesh solid;
   EXPECT_EQ(thick_solid(mesh.points, mesh.triangles, winding, {}, solid, context).code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
 }

@@ -227,7 +227,7 @@ TEST_F(WrapSurface, TimeMemoryAndCancelEndIt)
   const TriangleMesh sphere = test::sphere(3);
   status =
     wrap_surface(sphere.points, sphere.triangles, options, wrap.points, wrap.triangles, context);
-  EXPECT_EQ(status.code, StatusCode::cancelled) << "at the first sign of progress";
+  EXPECT_EQ(status.code, StatusCode::canceled) << "at the first sign of progress";
   EXPECT_FALSE(seen.empty());
   EXPECT_LT(seconds(), 30.0);
 }

@@ -531,7 +531,7 @@ TEST(GltfSkin, ACancelLeavesNoFile)
   int asked = 0;
   ExecutionContext context({}, [&asked] { return ++asked > 10; });
   const Status status = write_gltf_skin(folder / "rig.glb", skin, GltfOptions(), context);
-  EXPECT_EQ(status.code, StatusCode::cancelled);
+  EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_EQ(folder.number_of_files(), 0u);
   EXPECT_LT(asked, 20);
 }

@@ -508,7 +508,7 @@ TEST_F(Vdb, CancelsAndTellsHowFarItIs)
       context.set_threads(1);
       const Status status =
         write_vdb(this->folder / "f.vdb", field.grid, field.values.data(), this->options, context);
-      EXPECT_EQ(status.code, StatusCode::cancelled) << last << " of " << all;
+      EXPECT_EQ(status.code, StatusCode::canceled) << last << " of " << all;
       EXPECT_EQ(this->folder.number_of_files(), 0u);
     }
   }

@@ -318,7 +318,7 @@ TEST(ImageOutline, Refuses)
   EXPECT_EQ(image_outline(
               1, 1, [](Index, float* value) { *value = 1.0f; }, {}, outline, context)
               .code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
 }
 
 TEST(ImageOutline, HugeImageInSeconds)

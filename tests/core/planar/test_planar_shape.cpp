@@ -534,7 +534,7 @@ TEST_F(PlanarShapeTest, Cancel)
   ExecutionContext context;
   context.request_cancel();
   EXPECT_EQ(planar_shape(curves.points, curves.segments, handles, options, shape, context).code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
   EXPECT_EQ(shape.triangles.rows(), 0);
 }
 

@@ -103,7 +103,7 @@ TEST(Crowd, ComesAndGoesAndSaysWhichPoseIsBad)
   EXPECT_THAT(status.message, HasSubstr("of 5 instances did not converge"));
 
   context.request_cancel();
-  EXPECT_EQ(crowd.solve(context, poses).code, StatusCode::cancelled);
+  EXPECT_EQ(crowd.solve(context, poses).code, StatusCode::canceled);
 }
 
 TEST(Crowd, StandsWhereItIsPlaced)

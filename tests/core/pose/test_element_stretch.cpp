@@ -288,5 +288,5 @@ TEST(ElementStretch, BadInputAndCancel)
   ExecutionContext context;
   context.request_cancel();
   EXPECT_EQ(element_stretch(context, {}, box.points, box.points, TetsView(box.tets), stretch).code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
 }

@@ -320,7 +320,7 @@ TEST(FullArapRobustness, FlatAndNeedleTrianglesDoNoHarm)
   }
 }
 
-TEST(FullArapRobustness, TheSameBitsForAnyNumberOfThreadsAndOneFactorisationForAllPoses)
+TEST(FullArapRobustness, TheSameBitsForAnyNumberOfThreadsAndOneFactorizationForAllPoses)
 {
   const Held bar = held_bar(16);
   Points first;
@@ -333,21 +333,21 @@ TEST(FullArapRobustness, TheSameBitsForAnyNumberOfThreadsAndOneFactorisationForA
                   .bind(context, bar.mesh.points, bar.mesh.tets, bar.handles,
                     { ArapEnergy::automatic, bar.labels })
                   .ok());
-    EXPECT_EQ(arap.factorisations(), 0);
+    EXPECT_EQ(arap.factorizations(), 0);
     for (int i = 0; i < 3; ++i)
     {
       Pose pose = bend(HandleMode::position);
       pose[1].transform.col(3) *= i;
       ASSERT_TRUE(arap.solve(context, pose).usable());
     }
-    EXPECT_EQ(arap.factorisations(), 1);
+    EXPECT_EQ(arap.factorizations(), 1);
     if (threads == 1)
     {
       first = arap.posed();
     }
     EXPECT_EQ(arap.posed(), first);
     ASSERT_TRUE(arap.solve(context, bend(HandleMode::free)).usable());
-    EXPECT_EQ(arap.factorisations(), 2);
+    EXPECT_EQ(arap.factorizations(), 2);
   }
 }
 
@@ -466,7 +466,7 @@ TEST(FullArapRobustness, CancelEndsASolveAndTheNextIsWhole)
   ExecutionContext stopping({}, [&asked] { return ++asked > 200; });
   stopping.set_threads(1);
   EXPECT_EQ(arap.solve(stopping, bend(HandleMode::free), plain(1000, FullArap::Start::last)).code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
   ASSERT_TRUE(arap.solve(context, bend(HandleMode::free)).usable());
   ASSERT_TRUE(twin.solve(context, bend(HandleMode::free)).usable());
   EXPECT_EQ(arap.posed(), twin.posed());
@@ -476,5 +476,5 @@ TEST(FullArapRobustness, CancelEndsASolveAndTheNextIsWhole)
               .bind(before, bar.mesh.points, bar.mesh.tets, bar.handles,
                 { ArapEnergy::automatic, bar.labels })
               .code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
 }

@@ -418,6 +418,6 @@ TEST(MovingLeastSquares, WhatCannotBeUsedIsOneSentence)
   EXPECT_EQ(
     warp.warp(context, mixed_handles(false), Pose(2), posed).code, StatusCode::invalid_input);
   context.request_cancel();
-  EXPECT_EQ(warp.warp(context, mixed_handles(false), Pose(4), posed).code, StatusCode::cancelled);
-  EXPECT_EQ(warp.bind(context, {}, rest, mixed_handles(false)).code, StatusCode::cancelled);
+  EXPECT_EQ(warp.warp(context, mixed_handles(false), Pose(4), posed).code, StatusCode::canceled);
+  EXPECT_EQ(warp.bind(context, {}, rest, mixed_handles(false)).code, StatusCode::canceled);
 }

@@ -81,7 +81,7 @@ struct Square
   }
 };
 
-const Vec3 centred(-0.5, -0.5, 0.0);
+const Vec3 centered(-0.5, -0.5, 0.0);
 
 struct Harmonic
 {
@@ -158,7 +158,7 @@ TEST(Polyharmonic, PolynomialsThatSolveItAreReproduced)
   {
     for (const int n : { 8, 16, 32 })
     {
-      Square square(n, polynomial.order, centred, polynomial.u);
+      Square square(n, polynomial.order, centered, polynomial.u);
       const Status status = square.solve(polynomial.order, PatchBoundary::region);
       ASSERT_TRUE(status.ok()) << status.message;
       EXPECT_LT(square.error(polynomial.u), 1e-12) << polynomial.order << " " << n;
@@ -203,7 +203,7 @@ TEST(Polyharmonic, DerivativesAcrossTheEdgeAreMet)
   double last = 1.0;
   for (const int n : { 8, 16, 32 })
   {
-    Square square(n, 1, centred, u);
+    Square square(n, 1, centered, u);
     ExecutionContext context;
     Polyharmonic system;
     system.bind(square.mesh.points, square.mesh.triangles, 2, PatchBoundary::tangent);
@@ -251,7 +251,7 @@ TEST(Polyharmonic, TheMixedSystemItselfHasTheSameSolution)
   Random random(3);
   for (const int order : { 2, 3 })
   {
-    Square square(24, order, centred);
+    Square square(24, order, centered);
     for (Index v = 0; v < square.mesh.points.rows(); ++v)
     {
       square.mesh.points.row(v) +=

@@ -108,7 +108,7 @@ TEST(PoseFile, InVersionOneParentsComposeOnlyWhenAsked)
   // World space: the bone rotates around its own rest head.
   Pose pose = read("{\"handles\": {" + fore + "}, " + upper + "}}");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
-  // Parent space: the rotation of the parent around the origin is applied afterwards.
+  // Parent space: the rotation of the parent around the origin is applied afterward.
   pose = read("{\"handles\": {" + fore + ", \"space\": \"parent\"}, " + upper + "}}");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(-1, 1, 0)).norm(), 1e-15);
@@ -378,7 +378,7 @@ TEST(PoseFile, WhatIsWrongIsNamed)
   EXPECT_THAT(message(R"({"handles": []})"), HasSubstr("handles"));
   EXPECT_THAT(message(R"({"handles": {"q": {}}})"), HasSubstr("'q' that does not exist"));
   EXPECT_THAT(message(R"({"handles": {}, "frame": 1})"), HasSubstr("'frame'"));
-  EXPECT_THAT(message(R"({"handles": {"p": {"colour": 1}}})"), HasSubstr("'colour'"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"color": 1}}})"), HasSubstr("'color'"));
   EXPECT_THAT(message(R"({"handles": {"p": 3}})"), HasSubstr("is a number"));
   EXPECT_THAT(message(R"({"handles": {"p": {}, "p": {}}})"), HasSubstr("'p' is given twice"));
   EXPECT_THAT(

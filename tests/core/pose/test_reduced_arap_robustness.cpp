@@ -488,11 +488,11 @@ TEST(ReducedArapRobustness, CancelEndsTheBindAndTheSolve)
   context.request_cancel();
   ReducedArap arap;
   EXPECT_EQ(arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
   ExecutionContext fine;
   ASSERT_TRUE(arap.bind(fine, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
   EXPECT_EQ(
-    arap.solve(context, bend(HandleMode::free), iterations(1000)).code, StatusCode::cancelled);
+    arap.solve(context, bend(HandleMode::free), iterations(1000)).code, StatusCode::canceled);
 }
 
 namespace

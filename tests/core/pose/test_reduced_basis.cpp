@@ -220,7 +220,7 @@ TEST(ReducedBasis, TheQuickWayDeclinesWhatIsInDoubt)
   same.held.row(1) = same.held.row(0);
   basis.make(same.space, same.space.stiffness, same.open, same.held);
   EXPECT_EQ(basis.redundant().size(), 1u);
-  // Afterwards the fast construction works again.
+  // Afterward the fast construction works again.
   same.choose({}, { 0, 1 });
   EXPECT_TRUE(same.quickly(basis));
   EXPECT_TRUE(basis.redundant().empty());

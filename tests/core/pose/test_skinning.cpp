@@ -304,7 +304,7 @@ TEST(Skinning, WhatDoesNotFitIsNamed)
   weights(1, 0) = std::nan("");
   EXPECT_THAT(skinning.bind(context, weights).message, HasSubstr("vertex 1 in column 0"));
   context.request_cancel();
-  EXPECT_EQ(skinning.bind(context, Weights(Weights::Ones(3, 1))).code, StatusCode::cancelled);
+  EXPECT_EQ(skinning.bind(context, Weights(Weights::Ones(3, 1))).code, StatusCode::canceled);
 }
 
 TEST(Skinning, ModesReadAsTranslationsAndIdentity)
@@ -410,7 +410,7 @@ TEST(StretchableBones, WithoutAChangeAreLinearBlendBitForBit)
   const Points posed = stretched(rig.mesh.points, rig.weights, transforms, bones, Weights(), 1);
   EXPECT_NE(posed, linear);
   EXPECT_EQ(stretched(rig.mesh.points, rig.weights, transforms, bones, Weights(), 3), posed);
-  // A rigid motion of all handles is applied afterwards.
+  // A rigid motion of all handles is applied afterward.
   const Affine rigid = turn(75.0, Vec3(-1, 1, 3), Vec3(2, 0, 1), Vec3(5, 6, 7));
   const Points here =
     stretched(rig.mesh.points, rig.weights, std::vector<Affine>(5, identity_affine()), bones);
@@ -631,8 +631,8 @@ Blends blends_of(const Points& points, const Weights& weights,
     *bound = status;
   }
   Blends blends;
-  const Vec3 centre = points.colwise().mean().transpose();
-  Points normals = points.rowwise() - (centre + Vec3(0.01, 0.02, 0.03)).transpose();
+  const Vec3 center = points.colwise().mean().transpose();
+  Points normals = points.rowwise() - (center + Vec3(0.01, 0.02, 0.03)).transpose();
   normals.rowwise().normalize();
   EXPECT_TRUE(skinning.linear_blend(context, points, transforms, blends.linear).ok());
   EXPECT_TRUE(skinning.dual_quaternion(context, points, transforms, pivots, blends.dual).ok());
@@ -661,7 +661,7 @@ TEST(Skinning, SinglePrecisionIsRightToAMillionthOfTheDiagonal)
   for (const Vec3& place : { Vec3(0, 0, 0), Vec3(4e3, -2e3, 1e3) })
   {
     const Points points = rig.mesh.points.rowwise() + place.transpose();
-    const Points centres = pivots.rowwise() + place.transpose();
+    const Points centers = pivots.rowwise() + place.transpose();
     for (const bool shears : { false, true })
     {
       std::vector<Affine> transforms = wild_transforms(random, shears);
@@ -669,13 +669,13 @@ TEST(Skinning, SinglePrecisionIsRightToAMillionthOfTheDiagonal)
       {
         t.col(3) += place - t.leftCols<3>() * place; // the same motion at this position
       }
-      const Blends exact = blends_of(points, rig.weights, transforms, centres, {});
-      const Blends fast = blends_of(points, rig.weights, transforms, centres, single);
+      const Blends exact = blends_of(points, rig.weights, transforms, centers, {});
+      const Blends fast = blends_of(points, rig.weights, transforms, centers, single);
       EXPECT_LT(difference(fast.linear, exact.linear), 1e-6 * diagonal);
       EXPECT_LT(difference(fast.dual, exact.dual), 1e-6 * diagonal);
       EXPECT_LT(difference(fast.linear_normals, exact.linear_normals), 1e-4);
       EXPECT_LT(difference(fast.dual_normals, exact.dual_normals), 1e-4);
-      const Blends again = blends_of(points, rig.weights, transforms, centres, single, nullptr, 1);
+      const Blends again = blends_of(points, rig.weights, transforms, centers, single, nullptr, 1);
       EXPECT_EQ(again.linear, fast.linear);
       EXPECT_EQ(again.dual, fast.dual);
     }

@@ -139,7 +139,7 @@ TEST(SkinningEigenmodes, NothingFreeGivesNoModesAndCancelEnds)
   EXPECT_EQ(found.modes.cols(), 0);
   context.request_cancel();
   EXPECT_EQ(skinning_eigenmodes(context, box.stiffness, box.mass, box.zero, 5, found).code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
 }
 
 // SPEC D37 with eigenmodes instead of bumps.

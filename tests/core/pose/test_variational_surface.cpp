@@ -170,7 +170,7 @@ TEST(VariationalSurface, AMotionOfAllThatIsHeldMovesAll)
     bump.pose[0].transform = motion;
     ASSERT_TRUE(bump.surface.solve(bump.context, bump.pose).ok());
     EXPECT_LT(difference(bump.surface.posed(), moved(rest, motion)), 1e-12);
-    EXPECT_EQ(bump.surface.factorisations(), 1);
+    EXPECT_EQ(bump.surface.factorizations(), 1);
   }
 }
 
@@ -210,11 +210,11 @@ TEST(VariationalSurface, MovingAHandleDoesNotFactorAgain)
   const Points flat = bump.mesh.points;
   // The solution is linear in the pose.
   EXPECT_LT(difference(bump.surface.posed() - flat, 2.0 * (once - flat)), 1e-13);
-  EXPECT_EQ(bump.surface.factorisations(), 1);
+  EXPECT_EQ(bump.surface.factorizations(), 1);
   bump.pose[0].mode = HandleMode::free;
   ASSERT_TRUE(bump.surface.solve(bump.context, bump.pose).ok());
   EXPECT_EQ(difference(bump.surface.posed(), flat), 0.0);
-  EXPECT_EQ(bump.surface.factorisations(), 2);
+  EXPECT_EQ(bump.surface.factorizations(), 2);
 }
 
 TEST(VariationalSurface, APointInsideATriangleIsHeld)
@@ -392,13 +392,13 @@ TEST(VariationalSurface, WhatIsLessThanItSeemsIsSaid)
   EXPECT_THAT(first.solve().warnings, testing::ElementsAre(HasSubstr("order 1")));
 }
 
-TEST(VariationalSurface, CancelledItSaysSo)
+TEST(VariationalSurface, CanceledItSaysSo)
 {
   Bump bump;
   bump.context.request_cancel();
-  EXPECT_EQ(bump.bind().code, StatusCode::cancelled);
+  EXPECT_EQ(bump.bind().code, StatusCode::canceled);
   Bump later;
   ASSERT_TRUE(later.bind().ok());
   later.context.request_cancel();
-  EXPECT_EQ(later.surface.solve(later.context, later.pose).code, StatusCode::cancelled);
+  EXPECT_EQ(later.surface.solve(later.context, later.pose).code, StatusCode::canceled);
 }

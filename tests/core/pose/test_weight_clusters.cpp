@@ -13,15 +13,15 @@ using namespace bindpose;
 namespace
 {
 /// Return rows in tight groups around the given centers.
-Weights blobs(const Weights& centres, Index each, double spread)
+Weights blobs(const Weights& centers, Index each, double spread)
 {
   test::Random random(3);
-  Weights rows(centres.rows() * each, centres.cols());
+  Weights rows(centers.rows() * each, centers.cols());
   for (Index i = 0; i < rows.rows(); ++i)
   {
     for (Index j = 0; j < rows.cols(); ++j)
     {
-      rows(i, j) = centres(i % centres.rows(), j) + random.uniform(-spread, spread);
+      rows(i, j) = centers(i % centers.rows(), j) + random.uniform(-spread, spread);
     }
   }
   return rows;
@@ -30,13 +30,13 @@ Weights blobs(const Weights& centres, Index each, double spread)
 
 TEST(WeightClusters, GroupsAreFound)
 {
-  Weights centres(4, 2);
-  centres << 0, 0, 1, 0, 0, 1, 1, 1;
+  Weights centers(4, 2);
+  centers << 0, 0, 1, 0, 0, 1, 1, 1;
   for (const Index each : { 50, 5000 }) // 5000 rows per group are clustered on a sample
   {
     ExecutionContext context;
     Clusters clusters;
-    ASSERT_TRUE(cluster_rows(context, blobs(centres, each, 0.1), 4, clusters));
+    ASSERT_TRUE(cluster_rows(context, blobs(centers, each, 0.1), 4, clusters));
     ASSERT_EQ(clusters.count, 4);
     for (std::size_t i = 4; i < clusters.of_row.size(); ++i)
     {

@@ -11,13 +11,13 @@ namespace
 const Vec3 far_left(-7.0, 0.11, 0.07);
 
 // Return the distance from the plane through the center perpendicular to the ray.
-double off_centre(const Vec3& p, const Vec3& direction)
+double off_center(const Vec3& p, const Vec3& direction)
 {
   return std::abs(p.dot(direction.normalized()));
 }
 } // namespace
 
-TEST(SurfaceProbe, MidThicknessOfASphereIsItsCentrePlane)
+TEST(SurfaceProbe, MidThicknessOfASphereIsItsCenterPlane)
 {
   const TriangleMesh ball = test::sphere(3);
   const SurfaceProbe probe(ball.points, ball.triangles);
@@ -35,7 +35,7 @@ TEST(SurfaceProbe, MidThicknessOfASphereIsItsCentrePlane)
     EXPECT_LT((through.middle() - back.middle()).norm(), 1e-9);
     const double chord = 2.0 * std::sqrt(1.0 - aside.squaredNorm());
     EXPECT_NEAR((through.exit - through.entry).norm(), chord, 0.06);
-    EXPECT_LT(off_centre(through.middle(), direction), 0.03);
+    EXPECT_LT(off_center(through.middle(), direction), 0.03);
   }
   LineSpan span;
   ASSERT_TRUE(probe.first_inside(Vec3(-5, 0, 0), Vec3(2, 0, 0), span));

@@ -104,12 +104,12 @@ Domain slotted_square(int n)
   Index count = 0;
   for (Index t = 0; t < square.triangles.rows(); ++t)
   {
-    Vec3 centre = Vec3::Zero();
+    Vec3 center = Vec3::Zero();
     for (int k = 0; k < 3; ++k)
     {
-      centre += square.points.row(square.triangles(t, k)).transpose() / 3.0;
+      center += square.points.row(square.triangles(t, k)).transpose() / 3.0;
     }
-    if (!(centre.x() > 0.4 && centre.x() < 0.6 && centre.y() > 0.3))
+    if (!(center.x() > 0.4 && center.x() < 0.6 && center.y() > 0.3))
     {
       domain.triangles.row(count++) = square.triangles.row(t);
     }
@@ -228,12 +228,12 @@ TEST(InverseDistance, IsShepards)
     {
       bone = std::min(bone, (p - Vec3(0.25 + 0.5e-5 * i, 0.25, 0.25 + 0.25e-5 * i)).norm());
     }
-    double labelled = 1e9;
+    double labeled = 1e9;
     for (const Vec3& q : region)
     {
-      labelled = std::min(labelled, (p - q).norm());
+      labeled = std::min(labeled, (p - q).norm());
     }
-    Vec3 shares((p - handles[0].head).norm(), bone, labelled);
+    Vec3 shares((p - handles[0].head).norm(), bone, labeled);
     shares = shares.array().pow(-3.0);
     shares /= shares.sum();
     EXPECT_LT((result.weights.row(v).transpose() - shares).cwiseAbs().maxCoeff(), 1e-6);
@@ -311,12 +311,12 @@ TEST(BoneHeat, HandlesHideBehindWalls)
   Index count = 0;
   for (Index t = 0; t < box.tets.rows(); ++t)
   {
-    Vec3 centre = Vec3::Zero();
+    Vec3 center = Vec3::Zero();
     for (int k = 0; k < 4; ++k)
     {
-      centre += 0.25 * box.points.row(box.tets(t, k)).transpose();
+      center += 0.25 * box.points.row(box.tets(t, k)).transpose();
     }
-    if (!(centre.x() > 0.4 && centre.x() < 0.6 && centre.y() > 0.3))
+    if (!(center.x() > 0.4 && center.x() < 0.6 && center.y() > 0.3))
     {
       u.tets.row(count++) = box.tets.row(t);
     }
@@ -360,6 +360,6 @@ TEST(BaselineWeights, BadOptionsAreOneSentence)
     EXPECT_EQ(
       baseline_weights(problem, options_for(static_cast<BaselineMethod>(method)), stopped, result)
         .code,
-      StatusCode::cancelled);
+      StatusCode::canceled);
   }
 }

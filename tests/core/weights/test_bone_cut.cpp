@@ -204,5 +204,5 @@ TEST(BoneCut, WhatCannotBeCutIsOneSentence)
   EXPECT_EQ(cut_along_bones(
               mesh.points, mesh.triangles, bone(Vec3(0, 0, 0), Vec3(1, 0, 0)), {}, context, result)
               .code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
 }

@@ -105,7 +105,7 @@ TEST(BoxQp, AgreesWithProjectedGaussSeidel)
   EXPECT_LT(least, -1e-3) << "bounds matter here";
 }
 
-TEST(BoxQp, MinimisersWithoutBoundsHaveNoGradient)
+TEST(BoxQp, MinimizersWithoutBoundsHaveNoGradient)
 {
   const TetMesh box = test::tet_box(14, 14, 14);
   const std::vector<Index> fixed{ 0, 14, 3374 };
@@ -115,10 +115,10 @@ TEST(BoxQp, MinimisersWithoutBoundsHaveNoGradient)
     BoxQp qp(q, fixed, {});
     ExecutionContext context;
     ASSERT_TRUE(qp.prepare(context).ok());
-    const Index factorisations = qp.factorisations();
+    const Index factorizations = qp.factorizations();
     const Eigen::MatrixXd w = qp.unconstrained(Eigen::MatrixXd::Identity(3, 3));
-    EXPECT_EQ(qp.factorisations(), factorisations);
-    EXPECT_LE(factorisations, 2) << "double precision where single precision will not do";
+    EXPECT_EQ(qp.factorizations(), factorizations);
+    EXPECT_LE(factorizations, 2) << "double precision where single precision will not do";
     const double size = Eigen::MatrixXd(q.cwiseAbs() * w.cwiseAbs()).maxCoeff();
     const Eigen::MatrixXd gradient = q * w;
     for (Index v = 0; v < q.rows(); ++v)
@@ -217,9 +217,9 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   const BoxQpSolution free = qp.solve(unbounded, context);
   ASSERT_TRUE(free.status.ok());
   EXPECT_EQ(free.iterations, 0);
-  const Eigen::VectorXd minimiser = qp.unconstrained(column.fixed_values);
-  EXPECT_GT(minimiser.maxCoeff(), 0.8);
-  EXPECT_LT((free.w - minimiser).cwiseAbs().maxCoeff(), 1e-9);
+  const Eigen::VectorXd minimizer = qp.unconstrained(column.fixed_values);
+  EXPECT_GT(minimizer.maxCoeff(), 0.8);
+  EXPECT_LT((free.w - minimizer).cwiseAbs().maxCoeff(), 1e-9);
   // Bounds on a part of the vertices only.
   BoxQpColumn some = unbounded;
   some.bounds.lower.head(n).setZero();
@@ -404,12 +404,12 @@ TEST(BoxQp, ThreadsDoNotChangeABit)
     const std::vector<BoxQpSolution> solutions = qp.solve_all(columns, context);
     EXPECT_EQ(qp.analyses(), 1);
     // One factorization of Q, one for the starts of all columns, and the others for the columns.
-    Index factorisations = SparseSolver::has_cholmod() ? 2 : 1;
+    Index factorizations = SparseSolver::has_cholmod() ? 2 : 1;
     for (const BoxQpSolution& solution : solutions)
     {
-      factorisations += solution.factorisations;
+      factorizations += solution.factorizations;
     }
-    EXPECT_EQ(qp.factorisations(), factorisations);
+    EXPECT_EQ(qp.factorizations(), factorizations);
     if (threads == 1)
     {
       reference = solutions;
@@ -464,7 +464,7 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
   EXPECT_EQ(refused.code, StatusCode::internal_error);
   EXPECT_THAT(
     refused.message, testing::StartsWith("solving for 3 columns on 4913 vertices would bring"));
-  EXPECT_EQ(none.factorisations(), 0);
+  EXPECT_EQ(none.factorizations(), 0);
   EXPECT_GT(none.memory_estimate(), resident_memory());
 
   std::vector<BoxQpSolution> reference;
@@ -521,7 +521,7 @@ TEST(BoxQp, TooFewIterationsAreSaidAndCancelEndsIt)
   ASSERT_TRUE(status.ok());
   prepared = true;
   const BoxQpSolution solution = other.solve(column_of({ 1, 0, 0 }), stopped);
-  EXPECT_EQ(solution.status.code, StatusCode::cancelled);
+  EXPECT_EQ(solution.status.code, StatusCode::canceled);
   EXPECT_LT(solution.iterations, 4);
 }
 

@@ -100,5 +100,5 @@ TEST(DepthOrder, WhatCannotBeUsedIsOneSentence)
   EXPECT_NE(message(bad, Eigen::Vector2d::Zero()).find("vertex 1"), std::string::npos);
   context.request_cancel();
   EXPECT_EQ(
-    depth_order(weights, Eigen::Vector2d::Zero(), {}, context, order).code, StatusCode::cancelled);
+    depth_order(weights, Eigen::Vector2d::Zero(), {}, context, order).code, StatusCode::canceled);
 }

@@ -19,13 +19,13 @@ VertexGraph path(Index count)
   {
     if (v > 0)
     {
-      graph.neighbours.push_back(v - 1);
+      graph.neighbors.push_back(v - 1);
     }
     if (v + 1 < count)
     {
-      graph.neighbours.push_back(v + 1);
+      graph.neighbors.push_back(v + 1);
     }
-    graph.begin.push_back(static_cast<Index>(graph.neighbours.size()));
+    graph.begin.push_back(static_cast<Index>(graph.neighbors.size()));
   }
   return graph;
 }
@@ -56,7 +56,7 @@ double climb(
     }
     for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
     {
-      open.emplace(f[graph.neighbours[k]], graph.neighbours[k]);
+      open.emplace(f[graph.neighbors[k]], graph.neighbors[k]);
     }
   }
   return f.maxCoeff() - f.minCoeff();

@@ -22,7 +22,7 @@ void expect_order(const VertexGraph& graph, const ExtremaList& list, const std::
     bool below = false;
     for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
     {
-      const Index u = graph.neighbours[k];
+      const Index u = graph.neighbors[k];
       above = above || rank[u] > rank[v];
       below = below || rank[u] < rank[v];
       EXPECT_FALSE(list[v] > 0 && list[u] <= 0 && rank[u] > rank[v]);
@@ -83,7 +83,7 @@ TEST(ExtremaOrder, KeepsValuesThatNeedNoChange)
   {
     for (Index k = graph.begin[a]; k < graph.begin[a + 1]; ++k)
     {
-      const Index b = graph.neighbours[k];
+      const Index b = graph.neighbors[k];
       EXPECT_TRUE(values[a] >= values[b] || rank[a] < rank[b]);
     }
   }

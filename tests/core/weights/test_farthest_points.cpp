@@ -64,5 +64,5 @@ TEST(FarthestPoints, TooFewPlacesAndCancel)
     StatusCode::invalid_input);
   context.request_cancel();
   EXPECT_EQ(
-    farthest_points(mesh.points, mesh.triangles, 8, context, chosen).code, StatusCode::cancelled);
+    farthest_points(mesh.points, mesh.triangles, 8, context, chosen).code, StatusCode::canceled);
 }

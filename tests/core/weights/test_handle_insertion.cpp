@@ -271,7 +271,7 @@ TEST(HandleConstraints, APointOnABoneKeepsAVertex)
   EXPECT_EQ(constraints.values.col(1).maxCoeff(), 1.0);
 }
 
-TEST(HandleConstraints, RegionsTakeLabelledVertices)
+TEST(HandleConstraints, RegionsTakeLabeledVertices)
 {
   test::Bar bar = test::bar(10, { 0.0, 1.0 });
   HandleInsertion mesh = inserted(bar.domain, bar.handles);
@@ -344,7 +344,7 @@ TEST(HandleConstraints, OneWarningPerKind)
   EXPECT_LE(constraints.warnings.size(), 2u);
 }
 
-TEST(HandleConstraints, FlatTrianglesFollowTheirNeighbours)
+TEST(HandleConstraints, FlatTrianglesFollowTheirNeighbors)
 {
   TriangleMesh mesh = test::grid(3, 3);
   const Index n = mesh.points.rows();

@@ -87,7 +87,7 @@ void expect_only_listed(const Domain& domain, const Smoothed& result, double tol
     bool below = false;
     for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
     {
-      const double u = w[graph.neighbours[k]];
+      const double u = w[graph.neighbors[k]];
       above = above || u >= w[v];
       below = below || u <= w[v];
       if (result.list[v] != 0)
@@ -447,8 +447,8 @@ TEST(MonotoneSmoothing, EpsilonMakesTheOrderStrict)
     double highest = lowest;
     for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
     {
-      lowest = std::min(lowest, result.values[graph.neighbours[k]]);
-      highest = std::max(highest, result.values[graph.neighbours[k]]);
+      lowest = std::min(lowest, result.values[graph.neighbors[k]]);
+      highest = std::max(highest, result.values[graph.neighbors[k]]);
     }
     EXPECT_TRUE(result.list[v] < 0 || lowest <= result.values[v] - least);
     EXPECT_TRUE(result.list[v] > 0 || highest >= result.values[v] + least);
@@ -628,7 +628,7 @@ TEST(MonotoneSmoothing, TooFewIterationsAreSaidAndCancelEndsIt)
   before.request_cancel();
   MonotoneSmoothingResult nothing;
   EXPECT_EQ(monotone_smoothing(domain, f, MonotoneSmoothingOptions(), before, nothing).code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
   ExecutionContext context;
   options.maximum_iterations = 100;
   options.order = 3;
@@ -636,6 +636,6 @@ TEST(MonotoneSmoothing, TooFewIterationsAreSaidAndCancelEndsIt)
   options.extrema = hills_list(fine);
   test::CancelLater later(context, 300);
   EXPECT_EQ(monotone_smoothing(fine, noisy_hills(fine, 0.3), options, context, nothing).code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
   EXPECT_LT(later.waited(), 1.0);
 }

@@ -48,7 +48,7 @@ Handles corners_and_a_bone()
 }
 } // namespace
 
-TEST(PreviewWeights, AreBiharmonicWeightsWithoutTheirFactorisation)
+TEST(PreviewWeights, AreBiharmonicWeightsWithoutTheirFactorization)
 {
   for (const Domain& domain :
     { test::to_domain(test::tet_box(9, 8, 7)), test::to_domain(test::sphere(3)) })
@@ -119,12 +119,12 @@ TEST(PreviewWeights, OfPartsAndOfVerticesThatAreAllFixed)
   EXPECT_TRUE(given.weights.isApprox(Weights::Identity(8, 8)));
 }
 
-TEST(PreviewWeights, StopWhenCancelled)
+TEST(PreviewWeights, StopWhenCanceled)
 {
   const WeightsProblem problem =
     problem_of(test::to_domain(test::tet_box(6, 6, 6)), corners_and_a_bone());
   ExecutionContext context;
   context.request_cancel();
   WeightsResult result;
-  EXPECT_EQ(preview_weights(problem, {}, context, result).code, StatusCode::cancelled);
+  EXPECT_EQ(preview_weights(problem, {}, context, result).code, StatusCode::canceled);
 }

@@ -112,7 +112,7 @@ TEST(SurfaceSmoothing, TrianglesWithAlmostNoHeightChangeLittle)
   }
 }
 
-TEST(SurfaceSmoothing, IsTheSameForAnyNumberOfThreadsAndStopsWhenCancelled)
+TEST(SurfaceSmoothing, IsTheSameForAnyNumberOfThreadsAndStopsWhenCanceled)
 {
   const TriangleMesh ball = test::sphere(3);
   const Eigen::MatrixXd given = ball.points;

@@ -519,11 +519,11 @@ TEST(SurfaceWeights, RefusesWhatItCannotUse)
   status = surface_weights(
     mesh.points, mesh.triangles, { 1, 2 }, handles, {}, {}, bounded, context, result);
   EXPECT_THAT(status.message, HasSubstr("2 region labels"));
-  SurfaceWeightsOptions cancelled = in(WeightsDomain::embedding);
+  SurfaceWeightsOptions canceled = in(WeightsDomain::embedding);
   ExecutionContext stopped;
   stopped.request_cancel();
   EXPECT_EQ(surface_weights(
-              mesh.points, mesh.triangles, {}, handles, cancelled, {}, bounded, stopped, result)
+              mesh.points, mesh.triangles, {}, handles, canceled, {}, bounded, stopped, result)
               .code,
-    StatusCode::cancelled);
+    StatusCode::canceled);
 }

@@ -132,5 +132,5 @@ TEST(Transfer, BadInputsAndCancel)
     StatusCode::invalid_input);
   context.request_cancel();
   EXPECT_EQ(
-    transfer(box, values, box.points, {}, context, result, counts).code, StatusCode::cancelled);
+    transfer(box, values, box.points, {}, context, result, counts).code, StatusCode::canceled);
 }

@@ -146,7 +146,7 @@ std::vector<Index> mirrored(int n)
 }
 } // namespace
 
-TEST(WeightTerms, BoundsAndPinsAreTheDenseMinimiser)
+TEST(WeightTerms, BoundsAndPinsAreTheDenseMinimizer)
 {
   const int n = 8;
   const Domain domain = test::to_domain(test::grid(n, n));
@@ -334,7 +334,7 @@ TEST(WeightTerms, GradientsFallWithRigidity)
 
 TEST(WeightTerms, RigidityHasNoUnitAndHardlyDependsOnTheMesh)
 {
-  const auto weight_at_centre = [](int n, double scale)
+  const auto weight_at_center = [](int n, double scale)
   {
     TriangleMesh mesh = test::grid(n, n);
     mesh.points *= scale;
@@ -352,8 +352,8 @@ TEST(WeightTerms, RigidityHasNoUnitAndHardlyDependsOnTheMesh)
     }
     return solve(test::to_domain(mesh), handles, options).result.raw((n / 2) * (n + 1) + n / 2, 0);
   };
-  EXPECT_NEAR(weight_at_centre(20, 1.0), weight_at_centre(20, 1000.0), 1e-7);
-  EXPECT_NEAR(weight_at_centre(20, 1.0), weight_at_centre(40, 1.0), 0.03);
+  EXPECT_NEAR(weight_at_center(20, 1.0), weight_at_center(20, 1000.0), 1e-7);
+  EXPECT_NEAR(weight_at_center(20, 1.0), weight_at_center(40, 1.0), 0.03);
 }
 
 TEST(WeightTerms, RigidSetsAreOneUnknown)
@@ -539,7 +539,7 @@ TEST(WeightTerms, FewInfluences)
   }
 }
 
-TEST(WeightTerms, CoupledColumnsAreTheDenseMinimiser)
+TEST(WeightTerms, CoupledColumnsAreTheDenseMinimizer)
 {
   const int n = 6;
   const Domain domain = test::to_domain(test::grid(n, n));
@@ -643,9 +643,9 @@ TEST(WeightTerms, CoupledColumnsSumToOne)
     }
   }
   gap += 0.5 * r.cwiseProduct(a.llt().solve(r)).sum();
-  const double normalised = 0.5 * alone.result.weights.cwiseProduct(q * alone.result.weights).sum();
+  const double normalized = 0.5 * alone.result.weights.cwiseProduct(q * alone.result.weights).sum();
   EXPECT_LE(gap, 2e-6 * solved.energy());
-  EXPECT_LE(solved.energy(), (1.0 + 1e-6) * normalised);
+  EXPECT_LE(solved.energy(), (1.0 + 1e-6) * normalized);
   EXPECT_GE(solved.energy(), (1.0 - 1e-6) * alone.energy()) << "one constraint more";
   const double largest = (solved.result.weights - alone.result.weights).cwiseAbs().maxCoeff();
   EXPECT_NEAR(solved.status.report.number("partition.largest_difference", 0.0), largest, 1e-12);
@@ -730,9 +730,9 @@ TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
   // Cancel during the coupled part.
   options.maximum_iterations = 100;
   std::atomic<bool> stop{ false };
-  ExecutionContext cancelled([&](double, const std::string& phase)
+  ExecutionContext canceled([&](double, const std::string& phase)
     { stop = stop || phase == "coupled"; },
     [&] { return stop.load(); });
   EXPECT_EQ(
-    bounded_biharmonic_weights(problem, options, cancelled, result).code, StatusCode::cancelled);
+    bounded_biharmonic_weights(problem, options, canceled, result).code, StatusCode::canceled);
 }

@@ -69,8 +69,8 @@ TEST(WeightedColors, UnconstrainedWeightsLeaveTheGamutByANinth)
     Index outside = 0;
     for (Index v = 0; v < solved.weights.rows(); ++v)
     {
-      const double grey = solved.weights(v, 0);
-      const bool is_out = grey < -1e-6 || grey > 1.0 + 1e-6;
+      const double gray = solved.weights(v, 0);
+      const bool is_out = gray < -1e-6 || gray > 1.0 + 1e-6;
       EXPECT_EQ(result.out_of_gamut[static_cast<std::size_t>(v)], is_out);
       outside += is_out;
       const double x = test.bar.domain.points(v, 0);
@@ -83,7 +83,7 @@ TEST(WeightedColors, UnconstrainedWeightsLeaveTheGamutByANinth)
   }
 }
 
-TEST(WeightedColors, BoundedAndMonotoneWeightsStayWithinTheHandlesColours)
+TEST(WeightedColors, BoundedAndMonotoneWeightsStayWithinTheHandlesColors)
 {
   BlackAndWhite test;
   test.colors << 0.9, 0.3, 0.1, 0.2, 0.4, 0.1, 0.5, 0.7, 0.1;
@@ -105,7 +105,7 @@ TEST(WeightedColors, BoundedAndMonotoneWeightsStayWithinTheHandlesColours)
   }
 }
 
-TEST(WeightedColors, AGreyBlendIsTheSumAndAVertexOnAHandleHasItsColour)
+TEST(WeightedColors, AGrayBlendIsTheSumAndAVertexOnAHandleHasItsColor)
 {
   test::Random random(3);
   Weights weights(500, 4);
@@ -165,7 +165,7 @@ TEST(WeightedColors, LightAndNumbersAreInverseAndOdd)
   EXPECT_EQ(from_linear_light(1.0), 1.0);
 }
 
-TEST(WeightedColors, EqualColoursAreThatColourEverywhere)
+TEST(WeightedColors, EqualColorsAreThatColorEverywhere)
 {
   BlackAndWhite test;
   ExecutionContext context;
@@ -178,7 +178,7 @@ TEST(WeightedColors, EqualColoursAreThatColourEverywhere)
   EXPECT_EQ(report.number("counts.beyond_handles", -1), 0);
 }
 
-TEST(WeightedColors, CategoricalColoursDiffer)
+TEST(WeightedColors, CategoricalColorsDiffer)
 {
   const Colors colors = categorical_colors(24);
   std::set<std::array<double, 3>> seen;
@@ -203,7 +203,7 @@ TEST(WeightedColors, WhatCannotBeUsedIsOneSentence)
   };
   const Weights weights = Weights::Constant(3, 2, 0.5);
   EXPECT_NE(
-    message(weights, Colors::Zero(3, 3)).find("2 handles, but 3 colours"), std::string::npos);
+    message(weights, Colors::Zero(3, 3)).find("2 handles, but 3 colors"), std::string::npos);
   Colors colors = Colors::Zero(2, 3);
   colors(1, 2) = 1.5;
   EXPECT_NE(message(weights, colors).find("handle number 1"), std::string::npos);
@@ -214,5 +214,5 @@ TEST(WeightedColors, WhatCannotBeUsedIsOneSentence)
   EXPECT_NE(message(bad, Colors::Zero(2, 3)).find("vertex 2"), std::string::npos);
   context.request_cancel();
   const Colors black = Colors::Zero(2, 3);
-  EXPECT_EQ(weighted_colors(weights, black, {}, context, result).code, StatusCode::cancelled);
+  EXPECT_EQ(weighted_colors(weights, black, {}, context, result).code, StatusCode::canceled);
 }

@@ -503,7 +503,7 @@ TEST(Weights, BudgetCancelAndBadOptions)
     StatusCode::invalid_input);
 
   // Cancel after various numbers of polls of the flag; both methods must return the status
-  // cancelled.
+  // canceled.
   for (const int looks : { 0, 1, 3, 10, 40 })
   {
     int asked = 0;
@@ -511,11 +511,11 @@ TEST(Weights, BudgetCancelAndBadOptions)
     stopped.set_threads(1);
     options = {};
     EXPECT_EQ(
-      bounded_biharmonic_weights(problem, options, stopped, result).code, StatusCode::cancelled);
+      bounded_biharmonic_weights(problem, options, stopped, result).code, StatusCode::canceled);
     asked = 0;
     ExecutionContext stopped_too(nullptr, [&] { return ++asked > looks; });
     stopped_too.set_threads(1);
-    EXPECT_EQ(monotone_weights(problem, {}, stopped_too, result).code, StatusCode::cancelled);
+    EXPECT_EQ(monotone_weights(problem, {}, stopped_too, result).code, StatusCode::canceled);
   }
 }
 
@@ -580,5 +580,5 @@ TEST(Weights, TheReportTellsWhatWasDone)
   EXPECT_GT(report.number("iterations", 0.0), 2);
   EXPECT_GT(context.seconds().number("seconds.factor", 0.0), 0.0);
   EXPECT_GT(context.seconds().number("seconds.solve", 0.0), 0.0);
-  EXPECT_GT(context.seconds().number("seconds.analyse", 0.0), 0.0);
+  EXPECT_GT(context.seconds().number("seconds.analyze", 0.0), 0.0);
 }

@@ -133,7 +133,7 @@ TEST(CurveWindingNumber, SegmentSeenUnderARightAngleIsAQuarter)
     curve_of({ { 0, 0 }, { 1, 0 } }, false), Vec2(0.5, 0.5 * std::sqrt(3.0)), 1.0 / 6.0);
 }
 
-TEST(CurveWindingNumber, PentagramWindsTwiceInItsCentreAndOnceInItsArms)
+TEST(CurveWindingNumber, PentagramWindsTwiceInItsCenterAndOnceInItsArms)
 {
   std::vector<Vec2> vertices;
   for (int i = 0; i < 5; ++i)
@@ -580,15 +580,15 @@ TEST(CurveWindingNumber, CancelsMidwayAndRunsAgain)
     allowed = in_build * share / 4;
     ExecutionContext context({}, [&] { return --allowed < 0; });
     context.set_threads(1);
-    EXPECT_EQ(winding.build(curve.points, curve.segments, context).code, StatusCode::cancelled);
-    EXPECT_EQ(winding.status().code, StatusCode::cancelled);
+    EXPECT_EQ(winding.build(curve.points, curve.segments, context).code, StatusCode::canceled);
+    EXPECT_EQ(winding.status().code, StatusCode::canceled);
   }
   ExecutionContext quiet;
   ASSERT_TRUE(winding.build(curve.points, curve.segments, quiet).ok());
   allowed = 4;
   ExecutionContext context({}, [&] { return --allowed < 0; });
   context.set_threads(1);
-  EXPECT_EQ(winding.evaluate(queries, context, w).code, StatusCode::cancelled);
+  EXPECT_EQ(winding.evaluate(queries, context, w).code, StatusCode::canceled);
   Eigen::VectorXd again;
   EXPECT_TRUE(winding.evaluate(queries, quiet, again).ok());
   double largest = 0.0;

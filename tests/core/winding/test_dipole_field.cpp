@@ -385,7 +385,7 @@ TEST(DipoleField, ManyTrianglesAtOnePlace)
   }
 }
 
-TEST(DipoleField, CanBeCancelledAnywhere)
+TEST(DipoleField, CanBeCanceledAnywhere)
 {
   const Case c = once("bumpy", bumpy(4));
   DipoleField::Options options;

@@ -62,7 +62,7 @@ TEST(PointAreas, LatticesHaveTheirCells)
   EXPECT_NEAR(areas_of(points, normals)[12 * 6 + 6], 0.5 * std::sqrt(3.0), 1e-13);
 }
 
-TEST(PointAreas, CellsAreClippedToTheDiscOfHalfTheFarthestNeighbour)
+TEST(PointAreas, CellsAreClippedToTheDiscOfHalfTheFarthestNeighbor)
 {
   // Collinear points: their cells are strips, clipped by the disc.
   Points points(3, 3), normals(3, 3);

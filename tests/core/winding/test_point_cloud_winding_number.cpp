@@ -640,10 +640,9 @@ TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
   }
   EXPECT_EQ(values[0], values[1]);
   const PointCloudWindingNumber winding = built(cloud);
-  ExecutionContext cancelled(nullptr, [] { return true; });
+  ExecutionContext canceled(nullptr, [] { return true; });
   Points gradients(grid.count(), 3);
-  EXPECT_EQ(
-    winding.evaluate_gradient(grid, cancelled, gradients.data()).code, StatusCode::cancelled);
+  EXPECT_EQ(winding.evaluate_gradient(grid, canceled, gradients.data()).code, StatusCode::canceled);
   // At eight times the size, the gradient is an eighth.
   Cloud larger = cloud;
   larger.points *= 8.0;
@@ -680,8 +679,8 @@ TEST(PointCloudWindingNumber, CancelsMidwayAndRunsAgain)
     ExecutionContext context({}, [&] { return --allowed < 0; });
     context.set_threads(1);
     EXPECT_EQ(
-      winding.build(cloud.points, cloud.normals, no_areas, context).code, StatusCode::cancelled);
-    EXPECT_EQ(winding.evaluate(cloud.points, context, w).code, StatusCode::cancelled);
+      winding.build(cloud.points, cloud.normals, no_areas, context).code, StatusCode::canceled);
+    EXPECT_EQ(winding.evaluate(cloud.points, context, w).code, StatusCode::canceled);
   }
   std::vector<double> fractions;
   ExecutionContext watched(
@@ -691,6 +690,6 @@ TEST(PointCloudWindingNumber, CancelsMidwayAndRunsAgain)
   allowed = 3;
   ExecutionContext context({}, [&] { return --allowed < 0; });
   context.set_threads(1);
-  EXPECT_EQ(winding.evaluate(cloud.points, context, w).code, StatusCode::cancelled);
+  EXPECT_EQ(winding.evaluate(cloud.points, context, w).code, StatusCode::canceled);
   EXPECT_TRUE(winding.evaluate(cloud.points, watched, w).ok());
 }

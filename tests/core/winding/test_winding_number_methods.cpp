@@ -726,14 +726,14 @@ TEST(WindingMethods, ProgressGoesForwardAndCancelStops)
       nullptr);
     Eigen::VectorXd w;
     const Status status = winding.evaluate(queries, context, w);
-    EXPECT_EQ(status.code, StatusCode::cancelled) << to_string(method);
+    EXPECT_EQ(status.code, StatusCode::canceled) << to_string(method);
     ASSERT_NE(asked, Clock::time_point());
     EXPECT_LT(
       std::chrono::duration<double>(Clock::now() - asked).count(), test::sanitized ? 2.0 : 0.2);
   }
 }
 
-TEST(WindingMethods, BuildCanBeCancelledAnywhere)
+TEST(WindingMethods, BuildCanBeCanceledAnywhere)
 {
   const TriangleMesh mesh = unclean_surface(5, 0.3);
   int asked_in_all = 0;
@@ -750,10 +750,10 @@ TEST(WindingMethods, BuildCanBeCancelledAnywhere)
     ExecutionContext context(nullptr, [&] { return ++asked >= stop; });
     context.set_threads(1);
     WindingNumber winding;
-    EXPECT_EQ(winding.build(mesh.points, mesh.triangles, context).code, StatusCode::cancelled);
+    EXPECT_EQ(winding.build(mesh.points, mesh.triangles, context).code, StatusCode::canceled);
     EXPECT_EQ(winding.evaluate_at(Vec3::Zero()), 0.0);
     Eigen::VectorXd w;
     ExecutionContext fresh;
-    EXPECT_EQ(winding.evaluate(mesh.points, fresh, w).code, StatusCode::cancelled);
+    EXPECT_EQ(winding.evaluate(mesh.points, fresh, w).code, StatusCode::canceled);
   }
 }

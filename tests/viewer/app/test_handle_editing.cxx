@@ -458,7 +458,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   this->open_mesh(4);
   this->key(Qt::Key_P);
   ASSERT_EQ(this->editing()->mode(), HandleEditing::paint_regions);
-  const auto labelled = [this](int label)
+  const auto labeled = [this](int label)
   {
     vtkDataArray* labels = this->document()->work().surface->GetPointData()->GetArray("RegionId");
     int count = 0;
@@ -475,7 +475,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   EXPECT_NE(this->picture(), plain);
   EXPECT_EQ(this->handle("r1").kind, HandleKind::region);
   EXPECT_EQ(this->handle("r1").region_id, 1);
-  const int first = labelled(1);
+  const int first = labeled(1);
   EXPECT_GT(first, 3);
   Vec3 middle = Vec3::Zero();
   vtkPolyData* painted = this->document()->work().surface;
@@ -489,7 +489,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   EXPECT_LT((this->handle("r1").head - middle).norm(), 1e-12);
   // The next stroke extends the region; a new region has another label.
   this->check("paint region r1", [&] { this->drag(top, top + QPoint(0, 40)); });
-  EXPECT_GT(labelled(1), first);
+  EXPECT_GT(labeled(1), first);
   for (QPushButton* button : this->window.findChild<ModeBar*>()->findChildren<QPushButton*>())
   {
     if (button->text() == "New region")
@@ -500,7 +500,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   }
   this->check("paint region r2", [&] { this->drag(low, low + QPoint(5, 0)); });
   EXPECT_EQ(this->handle("r2").region_id, 2);
-  EXPECT_GT(labelled(2), 0);
+  EXPECT_GT(labeled(2), 0);
   // A stroke that Esc cancels has no effect, and the mode continues.
   const std::string before = this->state();
   this->press(low, low + QPoint(0, -60));
@@ -511,7 +511,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   // Deleting a region also deletes its labels.
   this->editing()->select({ this->number("r2") });
   this->check("delete r2", [&] { this->key(Qt::Key_Delete); });
-  EXPECT_EQ(labelled(2), 0);
+  EXPECT_EQ(labeled(2), 0);
   // The brush's size changes by key and by slider.
   auto* brush = this->viewport()->brush_widget()->GetRegionBrushRepresentation();
   const double radius = brush->GetDiscRadius();
@@ -604,7 +604,7 @@ TEST_F(HandleWindow, RestPlacesAreMovedAndARebindIsOffered)
   EXPECT_NE(this->points(), rest);
 }
 
-TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCancelledBitByBit)
+TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCanceledBitByBit)
 {
   this->open_bound();
   this->click(this->pixel(this->handle("right").head));
@@ -733,7 +733,7 @@ TEST_F(HandleWindow, CommandsAreStepsWithNames)
   this->open_bound();
   this->editing()->select({ 0 });
   HandleCommands* commands = this->commands();
-  this->check("colour left", [&] { commands->set_colour(QColor(255, 0, 0)); });
+  this->check("color left", [&] { commands->set_color(QColor(255, 0, 0)); });
   this->check("lock left", [&] { commands->action("lock")->trigger(); });
   EXPECT_TRUE(commands->action("lock")->isChecked());
   this->check("unlock left", [&] { commands->action("lock")->trigger(); });
@@ -852,7 +852,7 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
     }
     return all.join('|');
   }();
-  for (const char* text : { "Rename", "Colour", "Locked", "Holds", "Parent", "Reset",
+  for (const char* text : { "Rename", "Color", "Locked", "Holds", "Parent", "Reset",
          "Snap to the surface", "Mirror", "Delete" })
   {
     EXPECT_TRUE(texts.contains(text)) << text;

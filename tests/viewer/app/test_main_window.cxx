@@ -318,7 +318,7 @@ TEST_F(Window, BindsOffTheUiThreadWithProgress)
   EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
 }
 
-TEST_F(Window, ACancelledBindLeavesAtMostItsPreview)
+TEST_F(Window, ACanceledBindLeavesAtMostItsPreview)
 {
   TriangleMesh mesh = test::sphere(5);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
@@ -393,14 +393,14 @@ TEST_F(Window, WeightsOfOtherHandlesAreNotUsed)
   EXPECT_NE(this->window.error().indexOf("weights for 2 handles"), -1);
 }
 
-TEST_F(Window, AColumnOfTheWeightsColoursTheSurface)
+TEST_F(Window, AColumnOfTheWeightsColorsTheSurface)
 {
   this->open_bound();
   const QImage shaded = this->window.viewport()->grabFramebuffer();
   this->window.panel()->show_column(1);
   this->render();
-  const QImage coloured = this->window.viewport()->grabFramebuffer();
-  EXPECT_GT(blue_pixels(coloured), 2000 + blue_pixels(shaded));
+  const QImage colored = this->window.viewport()->grabFramebuffer();
+  EXPECT_GT(blue_pixels(colored), 2000 + blue_pixels(shaded));
 }
 
 TEST_F(Window, WeightsOfHandlesWithOtherNamesAreNotUsed)
@@ -414,7 +414,7 @@ TEST_F(Window, WeightsOfHandlesWithOtherNamesAreNotUsed)
   EXPECT_NE(this->window.error().indexOf("other names"), -1);
 }
 
-TEST_F(Window, AnotherMeshTakesTheColoursAndTheLegendAway)
+TEST_F(Window, AnotherMeshTakesTheColorsAndTheLegendAway)
 {
   this->open_bound();
   const TriangleMesh mesh = column();

@@ -66,7 +66,7 @@ Pose fixed(Pose pose)
 
 /// Options that the program also chooses by itself. Such a change is not a step, and undo keeps it.
 const char* const chosen_by_the_program[] = { "show.column", "weights.column", "weights.what",
-  "weights.raw", "tets.shown", "tets.colours", "defects.shown", "volume.level",
+  "weights.raw", "tets.shown", "tets.colors", "defects.shown", "volume.level",
   "volume.isosurface" };
 
 using Fingerprints = std::map<std::string, std::string>;

@@ -124,7 +124,7 @@ protected:
   /// Expect that the transparent picture, composited over plain colors, equals the opaque picture
   /// on such a background at every pixel, including half covered edges, see-through objects and
   /// letters.
-  void expect_right_over_any_colour(int scale)
+  void expect_right_over_any_color(int scale)
   {
     const auto clear = this->take(scale, true);
     ASSERT_EQ(clear->GetNumberOfScalarComponents(), 4);
@@ -201,8 +201,8 @@ TEST_F(PictureWindow, LeavesTheWindowAsItWas)
 TEST_F(PictureWindow, HasNoFringeWhereItIsTransparent)
 {
   this->open_weighted();
-  this->expect_right_over_any_colour(1);
-  this->expect_right_over_any_colour(2);
+  this->expect_right_over_any_color(1);
+  this->expect_right_over_any_color(2);
   const auto clear = this->take(2, true);
   const QPoint middle = 2 * this->pixel(Vec3(0, 0, 0));
   EXPECT_EQ(pixel_of(clear, middle.x(), middle.y()).alpha(), 255);
@@ -212,7 +212,7 @@ TEST_F(PictureWindow, KeepsSeeThroughThingsSeeThrough)
 {
   this->open_weighted();
   this->window.viewport()->set_surface_look(Viewport::see_through);
-  this->expect_right_over_any_colour(1);
+  this->expect_right_over_any_color(1);
   const auto clear = this->take(1, true);
   const QPoint beside = this->pixel(Vec3(0.4, 0.3, 0));
   EXPECT_GT(pixel_of(clear, beside.x(), beside.y()).alpha(), 60);

@@ -8,7 +8,7 @@
 #include "document/document.h"
 #include "handle_edit_cells.h"
 #include "scene/camera.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include "support/meshes.h"
 
@@ -185,11 +185,11 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   this->choose("weights.over_picture", 0.0);
   const QImage picture = this->picture();
   this->choose("weights.over_picture", 1.0);
-  EXPECT_EQ(this->window.history()->undoText(), "colours over the picture");
-  const QImage colours = this->picture();
+  EXPECT_EQ(this->window.history()->undoText(), "colors over the picture");
+  const QImage colors = this->picture();
   this->choose("weights.over_picture", 0.5);
   const QImage both = this->picture();
-  const Rgb band = colour_of(weight_map(), 0.35);
+  const Rgb band = color_of(weight_map(), 0.35);
   int covered = 0, wrong = 0;
   const auto channel = [](const QColor& c, int k) {
     return k == 0 ? c.red() : k == 1 ? c.green() : c.blue();
@@ -198,7 +198,7 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   {
     for (int x = 200; x < both.width(); ++x) // right of the scalar bar
     {
-      const QColor c = colours.pixelColor(x, y);
+      const QColor c = colors.pixelColor(x, y);
       const bool inside = std::abs(c.red() - 255.0 * band[0]) < 3 &&
         std::abs(c.green() - 255.0 * band[1]) < 3 && std::abs(c.blue() - 255.0 * band[2]) < 3;
       covered += inside;
@@ -240,20 +240,20 @@ TEST_F(PlanarWindow, BesideEachOtherBothShapesHaveThePicture)
   this->window.viewport()->handle_widget()->SetEnabled(false);
   const QImage seen = this->picture();
   const int half = seen.width() / 2, below = seen.height() - 60; // exclude the names at the bottom
-  int coloured = 0, apart = 0;
+  int colored = 0, apart = 0;
   for (int y = 0; y < below; ++y)
   {
     for (int x = 0; x < half; ++x)
     {
       const QColor a = seen.pixelColor(x, y), b = seen.pixelColor(x + half, y);
-      coloured += b.saturation() > 60;
+      colored += b.saturation() > 60;
       apart += std::max({ std::abs(a.red() - b.red()), std::abs(a.green() - b.green()),
                  std::abs(a.blue() - b.blue()) }) > 24;
     }
   }
-  EXPECT_GT(coloured, 5000);
-  EXPECT_LT(apart, coloured / 10); // at rest both halves are equal; an odd width shifts one by half
-                                   // a pixel
+  EXPECT_GT(colored, 5000);
+  EXPECT_LT(apart, colored / 10); // at rest both halves are equal; an odd width shifts one by half
+                                  // a pixel
   // When drawn over the shape, the see-through comparison is blue wherever it differs from the
   // shape.
   this->choose("pose.ghost", 0);

@@ -22,8 +22,8 @@
 
 #include "file_kind.h"
 #include "pose/transform_parts.h"
-#include "scene/colouring.h"
-#include "scene/colours.h"
+#include "scene/coloring.h"
+#include "scene/colors.h"
 #include "scene/sequence_file.h"
 #include "scene/shaded_surface.h"
 #include "scene/video_file.h"
@@ -313,11 +313,11 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
   EXPECT_LT((deformation->points() - expected).rowwise().norm().maxCoeff(), 0.05);
 }
 
-TEST_F(PosingWindow, CentresAreMadeBesideTheWindowAndCanBeStopped)
+TEST_F(PosingWindow, CentersAreMadeBesideTheWindowAndCanBeStopped)
 {
   this->open(5);
   const Points before = this->points();
-  this->choose(PoseMethod::rotation_centres);
+  this->choose(PoseMethod::rotation_centers);
   EXPECT_TRUE(this->posing()->deformation()->is_binding());
   EXPECT_TRUE(this->find<QPushButton>("Stop")->isVisible());
   EXPECT_EQ(this->points(), before); // the shape does not change during the bind
@@ -328,7 +328,7 @@ TEST_F(PosingWindow, CentresAreMadeBesideTheWindowAndCanBeStopped)
   this->put(this->bent());
   ASSERT_TRUE(this->settle());
   EXPECT_NE(this->points(), before);
-  this->choose(PoseMethod::rotation_centres);
+  this->choose(PoseMethod::rotation_centers);
   ASSERT_TRUE(this->settle());
   EXPECT_EQ(this->window.error(), QString());
 }
@@ -374,8 +374,8 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   this->open();
   Viewport* viewport = this->window.viewport();
   vtkPolyData* drawn = viewport->drawn();
-  const auto on_points = [&] { return drawn->GetPointData()->GetArray(colour_array_name); };
-  const auto on_cells = [&] { return drawn->GetCellData()->GetArray(colour_array_name); };
+  const auto on_points = [&] { return drawn->GetPointData()->GetArray(color_array_name); };
+  const auto on_cells = [&] { return drawn->GetCellData()->GetArray(color_array_name); };
   const auto show = [this](int what)
   {
     this->option<QComboBox>("pose.rotations")->setCurrentIndex(what);
@@ -401,7 +401,7 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   ASSERT_EQ(static_cast<Index>(found->of_point->size()), drawn->GetNumberOfPoints());
   ASSERT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(on_cells())));
   // All triangles within a cluster have one color, which no other cluster has.
-  std::map<Index, double> colour_of;
+  std::map<Index, double> color_of;
   const TrianglesView triangles = viewport->shaded()->triangles();
   for (Index t = 0; t < triangles.rows(); ++t)
   {
@@ -410,17 +410,17 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
     {
       clusters.insert((*found->of_point)[static_cast<std::size_t>(triangles(t, k))]);
     }
-    const double colour = on_cells()->GetComponent(t, 0);
+    const double color = on_cells()->GetComponent(t, 0);
     if (clusters.size() == 1)
     {
-      EXPECT_EQ(colour_of.emplace(*clusters.begin(), colour).first->second, colour);
+      EXPECT_EQ(color_of.emplace(*clusters.begin(), color).first->second, color);
     }
   }
-  EXPECT_GT(colour_of.size(), 8u);
-  std::set<double> colours;
-  for (const auto& [cluster, colour] : colour_of)
+  EXPECT_GT(color_of.size(), 8u);
+  std::set<double> colors;
+  for (const auto& [cluster, color] : color_of)
   {
-    EXPECT_TRUE(colours.insert(colour).second) << cluster;
+    EXPECT_TRUE(colors.insert(color).second) << cluster;
   }
   const vtkSmartPointer<vtkDataArray> clusters = on_cells();
   this->put(pose);
@@ -487,7 +487,7 @@ TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
   EXPECT_EQ(static_cast<Index>(found->rotations.size()), this->posing()->points().rows());
   Viewport* viewport = this->window.viewport();
   const auto angles = [viewport]
-  { return viewport->drawn()->GetPointData()->GetArray(colour_array_name); };
+  { return viewport->drawn()->GetPointData()->GetArray(color_array_name); };
   ASSERT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(angles())));
   for (vtkIdType v = 0; v < angles()->GetNumberOfTuples(); ++v)
   {
@@ -504,7 +504,7 @@ TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
   this->option<QComboBox>("pose.rotations")->setCurrentIndex(1);
   this->render();
   ASSERT_TRUE(viewport->shows(
-    vtkDoubleArray::SafeDownCast(viewport->drawn()->GetCellData()->GetArray(colour_array_name))));
+    vtkDoubleArray::SafeDownCast(viewport->drawn()->GetCellData()->GetArray(color_array_name))));
   this->choose(PoseMethod::variational);
   ASSERT_TRUE(this->settle());
   EXPECT_EQ(this->posing()->rotations(), nullptr);
@@ -522,7 +522,7 @@ TEST_F(PosingWindow, ABodyThatMovesShowsItsOwnRotations)
   ASSERT_NE(found, nullptr);
   this->render();
   vtkDataArray* angles =
-    this->window.viewport()->drawn()->GetPointData()->GetArray(colour_array_name);
+    this->window.viewport()->drawn()->GetPointData()->GetArray(color_array_name);
   ASSERT_TRUE(this->window.viewport()->shows(vtkDoubleArray::SafeDownCast(angles)));
   for (vtkIdType v = 0; v < angles->GetNumberOfTuples(); ++v)
   {
@@ -649,7 +649,7 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
   this->option<QComboBox>("pose.compared")
     ->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
   const auto colors = [&]() -> vtkDataArray*
-  { return viewport->drawn()->GetPointData()->GetArray(colour_array_name); };
+  { return viewport->drawn()->GetPointData()->GetArray(color_array_name); };
   const auto expect_distances = [&](const char* when)
   {
     const Points& other = this->posing()->compared()->points();

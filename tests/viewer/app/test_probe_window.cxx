@@ -282,7 +282,7 @@ TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
   ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/figure_tets.vtu"));
   this->resize({ 1000, 700 });
   this->choose("tets.shown", true);
-  this->choose("tets.colours", 1); // not by quality
+  this->choose("tets.colors", 1); // not by quality
   TetView* view = this->window.inspection()->tet_view();
   ASSERT_TRUE(view->is_shown());
   const PointsView points = view->input().points.view();

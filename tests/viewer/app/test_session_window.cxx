@@ -612,7 +612,7 @@ TEST_F(SessionWindow, WeightsWithoutAMeshAreOneSentence)
   EXPECT_EQ(this->window.error(), "w.dmat holds weights: open their mesh and handles first");
 }
 
-TEST_F(SessionWindow, RecentFilesAreListedAndMissingOnesGreyed)
+TEST_F(SessionWindow, RecentFilesAreListedAndMissingOnesGrayed)
 {
   this->open_files();
   std::filesystem::remove(this->folder / "points.vtp");

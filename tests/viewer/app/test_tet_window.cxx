@@ -12,7 +12,7 @@
 
 #include "conversion.h"
 #include "scene/categories.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include "support/meshes.h"
 
@@ -315,7 +315,7 @@ TEST_F(TetWindow, ShrunkTetsStandApart)
   EXPECT_LT(backgrounds(), 30);
 }
 
-TEST_F(TetWindow, ColoursAreThoseOfTheLegend)
+TEST_F(TetWindow, ColorsAreThoseOfTheLegend)
 {
   const TetMesh mesh = box_of(4);
   const auto grid = tets_of(mesh);

@@ -13,7 +13,7 @@
 #include "volume_view.h"
 
 #include "conversion.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "scene/volume.h"
 
 #include "support/meshes.h"
@@ -143,7 +143,7 @@ bool is_green(const QColor& c)
 }
 } // namespace
 
-TEST_F(VolumeWindow, ASliceHasTheColoursOfItsValues)
+TEST_F(VolumeWindow, ASliceHasTheColorsOfItsValues)
 {
   this->open();
   EXPECT_TRUE(this->panel()->isVisible());
@@ -153,7 +153,7 @@ TEST_F(VolumeWindow, ASliceHasTheColoursOfItsValues)
     { Vec3(0.8, 0.1, 0), Vec3(-1.2, 0.3, 0), Vec3(0.2, 0.1, 0), Vec3(-1.3, -1.3, 0) })
   {
     const QColor seen = image.pixelColor(this->pixel(place));
-    const Rgb expected = winding_colour(cone(place));
+    const Rgb expected = winding_color(cone(place));
     EXPECT_NEAR(seen.red(), 255.0 * expected[0], 8.0) << place.transpose();
     EXPECT_NEAR(seen.green(), 255.0 * expected[1], 8.0) << place.transpose();
     EXPECT_NEAR(seen.blue(), 255.0 * expected[2], 8.0) << place.transpose();

@@ -13,7 +13,7 @@
 #include "conversion.h"
 #include "report_field_data.h"
 #include "scene/categories.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "weights/unconstrained_weights.h"
 
 #include "support/meshes.h"
@@ -98,12 +98,12 @@ vtkSmartPointer<vtkUnstructuredGrid> box()
   return grid;
 }
 
-double hue_distance(const QColor& c, const Rgb& colour)
+double hue_distance(const QColor& c, const Rgb& color)
 {
   const double its = std::max(1, c.red() + c.green() + c.blue());
-  const double sum = colour[0] + colour[1] + colour[2];
-  return std::max({ std::abs(c.red() / its - colour[0] / sum),
-    std::abs(c.green() / its - colour[1] / sum), std::abs(c.blue() / its - colour[2] / sum) });
+  const double sum = color[0] + color[1] + color[2];
+  return std::max({ std::abs(c.red() / its - color[0] / sum),
+    std::abs(c.green() / its - color[1] / sum), std::abs(c.blue() / its - color[2] / sum) });
 }
 
 class WeightWindow : public test::WindowTest
@@ -169,7 +169,7 @@ protected:
     } while (condition() && clock.elapsed() < 60000);
     QApplication::processEvents();
   }
-  QColor colour_at(const Vec3& place) { return this->picture().pixelColor(this->pixel(place)); }
+  QColor color_at(const Vec3& place) { return this->picture().pixelColor(this->pixel(place)); }
 };
 } // namespace
 
@@ -188,14 +188,14 @@ TEST_F(WeightWindow, AColumnHasBandsAndIsolinesAtEveryTenth)
     levels.insert(std::lround(tenths));
   }
   EXPECT_EQ(levels, (std::set<long>{ 1, 2, 3, 4, 5, 6, 7, 8, 9 }));
-  const auto colours = [this]
+  const auto colors = [this]
   {
     return vtkLookupTable::SafeDownCast(this->surface()->GetMapper()->GetLookupTable())
       ->GetNumberOfTableValues();
   };
-  EXPECT_EQ(colours(), 10);
+  EXPECT_EQ(colors(), 10);
   this->find<QCheckBox>("Bands")->setChecked(false);
-  EXPECT_GT(colours(), 100);
+  EXPECT_GT(colors(), 100);
   EXPECT_GT(lines->GetNumberOfPoints(), 0);
   this->find<QCheckBox>("Isolines")->setChecked(false);
   EXPECT_EQ(lines->GetNumberOfPoints(), 0);
@@ -219,8 +219,8 @@ TEST_F(WeightWindow, AllShowsTheStrongestHandle)
     for (int x = image.width() / 3; x < 2 * image.width() / 3; x += 2)
     {
       const QColor c = image.pixelColor(x, y);
-      of_bottom += hue_distance(c, handles[0].colour) < 0.06;
-      of_top += hue_distance(c, handles[1].colour) < 0.06;
+      of_bottom += hue_distance(c, handles[0].color) < 0.06;
+      of_top += hue_distance(c, handles[1].color) < 0.06;
     }
   }
   EXPECT_GT(of_bottom, 2000);
@@ -243,7 +243,7 @@ TEST_F(WeightWindow, RowSumsNeedRawColumns)
   EXPECT_NEAR(this->view()->numbers().number("picture.row_sum.minimum", 0.0), 0.75, 1e-12);
   EXPECT_NEAR(this->view()->numbers().number("picture.row_sum.maximum", 0.0), 1.25, 1e-12);
   EXPECT_FALSE(this->list("top")->isEnabled());
-  EXPECT_FALSE(this->button("Normalised")->isEnabled());
+  EXPECT_FALSE(this->button("Normalized")->isEnabled());
   // A mesh without raw columns shows weights again.
   this->open(ball());
   EXPECT_TRUE(this->button("Weights")->isChecked());
@@ -285,7 +285,7 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
   }
   EXPECT_TRUE(found);
   // The ball is visible at its position, and disappears with its check box.
-  const Rgb red = extremum_categories()[1].colour;
+  const Rgb red = extremum_categories()[1].color;
   const auto reds = [&]
   {
     const QImage image = this->picture();
@@ -323,7 +323,7 @@ TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
   const auto check = [this](int axis, double at)
   {
     vtkPolyData* slice = this->view()->slice();
-    vtkDataArray* values = slice->GetPointData()->GetArray("bindpose.Colour");
+    vtkDataArray* values = slice->GetPointData()->GetArray("bindpose.Color");
     ASSERT_NE(values, nullptr);
     EXPECT_GT(slice->GetNumberOfCells(), 100);
     for (vtkIdType v = 0; v < slice->GetNumberOfPoints(); ++v)
@@ -343,11 +343,10 @@ TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
   EXPECT_NEAR(this->row()->value(), this->view()->plane()->position(), 0.01);
   check(2, this->view()->plane()->position());
   // The color is one band of the legend, unlit, seen through the faint surface.
-  const ColourMap map = weight_map();
+  const ColorMap map = weight_map();
   const double z = this->view()->plane()->position();
   EXPECT_LT(
-    hue_distance(this->colour_at(Vec3(0.1, 0.2, z)), colour_of(map, top_weight({ 0, 0, z }))),
-    0.08);
+    hue_distance(this->color_at(Vec3(0.1, 0.2, z)), color_of(map, top_weight({ 0, 0, z }))), 0.08);
   // Both ends of the slider are valid. For all handles, the slice shows the strongest one.
   for (const double end : { -1.0, 1.0 })
   {
@@ -501,7 +500,7 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
   EXPECT_TRUE(this->view()->is_sliced());
   EXPECT_GT(this->view()->slice()->GetNumberOfCells(), 20);
   // Interior and surface are connected: the slice's weights are within the range of the column.
-  vtkDataArray* values = this->view()->slice()->GetPointData()->GetArray("bindpose.Colour");
+  vtkDataArray* values = this->view()->slice()->GetPointData()->GetArray("bindpose.Color");
   for (vtkIdType v = 0; v < values->GetNumberOfTuples(); ++v)
   {
     EXPECT_GE(values->GetComponent(v, 0), -1e-9);

@@ -99,11 +99,11 @@ TWO_POINTS = "1 0.5 0.5 0.5 left\n2 5.5 0.5 0.5\n#\n"
 BENT = '{"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 90}}}}'
 
 
-def png(columns, rows, colour):
-    """Return a picture as the bytes of a PNG file. colour(x, y) is (red, green, blue, alpha), row 0 is at the top."""
+def png(columns, rows, color):
+    """Return a picture as the bytes of a PNG file. color(x, y) is (red, green, blue, alpha), row 0 is at the top."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
-    lines = b"".join(b"\0" + b"".join(bytes(colour(x, y)) for x in range(columns)) for y in range(rows))
+    lines = b"".join(b"\0" + b"".join(bytes(color(x, y)) for x in range(columns)) for y in range(rows))
     head = struct.pack(">IIBBBBB", columns, rows, 8, 6, 0, 0, 0)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b"")

@@ -344,7 +344,7 @@ def test_what_is_stretched_is_in_the_report_and_a_cell_array(bar):
     assert "largest_stretch" not in report
 
 
-def test_rotations_are_arrays_that_render_colours_by(bar):
+def test_rotations_are_arrays_that_render_colors_by(bar):
     """The bar follows its first bone, which turns by 40 degrees. The second bone is free."""
     turn = {"handles": {"b1": {"rotate": {"axis": [0, 0, 1], "degrees": 40}}, "b2": {"mode": "free"}}}
     for method, more in (("reduced-arap", []), ("full-arap", ["--iterations", 10000, "--tolerance", 0])):
@@ -356,8 +356,8 @@ def test_rotations_are_arrays_that_render_colours_by(bar):
     clusters = numpy_support.vtk_to_numpy(bindpose.read(bar / "out.vtp").GetPointData().GetArray("RotationCluster"))
     picture = bar.run("render", "out.vtp", "--color", "rotation-cluster", "--size", "200x150", "-o", "c.png",
                       "--report", "-").is_good().report["picture"]
-    assert sum(colour["count"] for colour in picture["colours"]) == bindpose.read(bar / "out.vtp").GetNumberOfCells()
-    assert {int(colour["name"]) for colour in picture["colours"]} <= set(clusters)
+    assert sum(color["count"] for color in picture["colors"]) == bindpose.read(bar / "out.vtp").GetNumberOfCells()
+    assert {int(color["name"]) for color in picture["colors"]} <= set(clusters)
     picture = bar.run("render", "out.vtp", "--color", "rotation", "--size", "200x150", "-o", "r.png",
                       "--report", "-").is_good().report["picture"]
     assert picture["array"] == "Rotation" and picture["range"] == [0, 45]

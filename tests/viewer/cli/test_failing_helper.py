@@ -221,7 +221,7 @@ def test_cancel_kills_the_helper_at_once(folder, number):
         time.sleep(0.002)
     killed = time.monotonic() - asked
     _out, err = process.communicate(timeout=60)
-    assert process.returncode == 4 and err == "bindpose tetrahedralize: cancelled\n"
+    assert process.returncode == 4 and err == "bindpose tetrahedralize: canceled\n"
     assert killed < 0.2
     assert sorted(os.listdir(folder.path)) == ["helper", *before]
 

@@ -47,9 +47,9 @@ def test_cancel(folder, verb, number):
     _out, err = process.communicate(timeout=60)
     assert process.returncode == 4
     assert time.monotonic() - asked < 10  # 200 ms on an idle machine, except during a factorization
-    assert err == f"bindpose {verb}: cancelled\n"
+    assert err == f"bindpose {verb}: canceled\n"
     assert sorted(os.listdir(folder.path)) == ["r.json", "sphere.off"]
-    assert '"cancelled"' in (folder / "r.json").read_text()
+    assert '"canceled"' in (folder / "r.json").read_text()
 
 
 def test_a_second_signal_ends_at_once(folder):

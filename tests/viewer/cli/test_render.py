@@ -165,10 +165,10 @@ def test_tets_inside_out(tets):
     back = tets.run("render", "tets.vtu", "--section", "0,0,1@0,0,0.01", "--azimuth", "180", *small, "b.png")
     assert 0 < front < whole and front + back.is_good().report["picture"]["tets"] == whole
     run = tets.run("render", "tets.vtu", "--color", "label", "--shrink", "0.7", *small, "l.png").is_good()
-    classes = run.report["picture"]["colours"]
+    classes = run.report["picture"]["colors"]
     assert [c["name"] for c in classes] == ["outside", "inside"] and sum(c["count"] for c in classes) == whole
     run = tets.run("render", "tets.vtu", "--color", "rung", *small, "r.png").is_good()
-    assert run.report["picture"]["colours"] == [{"name": "embed", "count": whole}]
+    assert run.report["picture"]["colors"] == [{"name": "embed", "count": whole}]
     run = tets.run("render", "tets.mesh", "--color", "quality", *small, "q.png").is_good()
     assert run.report["picture"]["range"][0] == 0 and 70 < run.report["picture"]["range"][1] < 71
     tets.run("render", "tets.vtu", "--color", "winding-number", *small, "n.png").is_good()
@@ -231,7 +231,7 @@ def test_a_slice_through_the_weights_of_a_volume(folder):
     folder.run("render", "w.vtu", "--component", "top", "--extrema", *small, "e.png").is_good()
 
 
-def test_an_unknown_colour_is_usage(tets):
+def test_an_unknown_color_is_usage(tets):
     tets.run("render", "tets.vtu", "-o", "s.png", "--color", "mood").is_refused("mood", code=1)
 
 
@@ -262,13 +262,13 @@ def weighted(folder):
 
 def test_cells_by_handle(weighted):
     run = weighted.run("render", "w.vtp", "--color", "handle", "--size", "300x200", "-o", "c.png", "--report", "-").is_good()
-    colours = run.report["picture"]["colours"]
-    assert {c["name"] for c in colours} <= {"top", "bottom", "side"} and len(colours) == 3
-    assert sum(c["count"] for c in colours) == len(shapes.sphere()[1])
+    colors = run.report["picture"]["colors"]
+    assert {c["name"] for c in colors} <= {"top", "bottom", "side"} and len(colors) == 3
+    assert sum(c["count"] for c in colors) == len(shapes.sphere()[1])
     weighted.write("two.vtp", square([("Weights", ["left", "right"], "1 0 0 1 0 1 0.7 0.3")]))
     run = weighted.run("render", "two.vtp", "--color", "handle", "-o", "t.png", "--report", "-").is_good()
     # Sums over the corners: 1 and 2 on the first triangle, 1.7 and 1.3 on the second.
-    assert run.report["picture"]["colours"] == [{"name": "left", "count": 1}, {"name": "right", "count": 1}]
+    assert run.report["picture"]["colors"] == [{"name": "left", "count": 1}, {"name": "right", "count": 1}]
 
 
 def test_extrema_are_those_of_the_certificate(weighted):

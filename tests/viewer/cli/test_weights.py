@@ -39,7 +39,7 @@ def test_surface_through_tets(bar):
     assert report["status"] == "ok" and report["method"].replace("_", "-") == "bounded-biharmonic"
     assert report["domain"] == "volume"
     assert report["transfer"] == "exact"
-    assert {"tetrahedralize", "analyse", "factor", "solve", "total"} <= set(report["seconds"])
+    assert {"tetrahedralize", "analyze", "factor", "solve", "total"} <= set(report["seconds"])
     assert report["kkt_residual"] <= 1e-6 and report["relative_gap"] <= 1e-6
     assert report["counts"]["handles"] == 2 and report["counts"]["tets"] > 0
     for handle, name in zip(report["handles"], ("b1", "b2")):
@@ -244,7 +244,7 @@ def test_embedding_and_preview(bar):
     assert is_tets(bindpose.read(bar / "e.vtu"))
     run = bar.run("weights", "bar.off", "--handles", "bones.tgf", "--stage", "preview", "-o", "p.vtp", "--report",
                   "-").is_good()
-    assert run.report["stage"] == "preview" and "analyse" not in run.report["seconds"]
+    assert run.report["stage"] == "preview" and "analyze" not in run.report["seconds"]
     preview = weights_of(bar / "p.vtp")
     check(preview, shapes.bar()[0])
     assert np.abs(preview - weights).max() <= 0.2

@@ -54,10 +54,10 @@ def test_same_bits_for_any_number_of_threads(folder):
 
 def test_any_surface_has_a_field(folder):
     folder.off("m.off", shapes.cube())
-    centre = folder.off("centre.off", ([[0.01, 0.02, 0.03]] * 3, [[0, 1, 2]]))
+    center = folder.off("center.off", ([[0.01, 0.02, 0.03]] * 3, [[0, 1, 2]]))
     for mesh, expected in ((shapes.flipped(shapes.cube()), -1), (shapes.doubled(shapes.cube()), 2), (shapes.quads(), 1)):
         folder.off("m.off", mesh)
-        folder.run("winding", "m.off", "--points", centre, "-o", "w.vtp", "--overwrite").is_good()
+        folder.run("winding", "m.off", "--points", center, "-o", "w.vtp", "--overwrite").is_good()
         assert point_array(bindpose.read(folder / "w.vtp"), "WindingNumber") == pytest.approx([expected] * 3, abs=1e-12)
     for mesh in (shapes.flat(), shapes.one_triangle()):
         folder.off("m.off", mesh)

@@ -96,16 +96,16 @@ TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
       this->rename(0, "foot");
       ASSERT_TRUE(d.commit_handles("rename").ok());
     });
-  this->check("colour",
+  this->check("color",
     [&]
     {
-      vtkNew<vtkUnsignedCharArray> colours;
-      colours->SetName("Color");
-      colours->SetNumberOfComponents(3);
-      colours->SetNumberOfTuples(3);
-      colours->FillValue(200);
-      d.handle_data()->GetCellData()->AddArray(colours);
-      ASSERT_TRUE(d.commit_handles("colour").ok());
+      vtkNew<vtkUnsignedCharArray> colors;
+      colors->SetName("Color");
+      colors->SetNumberOfComponents(3);
+      colors->SetNumberOfTuples(3);
+      colors->FillValue(200);
+      d.handle_data()->GetCellData()->AddArray(colors);
+      ASSERT_TRUE(d.commit_handles("color").ok());
     });
   this->check("lock",
     [&]
@@ -372,7 +372,7 @@ TEST_F(Editing, WhatAViewDoesDuringUndoAndRedoIsNoStep)
   EXPECT_EQ(d.option("tets.shrink").toDouble(), 0.5);
 }
 
-TEST_F(Editing, LayersColoursAndLocksAreHowHandlesLook)
+TEST_F(Editing, LayersColorsAndLocksAreHowHandlesLook)
 {
   test::open_bound(this->document);
   int parts = 0;

@@ -107,7 +107,7 @@ TEST(Poser, EverySkinningMethodGivesWhatTheFilterGives)
                                                    vtkSkinningDeformation::LINEAR_BLEND },
     { PoseMethod::dual_quaternion, vtkSkinningDeformation::DUAL_QUATERNION },
     { PoseMethod::stretchable_bones, vtkSkinningDeformation::STRETCHABLE_BONES },
-    { PoseMethod::rotation_centres, vtkSkinningDeformation::CENTERS_OF_ROTATION } };
+    { PoseMethod::rotation_centers, vtkSkinningDeformation::CENTERS_OF_ROTATION } };
   for (const auto& [method, of_filter] : methods)
   {
     for (const int edges : { 0, 1, 2 })
@@ -304,7 +304,7 @@ TEST(Poser, SkinningMethodsShareTheirBind)
     EXPECT_TRUE(same_poser(PoseMethod::linear_blend, method));
     EXPECT_TRUE(poser->is_bound(options));
   }
-  options.method = PoseMethod::rotation_centres;
+  options.method = PoseMethod::rotation_centers;
   EXPECT_FALSE(poser->is_bound(options)); // the centers of rotation are missing
   ASSERT_TRUE(poser->bind(context, options).usable());
   EXPECT_EQ(poser->binds(), 2);
@@ -375,16 +375,16 @@ TEST(Poser, WhatCannotBePosedIsSaid)
   EXPECT_THAT(status.warnings[0], testing::HasSubstr("no handle is a bone"));
 }
 
-TEST(Poser, ABindIsCancelled)
+TEST(Poser, ABindIsCanceled)
 {
   const Rig rig = beam();
   ExecutionContext context;
   context.request_cancel();
-  for (const PoseMethod method : { PoseMethod::rotation_centres, PoseMethod::reduced_arap })
+  for (const PoseMethod method : { PoseMethod::rotation_centers, PoseMethod::reduced_arap })
   {
     PoseOptions options = with(method);
     const auto poser = make_poser(method, rig.source());
-    EXPECT_EQ(poser->bind(context, options).code, StatusCode::cancelled);
+    EXPECT_EQ(poser->bind(context, options).code, StatusCode::canceled);
     EXPECT_FALSE(poser->is_bound(options));
     ExecutionContext again;
     EXPECT_TRUE(poser->bind(again, options).usable());

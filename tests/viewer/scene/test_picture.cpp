@@ -144,7 +144,7 @@ TEST(Picture, DrawsEveryKindOfData)
   EXPECT_TRUE(try_to_draw({ { ball(), nullptr, "a" }, { cloud, nullptr, "b" } }, options).ok());
 }
 
-TEST(Picture, TetsAreColouredByWhatTheyHave)
+TEST(Picture, TetsAreColoredByWhatTheyHave)
 {
   const TetMesh box = test::tet_box(2, 2, 2);
   const auto tets = to_unstructured_grid(box.points, box.tets);
@@ -157,13 +157,13 @@ TEST(Picture, TetsAreColouredByWhatTheyHave)
     return status.message;
   };
   PictureOptions options = tiny();
-  options.colour_by = ColourBy::label;
+  options.color_by = ColorBy::label;
   EXPECT_THAT(refused(options, tile), HasSubstr("no cell array 'Label'"));
-  options.colour_by = ColourBy::rung;
+  options.color_by = ColorBy::rung;
   EXPECT_THAT(refused(options, tile), HasSubstr("how they were made"));
-  options.colour_by = ColourBy::winding_number;
+  options.color_by = ColorBy::winding_number;
   EXPECT_THAT(refused(options, tile), HasSubstr("no array 'WindingNumber'"));
-  options.colour_by = ColourBy::quality;
+  options.color_by = ColorBy::quality;
   EXPECT_THAT(refused(options, { ball(), nullptr, "" }), HasSubstr("only tets"));
   const Status drawn = try_to_draw({ tile, { ball(), nullptr, "" } }, options);
   EXPECT_TRUE(drawn.ok()) << drawn.message;
@@ -179,10 +179,10 @@ TEST(Picture, TetsAreColouredByWhatTheyHave)
   }
   tets->GetCellData()->AddArray(labels);
   options = tiny();
-  options.colour_by = ColourBy::label;
-  const Status labelled = try_to_draw({ tile }, options);
-  ASSERT_TRUE(labelled.ok()) << labelled.message;
-  const auto* counts = labelled.report.find("picture.colours[].count");
+  options.color_by = ColorBy::label;
+  const Status labeled = try_to_draw({ tile }, options);
+  ASSERT_TRUE(labeled.ok()) << labeled.message;
+  const auto* counts = labeled.report.find("picture.colors[].count");
   ASSERT_NE(counts, nullptr);
   EXPECT_EQ(std::get<std::vector<std::int64_t>>(*counts),
     (std::vector<std::int64_t>{ box.tets.rows() - 1, 1 }));

@@ -97,7 +97,7 @@ TEST(TetCut, SidesAreTheBoundaryOfTheKeptTets)
   EXPECT_EQ(cut.laid_open().triangles.rows(), 0);
 }
 
-TEST(TetCut, NothingIsLeftBeforeTheFirstCentre)
+TEST(TetCut, NothingIsLeftBeforeTheFirstCenter)
 {
   const TetMesh mesh = test::tet_box(2, 2, 2);
   TetCut cut(mesh.points, mesh.tets);
@@ -109,7 +109,7 @@ TEST(TetCut, NothingIsLeftBeforeTheFirstCentre)
   EXPECT_EQ(cut.kept_count(), mesh.tets.rows());
 }
 
-TEST(TetCut, ShrunkTetsKeepTheirShapeAndCentre)
+TEST(TetCut, ShrunkTetsKeepTheirShapeAndCenter)
 {
   const TetMesh mesh = wavy_box();
   std::vector<char> kept(static_cast<std::size_t>(mesh.tets.rows()), 0);

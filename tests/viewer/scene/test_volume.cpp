@@ -1,6 +1,6 @@
 // Isosurfaces, slices and other parts of volumes are compared with closed forms. Invalid input is
 // refused.
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "scene/curves.h"
 #include "scene/volume.h"
 #include "scene/volume_rendering.h"
@@ -199,18 +199,18 @@ TEST(Volume, TheOutsideIsClearAndWhatIsWrongIsNot)
   }
 }
 
-TEST(Volume, ALegendOfLevelsNamesEachInItsColour)
+TEST(Volume, ALegendOfLevelsNamesEachInItsColor)
 {
-  const ColourMap map = winding_map();
-  const ColourMap legend = level_map(map, { -0.5, 0.25, 1.5 });
+  const ColorMap map = winding_map();
+  const ColorMap legend = level_map(map, { -0.5, 0.25, 1.5 });
   EXPECT_THAT(legend.texts, testing::ElementsAre("-0.5", "0.25", "1.5"));
   for (int i = 0; i < 3; ++i)
   {
-    const Rgb expected = winding_colour(std::array<double, 3>{ -0.5, 0.25, 1.5 }[i]);
-    const Rgb field_colour = colour_of(legend, legend.ticks[i]);
+    const Rgb expected = winding_color(std::array<double, 3>{ -0.5, 0.25, 1.5 }[i]);
+    const Rgb field_color = color_of(legend, legend.ticks[i]);
     for (int k = 0; k < 3; ++k)
     {
-      EXPECT_NEAR(field_colour[k], expected[k], 0.02);
+      EXPECT_NEAR(field_color[k], expected[k], 0.02);
     }
   }
   // 0.45 replaces 0.5; the other ticks are kept.

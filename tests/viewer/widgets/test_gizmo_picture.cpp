@@ -16,13 +16,13 @@ namespace
 {
 Vec3 pixel_of(vtkImageData* image, const Eigen::Vector2d& at)
 {
-  Vec3 colour;
+  Vec3 color;
   for (int k = 0; k < 3; ++k)
   {
-    colour[k] = image->GetScalarComponentAsDouble(
+    color[k] = image->GetScalarComponentAsDouble(
       static_cast<int>(std::lround(at[0])), static_cast<int>(std::lround(at[1])), 0, k);
   }
-  return colour;
+  return color;
 }
 
 // Return the number of pixels that differ from the corner of the image.
@@ -144,13 +144,12 @@ TEST(GizmoPicture, AxesAreToldApartByAllEyes)
     0.968881;
   eyes[3] << 1.255528, -0.076749, -0.178779, -0.078411, 0.930809, 0.147602, 0.004733, 0.691367,
     0.303900;
-  const auto seen = [](const Eigen::Matrix3d& eye, const Colour& colour)
+  const auto seen = [](const Eigen::Matrix3d& eye, const Color& color)
   {
     Vec3 light;
     for (int k = 0; k < 3; ++k)
     {
-      light[k] =
-        colour[k] <= 0.04045 ? colour[k] / 12.92 : std::pow((colour[k] + 0.055) / 1.055, 2.4);
+      light[k] = color[k] <= 0.04045 ? color[k] / 12.92 : std::pow((color[k] + 0.055) / 1.055, 2.4);
     }
     light = (eye * light).cwiseMax(0.0).cwiseMin(1.0);
     for (double& c : light)

@@ -60,7 +60,7 @@ TEST(HandleEditing, PointsGoToMidThickness)
   EXPECT_EQ(handles[0].kind, HandleKind::point);
   // Seen from the eye, the middle of the chord is its point nearest to the center.
   const Vec3 sight = (handles[0].head - Vec3(0, 0, 10)).normalized();
-  EXPECT_LT(std::abs(handles[0].head.dot(sight)), 0.02) << "in the centre plane across the ray";
+  EXPECT_LT(std::abs(handles[0].head.dot(sight)), 0.02) << "in the center plane across the ray";
   EXPECT_LT((stage.display(handles[0].head) - stage.display(Vec3(0.3, 0.2, 0))).norm(), 1.0);
   EXPECT_EQ(stage.representation()->GetSelectedHandle(), 0);
   EXPECT_EQ(stage.representation()->GetInteractionName(), "add point");
@@ -68,7 +68,7 @@ TEST(HandleEditing, PointsGoToMidThickness)
   EXPECT_EQ(stage.events[vtkCommand::StartInteractionEvent], 1);
   EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 1);
   EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
-  EXPECT_FALSE(stage.widget->GetCancelled());
+  EXPECT_FALSE(stage.widget->GetCanceled());
 
   stage.representation()->PlaceInsideOff();
   stage.click(Vec3(-0.3, 0.2, 0));
@@ -97,10 +97,10 @@ TEST(HandleEditing, APointIsWhereTheButtonIsReleasedAndEscapeMakesNone)
   stage.press(Vec3(0, 0.5, 0));
   stage.move(Vec3(0, 0.4, 0));
   stage.escape();
-  EXPECT_TRUE(stage.widget->GetCancelled());
+  EXPECT_TRUE(stage.widget->GetCanceled());
   stage.release(Vec3(0, 0.4, 0));
   EXPECT_EQ(stage.list().size(), 1u);
-  EXPECT_EQ(stage.widget->GetEditMode(), Widget::ADD_POINTS) << "only the placing is cancelled";
+  EXPECT_EQ(stage.widget->GetEditMode(), Widget::ADD_POINTS) << "only the placing is canceled";
   stage.escape();
   EXPECT_EQ(stage.widget->GetEditMode(), Widget::POSE);
   EXPECT_EQ(stage.events[vtkCommand::StateChangedEvent], 1);
@@ -114,7 +114,7 @@ TEST(HandleEditing, TwoPointsAtOnePlaceAreRefused)
   EXPECT_EQ(stage.list().size(), 1u);
   EXPECT_EQ(stage.events[vtkCommand::WarningEvent], 1);
   EXPECT_NE(stage.representation()->GetEditMessage().find("same place"), std::string::npos);
-  EXPECT_TRUE(stage.widget->GetCancelled());
+  EXPECT_TRUE(stage.widget->GetCanceled());
   stage.click(Vec3(-0.3, 0.2, 0));
   EXPECT_EQ(stage.events[vtkCommand::WarningEvent], 1) << "said once";
 }
@@ -166,7 +166,7 @@ TEST(HandleEditing, BonesAreDrawnAndContinueChains)
   // A click adds no bone.
   stage.click(Vec3(0.4, -0.4, 0));
   EXPECT_EQ(stage.list().size(), 4u);
-  EXPECT_TRUE(stage.widget->GetCancelled());
+  EXPECT_TRUE(stage.widget->GetCanceled());
 }
 
 TEST(HandleEditing, ATailSnapsToOtherEndsWithCtrl)
@@ -184,7 +184,7 @@ TEST(HandleEditing, ATailSnapsToOtherEndsWithCtrl)
   EXPECT_EQ(stage.list()[1].tail, Vec3(0.4, 0.4, 0.3));
 }
 
-TEST(HandleEditing, PosesColoursAndSelectionFollowTheirHandles)
+TEST(HandleEditing, PosesColorsAndSelectionFollowTheirHandles)
 {
   // A point precedes the bone in the order of the cells.
   EditStage stage(Widget::ADD_POINTS, { bone("b", Vec3(-0.5, 0, 0), Vec3(0.2, 0, 0)) });
@@ -323,7 +323,7 @@ TEST(HandleEditing, JointsMoveTogetherAndBodiesWhole)
   EXPECT_LT((handles[2].tail - handles[2].head - Vec3(2, 0, 0)).norm(), 1e-12);
 }
 
-TEST(HandleEditing, CancelledRestMovesKeepEveryBitAndTheBind)
+TEST(HandleEditing, CanceledRestMovesKeepEveryBitAndTheBind)
 {
   EditStage stage(Widget::MOVE_REST,
     { point("p", Vec3(0.5, 0.5, 0.2)), bone("b", Vec3(-1, 0, 0), Vec3(0, 0, 0)) });
@@ -335,11 +335,11 @@ TEST(HandleEditing, CancelledRestMovesKeepEveryBitAndTheBind)
   stage.escape();
   EXPECT_EQ(bind_objects(stage.handles), before) << "the very same arrays";
   EXPECT_EQ(stage.list()[0].head, Vec3(0.5, 0.5, 0.2));
-  EXPECT_TRUE(stage.widget->GetCancelled());
+  EXPECT_TRUE(stage.widget->GetCanceled());
   stage.press(Vec3(0.5, 0.5, 0.2)); // a click also changes nothing
   stage.release(Vec3(0.5, 0.5, 0.2));
   EXPECT_EQ(bind_objects(stage.handles), before);
-  EXPECT_TRUE(stage.widget->GetCancelled());
+  EXPECT_TRUE(stage.widget->GetCanceled());
 }
 
 TEST(HandleEditing, RestMovesAreHeldSnappedAndLocked)

@@ -241,10 +241,10 @@ TEST(HandleGizmo, SeveralTurnsAreCounted)
   }
   EXPECT_EQ(stage.representation()->GetInteractionText().substr(0, 2), "76") << "765 degrees";
   stage.send(vtkCommand::LeftButtonReleaseEvent, from);
-  const Vec3 towards_eye = Vec3(5, 4, 8).normalized();
+  const Vec3 toward_eye = Vec3(5, 4, 8).normalized();
   const Eigen::AngleAxisd turned(linear(stage.transform(0)));
   EXPECT_NEAR(turned.angle() * 180.0 / EIGEN_PI, 45.0, 1.0);
-  EXPECT_GT(turned.axis().dot(towards_eye), 0.999) << "counter-clockwise is right-handed";
+  EXPECT_GT(turned.axis().dot(toward_eye), 0.999) << "counter-clockwise is right-handed";
 }
 
 TEST(HandleGizmo, ARingSeenFromTheSideRolls)
@@ -405,13 +405,13 @@ TEST(HandleGizmo, KeysStartDragsThatFollowTheMouse)
   stage.send(vtkCommand::LeftButtonPressEvent, away + unit);
   EXPECT_FALSE(stage.widget->IsDragging());
   stage.send(vtkCommand::LeftButtonReleaseEvent, away + unit);
-  EXPECT_FALSE(stage.widget->GetCancelled());
+  EXPECT_FALSE(stage.widget->GetCanceled());
   // The right button cancels.
   stage.key("r");
   stage.send(vtkCommand::MouseMoveEvent, away);
   EXPECT_GT(degrees_of(linear(stage.transform(0))), 1.0);
   stage.send(vtkCommand::RightButtonPressEvent, away);
-  EXPECT_TRUE(stage.widget->GetCancelled());
+  EXPECT_TRUE(stage.widget->GetCanceled());
   EXPECT_EQ(linear(stage.transform(0)), Eigen::Matrix3d::Identity());
   // Without a selection, or with StartKeys off, the keys are not handled.
   stage.widget->StartKeysOff();

@@ -140,7 +140,7 @@ TEST(HandleSetWidget, EscapeRestoresEveryBit)
   EXPECT_TRUE(stage.widget->IsDragging()) << "only Escape cancels";
   stage.escape();
   EXPECT_FALSE(stage.widget->IsDragging());
-  EXPECT_TRUE(stage.widget->GetCancelled());
+  EXPECT_TRUE(stage.widget->GetCanceled());
   EXPECT_EQ(stage.transform(0), before[0]);
   EXPECT_EQ(stage.transform(1), before[1]);
   EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 2) << "one move, one restoring";
@@ -152,7 +152,7 @@ TEST(HandleSetWidget, EscapeRestoresEveryBit)
   EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
   // The next drag works as usual.
   stage.drag(tail, tail + Vec3(0.2, 0.2, 0));
-  EXPECT_FALSE(stage.widget->GetCancelled());
+  EXPECT_FALSE(stage.widget->GetCanceled());
   EXPECT_NE(stage.transform(0), before[0]);
 }
 
@@ -341,7 +341,7 @@ TEST(HandleSetWidget, PrintsAllProperties)
   widget->GetHandleSetRepresentation()->Print(text);
   for (const char* name :
     { "PointSize", "BoneWidth", "PickTolerance", "PixelScale", "ShowLabels", "ShowHoverName",
-      "DrawOnTop", "MoveDescendants", "FullColor", "SelectedHandle", "ActiveHandle", "Cancelled" })
+      "DrawOnTop", "MoveDescendants", "FullColor", "SelectedHandle", "ActiveHandle", "Canceled" })
   {
     EXPECT_NE(text.str().find(name), std::string::npos) << name;
   }

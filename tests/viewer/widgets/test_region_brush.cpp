@@ -85,7 +85,7 @@ TEST(RegionBrush, ADiscIsWhatLiesWithinTheRadius)
     EXPECT_EQ(stage.widget->GetInteractionName(), "paint region");
     EXPECT_EQ(stage.events[vtkCommand::StartInteractionEvent], 1);
     EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
-    EXPECT_FALSE(stage.widget->GetCancelled());
+    EXPECT_FALSE(stage.widget->GetCanceled());
   }
 }
 
@@ -122,7 +122,7 @@ TEST(RegionBrush, CtrlErasesAndEscapeGivesEveryLabelBack)
   EXPECT_NE(stage.labels(), painted);
   stage.key("Escape");
   EXPECT_EQ(stage.labels(), painted);
-  EXPECT_TRUE(stage.widget->GetCancelled());
+  EXPECT_TRUE(stage.widget->GetCanceled());
   EXPECT_FALSE(stage.widget->IsPainting());
   stage.release(Vec3(0.5, 0.5, 0));
   stage.hold(false, true);
@@ -138,7 +138,7 @@ TEST(RegionBrush, CtrlErasesAndEscapeGivesEveryLabelBack)
   EXPECT_GT(erased, 100);
   EXPECT_EQ(stage.widget->GetInteractionName(), "erase region");
   stage.drag(Vec3(0, 0, 0), Vec3(0, 0, 0), 1); // no labels are left to erase
-  EXPECT_TRUE(stage.widget->GetCancelled());
+  EXPECT_TRUE(stage.widget->GetCanceled());
 }
 
 TEST(RegionBrush, TheGeodesicBrushDoesNotReachThroughWalls)
@@ -153,12 +153,12 @@ TEST(RegionBrush, TheGeodesicBrushDoesNotReachThroughWalls)
   const vtkIdType half = stage.surface->GetNumberOfPoints() / 2;
   const auto count = [&](bool behind)
   {
-    int labelled = 0;
+    int labeled = 0;
     for (vtkIdType v = behind ? half : 0; v < (behind ? 2 * half : half); ++v)
     {
-      labelled += stage.label(v) == 1.0;
+      labeled += stage.label(v) == 1.0;
     }
-    return labelled;
+    return labeled;
   };
   EXPECT_GT(count(false), 100);
   EXPECT_EQ(count(true), 0);
@@ -210,7 +210,7 @@ TEST(RegionBrush, TakesNoSurfaceAndOddOnes)
   std::ostringstream text;
   stage.widget->Print(text);
   stage.brush()->Print(text);
-  for (const char* name : { "RegionId", "Radius", "Geodesic", "Erase", "PaintColor", "Cancelled" })
+  for (const char* name : { "RegionId", "Radius", "Geodesic", "Erase", "PaintColor", "Canceled" })
   {
     EXPECT_NE(text.str().find(name), std::string::npos) << name;
   }

@@ -1,6 +1,6 @@
 // Colors of rotation clusters: touching clusters differ, every cell has the cluster of most of its
 // points, and invalid numbers are refused.
-#include "scene/rotation_colours.h"
+#include "scene/rotation_colors.h"
 
 #include "conversion.h"
 #include "support/meshes.h"
@@ -39,7 +39,7 @@ vtkSmartPointer<vtkPolyData> slices(const TriangleMesh& ball, int count)
 }
 } // namespace
 
-TEST(RotationColours, ACellHasTheClusterOfMostOfItsPoints)
+TEST(RotationColors, ACellHasTheClusterOfMostOfItsPoints)
 {
   Points points(5, 3);
   points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0;
@@ -61,7 +61,7 @@ TEST(RotationColours, ACellHasTheClusterOfMostOfItsPoints)
   EXPECT_EQ(clusters_of_cells(data)->GetValue(0), -1.0);
 }
 
-TEST(RotationColours, ClustersThatTouchDiffer)
+TEST(RotationColors, ClustersThatTouchDiffer)
 {
   const TriangleMesh ball = test::sphere(4);
   for (const int count : { 2, 5, 24, 25, 49 }) // the last one reuses the first color
@@ -84,13 +84,13 @@ TEST(RotationColours, ClustersThatTouchDiffer)
         const auto a = static_cast<std::size_t>(clusters->GetComponent(ball.triangles(t, k), 0));
         const auto b =
           static_cast<std::size_t>(clusters->GetComponent(ball.triangles(t, (k + 1) % 3), 0));
-        EXPECT_TRUE(a == b || categories[a].colour != categories[b].colour) << a << ' ' << b;
+        EXPECT_TRUE(a == b || categories[a].color != categories[b].color) << a << ' ' << b;
       }
     }
   }
 }
 
-TEST(RotationColours, WhatIsNoClusterIsNamed)
+TEST(RotationColors, WhatIsNoClusterIsNamed)
 {
   const TriangleMesh ball = test::sphere(1);
   const auto plain = to_polydata(ball.points, ball.triangles);
@@ -111,7 +111,7 @@ TEST(RotationColours, WhatIsNoClusterIsNamed)
   }
 }
 
-TEST(RotationColours, ScalesOfAnglesEndAtRoundOnes)
+TEST(RotationColors, ScalesOfAnglesEndAtRoundOnes)
 {
   EXPECT_EQ(angle_scale(0.0), 15.0);
   EXPECT_EQ(angle_scale(15.0), 15.0);

@@ -1,8 +1,8 @@
-#ifndef bindpose_scene_colouring_h
-#define bindpose_scene_colouring_h
+#ifndef bindpose_scene_coloring_h
+#define bindpose_scene_coloring_h
 
 #include "scene/categories.h"
-#include "scene/colours.h"
+#include "scene/colors.h"
 #include "scene/picture.h"
 
 #include "vtkSmartPointer.h"
@@ -18,7 +18,7 @@ namespace bindpose
 {
 
 /// The colored quantity and its color map, common to all tiles.
-struct Colouring
+struct Coloring
 {
   enum class Kind
   {
@@ -28,12 +28,12 @@ struct Colouring
     other
   };
   Kind kind = Kind::none;
-  ColourBy by = ColourBy::array;
+  ColorBy by = ColorBy::array;
   std::string array;
   std::string component; ///< as requested
   std::string component_name; ///< as shown: name or number; empty for arrays of one component and
                               ///< for lengths
-  ColourMap map;
+  ColorMap map;
   std::vector<Category> categories; ///< of labels, rungs and handles
   std::vector<double> isolines; ///< of weights: the borders of the bands, multiples of 0.1
   vtkSmartPointer<vtkDataSet> minus; ///< the dataset whose numbers are subtracted; may be null
@@ -43,18 +43,18 @@ struct Colouring
 };
 
 /// Find the array and the component in the tiles, and the range of their values.
-Status choose_colouring(
-  const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring);
+Status choose_coloring(
+  const std::vector<Tile>& tiles, const PictureOptions& options, Coloring& coloring);
 
 /// Return the shown number as a separate array on the same points or cells. Return null if the data
 /// lacks the array or its component, or is not tets where only tets have the number.
-vtkSmartPointer<vtkDoubleArray> colour_values(
-  vtkDataSet* data, const Colouring& colouring, bool& on_points);
+vtkSmartPointer<vtkDoubleArray> color_values(
+  vtkDataSet* data, const Coloring& coloring, bool& on_points);
 
-/// Name of the array of colour_values().
-constexpr const char* colour_array_name = "bindpose.Colour";
+/// Name of the array of color_values().
+constexpr const char* color_array_name = "bindpose.Color";
 
-/// Return the lines where the array colour_array_name of the points has these values; no lines if
+/// Return the lines where the array color_array_name of the points has these values; no lines if
 /// the array is missing.
 vtkSmartPointer<vtkPolyData> contour_lines(vtkPolyData* data, const std::vector<double>& values);
 

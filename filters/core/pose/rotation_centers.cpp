@@ -7,7 +7,7 @@
 //
 // The groups of each pair are contiguous. A vertex that has both handles of the pair loops over
 // them, eight per step. The groups of a pair are computed from all elements that have both handles.
-#include "pose/rotation_centres.h"
+#include "pose/rotation_centers.h"
 
 #include "base/parallel.h"
 #include "base/simd.h"
@@ -170,7 +170,7 @@ std::size_t split(
 
 /// Group elements whose two weights are nearly the same, and sum each group.
 PairGroups groups_of(std::vector<PairElement>& elements, const Points& centroids,
-  const RotationCentresOptions& options)
+  const RotationCentersOptions& options)
 {
   PairGroups groups;
   std::vector<std::pair<std::size_t, std::size_t>> open;
@@ -208,7 +208,7 @@ PairGroups groups_of(std::vector<PairElement>& elements, const Points& centroids
   return groups;
 }
 
-Status check(const RotationCentresOptions& options, PointsView points, WeightsView weights)
+Status check(const RotationCentersOptions& options, PointsView points, WeightsView weights)
 {
   if (!(options.width > 0.0) ||
     !(options.smallest_weight >= 0.0 && options.smallest_weight < 1.0) ||
@@ -233,8 +233,8 @@ Index pair_of(Index j, Index k, Index handles)
 }
 
 template <typename Elements>
-Status find_centres(ExecutionContext& context, const RotationCentresOptions& options,
-  PointsView points, const Elements& elements, WeightsView weights, Points& centres)
+Status find_centers(ExecutionContext& context, const RotationCentersOptions& options,
+  PointsView points, const Elements& elements, WeightsView weights, Points& centers)
 {
   Status valid = check(options, points, weights);
   if (!valid.ok())
@@ -244,7 +244,7 @@ Status find_centres(ExecutionContext& context, const RotationCentresOptions& opt
   constexpr int corners = Elements::ColsAtCompileTime;
   const Index handles = weights.cols(), count = elements.rows();
   const double smallest = std::max(options.smallest_weight, 1e-300);
-  centres = points;
+  centers = points;
 
   Weights means(count, handles);
   std::vector<double> sizes(static_cast<std::size_t>(count));
@@ -265,7 +265,7 @@ Status find_centres(ExecutionContext& context, const RotationCentresOptions& opt
     const ProgressRange range(context, 0.0, 0.02);
     if (!parallel_for(context, count, element_block, gather))
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
   }
   // The elements in which each handle has a weight.
@@ -317,7 +317,7 @@ Status find_centres(ExecutionContext& context, const RotationCentresOptions& opt
       });
     if (!done)
     {
-      return Status::cancelled();
+      return Status::canceled();
     }
   }
   Index groups = 0;
@@ -365,14 +365,14 @@ Status find_centres(ExecutionContext& context, const RotationCentresOptions& opt
         }
         if (sums.amount > 1e-300)
         {
-          centres.row(v) = (sums.moment / sums.amount).transpose();
+          centers.row(v) = (sums.moment / sums.amount).transpose();
           found[static_cast<std::size_t>(v)] = 1;
         }
       }
     });
   if (!done)
   {
-    return Status::cancelled();
+    return Status::canceled();
   }
   Status status;
   status.report.set("counts.groups", groups);
@@ -382,16 +382,16 @@ Status find_centres(ExecutionContext& context, const RotationCentresOptions& opt
 }
 } // namespace
 
-Status rotation_centres(ExecutionContext& context, const RotationCentresOptions& options,
-  PointsView points, TetsView tets, WeightsView weights, Points& centres)
+Status rotation_centers(ExecutionContext& context, const RotationCentersOptions& options,
+  PointsView points, TetsView tets, WeightsView weights, Points& centers)
 {
-  return find_centres(context, options, points, tets, weights, centres);
+  return find_centers(context, options, points, tets, weights, centers);
 }
 
-Status rotation_centres(ExecutionContext& context, const RotationCentresOptions& options,
-  PointsView points, TrianglesView triangles, WeightsView weights, Points& centres)
+Status rotation_centers(ExecutionContext& context, const RotationCentersOptions& options,
+  PointsView points, TrianglesView triangles, WeightsView weights, Points& centers)
 {
-  return find_centres(context, options, points, triangles, weights, centres);
+  return find_centers(context, options, points, triangles, weights, centers);
 }
 
 } // namespace bindpose

@@ -1,6 +1,6 @@
 // Clusters are graph-colored greedily in the order of their numbers. The search for a free color
 // begins at the cluster's own number, so that all colors are used about equally often.
-#include "scene/rotation_colours.h"
+#include "scene/rotation_colors.h"
 
 #include "base/most_frequent.h"
 #include "base/number_text.h"
@@ -55,26 +55,26 @@ using Pairs = std::set<std::pair<int, int>>; // higher, lower
 
 /// Assign a handle color to each cluster. It differs from those of the lower clusters that it
 /// touches.
-std::vector<std::size_t> deal_colours(std::size_t clusters, const Pairs& touching)
+std::vector<std::size_t> deal_colors(std::size_t clusters, const Pairs& touching)
 {
-  std::vector<std::size_t> colours;
+  std::vector<std::size_t> colors;
   for (std::size_t k = 0; k < clusters; ++k)
   {
-    std::vector<char> taken(handle_colours, 0);
+    std::vector<char> taken(handle_colors, 0);
     const int number = static_cast<int>(k);
     for (auto pair = touching.lower_bound({ number, 0 });
          pair != touching.end() && pair->first == number; ++pair)
     {
-      taken[colours[static_cast<std::size_t>(pair->second)]] = 1;
+      taken[colors[static_cast<std::size_t>(pair->second)]] = 1;
     }
-    std::size_t colour = k % handle_colours;
-    for (std::size_t tried = 0; taken[colour] && tried < handle_colours; ++tried)
+    std::size_t color = k % handle_colors;
+    for (std::size_t tried = 0; taken[color] && tried < handle_colors; ++tried)
     {
-      colour = (colour + 1) % handle_colours;
+      color = (color + 1) % handle_colors;
     }
-    colours.push_back(colour);
+    colors.push_back(color);
   }
-  return colours;
+  return colors;
 }
 } // namespace
 
@@ -99,7 +99,7 @@ Status check_clusters(const std::vector<vtkDataSet*>& datasets)
   }
   return any ? Status()
              : Status::invalid_input(
-                 "colours by rotation cluster need a mesh with the point array 'RotationCluster'; "
+                 "colors by rotation cluster need a mesh with the point array 'RotationCluster'; "
                  "bindpose deform --rotation-arrays writes it");
 }
 
@@ -141,11 +141,11 @@ std::vector<Category> cluster_categories(const std::vector<vtkDataSet*>& dataset
       });
   }
   std::vector<Category> categories;
-  const std::vector<std::size_t> colours = deal_colours(counts.size(), touching);
+  const std::vector<std::size_t> colors = deal_colors(counts.size(), touching);
   for (std::size_t k = 0; k < counts.size(); ++k)
   {
     categories.push_back(
-      { static_cast<int>(k), std::to_string(k), handle_colour(colours[k]), counts[k] });
+      { static_cast<int>(k), std::to_string(k), handle_color(colors[k]), counts[k] });
   }
   return categories;
 }

@@ -1,6 +1,6 @@
 // Centers of rotation: comparisons with the paper's sums. Skinning with them: exact rigid motions,
 // and twisted joints that keep their width.
-#include "pose/rotation_centres.h"
+#include "pose/rotation_centers.h"
 
 #include "pose/skinning.h"
 
@@ -98,10 +98,10 @@ double size_of(const Points& p, const Triangles& triangles, Index e)
 }
 
 template <typename Elements>
-Points plain_centres(
+Points plain_centers(
   const Points& points, const Elements& elements, const Weights& weights, double width)
 {
-  Points centres = points;
+  Points centers = points;
   for (Index v = 0; v < points.rows(); ++v)
   {
     Vec3 moment = Vec3::Zero();
@@ -121,23 +121,23 @@ Points plain_centres(
     }
     if (amount > 0.0)
     {
-      centres.row(v) = (moment / amount).transpose();
+      centers.row(v) = (moment / amount).transpose();
     }
   }
-  return centres;
+  return centers;
 }
 
 template <typename Elements>
-Points found_centres(const Points& points, const Elements& elements, const Weights& weights,
-  const RotationCentresOptions& options = {}, int threads = 0)
+Points found_centers(const Points& points, const Elements& elements, const Weights& weights,
+  const RotationCentersOptions& options = {}, int threads = 0)
 {
   ExecutionContext context;
   context.set_threads(threads);
-  Points centres;
+  Points centers;
   const Status status =
-    rotation_centres(context, options, points, MatrixView<Elements>(elements), weights, centres);
+    rotation_centers(context, options, points, MatrixView<Elements>(elements), weights, centers);
   EXPECT_TRUE(status.ok()) << status.message;
-  return centres;
+  return centers;
 }
 
 double difference(const Points& a, const Points& b)
@@ -145,9 +145,9 @@ double difference(const Points& a, const Points& b)
   return (a - b).rowwise().norm().maxCoeff();
 }
 
-RotationCentresOptions exact()
+RotationCentersOptions exact()
 {
-  RotationCentresOptions options;
+  RotationCentersOptions options;
   options.smallest_weight = 0.0;
   options.smallest_pair = 0.0;
   options.group_size = 0.0;
@@ -197,65 +197,65 @@ struct Tube
 };
 } // namespace
 
-TEST(RotationCentres, AreThePapersSums)
+TEST(RotationCenters, AreThePapersSums)
 {
   const TetMesh box = test::tet_box(4, 3, 2, Vec3::Zero(), Vec3(4, 3, 2));
   const TriangleMesh ball = test::sphere(2);
   for (const double width : { 0.1, 0.02, 3.0 })
   {
-    RotationCentresOptions options = exact();
+    RotationCentersOptions options = exact();
     options.width = width;
     const Weights in_box = random_weights(box.points.rows(), 4);
-    EXPECT_LT(difference(found_centres(box.points, box.tets, in_box, options),
-                plain_centres(box.points, box.tets, in_box, width)),
+    EXPECT_LT(difference(found_centers(box.points, box.tets, in_box, options),
+                plain_centers(box.points, box.tets, in_box, width)),
       1e-11)
       << width;
     const Weights on_ball = random_weights(ball.points.rows(), 3);
-    EXPECT_LT(difference(found_centres(ball.points, ball.triangles, on_ball, options),
-                plain_centres(ball.points, ball.triangles, on_ball, width)),
+    EXPECT_LT(difference(found_centers(ball.points, ball.triangles, on_ball, options),
+                plain_centers(ball.points, ball.triangles, on_ball, width)),
       1e-11)
       << width;
   }
 }
 
-TEST(RotationCentres, GroupsMoveThemLittle)
+TEST(RotationCenters, GroupsMoveThemLittle)
 {
   const TetMesh bar = test::tet_box(40, 4, 4, Vec3::Zero(), Vec3(10, 1, 1));
   const Weights weights = smooth_weights(bar.points, 5);
-  const Points plain = found_centres(bar.points, bar.tets, weights, exact());
-  const Points grouped = found_centres(bar.points, bar.tets, weights);
+  const Points plain = found_centers(bar.points, bar.tets, weights, exact());
+  const Points grouped = found_centers(bar.points, bar.tets, weights);
   EXPECT_LT(difference(grouped, plain), 1e-3 * bounding_box(bar.points).diagonal());
-  RotationCentresOptions coarse;
+  RotationCentersOptions coarse;
   coarse.group_size = 0.05;
   ExecutionContext context;
-  Points centres;
+  Points centers;
   const Status few =
-    rotation_centres(context, coarse, bar.points, TetsView(bar.tets), weights, centres);
+    rotation_centers(context, coarse, bar.points, TetsView(bar.tets), weights, centers);
   EXPECT_LT(few.report.number("counts.groups", 0), bar.tets.rows() / 10); // over all ten pairs
   EXPECT_EQ(few.report.number("counts.centers", 0), bar.points.rows());
 }
 
-TEST(RotationCentres, OfATubeLieOnItsAxis)
+TEST(RotationCenters, OfATubeLieOnItsAxis)
 {
   const Tube tube;
-  const Points centres = found_centres(tube.mesh.points, tube.mesh.triangles, tube.weights);
-  for (Index v = 0; v < centres.rows(); ++v)
+  const Points centers = found_centers(tube.mesh.points, tube.mesh.triangles, tube.weights);
+  for (Index v = 0; v < centers.rows(); ++v)
   {
     if (std::abs(tube.mesh.points(v, 2)) < 0.9)
     {
-      EXPECT_LT(centres.row(v).head<2>().norm(), 1e-12) << v;
+      EXPECT_LT(centers.row(v).head<2>().norm(), 1e-12) << v;
     }
     else if (std::abs(tube.mesh.points(v, 2)) > 1.01)
     {
-      EXPECT_EQ(centres.row(v), tube.mesh.points.row(v)) << "one handle: its own centre";
+      EXPECT_EQ(centers.row(v), tube.mesh.points.row(v)) << "one handle: its own center";
     }
   }
 }
 
-TEST(RotationCentres, KeepTwistedJointsWide)
+TEST(RotationCenters, KeepTwistedJointsWide)
 {
   const Tube tube;
-  const Points centres = found_centres(tube.mesh.points, tube.mesh.triangles, tube.weights);
+  const Points centers = found_centers(tube.mesh.points, tube.mesh.triangles, tube.weights);
   ExecutionContext context;
   for (const bool single : { false, true })
   {
@@ -272,24 +272,24 @@ TEST(RotationCentres, KeepTwistedJointsWide)
       Points posed;
       ASSERT_TRUE(skinning.linear_blend(context, tube.mesh.points, twist, posed).ok());
       EXPECT_NEAR(tube.ring(posed).second, radius, 1e-6);
-      ASSERT_TRUE(skinning.about_centres(context, tube.mesh.points, twist, centres, posed).ok());
+      ASSERT_TRUE(skinning.about_centers(context, tube.mesh.points, twist, centers, posed).ok());
       EXPECT_NEAR(tube.ring(posed).first, 1.0, single ? 1e-6 : 1e-12) << degrees;
       EXPECT_NEAR(tube.ring(posed).second, 1.0, single ? 1e-6 : 1e-12) << degrees;
     }
   }
 }
 
-TEST(RotationCentres, SkinningIsExactForOneMapOfAllHandles)
+TEST(RotationCenters, SkinningIsExactForOneMapOfAllHandles)
 {
   const TetMesh box = test::tet_box(4, 3, 3);
   const Weights weights = random_weights(box.points.rows(), 5);
-  const Points centres = found_centres(box.points, box.tets, weights);
+  const Points centers = found_centers(box.points, box.tets, weights);
   ExecutionContext context;
   Skinning skinning;
   ASSERT_TRUE(skinning.bind(context, weights).ok());
   Points posed;
   const std::vector<Affine> rest(5, identity_affine());
-  ASSERT_TRUE(skinning.about_centres(context, box.points, rest, centres, posed).ok());
+  ASSERT_TRUE(skinning.about_centers(context, box.points, rest, centers, posed).ok());
   EXPECT_EQ(posed, box.points) << "no bit moves at rest";
   Eigen::Matrix3d stretch = rotation(200, Vec3(3, 1, -2));
   stretch *= Vec3(2.0, 0.5, 1.25).asDiagonal();
@@ -298,12 +298,12 @@ TEST(RotationCentres, SkinningIsExactForOneMapOfAllHandles)
   for (const Affine& map : maps)
   {
     const std::vector<Affine> all(5, map);
-    ASSERT_TRUE(skinning.about_centres(context, box.points, all, centres, posed).ok());
+    ASSERT_TRUE(skinning.about_centers(context, box.points, all, centers, posed).ok());
     EXPECT_LT(difference(posed, moved(box.points, map)), 1e-13);
     Points normals = box.points.rowwise().normalized();
     normals.row(0) << 1, 0, 0;
     Points turned;
-    ASSERT_TRUE(skinning.about_centres_normals(context, normals, all, turned).ok());
+    ASSERT_TRUE(skinning.about_centers_normals(context, normals, all, turned).ok());
     const Eigen::Matrix3d cofactors =
       map.leftCols<3>().determinant() * map.leftCols<3>().inverse().transpose();
     const Points expected = (normals * cofactors.transpose()).rowwise().normalized();
@@ -311,11 +311,11 @@ TEST(RotationCentres, SkinningIsExactForOneMapOfAllHandles)
   }
 }
 
-TEST(RotationCentres, TurnsByTheBlendAboutTheCentreThatTheBlendMoves)
+TEST(RotationCenters, TurnsByTheBlendAboutTheCenterThatTheBlendMoves)
 {
   const TetMesh box = test::tet_box(3, 3, 3);
   const Weights weights = random_weights(box.points.rows(), 3);
-  const Points centres = found_centres(box.points, box.tets, weights);
+  const Points centers = found_centers(box.points, box.tets, weights);
   const std::vector<Affine> maps{ affine(rotation(50, Vec3(1, 0, 1)), Vec3(1, 0, 0)),
     affine(rotation(-80, Vec3(0, 1, 1)), Vec3(0, 0.5, 0)),
     affine(rotation(100, Vec3(1, 1, 0)), Vec3(0, 0, -1)) };
@@ -323,53 +323,53 @@ TEST(RotationCentres, TurnsByTheBlendAboutTheCentreThatTheBlendMoves)
   Skinning skinning;
   ASSERT_TRUE(skinning.bind(context, weights).ok());
   Points posed;
-  ASSERT_TRUE(skinning.about_centres(context, box.points, maps, centres, posed).ok());
+  ASSERT_TRUE(skinning.about_centers(context, box.points, maps, centers, posed).ok());
   for (Index v = 0; v < box.points.rows(); ++v)
   {
     Index largest = 0;
     weights.row(v).maxCoeff(&largest);
     const Eigen::Quaterniond reference(Eigen::Matrix3d(maps[largest].leftCols<3>()));
     Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-    Vec3 centre = Vec3::Zero();
+    Vec3 center = Vec3::Zero();
     for (std::size_t j = 0; j < 3; ++j)
     {
       const double w = weights(v, static_cast<Index>(j));
       const Eigen::Quaterniond q(Eigen::Matrix3d(maps[j].leftCols<3>()));
       sum += (q.dot(reference) < 0.0 ? -w : w) * q.coeffs();
-      centre += w * (maps[j] * Vec3(centres.row(v)).homogeneous());
+      center += w * (maps[j] * Vec3(centers.row(v)).homogeneous());
     }
     const Eigen::Quaterniond blend(Eigen::Vector4d(sum.normalized()));
-    const Vec3 expected = centre + blend * Vec3(box.points.row(v) - centres.row(v));
+    const Vec3 expected = center + blend * Vec3(box.points.row(v) - centers.row(v));
     EXPECT_LT((posed.row(v).transpose() - expected).norm(), 1e-13) << v;
   }
 }
 
-TEST(RotationCentres, DoNotDependOnThreadsOrOrderAndFollowTheShape)
+TEST(RotationCenters, DoNotDependOnThreadsOrOrderAndFollowTheShape)
 {
   const TetMesh bar = test::tet_box(16, 4, 4, Vec3::Zero(), Vec3(4, 1, 1));
   const Weights weights = smooth_weights(bar.points, 4);
-  const Points one = found_centres(bar.points, bar.tets, weights, {}, 1);
-  EXPECT_EQ(one, found_centres(bar.points, bar.tets, weights, {}, 4));
+  const Points one = found_centers(bar.points, bar.tets, weights, {}, 1);
+  EXPECT_EQ(one, found_centers(bar.points, bar.tets, weights, {}, 4));
   const Affine motion = affine(8.0 * rotation(33, Vec3(1, 2, 0)), Vec3(5, 6, 7));
   EXPECT_LT(
-    difference(found_centres(moved(bar.points, motion), bar.tets, weights), moved(one, motion)),
+    difference(found_centers(moved(bar.points, motion), bar.tets, weights), moved(one, motion)),
     1e-11);
   const Tets reversed = bar.tets.colwise().reverse();
-  EXPECT_LT(difference(found_centres(bar.points, reversed, weights), one), 1e-12);
+  EXPECT_LT(difference(found_centers(bar.points, reversed, weights), one), 1e-12);
 }
 
-TEST(RotationCentres, BadInputAndCancel)
+TEST(RotationCenters, BadInputAndCancel)
 {
   const TetMesh box = test::tet_box(2, 2, 2);
   Weights weights = random_weights(box.points.rows(), 3);
   ExecutionContext context;
-  Points centres;
-  const auto code = [&](const RotationCentresOptions& options)
+  Points centers;
+  const auto code = [&](const RotationCentersOptions& options)
   {
-    return rotation_centres(context, options, box.points, TetsView(box.tets), weights, centres)
+    return rotation_centers(context, options, box.points, TetsView(box.tets), weights, centers)
       .code;
   };
-  RotationCentresOptions options;
+  RotationCentersOptions options;
   options.width = 0.0;
   EXPECT_EQ(code(options), StatusCode::invalid_input);
   options = {};
@@ -388,15 +388,15 @@ TEST(RotationCentres, BadInputAndCancel)
   EXPECT_EQ(code({}), StatusCode::invalid_input);
   weights = Weights::Zero(box.points.rows(), 1);
   EXPECT_EQ(code({}), StatusCode::ok) << "one handle has no pair";
-  EXPECT_EQ(centres, box.points);
+  EXPECT_EQ(centers, box.points);
   Skinning skinning;
   ASSERT_TRUE(skinning.bind(context, weights).ok());
   Points posed;
   const std::vector<Affine> turn{ affine(rotation(90, Vec3(0, 0, 1)), Vec3(1, 0, 0)) };
-  ASSERT_TRUE(skinning.about_centres(context, box.points, turn, centres, posed).ok());
+  ASSERT_TRUE(skinning.about_centers(context, box.points, turn, centers, posed).ok());
   EXPECT_EQ(posed, box.points) << "rows of zeros rest";
-  EXPECT_EQ(skinning.about_centres(context, box.points, turn, Points(2, 3), posed).code,
+  EXPECT_EQ(skinning.about_centers(context, box.points, turn, Points(2, 3), posed).code,
     StatusCode::invalid_input);
   context.request_cancel();
-  EXPECT_EQ(code({}), StatusCode::cancelled);
+  EXPECT_EQ(code({}), StatusCode::canceled);
 }

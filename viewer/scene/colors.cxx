@@ -1,6 +1,6 @@
 // Maps are defined by a few anchors and interpolated in CIE Lab, where equal steps look equal. The
 // lightness of the anchors decreases evenly from 92 to 22.
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include "base/number_text.h"
 
@@ -69,7 +69,7 @@ std::vector<double> round_ticks(double lower, double upper)
 }
 } // namespace
 
-Rgb sequential_colour(double t)
+Rgb sequential_color(double t)
 {
   const double scaled = std::clamp(t, 0.0, 1.0) * (sequential_anchors.size() - 1);
   const auto first = std::min(static_cast<std::size_t>(scaled), sequential_anchors.size() - 2);
@@ -88,7 +88,7 @@ Rgb sequential_colour(double t)
   return rgb;
 }
 
-Rgb winding_colour(double winding_number)
+Rgb winding_color(double winding_number)
 {
   const Rgb outside{ 0.44, 0.65, 0.82 };
   const Rgb middle{ 0.98, 0.97, 0.95 };
@@ -108,7 +108,7 @@ Rgb winding_colour(double winding_number)
   return t < 0.5 ? mix(outside, middle, 2.0 * t) : mix(middle, inside, 2.0 * t - 1.0);
 }
 
-Rgb diverging_colour(double t)
+Rgb diverging_color(double t)
 {
   const Rgb white{ 0.97, 0.97, 0.96 };
   const Rgb sides[2][3] = { { { 0.56, 0.75, 0.89 }, { 0.22, 0.48, 0.73 }, { 0.08, 0.18, 0.42 } },
@@ -119,9 +119,9 @@ Rgb diverging_colour(double t)
   return mix(first == 0 ? white : side[first - 1], side[first], scaled - first);
 }
 
-ColourMap sequential_map(double lower, double upper, int bands)
+ColorMap sequential_map(double lower, double upper, int bands)
 {
-  ColourMap map;
+  ColorMap map;
   map.lower = lower;
   // A constant array needs a range of nonzero length.
   map.upper = upper > lower ? upper : lower + std::max(1e-12, 1e-6 * std::abs(lower));
@@ -132,7 +132,7 @@ ColourMap sequential_map(double lower, double upper, int bands)
     // Each band has the color of its center, but the first and last bands have the colors of the
     // map's ends.
     const double t = count > 1 ? i / (count - 1.0) : 0.5;
-    const Rgb c = sequential_colour(t);
+    const Rgb c = sequential_color(t);
     map.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
   }
   map.ticks = upper > lower ? round_ticks(map.lower, map.upper) : std::vector<double>{ lower };
@@ -140,46 +140,46 @@ ColourMap sequential_map(double lower, double upper, int bands)
   return map;
 }
 
-ColourMap diverging_map(double lower, double upper, double centre)
+ColorMap diverging_map(double lower, double upper, double center)
 {
-  ColourMap map;
+  ColorMap map;
   // Half of the range if all values equal the center.
-  const double least = std::max(1e-12, 1e-9 * std::abs(centre));
+  const double least = std::max(1e-12, 1e-9 * std::abs(center));
   const bool constant = !(upper - lower > 2.0 * least);
-  map.lower = constant ? centre - least : lower;
-  map.upper = constant ? centre + least : upper;
+  map.lower = constant ? center - least : lower;
+  map.upper = constant ? center + least : upper;
   constexpr int count = 257; // odd, so that the center of a symmetric range has its own entry
   map.table = make_table(map.lower, map.upper, count);
-  const double reach = std::max(map.upper - centre, centre - map.lower);
+  const double reach = std::max(map.upper - center, center - map.lower);
   for (int i = 0; i < count; ++i)
   {
     const double value = map.lower + (map.upper - map.lower) * (i + 0.5) / count;
-    const Rgb c = diverging_colour((value - centre) / reach);
+    const Rgb c = diverging_color((value - center) / reach);
     map.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
   }
-  map.ticks = constant ? std::vector<double>{ centre } : round_ticks(map.lower, map.upper);
+  map.ticks = constant ? std::vector<double>{ center } : round_ticks(map.lower, map.upper);
   map.decimals = -1;
   return map;
 }
 
-ColourMap weight_map()
+ColorMap weight_map()
 {
-  ColourMap map = sequential_map(0.0, 1.0, 10);
+  ColorMap map = sequential_map(0.0, 1.0, 10);
   map.ticks = { 0.0, 0.2, 0.4, 0.6, 0.8, 1.0 };
   map.decimals = 1;
   return map;
 }
 
-ColourMap winding_map()
+ColorMap winding_map()
 {
-  ColourMap map;
+  ColorMap map;
   map.lower = -1.0;
   map.upper = 2.0;
   constexpr int count = 300; // steps of 0.01, so that -0.02 and 1.02 are between two entries
   map.table = make_table(map.lower, map.upper, count);
   for (int i = 0; i < count; ++i)
   {
-    const Rgb c = winding_colour(map.lower + (i + 0.5) * (map.upper - map.lower) / count);
+    const Rgb c = winding_color(map.lower + (i + 0.5) * (map.upper - map.lower) / count);
     map.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
   }
   map.ticks = { -1.0, 0.0, 0.5, 1.0, 2.0 };
@@ -187,23 +187,23 @@ ColourMap winding_map()
   return map;
 }
 
-Rgb colour_of(const ColourMap& map, double value)
+Rgb color_of(const ColorMap& map, double value)
 {
-  Rgb colour{};
-  map.table->GetColor(value, colour.data());
-  return colour;
+  Rgb color{};
+  map.table->GetColor(value, color.data());
+  return color;
 }
 
-ColourMap level_map(const ColourMap& map, const std::vector<double>& levels)
+ColorMap level_map(const ColorMap& map, const std::vector<double>& levels)
 {
   const int count = static_cast<int>(levels.size());
-  ColourMap result;
+  ColorMap result;
   result.lower = 0.0;
   result.upper = count;
   result.table = make_table(result.lower, result.upper, count);
   for (int i = 0; i < count; ++i)
   {
-    const Rgb c = colour_of(map, levels[i]);
+    const Rgb c = color_of(map, levels[i]);
     result.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
     result.ticks.push_back(i + 0.5);
     result.texts.push_back(short_number(levels[i], legend_digits));
@@ -211,7 +211,7 @@ ColourMap level_map(const ColourMap& map, const std::vector<double>& levels)
   return result;
 }
 
-ColourMap with_levels(ColourMap map, const std::vector<double>& levels)
+ColorMap with_levels(ColorMap map, const std::vector<double>& levels)
 {
   const double room = 0.07 * (map.upper - map.lower);
   std::vector<double> ticks;

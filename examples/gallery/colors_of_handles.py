@@ -20,7 +20,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import planar
 
-COLOURS = {"body": (0.98, 0.80, 0.25), "head": (0.95, 0.30, 0.20), "arm": (0.20, 0.70, 0.25), "hand": (0.15, 0.35, 0.90),
+COLORS = {"body": (0.98, 0.80, 0.25), "head": (0.95, 0.30, 0.20), "arm": (0.20, 0.70, 0.25), "hand": (0.15, 0.35, 0.90),
            "other arm": (0.55, 0.20, 0.75), "left leg": (0.10, 0.75, 0.75), "right leg": (0.90, 0.25, 0.60),
            "tail": (0.15, 0.55, 0.20), "tip": (0.85, 0.90, 0.20)}
 
@@ -62,11 +62,11 @@ def make(options):
     cat = bindpose.planar_shape(picture, handles=handles)
     weighted = bindpose.weights(cat, handles, domain="surface")
     names = list(planar.BONES)
-    light = bindpose.weighted_colors(weighted, handles, COLOURS)
-    plain = bindpose.weighted_colors(weighted, handles, COLOURS, linear_light=False)
+    light = bindpose.weighted_colors(weighted, handles, COLORS)
+    plain = bindpose.weighted_colors(weighted, handles, COLORS, linear_light=False)
     array = vtk_to_numpy(weighted.GetPointData().GetArray("Weights"))
     on = array.max(axis=1) == 1
-    colours = np.array([COLOURS[name] for name in names])
+    colors = np.array([COLORS[name] for name in names])
     values = vtk_to_numpy(light.GetPointData().GetArray("ColorValues"))
     reports = [bindpose.report(mesh) for mesh in (light, plain)]
 
@@ -94,17 +94,17 @@ def make(options):
     box = (-0.02, 1.02, -0.02, 1.02)
     unit = np.array([1 / size, 1 / size, 1])
     window = planar.show(
-        [("a colour for each bone, blended as light", [planar.painted(scaled(light, unit)), *planar.edges(scaled(light, unit), cat),
+        [("a color for each bone, blended as light", [planar.painted(scaled(light, unit)), *planar.edges(scaled(light, unit), cat),
                                                        *planar.handle_actors(scaled(handles, unit), 0.009)]),
          ("blended as the screen's numbers", [planar.painted(scaled(plain, unit)), *planar.edges(scaled(plain, unit), cat)]),
          (f"{len(bones)} curves with two sides each", [planar.painted(drawn)])],
-        box, tile=(560, 560), title="Weights carry colours as well as poses")
+        box, tile=(560, 560), title="Weights carry colors as well as poses")
     common.write_picture(window, options.picture)
     return {
         "handles": len(names),
         "points out of the gamut": [report["counts"]["out_of_gamut"] for report in reports],
-        "points beyond the handles' colours": [report["counts"]["beyond_handles"] for report in reports],
-        "on handles: largest difference from their colour": float(np.abs(values[on] - colours[array[on].argmax(axis=1)]).max()),
+        "points beyond the handles' colors": [report["counts"]["beyond_handles"] for report in reports],
+        "on handles: largest difference from their color": float(np.abs(values[on] - colors[array[on].argmax(axis=1)]).max()),
         "red and green half-way, as light": [float(value) for value in half["light"][0]],
         "red and green half-way, as numbers": [float(value) for value in half["numbers"][0]],
         "curves": len(bones),

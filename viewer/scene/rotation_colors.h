@@ -1,5 +1,5 @@
-#ifndef bindpose_scene_rotation_colours_h
-#define bindpose_scene_rotation_colours_h
+#ifndef bindpose_scene_rotation_colors_h
+#define bindpose_scene_rotation_colors_h
 
 #include "scene/categories.h"
 

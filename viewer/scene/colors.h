@@ -1,5 +1,5 @@
-#ifndef bindpose_scene_colours_h
-#define bindpose_scene_colours_h
+#ifndef bindpose_scene_colors_h
+#define bindpose_scene_colors_h
 
 #include "vtkLookupTable.h"
 #include "vtkSmartPointer.h"
@@ -37,21 +37,21 @@ constexpr Rgb missing{ 0.62, 0.58, 0.60 }; ///< not a number
 /// Return the color of the sequential map at t in [0, 1] (clamped). It runs from near the gray of
 /// the plain surface over green and teal to deep blue. Lightness decreases strictly and evenly, so
 /// that color-blind viewers and gray prints show the same order.
-Rgb sequential_colour(double t);
+Rgb sequential_color(double t);
 
 /// Return the color of a winding number: blue at 0, white at 0.5, orange at 1. Below -0.02 it jumps
 /// to violet (deep at -1) and above 1.02 to brown (deep at 2), both darker. Inside-out and doubly
 /// covered regions are therefore conspicuous. 0.02 is the tolerance for rounding and for open
 /// surfaces far away.
-Rgb winding_colour(double winding_number);
+Rgb winding_color(double winding_number);
 
 /// Return the color of the diverging map at t in [-1, 1] (clamped): white at 0, increasingly dark
 /// blue below, orange to brown above. Lightness decreases evenly on both sides; color-blind viewers
 /// can distinguish blue from orange.
-Rgb diverging_colour(double t);
+Rgb diverging_color(double t);
 
 /// The mapping of values to colors and its legend.
-struct ColourMap
+struct ColorMap
 {
   vtkSmartPointer<vtkLookupTable> table;
   double lower = 0.0; ///< lower end of the table and the legend
@@ -64,23 +64,23 @@ struct ColourMap
 };
 
 /// Return the map of weights: ten bands of one color each over [0, 1].
-ColourMap weight_map();
+ColorMap weight_map();
 /// Return the same colors in `bands` bands over [lower, upper], or without bands if `bands` is 0.
-ColourMap sequential_map(double lower, double upper, int bands);
-/// Return a map of diverging_colour() over [lower, upper], white at the center, which must be
+ColorMap sequential_map(double lower, double upper, int bands);
+/// Return a map of diverging_color() over [lower, upper], white at the center, which must be
 /// within the range. Equal distances from the center are equally dark.
-ColourMap diverging_map(double lower, double upper, double centre);
-/// Return a map of winding_colour() over [-1, 2]. Values outside get the color of the nearest end.
-ColourMap winding_map();
+ColorMap diverging_map(double lower, double upper, double center);
+/// Return a map of winding_color() over [-1, 2]. Values outside get the color of the nearest end.
+ColorMap winding_map();
 
 /// Return the map's color of a value. Values outside get the color of the nearest end.
-Rgb colour_of(const ColourMap& map, double value);
+Rgb color_of(const ColorMap& map, double value);
 /// Return a legend of single values: one field per level, from the bottom, in the map's color of
 /// the level.
-ColourMap level_map(const ColourMap& map, const std::vector<double>& levels);
+ColorMap level_map(const ColorMap& map, const std::vector<double>& levels);
 /// Add the levels to the ticks of the map. Ticks whose texts would overlap those of a level are
 /// removed.
-ColourMap with_levels(ColourMap map, const std::vector<double>& levels);
+ColorMap with_levels(ColorMap map, const std::vector<double>& levels);
 /// Number of digits of values in legends; see short_number().
 constexpr int legend_digits = 3;
 

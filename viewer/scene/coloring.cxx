@@ -1,10 +1,10 @@
 // The array is found by name in all tiles, the component by name or number. One range covers all
 // tiles, so that equal colors mean equal numbers in the whole picture.
-#include "scene/colouring.h"
+#include "scene/coloring.h"
 
 #include "conversion.h"
 #include "inside/tet_quality.h"
-#include "scene/rotation_colours.h"
+#include "scene/rotation_colors.h"
 
 #include "vtkCellData.h"
 #include "vtkContourFilter.h"
@@ -118,9 +118,9 @@ int find_component(vtkDataArray* array, const std::string& component)
   return no_component;
 }
 
-int find_component(vtkDataArray* array, const Colouring& colouring)
+int find_component(vtkDataArray* array, const Coloring& coloring)
 {
-  return colouring.by == ColourBy::row_sum ? tuple_sum : find_component(array, colouring.component);
+  return coloring.by == ColorBy::row_sum ? tuple_sum : find_component(array, coloring.component);
 }
 
 double value_of(vtkDataArray* array, vtkIdType tuple, int component)
@@ -156,18 +156,18 @@ namespace
 // A tet's smallest dihedral angle is at most that of the regular tet, in degrees.
 constexpr double regular_angle = 70.52877936550931;
 
-bool names_tets(ColourBy by)
+bool names_tets(ColorBy by)
 {
-  return by == ColourBy::label || by == ColourBy::quality || by == ColourBy::rung;
+  return by == ColorBy::label || by == ColorBy::quality || by == ColorBy::rung;
 }
 
-std::string word_of(ColourBy by)
+std::string word_of(ColorBy by)
 {
-  return by == ColourBy::label ? "label" : by == ColourBy::quality ? "quality" : "rung";
+  return by == ColorBy::label ? "label" : by == ColorBy::quality ? "quality" : "rung";
 }
 
 // Return quality, labels or rungs, which tets have independently of their arrays.
-vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Colouring& colouring)
+vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Coloring& coloring)
 {
   TetInput tets;
   if (!data || !to_tets(data, tets).ok())
@@ -177,9 +177,9 @@ vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Colouring& co
   const PointsView points = tets.points.view();
   const Index count = tets.tets.view().rows();
   auto values = vtkSmartPointer<vtkDoubleArray>::New();
-  values->SetName(colour_array_name);
+  values->SetName(color_array_name);
   values->SetNumberOfValues(count);
-  if (colouring.by == ColourBy::quality)
+  if (coloring.by == ColorBy::quality)
   {
     for (Index t = 0; t < count; ++t)
     {
@@ -190,13 +190,13 @@ vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Colouring& co
     }
     return values;
   }
-  const std::vector<double> shown = category_values(colouring.categories);
-  std::vector<Category> own = colouring.categories;
+  const std::vector<double> shown = category_values(coloring.categories);
+  std::vector<Category> own = coloring.categories;
   for (Category& category : own)
   {
     category.count = 0;
   }
-  if (colouring.by == ColourBy::rung)
+  if (coloring.by == ColorBy::rung)
   {
     if (!count_rung(data, own).ok())
     {
@@ -243,7 +243,7 @@ vtkSmartPointer<vtkDoubleArray> strongest_columns(vtkDataSet* data)
   }
   const auto weights = to_matrix(found.array);
   auto strongest = vtkSmartPointer<vtkDoubleArray>::New();
-  strongest->SetName(colour_array_name);
+  strongest->SetName(color_array_name);
   strongest->SetNumberOfValues(data->GetNumberOfCells());
   vtkNew<vtkIdList> ids;
   Eigen::RowVectorXd sums(weights.view().cols());
@@ -275,7 +275,7 @@ void look_up(vtkDoubleArray* numbers, const std::vector<double>& table)
 }
 
 // Return the table's value of the strongest column of each cell.
-vtkSmartPointer<vtkDoubleArray> handle_values(vtkDataSet* data, const Colouring& colouring)
+vtkSmartPointer<vtkDoubleArray> handle_values(vtkDataSet* data, const Coloring& coloring)
 {
   const auto columns = strongest_columns(data);
   if (!columns)
@@ -285,24 +285,24 @@ vtkSmartPointer<vtkDoubleArray> handle_values(vtkDataSet* data, const Colouring&
   // Tiles may have weights of different handles. Handles are therefore matched by name, not by
   // column.
   const std::vector<std::string> names = handle_names(find_array(data, "Weights").array);
-  const std::vector<double> shown = category_values(colouring.categories);
+  const std::vector<double> shown = category_values(coloring.categories);
   std::vector<double> values;
   for (const std::string& name : names)
   {
-    const auto its = std::find_if(colouring.categories.begin(), colouring.categories.end(),
+    const auto its = std::find_if(coloring.categories.begin(), coloring.categories.end(),
       [&](const Category& category) { return category.name == name; });
-    values.push_back(shown[static_cast<std::size_t>(its - colouring.categories.begin())]);
+    values.push_back(shown[static_cast<std::size_t>(its - coloring.categories.begin())]);
   }
   look_up(columns, values);
   return columns;
 }
 
-Status choose_handle_colouring(
-  const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring)
+Status choose_handle_coloring(
+  const std::vector<Tile>& tiles, const PictureOptions& options, Coloring& coloring)
 {
   if (options.range[0] <= options.range[1])
   {
-    return Status::invalid_input("colours by handle have no range");
+    return Status::invalid_input("colors by handle have no range");
   }
   std::vector<std::string> names;
   for (const Tile& tile : tiles)
@@ -317,7 +317,7 @@ Status choose_handle_colouring(
       }
     }
   }
-  colouring.categories = handle_categories(names);
+  coloring.categories = handle_categories(names);
   bool any = false;
   for (const Tile& tile : tiles)
   {
@@ -333,7 +333,7 @@ Status choose_handle_colouring(
       if (columns->GetValue(cell) >= 0.0)
       {
         const std::string& name = its[static_cast<std::size_t>(columns->GetValue(cell))];
-        ++std::find_if(colouring.categories.begin(), colouring.categories.end(),
+        ++std::find_if(coloring.categories.begin(), coloring.categories.end(),
           [&](const Category& category) {
             return category.name == name;
           })->count;
@@ -342,34 +342,34 @@ Status choose_handle_colouring(
   }
   if (!any)
   {
-    return Status::invalid_input("colours by handle need a mesh with the point array 'Weights'; "
+    return Status::invalid_input("colors by handle need a mesh with the point array 'Weights'; "
                                  "bindpose weights writes it");
   }
-  colouring.kind = Colouring::Kind::other;
-  colouring.map = category_map(colouring.categories);
-  colouring.map.downwards = true;
+  coloring.kind = Coloring::Kind::other;
+  coloring.map = category_map(coloring.categories);
+  coloring.map.downwards = true;
   return {};
 }
 
 // Return the table's value of the cluster of each cell.
-vtkSmartPointer<vtkDoubleArray> cluster_values(vtkDataSet* data, const Colouring& colouring)
+vtkSmartPointer<vtkDoubleArray> cluster_values(vtkDataSet* data, const Coloring& coloring)
 {
   const auto values = clusters_of_cells(data);
   if (!values)
   {
     return nullptr;
   }
-  values->SetName(colour_array_name);
-  look_up(values, category_values(colouring.categories));
+  values->SetName(color_array_name);
+  look_up(values, category_values(coloring.categories));
   return values;
 }
 
-Status choose_cluster_colouring(
-  const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring)
+Status choose_cluster_coloring(
+  const std::vector<Tile>& tiles, const PictureOptions& options, Coloring& coloring)
 {
   if (options.range[0] <= options.range[1])
   {
-    return Status::invalid_input("colours by rotation cluster have no range");
+    return Status::invalid_input("colors by rotation cluster have no range");
   }
   std::vector<vtkDataSet*> datasets;
   for (const Tile& tile : tiles)
@@ -381,17 +381,17 @@ Status choose_cluster_colouring(
   {
     return status;
   }
-  colouring.categories = cluster_categories(datasets);
-  colouring.kind = Colouring::Kind::other;
-  colouring.map = category_map(colouring.categories);
-  colouring.map.ticks.clear(); // clusters have no names
-  colouring.map.texts.clear();
+  coloring.categories = cluster_categories(datasets);
+  coloring.kind = Coloring::Kind::other;
+  coloring.map = category_map(coloring.categories);
+  coloring.map.ticks.clear(); // clusters have no names
+  coloring.map.texts.clear();
   return {};
 }
 
 // Choose bands of 0.1, or the same range without bands, and the isolines between the bands.
 void choose_weight_map(
-  const PictureOptions& options, double lower, double upper, Colouring& colouring)
+  const PictureOptions& options, double lower, double upper, Coloring& coloring)
 {
   double from = 0.0;
   double to = 1.0;
@@ -409,23 +409,23 @@ void choose_weight_map(
     to = std::ceil(10.0 * upper) / 10.0;
     bands = std::min(std::round(10.0 * (to - from)), 40.0);
   }
-  colouring.map = !options.bands ? sequential_map(from, to, 0)
-    : from == 0.0 && to == 1.0   ? weight_map()
-                                 : sequential_map(from, to, static_cast<int>(bands));
+  coloring.map = !options.bands ? sequential_map(from, to, 0)
+    : from == 0.0 && to == 1.0  ? weight_map()
+                                : sequential_map(from, to, static_cast<int>(bands));
   for (int i = 1; i < static_cast<int>(bands); ++i) // no isoline at the ends of the scale
   {
-    colouring.isolines.push_back(from + (to - from) * i / bands);
+    coloring.isolines.push_back(from + (to - from) * i / bands);
   }
 }
 
 // Check that the subtracted dataset fits a tile that has the array.
-Status check_minus(const FoundArray& found, const Colouring& colouring)
+Status check_minus(const FoundArray& found, const Coloring& coloring)
 {
-  const FoundArray other = find_array(colouring.minus, colouring.array);
+  const FoundArray other = find_array(coloring.minus, coloring.array);
   if (!other.array || other.on_points != found.on_points)
   {
     return Status::invalid_input("what is to be subtracted has no " +
-      std::string(found.on_points ? "point" : "cell") + " array '" + colouring.array + "'");
+      std::string(found.on_points ? "point" : "cell") + " array '" + coloring.array + "'");
   }
   if (other.array->GetNumberOfTuples() != found.array->GetNumberOfTuples())
   {
@@ -434,27 +434,27 @@ Status check_minus(const FoundArray& found, const Colouring& colouring)
       std::to_string(other.array->GetNumberOfTuples()) + things + ", the dataset has " +
       std::to_string(found.array->GetNumberOfTuples()) + ": a difference needs the same");
   }
-  if (find_component(other.array, colouring) == no_component)
+  if (find_component(other.array, coloring) == no_component)
   {
-    return Status::invalid_input("the array '" + colouring.array +
-      "' of what is to be subtracted has no component '" + colouring.component +
+    return Status::invalid_input("the array '" + coloring.array +
+      "' of what is to be subtracted has no component '" + coloring.component +
       "'; there are: " + component_words(other.array));
   }
   return {};
 }
 
 // Choose the map of quantities that only tets have, from all tiles that contain tets.
-Status choose_tet_colouring(
-  const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring)
+Status choose_tet_coloring(
+  const std::vector<Tile>& tiles, const PictureOptions& options, Coloring& coloring)
 {
   const bool given = options.range[0] <= options.range[1];
-  if (given && colouring.by != ColourBy::quality)
+  if (given && coloring.by != ColorBy::quality)
   {
-    return Status::invalid_input("colours by " + word_of(colouring.by) + " have no range");
+    return Status::invalid_input("colors by " + word_of(coloring.by) + " have no range");
   }
-  if (colouring.by != ColourBy::quality)
+  if (coloring.by != ColorBy::quality)
   {
-    colouring.categories = colouring.by == ColourBy::label ? label_categories() : rung_categories();
+    coloring.categories = coloring.by == ColorBy::label ? label_categories() : rung_categories();
   }
   bool any = false;
   for (const Tile& tile : tiles)
@@ -465,10 +465,10 @@ Status choose_tet_colouring(
       continue;
     }
     any = true;
-    const Status status = colouring.by == ColourBy::label
-      ? count_labels(tile.data, colouring.categories)
-      : colouring.by == ColourBy::rung ? count_rung(tile.data, colouring.categories)
-                                       : Status();
+    const Status status = coloring.by == ColorBy::label
+      ? count_labels(tile.data, coloring.categories)
+      : coloring.by == ColorBy::rung ? count_rung(tile.data, coloring.categories)
+                                     : Status();
     if (!status.ok())
     {
       return status;
@@ -477,44 +477,44 @@ Status choose_tet_colouring(
   if (!any)
   {
     return Status::invalid_input(
-      "only tets are coloured by " + word_of(colouring.by) + ", and there are none");
+      "only tets are colored by " + word_of(coloring.by) + ", and there are none");
   }
-  colouring.kind = Colouring::Kind::other;
-  if (colouring.by == ColourBy::quality)
+  coloring.kind = Coloring::Kind::other;
+  if (coloring.by == ColorBy::quality)
   {
-    colouring.map =
+    coloring.map =
       sequential_map(given ? options.range[0] : 0.0, given ? options.range[1] : regular_angle, 0);
   }
   else
   {
-    colouring.map = category_map(colouring.categories);
+    coloring.map = category_map(coloring.categories);
   }
   return {};
 }
 } // namespace
 
-std::string Colouring::legend_name() const
+std::string Coloring::legend_name() const
 {
   switch (this->by)
   {
-    case ColourBy::label:
+    case ColorBy::label:
       return "Label";
-    case ColourBy::quality:
+    case ColorBy::quality:
       return "Min. angle (°)";
-    case ColourBy::rung:
+    case ColorBy::rung:
       return "Method";
-    case ColourBy::handle:
+    case ColorBy::handle:
       return "Handle";
-    case ColourBy::row_sum:
+    case ColorBy::row_sum:
       return "Row sum";
-    case ColourBy::rotation_cluster:
+    case ColorBy::rotation_cluster:
       return std::to_string(std::count_if(this->categories.begin(), this->categories.end(),
                [](const Category& category) { return category.count > 0; })) +
         " rotation clusters";
-    case ColourBy::rotation:
+    case ColorBy::rotation:
       return "Rotation (°)";
-    case ColourBy::array:
-    case ColourBy::winding_number:
+    case ColorBy::array:
+    case ColorBy::winding_number:
       break;
   }
   if (this->minus)
@@ -524,42 +524,42 @@ std::string Colouring::legend_name() const
   return this->component_name.empty() ? this->array : this->array + " " + this->component_name;
 }
 
-vtkSmartPointer<vtkDoubleArray> colour_values(
-  vtkDataSet* data, const Colouring& colouring, bool& on_points)
+vtkSmartPointer<vtkDoubleArray> color_values(
+  vtkDataSet* data, const Coloring& coloring, bool& on_points)
 {
-  if (names_tets(colouring.by))
+  if (names_tets(coloring.by))
   {
     on_points = false;
-    return tet_values(data, colouring);
+    return tet_values(data, coloring);
   }
-  if (colouring.by == ColourBy::handle)
+  if (coloring.by == ColorBy::handle)
   {
     on_points = false;
-    return handle_values(data, colouring);
+    return handle_values(data, coloring);
   }
-  if (colouring.by == ColourBy::rotation_cluster)
+  if (coloring.by == ColorBy::rotation_cluster)
   {
     on_points = false;
-    return cluster_values(data, colouring);
+    return cluster_values(data, coloring);
   }
-  const FoundArray found = find_array(data, colouring.array);
-  const int component = found.array ? find_component(found.array, colouring) : no_component;
-  if (colouring.kind == Colouring::Kind::none || component == no_component)
+  const FoundArray found = find_array(data, coloring.array);
+  const int component = found.array ? find_component(found.array, coloring) : no_component;
+  if (coloring.kind == Coloring::Kind::none || component == no_component)
   {
     return nullptr;
   }
   on_points = found.on_points;
   auto values = vtkSmartPointer<vtkDoubleArray>::New();
-  values->SetName(colour_array_name);
+  values->SetName(color_array_name);
   values->SetNumberOfValues(found.array->GetNumberOfTuples());
   for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
   {
     values->SetValue(i, value_of(found.array, i, component));
   }
-  if (colouring.minus)
+  if (coloring.minus)
   {
-    vtkDataArray* other = find_array(colouring.minus, colouring.array).array;
-    const int its = find_component(other, colouring);
+    vtkDataArray* other = find_array(coloring.minus, coloring.array).array;
+    const int its = find_component(other, coloring);
     for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
     {
       values->SetValue(i, values->GetValue(i) - value_of(other, i, its));
@@ -568,54 +568,53 @@ vtkSmartPointer<vtkDoubleArray> colour_values(
   return values;
 }
 
-Status choose_colouring(
-  const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring)
+Status choose_coloring(
+  const std::vector<Tile>& tiles, const PictureOptions& options, Coloring& coloring)
 {
-  colouring = Colouring();
-  colouring.by = options.colour_by;
-  colouring.array = options.array;
-  colouring.component = options.component;
-  colouring.minus = options.minus;
-  if (colouring.minus && colouring.by != ColourBy::array &&
-    colouring.by != ColourBy::winding_number)
+  coloring = Coloring();
+  coloring.by = options.color_by;
+  coloring.array = options.array;
+  coloring.component = options.component;
+  coloring.minus = options.minus;
+  if (coloring.minus && coloring.by != ColorBy::array && coloring.by != ColorBy::winding_number)
   {
     return Status::invalid_input("only the numbers of an array have a difference");
   }
-  if (colouring.by != ColourBy::array)
+  if (coloring.by != ColorBy::array)
   {
-    if (!colouring.array.empty() || !colouring.component.empty())
+    if (!coloring.array.empty() || !coloring.component.empty())
     {
       return Status::invalid_input(
-        "colours come from an array or from what else is named, not from both");
+        "colors come from an array or from what else is named, not from both");
     }
-    if (names_tets(colouring.by))
+    if (names_tets(coloring.by))
     {
-      return choose_tet_colouring(tiles, options, colouring);
+      return choose_tet_coloring(tiles, options, coloring);
     }
-    if (colouring.by == ColourBy::handle)
+    if (coloring.by == ColorBy::handle)
     {
-      return choose_handle_colouring(tiles, options, colouring);
+      return choose_handle_coloring(tiles, options, coloring);
     }
-    if (colouring.by == ColourBy::rotation_cluster)
+    if (coloring.by == ColorBy::rotation_cluster)
     {
-      return choose_cluster_colouring(tiles, options, colouring);
+      return choose_cluster_coloring(tiles, options, coloring);
     }
-    colouring.array = colouring.by == ColourBy::row_sum ? "RawWeights"
-      : colouring.by == ColourBy::rotation              ? "Rotation"
-                                                        : "WindingNumber";
+    coloring.array = coloring.by == ColorBy::row_sum ? "RawWeights"
+      : coloring.by == ColorBy::rotation             ? "Rotation"
+                                                     : "WindingNumber";
   }
   for (const Tile& tile : tiles)
   {
     auto* image = vtkImageData::SafeDownCast(tile.data);
-    if (colouring.array.empty() && image && !array_names({ tile }).empty())
+    if (coloring.array.empty() && image && !array_names({ tile }).empty())
     {
-      colouring.array =
+      coloring.array =
         find_array(image, "WindingNumber").array ? "WindingNumber" : array_names({ tile }).front();
     }
   }
-  if (colouring.array.empty())
+  if (coloring.array.empty())
   {
-    return colouring.minus        ? Status::invalid_input("a difference needs the name of an array")
+    return coloring.minus         ? Status::invalid_input("a difference needs the name of an array")
       : options.component.empty() ? Status()
                                   : Status::invalid_input("a component is named, but no array");
   }
@@ -625,22 +624,22 @@ Status choose_colouring(
   bool has_component = false;
   double squares = 0.0;
   Index count = 0;
-  colouring.kind = Colouring::Kind::other;
+  coloring.kind = Coloring::Kind::other;
   for (const Tile& tile : tiles)
   {
-    const FoundArray found = find_array(tile.data, colouring.array);
+    const FoundArray found = find_array(tile.data, coloring.array);
     if (!found.array)
     {
       continue;
     }
     sample = found.array;
-    const int component = find_component(found.array, colouring);
+    const int component = find_component(found.array, coloring);
     if (component == no_component)
     {
       continue;
     }
     has_component = true;
-    const Status fits = colouring.minus ? check_minus(found, colouring) : Status();
+    const Status fits = coloring.minus ? check_minus(found, coloring) : Status();
     if (!fits.ok())
     {
       return fits;
@@ -648,10 +647,10 @@ Status choose_colouring(
     if (found.array->GetNumberOfComponents() > 1 && component >= 0)
     {
       const char* name = found.array->GetComponentName(component);
-      colouring.component_name = name && *name ? name : std::to_string(component);
+      coloring.component_name = name && *name ? name : std::to_string(component);
     }
     bool on_points = true;
-    const auto values = colour_values(tile.data, colouring, on_points);
+    const auto values = color_values(tile.data, coloring, on_points);
     for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
     {
       const double value = values->GetValue(i);
@@ -664,12 +663,12 @@ Status choose_colouring(
       }
     }
   }
-  if (!sample && colouring.by == ColourBy::row_sum)
+  if (!sample && coloring.by == ColorBy::row_sum)
   {
     return Status::invalid_input(
       "there is no array 'RawWeights'; bindpose weights --raw writes it");
   }
-  if (!sample && colouring.by == ColourBy::rotation)
+  if (!sample && coloring.by == ColorBy::rotation)
   {
     return Status::invalid_input(
       "there is no array 'Rotation'; bindpose deform --rotation-arrays writes it");
@@ -677,58 +676,58 @@ Status choose_colouring(
   if (!sample)
   {
     const std::string there = list_words(array_names(tiles));
-    return Status::invalid_input("there is no array '" + colouring.array + "'" +
+    return Status::invalid_input("there is no array '" + coloring.array + "'" +
       (there.empty() ? std::string("; the data has no arrays") : "; there are: " + there));
   }
   if (!has_component)
   {
-    return Status::invalid_input("the array '" + colouring.array + "' has no component '" +
-      colouring.component + "'; there are: " + component_words(sample));
+    return Status::invalid_input("the array '" + coloring.array + "' has no component '" +
+      coloring.component + "'; there are: " + component_words(sample));
   }
   if (lower > upper)
   {
-    return Status::invalid_input("the array '" + colouring.array + "' holds no finite number");
+    return Status::invalid_input("the array '" + coloring.array + "' holds no finite number");
   }
   const bool given = options.range[0] <= options.range[1];
-  if (colouring.minus || colouring.by == ColourBy::row_sum)
+  if (coloring.minus || coloring.by == ColorBy::row_sum)
   {
-    const double centre = colouring.minus ? 0.0 : 1.0;
-    const double reach = std::max(std::abs(lower - centre), std::abs(upper - centre));
-    if (given && !(options.range[0] <= centre && centre <= options.range[1]))
+    const double center = coloring.minus ? 0.0 : 1.0;
+    const double reach = std::max(std::abs(lower - center), std::abs(upper - center));
+    if (given && !(options.range[0] <= center && center <= options.range[1]))
     {
       return Status::invalid_input(
-        colouring.minus ? "the range of a difference holds 0" : "the range of row sums holds 1");
+        coloring.minus ? "the range of a difference holds 0" : "the range of row sums holds 1");
     }
-    colouring.map = diverging_map(
-      given ? options.range[0] : centre - reach, given ? options.range[1] : centre + reach, centre);
-    if (colouring.minus)
+    coloring.map = diverging_map(
+      given ? options.range[0] : center - reach, given ? options.range[1] : center + reach, center);
+    if (coloring.minus)
     {
-      colouring.numbers.set("picture.difference.largest", reach);
-      colouring.numbers.set(
+      coloring.numbers.set("picture.difference.largest", reach);
+      coloring.numbers.set(
         "picture.difference.rms", std::sqrt(squares / static_cast<double>(count)));
     }
     else
     {
-      colouring.numbers.set("picture.row_sum.minimum", lower);
-      colouring.numbers.set("picture.row_sum.maximum", upper);
+      coloring.numbers.set("picture.row_sum.minimum", lower);
+      coloring.numbers.set("picture.row_sum.maximum", upper);
     }
   }
-  else if (colouring.array == "WindingNumber" && !given)
+  else if (coloring.array == "WindingNumber" && !given)
   {
-    colouring.kind = Colouring::Kind::winding;
-    colouring.map = winding_map();
+    coloring.kind = Coloring::Kind::winding;
+    coloring.map = winding_map();
   }
-  else if (is_weights_array(colouring.array))
+  else if (is_weights_array(coloring.array))
   {
-    colouring.kind = Colouring::Kind::weights;
-    choose_weight_map(options, lower, upper, colouring);
+    coloring.kind = Coloring::Kind::weights;
+    choose_weight_map(options, lower, upper, coloring);
   }
   else
   {
-    const bool angles = colouring.by == ColourBy::rotation;
+    const bool angles = coloring.by == ColorBy::rotation;
     const double from = angles ? 0.0 : lower;
     const double to = angles ? angle_scale(upper) : upper;
-    colouring.map =
+    coloring.map =
       sequential_map(given ? options.range[0] : from, given ? options.range[1] : to, 0);
   }
   return Status();
@@ -736,14 +735,14 @@ Status choose_colouring(
 
 vtkSmartPointer<vtkPolyData> contour_lines(vtkPolyData* data, const std::vector<double>& values)
 {
-  if (values.empty() || !data->GetPointData()->HasArray(colour_array_name))
+  if (values.empty() || !data->GetPointData()->HasArray(color_array_name))
   {
     return vtkSmartPointer<vtkPolyData>::New();
   }
   vtkNew<vtkContourFilter> contours;
   contours->SetInputData(data);
   contours->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, colour_array_name);
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, color_array_name);
   contours->ComputeScalarsOff();
   for (std::size_t i = 0; i < values.size(); ++i)
   {

@@ -1,5 +1,5 @@
-#ifndef bindpose_pose_rotation_centres_h
-#define bindpose_pose_rotation_centres_h
+#ifndef bindpose_pose_rotation_centers_h
+#define bindpose_pose_rotation_centers_h
 
 #include "base/execution.h"
 #include "base/mesh.h"
@@ -7,7 +7,7 @@
 namespace bindpose
 {
 
-struct RotationCentresOptions
+struct RotationCentersOptions
 {
   /// Width of the similarity of weights, sigma of the paper; above 0, 0.1 by default.
   double width = 0.1;
@@ -41,10 +41,10 @@ struct RotationCentresOptions
 /// (vertices with a computed center). The result has the same bits for any number of threads and on
 /// any machine. invalid_input for options out of range, for weights that are not finite, and if the
 /// numbers of rows and points differ; elements must be valid (check_mesh).
-Status rotation_centres(ExecutionContext& context, const RotationCentresOptions& options,
-  PointsView points, TetsView tets, WeightsView weights, Points& centres);
-Status rotation_centres(ExecutionContext& context, const RotationCentresOptions& options,
-  PointsView points, TrianglesView triangles, WeightsView weights, Points& centres);
+Status rotation_centers(ExecutionContext& context, const RotationCentersOptions& options,
+  PointsView points, TetsView tets, WeightsView weights, Points& centers);
+Status rotation_centers(ExecutionContext& context, const RotationCentersOptions& options,
+  PointsView points, TrianglesView triangles, WeightsView weights, Points& centers);
 
 } // namespace bindpose
 

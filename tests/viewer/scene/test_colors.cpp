@@ -1,5 +1,5 @@
 // Color maps have the documented properties.
-#include "scene/colours.h"
+#include "scene/colors.h"
 
 #include "vtkMath.h"
 
@@ -12,10 +12,10 @@ using namespace bindpose;
 
 namespace
 {
-double lab_lightness(const Rgb& colour)
+double lab_lightness(const Rgb& color)
 {
   double lab[3];
-  vtkMath::RGBToLab(colour.data(), lab);
+  vtkMath::RGBToLab(color.data(), lab);
   return lab[0];
 }
 
@@ -30,7 +30,7 @@ double lab_distance(const Rgb& a, const Rgb& b)
 
 // Return the color as seen with color blindness of one type: matrices of Machado, Oliveira and
 // Fernandes 2009, severity 1, applied to linear light.
-Rgb seen_by(const std::array<std::array<double, 3>, 3>& matrix, const Rgb& colour)
+Rgb seen_by(const std::array<std::array<double, 3>, 3>& matrix, const Rgb& color)
 {
   const auto to_linear = [](double c)
   { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
@@ -45,7 +45,7 @@ Rgb seen_by(const std::array<std::array<double, 3>, 3>& matrix, const Rgb& colou
     double sum = 0.0;
     for (int k = 0; k < 3; ++k)
     {
-      sum += matrix[i][k] * to_linear(colour[k]);
+      sum += matrix[i][k] * to_linear(color[k]);
     }
     result[i] = from_linear(sum);
   }
@@ -63,21 +63,21 @@ const std::array<std::array<double, 3>, 3> eyes[4] = {
 };
 } // namespace
 
-TEST(Colours, SequentialGetsDarkerEvenlyForAllEyes)
+TEST(Colors, SequentialGetsDarkerEvenlyForAllEyes)
 {
   for (const auto& eye : eyes)
   {
-    double before = lab_lightness(seen_by(eye, sequential_colour(0.0)));
+    double before = lab_lightness(seen_by(eye, sequential_color(0.0)));
     for (int i = 1; i <= 9; ++i)
     {
-      const double now = lab_lightness(seen_by(eye, sequential_colour(i / 9.0)));
+      const double now = lab_lightness(seen_by(eye, sequential_color(i / 9.0)));
       EXPECT_LT(now, before - 2.5) << "band " << i;
       before = now;
     }
   }
 }
 
-TEST(Colours, WindingNumbersOfFiveKindsAreToldApartByAllEyes)
+TEST(Colors, WindingNumbersOfFiveKindsAreToldApartByAllEyes)
 {
   for (const auto& eye : eyes)
   {
@@ -86,37 +86,37 @@ TEST(Colours, WindingNumbersOfFiveKindsAreToldApartByAllEyes)
     {
       for (int k = 0; k < i; ++k)
       {
-        EXPECT_GT(lab_distance(seen_by(eye, winding_colour(values[i])),
-                    seen_by(eye, winding_colour(values[k]))),
+        EXPECT_GT(lab_distance(
+                    seen_by(eye, winding_color(values[i])), seen_by(eye, winding_color(values[k]))),
           20.0)
           << values[i] << " and " << values[k];
       }
     }
   }
   // Rounding around 0 and 1 is invisible; a deviation of 0.03 is visible.
-  EXPECT_LT(lab_distance(winding_colour(-1e-9), winding_colour(1e-9)), 1e-3);
-  EXPECT_LT(lab_distance(winding_colour(1.0 - 1e-9), winding_colour(1.0 + 1e-9)), 1e-3);
-  EXPECT_GT(lab_distance(winding_colour(-0.03), winding_colour(0.0)), 15.0);
-  EXPECT_GT(lab_distance(winding_colour(1.03), winding_colour(1.0)), 15.0);
+  EXPECT_LT(lab_distance(winding_color(-1e-9), winding_color(1e-9)), 1e-3);
+  EXPECT_LT(lab_distance(winding_color(1.0 - 1e-9), winding_color(1.0 + 1e-9)), 1e-3);
+  EXPECT_GT(lab_distance(winding_color(-0.03), winding_color(0.0)), 15.0);
+  EXPECT_GT(lab_distance(winding_color(1.03), winding_color(1.0)), 15.0);
 }
 
-TEST(Colours, TablesMapValuesToTheRightBand)
+TEST(Colors, TablesMapValuesToTheRightBand)
 {
-  const ColourMap map = weight_map();
+  const ColorMap map = weight_map();
   ASSERT_EQ(map.table->GetNumberOfTableValues(), 10);
   for (int band = 0; band < 10; ++band)
   {
     double rgb[3];
     map.table->GetColor(0.1 * band + 0.05, rgb);
-    const Rgb expected = sequential_colour(band / 9.0);
+    const Rgb expected = sequential_color(band / 9.0);
     for (int k = 0; k < 3; ++k)
     {
       EXPECT_NEAR(rgb[k], expected[k], 1.0 / 255.0);
     }
   }
-  const ColourMap other = sequential_map(-3.0, 17.0, 0);
+  const ColorMap other = sequential_map(-3.0, 17.0, 0);
   EXPECT_EQ(other.ticks, (std::vector<double>{ 0.0, 5.0, 10.0, 15.0 }));
-  const ColourMap constant = sequential_map(4.0, 4.0, 0);
+  const ColorMap constant = sequential_map(4.0, 4.0, 0);
   EXPECT_EQ(constant.ticks, std::vector<double>{ 4.0 });
   EXPECT_GT(constant.upper, constant.lower);
 }

@@ -318,7 +318,7 @@ def main(options):
               f"errs by {np.abs(fast - exact).max():.1e}")
 
     # The gradient, compared with differences of the field.
-    _, gradient = bindpose.winding_number(surface, few, gradient=True, method="exact")
+    _, gradient = bindpose.winding_number(surface, few, compute_gradient=True, method="exact")
     step = 1e-5 * length
     beside = [bindpose.winding_number(surface, few + s * step * np.eye(3)[0], method="exact") for s in (-1, 1)]
     slope = (beside[1] - beside[0]) / (2 * step)

@@ -166,7 +166,7 @@ def main_job(options, program, bindpose):
     program.run("What kind of mesh is it?", "info", mesh, report="info")
 
     program.run("Inside or outside? The winding number on a grid.",
-                "winding", mesh, "--grid", "96", "-o", "winding.vti", report="winding")
+                "winding", mesh, "--resolution", "96", "-o", "winding.vti", report="winding")
     program.run("A slice through it.", "render", "winding.vti", "-o", "winding.png")
 
     program.run("The inside as tets.", "tetrahedralize", mesh, "-o", "tets.vtu", report="tetrahedralize")

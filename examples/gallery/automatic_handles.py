@@ -61,14 +61,14 @@ def make(options):
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", bindpose.BindposeWarning)  # toes and fingers are finer than the lattice
-        weighted = bindpose.weights(armadillo, bones, domain="embedding", resolution=20 if options.small else 0)
+        weighted = bindpose.weights(armadillo, bones, domain="embedding", embedding_resolution=20 if options.small else 0)
     sums = point_array(weighted, "Weights").sum(axis=1)
     numbers["armadillo: largest error of a row sum"] = float(np.abs(sums - 1).max())
     posed = bindpose.deform(weighted, bones, bent(bones, 20.0))
 
-    inside = bindpose.automatic_handles(armadillo, points=16)
+    inside = bindpose.automatic_handles(armadillo, method="points", number_of_points=16)
     numbers["points inside"] = bindpose.report(inside)["counts"]["points_inside"]
-    on_surface = points_of(bindpose.automatic_handles(armadillo, points=16, place_inside=False, distance="straight"))
+    on_surface = points_of(bindpose.automatic_handles(armadillo, method="points", number_of_points=16, place_inside=False, distance="straight"))
     apart = np.linalg.norm(on_surface[:, None] - on_surface[None], axis=2) + 1e9 * np.eye(len(on_surface))
     vertices = points_of(armadillo)
     covering = max(np.linalg.norm(vertices[k:k + 4096, None] - on_surface[None], axis=2).min(axis=1).max()

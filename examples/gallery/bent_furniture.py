@@ -98,7 +98,7 @@ def make(options):
         mesh = piece(options, name)
         points = points_of(mesh)
         box = points.min(axis=0), points.max(axis=0)
-        handles = bindpose.automatic_handles(mesh, points=HANDLES // (2 if options.small else 1),
+        handles = bindpose.automatic_handles(mesh, method="points", number_of_points=HANDLES // (2 if options.small else 1),
                                               place_inside=False, distance="straight")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", bindpose.BindposeWarning)  # surface defects, which the numbers contain

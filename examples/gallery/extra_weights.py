@@ -72,7 +72,7 @@ def make(options):
             labels.append(f"{title}: {energy:.3g}")
             bindpose.write(posed, options.scratch / files[-1])
         full = bindpose.report(bindpose.deform(weighted, handles, {"handles": pose}, method="full-arap",
-                                               iterations=5000))
+                                               maximum_iterations=5000))
         numbers[f"{name}, every vertex, energy"] = full["energy"]
     for kind in ("bumps", "eigenmodes"):
         numbers[f"squeeze, 0 3 6 10 15 {kind}"] = [

@@ -36,7 +36,7 @@ def make(options):
     let_go = {"handles": {"p2": {"mode": "free"}}}
     pose = {"fps": 1 / (HELD * STEP), "frames": [drawn, let_go]}
     frames = bindpose.dynamics(weighted, handles, pose, frames=FRAMES, time_step=STEP, gravity=(0, 0, -9.81),
-                               stiffness=3000, damping=0.3, extra_weights=10, extra_kind="eigenmodes")
+                               stiffness=3000, damping=0.3, number_of_extra_weights=10, extra_weights_kind="eigenmodes")
     top = int(np.argmin(np.linalg.norm(points - [0.75, 0.75, 3], axis=1)))
     aside = np.array([points_of(frame)[top, 0] - points[top, 0] for frame in frames])
     reports = [bindpose.report(frame) for frame in frames]

@@ -56,7 +56,7 @@ def make(options):
         "region": dict(fixed=~inside | (radius <= INNER + 1e-9)),
         "ring inside": dict(fixed=~inside | ring),
         "curve": dict(fixed=~inside | (radius <= INNER + 1e-9), boundary="curve"),
-        "tangents": dict(fixed=~inside | (radius <= INNER + 1e-9), boundary="tangent", tangents="given"),
+        "tangents": dict(fixed=~inside | (radius <= INNER + 1e-9), boundary="tangent", tangent_source="given"),
     }
     numbers, files, labels = {}, [], []
     for name, settings in cases.items():

@@ -33,7 +33,7 @@ def make(options):
     made, seconds, reports = {}, {}, {}
     for partition in ("coupled", "normalize"):
         start = time.perf_counter()
-        made[partition] = bindpose.weights(to_dataset(mesh), handles, domain="surface", partition=partition)
+        made[partition] = bindpose.weights(to_dataset(mesh), handles, domain="surface", partition_of_unity=partition)
         seconds[partition] = time.perf_counter() - start
         reports[partition] = bindpose.report(made[partition])
     both = {name: point_array(data, "Weights") for name, data in made.items()}

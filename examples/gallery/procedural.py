@@ -31,8 +31,8 @@ def make(options):
         "mode": "position",
         "translate": ["0.25 * cos(7 * t) - 0.25" if k == 0 else 0, 0, f"0.7 * sin(7 * t - {1.5 * k}) * min(1, 5 * t)"],
     } for k in range(5)}}
-    posed = bindpose.deform(weighted, handles, pose, method="reduced-arap", times=TIMES, iterations=2000,
-                            extra_weights=15, extra_kind="eigenmodes")
+    posed = bindpose.deform(weighted, handles, pose, method="reduced-arap", times=TIMES, maximum_iterations=2000,
+                            number_of_extra_weights=15, extra_weights_kind="eigenmodes")
     vertices = [int(np.argmin(np.linalg.norm(points_of(weighted) - place, axis=1))) for place in places]
     misses, files = [], []
     for t, mesh in zip(TIMES, posed):

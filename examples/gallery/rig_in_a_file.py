@@ -50,7 +50,7 @@ def make(options):
     numbers, back = {}, {}
     for name, influences in (("all", 0), ("four", 4)):
         path = options.scratch / f"{name}.glb"
-        report = bindpose.write_rig(weighted, handles, path, frames=exact, fps=8, influences=influences)
+        report = bindpose.write_rig(weighted, handles, path, frames=exact, fps=8, maximum_influences=influences)
         rig = bindpose.read_rig(path)
         back[name] = bindpose.deform(rig.mesh, rig.handles, rig.pose)
         numbers[f"{name}: bytes"] = report["file_bytes"]

@@ -60,7 +60,7 @@ def make(options):
             add_point_array(posed, "Painted", painted.astype(float))
             files.append(f"{paint}.vtp")
             bindpose.write(posed, options.scratch / files[-1])
-    _, exact, gap = bend(rigid_sets=blocks[0] + 2 * blocks[1])
+    _, exact, gap = bend(rigid_set=blocks[0] + 2 * blocks[1])
     labels = [f"painted {paint}: stretched by {100 * stretches[PAINT.index(paint)]:.2g} %" for paint in SHOWN]
     common.render(options, *files, "--array", "Painted", "--edges", "--columns", 1, "--size", "1200x1250",
                   "--labels", ",".join(labels), "--title", "Rigidity painted on two blocks of a bar")

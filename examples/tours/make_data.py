@@ -155,9 +155,9 @@ def main():
     write_tgf(DATA / "figure.tgf", POINTS, [SPINE])
     paper_doll(DATA / "doll.png")
     leaf(DATA)
-    for words in (["winding", "figure.off", "--grid", "72", "--float", "-o", "figure_winding.vti"],
+    for words in (["winding", "figure.off", "--resolution", "72", "--output-precision", "single", "-o", "figure_winding.vti"],
                   ["tetrahedralize", "figure.off", "--method", "cdt", "--interior-edge", "0.06", "-o", "figure_tets.vtu"],
-                  ["weights", "figure.off", "--handles", "figure.tgf", "--raw", "-o", "figure_weights.vtp"],
+                  ["weights", "figure.off", "--handles", "figure.tgf", "--keep-raw", "-o", "figure_weights.vtp"],
                   ["info", "figure.off"]):
         subprocess.run([program, *words, "--overwrite", "--quiet"], cwd=DATA, check=True)
 

@@ -1,10 +1,9 @@
 """Write the C++ of the command line: the table of verbs and options, and functions that pass options to filters."""
 
 import json
-import re
 import textwrap
 
-from descriptions import cli_name, plain, vtk_name
+from descriptions import MENTION, cli_name, plain, vtk_name
 
 KINDS = {"flag": "flag", "text": "text", "path": "text", "point_array": "text", "cell_array": "text", "choice": "choice",
          "integer": "integer", "id": "integer", "number": "number", "integers": "integers", "numbers": "numbers"}
@@ -47,11 +46,8 @@ def listed(words):
 
 def help_text(option):
     """The sentences of --help, with names as they are typed there, and the methods that use the option."""
-    text = option.help
-    if option.owner:
-        for other in option.owner.options:
-            if "_" in other.name:
-                text = re.sub(rf"\b{other.name}\b", f"--{cli_name(other)}", text)
+    names = {other.name: f"--{cli_name(other)}" for other in (option.owner.options if option.owner else [])}
+    text = MENTION.sub(lambda found: names[found[1]], option.help)
     if option.type == "flag" and option.default:
         text = "Off: " + text[0].lower() + text[1:]
     if option.methods():

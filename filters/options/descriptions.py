@@ -6,6 +6,7 @@ fields. Everything that shows or parses options is generated from these descript
 
 import json
 import pathlib
+import re
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 LAYERS = ("vtk", "paraview", "python", "cli")
@@ -100,6 +101,14 @@ class Set:
         return [option for option in self.options if layer in option.layers]
 
 
+MENTION = re.compile(r"`(\w+)`")
+
+
+def mentions(option):
+    """Names of options that the help of an option mentions, in backticks."""
+    return MENTION.findall(option.help)
+
+
 def vtk_name(option):
     """The name of the VTK property: winding_threshold -> WindingThreshold, rigidity -> RigidityArrayName."""
     name = "".join(word.capitalize() for word in option.name.split("_"))
@@ -157,8 +166,8 @@ def check_option(option, allowed_fields, types):
             check_default(option, default)
 
 
-def check_methods(sets):
-    """Methods of options and sets are choices of the method option that they refer to."""
+def check_references(sets):
+    """Methods are choices of the method option that they refer to; options in the help are options of the set."""
     known = {}
     for group in sets.values():
         for option in group.options:
@@ -167,6 +176,8 @@ def check_methods(sets):
     for group in sets.values():
         words = known.get(group.methods_of or group.name, set())
         for option in group.options:
+            unknown = [name for name in mentions(option) if name not in {other.name for other in group.options}]
+            require(not unknown, option.where, f"help mentions '{unknown[0] if unknown else ''}', which is not an option of the set")
             strange = [word for word in option.methods() if word not in words]
             require(not strange, option.where, f"unknown method '{strange[0] if strange else ''}'")
 
@@ -197,7 +208,7 @@ def read_sets(source=SOURCE):
             for option in sets[name].options:
                 require(option.default is not None, option.where, "a default is missing")
                 check_option(option, OPTION_FIELDS, STAGE_TYPES)
-    check_methods(sets)
+    check_references(sets)
     return sets
 
 

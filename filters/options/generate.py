@@ -7,12 +7,14 @@ usage: generate.py check                              read and check all descrip
        generate.py paraview TEMPLATE.xml OUT.xml      proxies with their properties
        generate.py python-table OUT.py                the table of the Python package
        generate.py python-stub MODULE.py OUT.pyi      the stub of a module
+       generate.py page PAGE.md OUT.md                a page with its tables of options; OUT may be PAGE
 """
 
 import pathlib
 import sys
 
 import command_line
+import documentation
 import paraview
 import python_package
 from descriptions import DescriptionError, read_sets, read_verbs
@@ -35,11 +37,14 @@ def generated(kind, inputs):
         return command_line.table(verbs, common)
     if kind == "set-options":
         return command_line.setters(sets, verbs)
+    if kind == "page":
+        return documentation.page(read(inputs[0]), verbs, common)
     return ""
 
 
 def main():
-    inputs = {"check": 0, "option-table": 0, "set-options": 0, "paraview": 1, "python-table": 0, "python-stub": 1}
+    inputs = {"check": 0, "option-table": 0, "set-options": 0, "paraview": 1, "python-table": 0, "python-stub": 1,
+              "page": 1}
     arguments = sys.argv[1:]
     kind = arguments[0] if arguments else ""
     if kind not in inputs or len(arguments) != (1 if kind == "check" else 2 + inputs[kind]):

@@ -3,17 +3,12 @@
 import re
 from xml.sax.saxutils import escape, quoteattr
 
-from descriptions import plain, vtk_name
+from descriptions import MENTION, plain, vtk_name
 
 MARK = re.compile(r"^( *)<Options set=\"(\w+)\"(?: filter=\"(\w+)\")?/>\n", re.MULTILINE)
 ELEMENTS = {"flag": "IntVectorProperty", "choice": "IntVectorProperty", "integer": "IntVectorProperty",
             "integers": "IntVectorProperty", "id": "IdTypeVectorProperty", "number": "DoubleVectorProperty",
             "numbers": "DoubleVectorProperty", "point_array": "StringVectorProperty", "cell_array": "StringVectorProperty"}
-
-
-def camel_case(text):
-    """Names of options in a sentence become those of properties: interior_edge -> Interior Edge."""
-    return re.sub(r"\b[a-z]+(?:_[a-z]+)+\b", lambda found: found[0].replace("_", " ").title(), text)
 
 
 def default_text(option, filter_name):
@@ -58,7 +53,7 @@ def hints(option):
 
 def sentence(option):
     values = option.values_text()
-    return camel_case(option.help) + (f" {values[0].upper()}{values[1:]}." if values else "")
+    return MENTION.sub(lambda found: found[1].replace("_", " ").title(), option.help) + (f" {values[0].upper()}{values[1:]}." if values else "")
 
 
 def property_lines(option, filter_name):

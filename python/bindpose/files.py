@@ -141,7 +141,7 @@ def read_rig(path):
     return Rig(reader.GetOutput(0), reader.GetOutput(1), pose)
 
 
-def write_rig(mesh, handles, path, *, frames=(), fps=24.0, animation="joints", influences=0, overwrite=False):
+def write_rig(mesh, handles, path, *, frames=(), fps=24.0, animation="joints", maximum_influences=0, overwrite=False):
     """Write a mesh with weights and its handles as a skinned glTF 2.0 file, for Blender and game engines.
 
     Parameters
@@ -158,7 +158,7 @@ def write_rig(mesh, handles, path, *, frames=(), fps=24.0, animation="joints", i
         Frames per second.
     animation : {"joints", "morph"}
         Frames are stored as transforms of the joints (linear blends), or as morph targets (all methods).
-    influences : int
+    maximum_influences : int
         Maximum number of weights written per vertex, the largest; 0: all.
     overwrite : bool
         Replace an existing file.
@@ -186,7 +186,7 @@ def write_rig(mesh, handles, path, *, frames=(), fps=24.0, animation="joints", i
         writer.AddFrameData(to_dataset(frame))
     writer.SetFramesPerSecond(float(fps))
     writer.SetAnimation(int(animation == "morph"))
-    writer.SetMaximumInfluences(int(influences))
+    writer.SetMaximumInfluences(int(maximum_influences))
     writer.SetFileName(os.fspath(path))
     writer.SetOverwrite(bool(overwrite))
     return run(writer)

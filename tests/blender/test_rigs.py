@@ -74,7 +74,7 @@ def test_a_posed_bone(folder, row_sum):
 
 
 def test_the_largest_four_weights(folder):
-    mesh, report = rig(folder, influences=4)
+    mesh, report = rig(folder, maximum_influences=4)
     assert report["sets"] == 1 and report["counts"]["dropped_weights"] > 0
     found = blender(folder, "b2", "40")
     assert found["most_groups"] == 4

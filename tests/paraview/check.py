@@ -118,9 +118,9 @@ def main():
     assert one["numbers"] == two["numbers"], "tets and weights depend on the ranks"
     samples = in_both_builds = 0
     for name, surface, options in (
-        ("spheres", folder / "1" / "spheres.vtp", ("--grid", "40")),
-        ("mesh", mesh, ("--grid", "48")),
-        ("exact", mesh, ("--grid", "24", "--method", "exact")),
+        ("spheres", folder / "1" / "spheres.vtp", ("--resolution", "40")),
+        ("mesh", mesh, ("--resolution", "48")),
+        ("exact", mesh, ("--resolution", "24", "--method", "exact")),
         ("points", None, ()),
     ):
         alone, values = compare_ranks(folder, name)

@@ -47,7 +47,7 @@ def test_winding_number_on_grids_and_datasets():
 
 def test_winding_number_is_the_programs(tmp_path):
     bindpose.write(shapes.open_cube(), tmp_path / "c.off")
-    program(tmp_path, "winding", "c.off", "--grid", 16, "-o", "w.vti")
+    program(tmp_path, "winding", "c.off", "--resolution", 16, "-o", "w.vti")
     theirs = bindpose.read(tmp_path / "w.vti")
     ours = bindpose.winding_number(shapes.open_cube(), 16)
     assert np.array_equal(point_array(theirs, "WindingNumber"), point_array(ours, "WindingNumber"))
@@ -173,10 +173,10 @@ def test_weights_with_terms():
     pinned = len(points) // 2
     pins[pinned] = [0.9, np.nan]
     sets = (np.arange(len(points)) == 3) | (np.arange(len(points)) == 4)
-    w = bindpose.weights(BAR, handles, domain="surface", pins=pins, rigid_sets=sets, rigidity=np.ones(len(points)))
+    w = bindpose.weights(BAR, handles, domain="surface", pinned=pins, rigid_set=sets, rigidity=np.ones(len(points)))
     assert w[pinned, 0] == 0.9 and np.array_equal(w[3], w[4])
     assert np.abs(np.asarray(w) - np.asarray(free)).max() > 1e-3
-    coupled = bindpose.weights(BAR, handles, domain="surface", partition="coupled", bounds=(-1, 2))
+    coupled = bindpose.weights(BAR, handles, domain="surface", partition_of_unity="coupled", bounds=(-1, 2))
     assert np.allclose(np.sum(coupled, axis=1), 1, atol=1e-12)
     assert w.names == ["p1", "p2"]
     alike = bindpose.weights(BAR, handles, domain="surface", bounds={"p2": (0, 1)})
@@ -185,12 +185,12 @@ def test_weights_with_terms():
         bindpose.weights(BAR, handles, bounds={"p3": (0, 1)})
     with pytest.raises(bindpose.InvalidInput, match="bounds of handle 'p1'"):
         bindpose.weights(BAR, handles, domain="surface", bounds={"p1": (1, 0)})
-    one = bindpose.weights(BAR, handles, influences=1)
+    one = bindpose.weights(BAR, handles, maximum_influences=1)
     assert ((np.asarray(one) > 0).sum(axis=1) == 1).mean() > 0.9
     with pytest.raises(bindpose.InvalidInput, match="no point array 'paint'"):
         bindpose.weights(BAR, handles, rigidity="paint")
     with pytest.raises(bindpose.InvalidInput, match="harmonic"):
-        bindpose.weights(BAR, handles, method="harmonic", influences=2)
+        bindpose.weights(BAR, handles, method="harmonic", maximum_influences=2)
 
 
 def test_weights_on_the_surface():
@@ -289,7 +289,7 @@ def test_single_precision_and_few_influences(method):
     exact = bindpose.deform(BAR, handles, pose, weights=weights, method=method)
     single = bindpose.deform(BAR, handles, pose, weights=weights, method=method, single_precision=True)
     assert 0 < abs(single - exact).max() < 1e-5
-    one = bindpose.deform(BAR, handles, pose, weights=weights, method=method, influences=1)
+    one = bindpose.deform(BAR, handles, pose, weights=weights, method=method, maximum_influences=1)
     assert one.report["dropped_share"] == pytest.approx(np.minimum(x, 1 - x).max())
     assert one.report["counts"]["dropped_weights"] == np.count_nonzero(np.minimum(x, 1 - x))
     few = bindpose.deform(BAR, handles, pose, weights=weights, method=method, smallest_weight=0.2)
@@ -303,7 +303,7 @@ def test_mixed_precision():
     pose = {"handles": {"b2": {"mode": "position", "translate": [0, 1, 0]}}}
 
     def solved(mixed):
-        options = dict(weights=weights, tolerance=1e-12, iterations=1000, mixed_precision=mixed)
+        options = dict(weights=weights, tolerance=1e-12, maximum_iterations=1000, mixed_precision=mixed)
         alone = bindpose.deform(BAR, handles, pose, method="reduced-arap", **options)
         instance, = bindpose.crowd(BAR, handles, pose, **options)
         step = bindpose.dynamics(BAR, handles, pose, frames=2, weights=weights, mixed_precision=mixed)[-1]

@@ -56,15 +56,15 @@ def test_values_are_kept_and_data_may_weigh_nothing():
 def test_datasets_keep_their_arrays():
     mesh = to_dataset(BAR)
     add_point_array(mesh, "Height", DATA)
-    smooth = bindpose.monotone_smoothing(mesh, "Height", count=2)
+    smooth = bindpose.monotone_smoothing(mesh, "Height", number_of_extrema=2)
     assert type(smooth) is type(mesh) and point_array(mesh, "Smoothed") is None
     assert np.abs(point_array(smooth, "SmoothedExtrema")).sum() == 2
     assert np.array_equal(point_array(smooth, "Height"), DATA)
-    values = bindpose.monotone_smoothing(BAR, DATA, count=2)
+    values = bindpose.monotone_smoothing(BAR, DATA, number_of_extrema=2)
     assert np.array_equal(point_array(smooth, "Smoothed"), values)
     mesh.GetPointData().SetActiveScalars("Height")
-    assert np.array_equal(point_array(bindpose.monotone_smoothing(mesh, count=2), "Smoothed"), values)
-    from_array = bindpose.monotone_smoothing(mesh, DATA, count=2)
+    assert np.array_equal(point_array(bindpose.monotone_smoothing(mesh, number_of_extrema=2), "Smoothed"), values)
+    from_array = bindpose.monotone_smoothing(mesh, DATA, number_of_extrema=2)
     names = {from_array.GetPointData().GetArrayName(i) for i in range(from_array.GetPointData().GetNumberOfArrays())}
     assert names == {"Height", "Smoothed", "SmoothedExtrema"}
 
@@ -106,4 +106,4 @@ def test_constant_data_stay_and_few_iterations_warn():
     with pytest.warns(bindpose.BindposeWarning, match="constant"):
         assert (bindpose.monotone_smoothing(BAR, np.full(len(X), 2.5)) == 2.5).all()
     with pytest.warns(bindpose.NotConvergedWarning):
-        bindpose.monotone_smoothing(BAR, DATA, count=2, maximum_iterations=1)
+        bindpose.monotone_smoothing(BAR, DATA, number_of_extrema=2, maximum_iterations=1)

@@ -112,7 +112,7 @@ def commands(program, surface, folder):
     (folder / "pose.json").write_text(json.dumps(POSE), encoding="utf-8")
     words = {
         "info": [surface],
-        "winding": [surface, "--grid", "256", "-o", folder / "winding.vti"],
+        "winding": [surface, "--resolution", "256", "-o", folder / "winding.vti"],
         "tetrahedralize": [surface, "-o", folder / "tets.vtu"],
         "weights": [surface, "--handles", "auto:8", "-o", folder / "weights.vtp"],
         "deform": [folder / "weights.vtp", "--handles", folder / "handles.vtp", "--pose", folder / "pose.json",
@@ -125,7 +125,7 @@ def commands(program, surface, folder):
 def counts_of(program, surface, folder):
     """Return the number of triangles. Also write the handles that deform moves."""
     done = subprocess.run([program, "info", surface, "--report", "-", "--quiet"], capture_output=True, text=True, check=True)
-    subprocess.run([program, "handles", surface, "--points", "8", "-o", folder / "handles.vtp", "--overwrite", "--quiet"],
+    subprocess.run([program, "handles", surface, "--method", "points", "--number-of-points", "8", "-o", folder / "handles.vtp", "--overwrite", "--quiet"],
                    check=True)
     return json.loads(done.stdout[done.stdout.index("{"):])["counts"]["triangles"]
 

@@ -72,7 +72,7 @@ private:
   double compared_seconds_ = 0.0;
 };
 
-/// Add the result of a bind to a surface, as in a file that `bindpose weights --raw` writes: the
+/// Add the result of a bind to a surface, as in a file that `bindpose weights --keep-raw` writes: the
 /// point arrays Weights and RawWeights, the columns' certificates, and the seconds in the report.
 void add_weights(const BindResult& result, const bindpose::Handles& handles, vtkPolyData* surface);
 /// Return the tets that were solved on, with the same arrays; null if the surface itself was solved

@@ -300,7 +300,7 @@ void WeightPanel::enable()
   const auto first = [&none](const QString& reason) { return none.isEmpty() ? reason : none; };
   const QString no_raw = this->facts_.has_raw
     ? QString()
-    : tr("The raw columns are not there: bind here, or let bindpose weights --raw write them");
+    : tr("The raw columns are not there: bind here, or let bindpose weights --keep-raw write them");
   const bool all = this->column() < 0;
   const bool sums = this->what() == row_sums;
   const bool differs = this->what() == difference;

@@ -275,9 +275,6 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
       add_option(*sub, option, arguments);
     }
   }
-  app.add_subcommand("option-table", "the table of all options as Markdown")
-    ->group("")
-    ->callback([&arguments]() { arguments.verb = "option-table"; });
   app.add_subcommand("key-table", "the table of the window's keys as Markdown")
     ->group("")
     ->callback([&arguments]() { arguments.verb = "key-table"; });

@@ -3,7 +3,6 @@
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
 #include "cli/key_table.h"
-#include "cli/option_table.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
 
@@ -70,11 +69,6 @@ int main(int argc, char** argv)
   if (early >= 0)
   {
     return early;
-  }
-  if (arguments.verb == "option-table")
-  {
-    std::cout << option_table_markdown();
-    return 0;
   }
   if (arguments.verb == "key-table")
   {

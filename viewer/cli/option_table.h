@@ -52,7 +52,12 @@ struct Option
 
   bool positional() const { return this->name[0] != '-'; }
   /// Return the name that Arguments uses: "resolution", "output", "SURFACE".
-  std::string key() const;
+  std::string key() const
+  {
+    const std::string names = this->name;
+    const std::size_t dashes = names.rfind("--");
+    return dashes == std::string::npos ? names : names.substr(dashes + 2);
+  }
 };
 
 struct Verb
@@ -67,9 +72,6 @@ struct Verb
 const std::vector<Verb>& verbs();
 /// Return the options that every verb has.
 const std::vector<Option>& common_options();
-
-/// Return the table as Markdown, as viewer/command_line.md contains it.
-std::string option_table_markdown();
 
 } // namespace bindpose::cli
 

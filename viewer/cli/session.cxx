@@ -349,7 +349,7 @@ bool Session::write_rig(vtkDataSet* mesh, vtkPolyData* handles,
   }
   writer->SetFramesPerSecond(frames_per_second);
   writer->SetAnimation(morph ? vtkGLTFSkinWriter::MORPH : vtkGLTFSkinWriter::JOINTS);
-  writer->SetMaximumInfluences(this->arguments_.integer("gltf-influences"));
+  writer->SetMaximumInfluences(this->arguments_.integer("gltf-maximum-influences"));
   writer->SetFileName(path.c_str());
   writer->SetOverwrite(this->arguments_.has("overwrite"));
   // The numbers of the writer are kept apart from those of the verb.

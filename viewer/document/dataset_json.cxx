@@ -348,8 +348,19 @@ json options_to_json(const Options& options)
         value = option.value().toBool();
         break;
       case QVariant::Int:
-        value = option.value().toInt();
+      {
+        const OptionInfo* info = find_option(option.key());
+        const int number = option.value().toInt();
+        if (info && number >= 0 && number < static_cast<int>(info->words.size()))
+        {
+          value = info->words[static_cast<std::size_t>(number)];
+        }
+        else
+        {
+          value = number;
+        }
         break;
+      }
       case QVariant::List:
         for (const QVariant& number : option.value().toList())
         {
@@ -369,6 +380,10 @@ namespace
 /// Return an invalid variant for values that no option can have.
 QVariant value_from_json(const json& value)
 {
+  if (value.is_string())
+  {
+    return QString::fromStdString(value.get<std::string>());
+  }
   if (value.is_boolean())
   {
     return value.get<bool>();

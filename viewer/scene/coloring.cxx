@@ -666,7 +666,7 @@ Status choose_coloring(
   if (!sample && coloring.by == ColorBy::row_sum)
   {
     return Status::invalid_input(
-      "there is no array 'RawWeights'; bindpose weights --raw writes it");
+      "there is no array 'RawWeights'; bindpose weights --keep-raw writes it");
   }
   if (!sample && coloring.by == ColorBy::rotation)
   {

@@ -233,7 +233,7 @@ TEST_F(WeightWindow, RowSumsNeedRawColumns)
 {
   this->open(ball());
   EXPECT_FALSE(this->button("Row sums")->isEnabled());
-  EXPECT_TRUE(this->button("Row sums")->toolTip().contains("--raw"));
+  EXPECT_TRUE(this->button("Row sums")->toolTip().contains("--keep-raw"));
   EXPECT_FALSE(this->button("Raw")->isEnabled());
   const auto raw = ball();
   add_array(raw, "RawWeights",

@@ -24,7 +24,7 @@ UNREADABLE = {
 }
 
 OTHERS = {"winding": ["-o", "out.vti"], "tetrahedralize": ["-o", "out.vtu"],
-          "handles": ["--points", "4", "-o", "out.vtp"],
+          "handles": ["--method", "points", "--number-of-points", "4", "-o", "out.vtp"],
           "weights": ["--handles", "h.tgf", "-o", "out.vtp"],
           "deform": ["--handles", "h.tgf", "--pose", "p.json", "-o", "out.vtp"],
           "render": ["-o", "out.png"], "info": []}

@@ -138,7 +138,7 @@ def test_a_variational_surface_needs_no_weights(folder):
     middle = len(points) // 2
     pose = {"handles": {"p1": {"translate": [0, 0, 1]}}}
     heights = {}
-    for words in (["--order", "1"], ["--order", "3"], ["--boundary", "tangent", "--tangents", "clamped"], ["--fair"]):
+    for words in (["--order", "1"], ["--order", "3"], ["--boundary", "tangent", "--tangent-source", "clamped"], ["--fair"]):
         deform(folder, pose, *words, "--overwrite", method="variational").is_good()
         posed = points_of(bindpose.read(folder / "out.vtp"))
         assert posed[middle] == pytest.approx([0.5, 0.5, 1]) and np.array_equal(posed[depth < 2], points[depth < 2])
@@ -165,7 +165,7 @@ def test_a_variational_surface_needs_no_weights(folder):
 def test_single_precision_and_few_influences(bar):
     deform(bar, shapes.BENT, output="exact.vtp").is_good()
     deform(bar, shapes.BENT, "--single-precision", output="single.vtp").is_good()
-    deform(bar, shapes.BENT, "--influences", "1", "--report", "r.json", output="one.vtp").is_good()
+    deform(bar, shapes.BENT, "--maximum-influences", "1", "--report", "r.json", output="one.vtp").is_good()
     deform(bar, shapes.BENT, "--smallest-weight", "0.1", output="few.vtp").is_good()
     exact, single, one = (points_of(bindpose.read(bar / f"{name}.vtp")) for name in ("exact", "single", "one"))
     assert 0 < abs(single - exact).max() < 1e-5 and abs(one - exact).max() > 1e-3
@@ -296,16 +296,16 @@ def test_dynamics_falls_and_replays(bar):
 
 
 def test_a_time_budget_is_repeated_by_its_iterations(bar):
-    first = deform(bar, shapes.BENT, "--budget-us", "1", "--tolerance", "1e-15", "--report", "-", method="reduced-arap")
+    first = deform(bar, shapes.BENT, "--time-budget", "1", "--tolerance", "1e-15", "--report", "-", method="reduced-arap")
     assert first.code == 3 and first.report["iterations"] == 2  # one iteration per precision
     expected = points_of(bindpose.read(bar / "out.vtp"))
-    deform(bar, shapes.BENT, "--iterations", "2", "--tolerance", "0", "--overwrite", method="reduced-arap").is_good()
+    deform(bar, shapes.BENT, "--maximum-iterations", "2", "--tolerance", "0", "--overwrite", method="reduced-arap").is_good()
     assert np.array_equal(points_of(bindpose.read(bar / "out.vtp")), expected)
 
 
 def test_extra_weights(bar):
     for kind in ("bumps", "eigenmodes"):
-        report = deform(bar, shapes.BENT, "--extra-weights", "3", "--extra-kind", kind, "--overwrite", "--report", "-",
+        report = deform(bar, shapes.BENT, "--number-of-extra-weights", "3", "--extra-weights-kind", kind, "--overwrite", "--report", "-",
                         method="reduced-arap").is_good().report
         assert report["counts"]["extra_weights"] == 3
 
@@ -347,7 +347,7 @@ def test_what_is_stretched_is_in_the_report_and_a_cell_array(bar):
 def test_rotations_are_arrays_that_render_colors_by(bar):
     """The bar follows its first bone, which turns by 40 degrees. The second bone is free."""
     turn = {"handles": {"b1": {"rotate": {"axis": [0, 0, 1], "degrees": 40}}, "b2": {"mode": "free"}}}
-    for method, more in (("reduced-arap", []), ("full-arap", ["--iterations", 10000, "--tolerance", 0])):
+    for method, more in (("reduced-arap", []), ("full-arap", ["--maximum-iterations", 10000, "--tolerance", 0])):
         deform(bar, turn, "--overwrite", "--rotation-arrays", *more, method=method)
         data = bindpose.read(bar / "out.vtp").GetPointData()
         assert numpy_support.vtk_to_numpy(data.GetArray("Rotation")) == pytest.approx(

@@ -47,16 +47,16 @@ def test_skeleton(folder, missing):
 @needs_helper
 def test_bones_at_most(folder):
     bar(folder)
-    words = ("handles", "bar.off", "--longest-bone", "0.1", "--bones", "3", "-o", "bones.vtp", "--report", "-")
+    words = ("handles", "bar.off", "--longest-bone", "0.1", "--maximum-bones", "3", "-o", "bones.vtp", "--report", "-")
     assert folder.run(*words).is_good().report["counts"]["handles"] == 3
 
 
 def test_points(folder):
     bar(folder)
-    report = folder.run("handles", "bar.off", "--points", "6", "-o", "points.vtp", "--report", "-").is_good().report
+    report = folder.run("handles", "bar.off", "--method", "points", "--number-of-points", "6", "-o", "points.vtp", "--report", "-").is_good().report
     assert report["method"] == "points" and report["distance"] == "along-edges"
     assert report["counts"]["handles"] == 6 and report["counts"]["points_inside"] == 6
-    words = ("handles", "bar.off", "--points", "6", "--on-surface", "--distance", "straight", "-o", "on.tgf", "--report", "-")
+    words = ("handles", "bar.off", "--method", "points", "--number-of-points", "6", "--no-place-inside", "--distance", "straight", "-o", "on.tgf", "--report", "-")
     report = folder.run(*words).is_good().report
     assert report["counts"]["points_inside"] == 0 and report["distance"] == "straight"
     assert (folder / "on.tgf").read_text().startswith("1 ")
@@ -73,7 +73,7 @@ def test_weights_of_a_skeleton(folder):
 def test_bad_input(folder):
     folder.write("flat.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")
     assert folder.run("handles", "flat.off", "-o", "flat.vtp", "--report", "-").is_good().report["surface"] == "lattice"
-    folder.run("handles", "flat.off", "--points", "5", "-o", "x.vtp").is_refused("only 4 different vertices")
+    folder.run("handles", "flat.off", "--method", "points", "--number-of-points", "5", "-o", "x.vtp").is_refused("only 4 different vertices")
     bar(folder)
     folder.run("handles", "bar.off", "--bone-tolerance", "2", "-o", "x.vtp").is_refused("bone_tolerance")
     folder.run("handles", "bar.off", "--skeleton-triangles", "5", "-o", "x.vtp").is_refused("skeleton_triangles")

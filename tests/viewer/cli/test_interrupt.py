@@ -13,7 +13,7 @@ import shapes
 from driver import PROGRAM
 
 LONG = {
-    "winding": ["--grid", "1200", "-o", "out.vti"],
+    "winding": ["--resolution", "1200", "-o", "out.vti"],
     "tetrahedralize": ["-o", "out.vtu"],
     "weights": ["--handles", "auto:40", "-o", "out.vtp"],
 }
@@ -66,7 +66,7 @@ def test_a_second_signal_ends_at_once(folder):
 
 def test_progress_is_for_terminals_only(folder):
     folder.off("sphere.off", shapes.sphere(60, 30))
-    words = ["winding", "sphere.off", "--grid", "96", "-o", "a.vti", "--overwrite"]
+    words = ["winding", "sphere.off", "--resolution", "96", "-o", "a.vti", "--overwrite"]
     assert folder.run(*words).is_good().err == ""
 
     def on_a_terminal(*more):

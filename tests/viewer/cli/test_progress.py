@@ -36,7 +36,7 @@ def progress_of(folder, *words):
 @pytest.mark.parametrize("words, names", [
     (("weights", "m.off", "--handles", "auto:8", "-o", "w.vtp"), ["read", "handles", "weights: tetrahedralize", "write"]),
     (("tetrahedralize", "m.off", "-o", "t.vtu"), ["read", "tetrahedralize: winding", "tetrahedralize: tetgen", "write"]),
-    (("winding", "m.off", "--grid", "160", "-o", "w.vti"), ["read", "winding: build", "winding: evaluate", "write"]),
+    (("winding", "m.off", "--resolution", "160", "-o", "w.vti"), ["read", "winding: build", "winding: evaluate", "write"]),
 ])
 def test_progress_follows_the_clock(folder, words, names):
     folder.off("m.off", shapes.sphere(160, 80))

@@ -29,7 +29,7 @@ def test_it_finds_a_display_for_itself(folder):
 def test_tiles_handles_and_volumes(folder):
     folder.off("bar.off", shapes.bar())
     folder.write("h.tgf", shapes.TWO_BONES)
-    folder.run("winding", "bar.off", "--grid", "16", "-o", "w.vti").is_good()
+    folder.run("winding", "bar.off", "--resolution", "16", "-o", "w.vti").is_good()
     run = folder.run("render", "bar.off", "h.tgf", "w.vti", "--handles", "h.tgf", "--handle-names", "--columns", "3",
                      "--size", "600x200", "--title", "three", "-o", "all.png").is_good()
     assert run.err == ""
@@ -97,7 +97,7 @@ def test_what_cannot_be_drawn(folder, words, sentence):
 
 def test_isosurfaces_a_cloud_and_context(folder):
     folder.off("sphere.off", shapes.sphere())
-    folder.run("winding", "sphere.off", "--grid", "16", "-o", "w.vti").is_good()
+    folder.run("winding", "sphere.off", "--resolution", "16", "-o", "w.vti").is_good()
     small = ["--size", "160x120", "--report", "-"]
     run = folder.run("render", "w.vti", "--isosurface", "0.75,0.25", "-o", "i.png", *small).is_good()
     assert run.err == "" and run.report["picture"]["isosurfaces"] == [0.25, 0.75]
@@ -121,7 +121,7 @@ def test_isosurfaces_a_cloud_and_context(folder):
 ])
 def test_what_is_no_volume(folder, file, words, sentence):
     folder.off("sphere.off", shapes.sphere(8, 4))
-    folder.run("winding", "sphere.off", "--grid", "6", "-o", "w.vti").is_good()
+    folder.run("winding", "sphere.off", "--resolution", "6", "-o", "w.vti").is_good()
     folder.run("render", file, "-o", "s.png", *words).is_refused(sentence)
 
 
@@ -220,7 +220,7 @@ def test_a_slice_through_the_weights_of_a_volume(folder):
     """The output of `weights -o OUT.vtu`, cut by a plane."""
     folder.off("sphere.off", shapes.sphere())
     folder.write("h.tgf", "1 0 0 0.5 top\n2 0 0 -0.5 bottom\n#\n")
-    folder.run("weights", "sphere.off", "--handles", "h.tgf", "--domain", "embedding", "--resolution", "8", "--raw",
+    folder.run("weights", "sphere.off", "--handles", "h.tgf", "--domain", "embedding", "--embedding-resolution", "8", "--keep-raw",
                "-o", "w.vtu").is_good()
     small = ["--slice", "--section", "x=0.01", "--size", "200x150", "--report", "-", "-o"]
     picture = folder.run("render", "w.vtu", "--component", "top", *small, "t.png").is_good().report["picture"]
@@ -255,7 +255,7 @@ def weighted(folder):
     """Biharmonic weights without bounds on a sphere, with their raw columns. Each handle is a vertex."""
     folder.off("sphere.off", shapes.sphere())
     folder.write("h.tgf", "1 0 0 1 top\n2 0 0 -1 bottom\n3 1 0 0 side\n#\n")
-    folder.run("weights", "sphere.off", "--handles", "h.tgf", "--domain", "surface", "--method", "biharmonic", "--raw",
+    folder.run("weights", "sphere.off", "--handles", "h.tgf", "--domain", "surface", "--method", "biharmonic", "--keep-raw",
                "-o", "w.vtp").is_good()
     return folder
 
@@ -313,7 +313,7 @@ def test_differences(folder):
     ("w.vtp", ["--color", "handle", "--extrema"], "point array"),
     ("plain.vtp", ["--extrema"], "Weights"),
     ("nan.vtp", ["--extrema", "--array", "Heat"], "'Heat' holds one that is not"),
-    ("w.vtp", ["--color", "row-sum"], "weights --raw"),
+    ("w.vtp", ["--color", "row-sum"], "weights --keep-raw"),
     ("raw.vtp", ["--color", "row-sum", "--range", "2,3"], "row sums holds 1"),
     ("w.vtp", ["--color", "rotation-cluster"], "deform --rotation-arrays"),
     ("turned.vtp", ["--color", "rotation-cluster", "--range", "0,1"], "no range"),

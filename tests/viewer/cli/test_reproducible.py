@@ -64,7 +64,7 @@ def test_winding(folder):
     folder.off("open.off", shapes.open_cube())
     folder.off("at.off", shapes.cube(-0.5, 0.5))
     for method in ("fast", "exact"):
-        expect_same_bytes(folder, "winding", "open.off", "--grid", "16", "--method", method, outputs=["w.vti"])
+        expect_same_bytes(folder, "winding", "open.off", "--resolution", "16", "--method", method, outputs=["w.vti"])
     expect_same_bytes(folder, "winding", "open.off", "--points", "at.off", outputs=["w.vtp"])
 
 
@@ -83,7 +83,7 @@ def test_outline(folder):
 @needs_helper
 def test_handles(bar):
     expect_same_bytes(bar, "handles", "bar.off", outputs=["s.vtp", "s.tgf"])
-    expect_same_bytes(bar, "handles", "bar.off", "--points", "4", outputs=["p.vtp"])
+    expect_same_bytes(bar, "handles", "bar.off", "--method", "points", "--number-of-points", "4", outputs=["p.vtp"])
 
 
 @pytest.mark.parametrize("domain", ["embedding", "surface"])

@@ -48,8 +48,8 @@ def test_persistence_and_count(folder):
     assert done.new_files == ["extrema.vtp", "s.vtp"]
     text = folder.run("info", "s.vtp").is_good().out
     assert "Smoothed" in text and "Height" in text
-    two = folder.run("smooth", "square.vtk", "--array", "Height", "--count", "2", "--order", "3", "--guide", "harmonic",
-                     "--keep-values", "--certificate", "tight", "--rebuilds", "2", "-o", "two.vtk", "--report", "-").is_good().report
+    two = folder.run("smooth", "square.vtk", "--array", "Height", "--number-of-extrema", "2", "--order", "3", "--guide", "harmonic",
+                     "--keep-values", "--tolerance", "1e-9", "--rebuilds", "2", "-o", "two.vtk", "--report", "-").is_good().report
     assert two["extrema_from"] == "count" and len(two["extrema"]) == 2
     assert max(two["relative_gap"], two["kkt_residual"]) <= 1e-9
     for extremum in two["extrema"]:
@@ -63,7 +63,7 @@ def test_list(folder):
     assert [(e["vertex"], e["kind"]) for e in report["extrema"]] == [(20, "maximum"), (140, "minimum")]
     report = folder.run("smooth", "square.vtk", "--extrema", "Other", "-o", "o.vtp", "--report", "-").is_good().report
     assert [(e["vertex"], e["kind"]) for e in report["extrema"]] == [(20, "minimum"), (140, "maximum")]
-    report = folder.run("smooth", "square.vtk", "--count", "3", "-o", "c.vtp", "--report", "-").is_good().report
+    report = folder.run("smooth", "square.vtk", "--number-of-extrema", "3", "-o", "c.vtp", "--report", "-").is_good().report
     assert report["extrema_from"] == "count"
 
 
@@ -73,10 +73,10 @@ def test_refusals(folder):
     folder.run("smooth", "square.vtk", "-o", "s.vtp").is_refused("no minimum")
     folder.run("smooth", "square.vtk", "--array", "Depth", "-o", "s.vtp").is_refused("'Depth'", "Height")
     folder.run("smooth", "square.vtk", "--extrema", "List", "-o", "s.vtp").is_refused("--extrema", "'List'")
-    folder.run("smooth", "square.vtk", "--count", "2", "-o", "s.vtu").is_refused("vtp")
-    folder.run("smooth", "square.vtk", "--count", "2", "-o", "s.obj").is_refused("s.obj")
+    folder.run("smooth", "square.vtk", "--number-of-extrema", "2", "-o", "s.vtu").is_refused("vtp")
+    folder.run("smooth", "square.vtk", "--number-of-extrema", "2", "-o", "s.obj").is_refused("s.obj")
     folder.run("smooth", "square.vtk", "--persistence", "1", "-o", "s.vtp").is_refused("persistence")
-    folder.run("smooth", "square.vtk", "--count", "2", "--data-weight", "-1", "-o", "s.vtp").is_refused("data weight")
+    folder.run("smooth", "square.vtk", "--number-of-extrema", "2", "--data-weight", "-1", "-o", "s.vtp").is_refused("data weight")
     assert "constant" in folder.run("smooth", "flat.vtk", "-o", "s.vtp").is_good().err
-    few = folder.run("smooth", "square.vtk", "--count", "2", "--iterations", "1", "-o", "few.vtp")
+    few = folder.run("smooth", "square.vtk", "--number-of-extrema", "2", "--maximum-iterations", "1", "-o", "few.vtp")
     assert few.code == 3 and "not certified" in few.err

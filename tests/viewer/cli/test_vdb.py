@@ -34,7 +34,7 @@ def winding(folder, mesh, *words, name="field"):
     """Write the field of a surface to both formats. Return the image and its values as an array [k, j, i]."""
     folder.off("mesh.off", mesh)
     for ending, more in ((".vti", ()), (".vdb", words)):
-        folder.run("winding", "mesh.off", "--grid", "48", "-o", name + ending, "--overwrite", *more).is_good()
+        folder.run("winding", "mesh.off", "--resolution", "48", "-o", name + ending, "--overwrite", *more).is_good()
     image = bindpose.read(folder / (name + ".vti"))
     return image, point_array(image, "WindingNumber").reshape(image.GetDimensions()[::-1])
 
@@ -90,7 +90,7 @@ def test_the_background_is_typed(folder):
 def test_the_same_bytes_every_time(folder):
     folder.off("mesh.off", shapes.open_cube())
     for name, threads in (("a.vdb", "1"), ("b.vdb", "2")):
-        folder.run("winding", "mesh.off", "--grid", "32", "--threads", threads, "-o", name).is_good()
+        folder.run("winding", "mesh.off", "--resolution", "32", "--threads", threads, "-o", name).is_good()
     assert (folder / "a.vdb").read_bytes() == (folder / "b.vdb").read_bytes()
 
 
@@ -103,7 +103,7 @@ def test_points_of_a_volume(folder):
 
 def test_refusals(folder):
     folder.off("mesh.off", shapes.cube())
-    run = ["winding", "mesh.off", "--grid", "8"]
+    run = ["winding", "mesh.off", "--resolution", "8"]
     folder.run(*run, "-o", "no/field.vdb").is_refused("no/field.vdb", "No such file")
     folder.run(*run, "-o", "f.vdb", "--vdb-band", "narrow", "--vdb-background", "0.5").is_refused("threshold")
     folder.run(*run, "-o", "f.vdb").is_good()

@@ -98,7 +98,7 @@ def test_other_methods(bar, method):
 
 
 def test_raw_columns_and_their_certificate(bar):
-    run = bar.run("weights", "bar.off", "--handles", "points.tgf", "--certificate", "tight", "--order", "3", "--raw",
+    run = bar.run("weights", "bar.off", "--handles", "points.tgf", "--tolerance", "1e-9", "--order", "3", "--keep-raw",
                   "-o", "w.vtu", "--report", "-").is_good()
     assert run.report["method"] == "bounded-triharmonic"
     assert run.report["relative_gap"] <= 1e-9 and run.report["kkt_residual"] <= 1e-9
@@ -107,19 +107,19 @@ def test_raw_columns_and_their_certificate(bar):
     sums = raw.sum(axis=1, keepdims=True)
     assert np.abs(sums - 1).max() == pytest.approx(run.report["row_sum_error"], abs=1e-12)
     assert weights == pytest.approx(raw / sums, abs=1e-12)
-    bar.run("weights", "bar.off", "--handles", "points.tgf", "--raw", "-o", "w.vtp").is_good()
+    bar.run("weights", "bar.off", "--handles", "points.tgf", "--keep-raw", "-o", "w.vtp").is_good()
     assert weights_of(bar / "w.vtp", "RawWeights").shape == weights_of(bar / "w.vtp").shape
     bar.run("weights", "bar.off", "--handles", "points.tgf", "-o", "w2.vtp").is_good()
     assert weights_of(bar / "w2.vtp", "RawWeights") is None
 
 
 def test_too_few_iterations_are_exit_three(bar):
-    run = bar.run("weights", "bar.off", "--handles", "points.tgf", "--method", "monotone", "--iterations", "1",
-                  "--certificate", "tight", "-o", "w.vtp", "--report", "-")
+    run = bar.run("weights", "bar.off", "--handles", "points.tgf", "--method", "monotone", "--maximum-iterations", "1",
+                  "--tolerance", "1e-9", "-o", "w.vtp", "--report", "-")
     assert run.code == 3 and run.report["status"] == "not_converged" and run.report["relative_gap"] > 1e-9
     assert "not certified" in run.err
     assert weights_of(bar / "w.vtp").sum(axis=1) == pytest.approx(1, abs=1e-9), "the result is kept"
-    bar.run("weights", "bar.off", "--handles", "points.tgf", "--iterations", "0", "-o", "w2.vtp").is_refused("iterations")
+    bar.run("weights", "bar.off", "--handles", "points.tgf", "--maximum-iterations", "0", "-o", "w2.vtp").is_refused("iterations")
 
 
 def test_what_memory_has_no_room_for_is_refused_before_it_is_begun(bar):
@@ -239,7 +239,7 @@ def test_embedding_and_preview(bar):
     embedded = weights_of(bar / "e.vtp")
     check(embedded, shapes.bar()[0])
     assert np.sqrt(((weights - embedded) ** 2).mean()) <= 0.03  # the bar's own tets are coarse
-    bar.run("weights", "bar.off", "--handles", "bones.tgf", "--domain", "embedding", "--resolution", "12", "-o",
+    bar.run("weights", "bar.off", "--handles", "bones.tgf", "--domain", "embedding", "--embedding-resolution", "12", "-o",
             "e.vtu").is_good()
     assert is_tets(bindpose.read(bar / "e.vtu"))
     run = bar.run("weights", "bar.off", "--handles", "bones.tgf", "--stage", "preview", "-o", "p.vtp", "--report",
@@ -248,7 +248,7 @@ def test_embedding_and_preview(bar):
     preview = weights_of(bar / "p.vtp")
     check(preview, shapes.bar()[0])
     assert np.abs(preview - weights).max() <= 0.2
-    bar.run("weights", "bar.off", "--handles", "bones.tgf", "--domain", "embedding", "--resolution", "3", "-o",
+    bar.run("weights", "bar.off", "--handles", "bones.tgf", "--domain", "embedding", "--embedding-resolution", "3", "-o",
             "x.vtp").is_refused("between 6 and 1000")
 
 
@@ -286,28 +286,28 @@ def test_terms_by_arrays_of_the_surface(bar):
     add_point_array(surface, "Paint", np.ones(len(points)))
     bindpose.write(surface, bar / "painted.vtp")
     words = ("weights", "painted.vtp", "--handles", "points.tgf", "-o", "w.vtp", "--overwrite", "--report", "-")
-    run = bar.run(*words, "--pins", "Given", "--rigidity", "Paint").is_good()
+    run = bar.run(*words, "--pinned", "Given", "--rigidity", "Paint").is_good()
     weights = weights_of(bar / "w.vtp")
     check(weights, points)
     assert weights[10, 0] == 0.9
     assert block.sum() > 1 and np.ptp(weights[block], axis=0).max() == 0  # by its default name
     assert run.report["relative_gap"] <= 1e-6
-    bar.run(*words, "--partition", "coupled", "--bounds=-0.5,1.5", "--mirror", "x").is_refused("mirrored")
+    bar.run(*words, "--partition-of-unity", "coupled", "--bounds=-0.5,1.5", "--mirror", "x").is_refused("mirrored")
     bar.run(*words, "--domain", "embedding").is_refused("domain volume, not embedding")
-    run = bar.run(*words, "--partition", "coupled").is_good()
+    run = bar.run(*words, "--partition-of-unity", "coupled").is_good()
     assert run.report["partition"]["of_unity"] == "coupled" and run.report["partition"]["largest_difference"] >= 0
-    run = bar.run(*words, "--influences", "1", "--rigid-sets", "RigidSet").is_good()
+    run = bar.run(*words, "--maximum-influences", "1", "--rigid-set", "RigidSet").is_good()
     assert run.report["counts"]["capped_vertices"] > 0
 
 
 def test_terms_that_cannot_be(bar):
     words = ("weights", "bar.off", "--handles", "points.tgf", "-o", "w.vtp")
     for more, text in (
-        (("--pins", "nothing"), "no point array 'nothing'"),
+        (("--pinned", "nothing"), "no point array 'nothing'"),
         (("--bounds", "0"), "two numbers"),
         (("--bounds", "0.1,1"), "bounds"),
-        (("--method", "harmonic", "--influences", "2"), "bounded-biharmonic and monotone"),
-        (("--method", "monotone", "--partition", "coupled"), "only bounded weights"),
+        (("--method", "harmonic", "--maximum-influences", "2"), "bounded-biharmonic and monotone"),
+        (("--method", "monotone", "--partition-of-unity", "coupled"), "only bounded weights"),
     ):
         bar.run(*words, *more).is_refused(text)
 

@@ -9,7 +9,7 @@ from bindpose.meshes import point_array, points_of
 
 def test_grid_of_a_cube(folder):
     folder.off("cube.off", shapes.cube())
-    run = folder.run("winding", "cube.off", "--grid", "24", "-o", "field.vti", "--report", "-").is_good()
+    run = folder.run("winding", "cube.off", "--resolution", "24", "-o", "field.vti", "--report", "-").is_good()
     assert run.new_files == ["field.vti"]
     assert run.err == ""  # no progress line without a terminal
     field = bindpose.read(folder / "field.vti")
@@ -47,7 +47,7 @@ def test_same_bits_for_any_number_of_threads(folder):
     results = []
     for threads in ("1", "2"):
         name = f"t{threads}.vti"
-        folder.run("winding", "sphere.off", "--grid", "20", "--threads", threads, "-o", name).is_good()
+        folder.run("winding", "sphere.off", "--resolution", "20", "--threads", threads, "-o", name).is_good()
         results.append(point_array(bindpose.read(folder / name), "WindingNumber"))
     assert np.array_equal(*results)
 
@@ -61,7 +61,7 @@ def test_any_surface_has_a_field(folder):
         assert point_array(bindpose.read(folder / "w.vtp"), "WindingNumber") == pytest.approx([expected] * 3, abs=1e-12)
     for mesh in (shapes.flat(), shapes.one_triangle()):
         folder.off("m.off", mesh)
-        folder.run("winding", "m.off", "--grid", "8", "-o", "w.vti", "--overwrite").is_good()
+        folder.run("winding", "m.off", "--resolution", "8", "-o", "w.vti", "--overwrite").is_good()
         assert np.isfinite(point_array(bindpose.read(folder / "w.vti"), "WindingNumber")).all()
 
 
@@ -70,7 +70,7 @@ def test_fast_keeps_its_tolerance(folder):
     folder.off("soup.off", (vertices, triangles[::2]))
     exact, fast = [], []
     for values, *options in ((exact, "exact"), (fast, "fast", "--tolerance", "1e-4")):
-        run = folder.run("winding", "soup.off", "--grid", "20", "--method", *options, "-o", "w.vti", "--overwrite",
+        run = folder.run("winding", "soup.off", "--resolution", "20", "--method", *options, "-o", "w.vti", "--overwrite",
                          "--report", "-").is_good()
         values[:] = point_array(bindpose.read(folder / "w.vti"), "WindingNumber")
     assert np.abs(np.subtract(exact, fast)).max() <= 1e-4
@@ -80,8 +80,8 @@ def test_fast_keeps_its_tolerance(folder):
 
 def test_every_output_on_demand(folder):
     folder.off("open.off", shapes.open_cube())
-    run = folder.run("winding", "open.off", "--grid", "10", "--gradient", "--inside", "--winding-threshold", "0.7",
-                     "--float", "--boundary", "boundary.vtp", "-o", "w.vti").is_good()
+    run = folder.run("winding", "open.off", "--resolution", "10", "--compute-gradient", "--compute-inside", "--winding-threshold", "0.7",
+                     "--output-precision", "single", "--boundary", "boundary.vtp", "-o", "w.vti").is_good()
     assert sorted(run.new_files) == ["boundary.vtp", "w.vti"]
     field = bindpose.read(folder / "w.vti")
     values = point_array(field, "WindingNumber")
@@ -98,7 +98,7 @@ def test_every_output_on_demand(folder):
 def test_cell_centers_and_orientation(folder):
     folder.off("flipped.off", shapes.flipped(shapes.cube()))
     folder.off("at.off", ([[-1.5, -1.5, 0], [1.5, -1.5, 0], [0, 3, 0]], [[0, 1, 2]]))
-    run = folder.run("winding", "flipped.off", "--points", "at.off", "--cell-centers", "--orient-patches",
+    run = folder.run("winding", "flipped.off", "--points", "at.off", "--sample-cell-centers", "--orient-patches",
                      "-o", "at.vtp", "--report", "-").is_good()
     result = bindpose.read(folder / "at.vtp")
     assert result.GetCellData().GetArray("WindingNumber").GetValue(0) == pytest.approx(1.0)
@@ -108,7 +108,7 @@ def test_cell_centers_and_orientation(folder):
 def test_options_that_make_no_sense(folder):
     folder.off("cube.off", shapes.cube())
     folder.run("winding", "cube.off", "--tolerance", "0", "-o", "w.vti").is_refused("--tolerance")
-    folder.run("winding", "cube.off", "--grid", "100000", "-o", "w.vti").is_refused("samples")
+    folder.run("winding", "cube.off", "--resolution", "100000", "-o", "w.vti").is_refused("samples")
     folder.run("winding", "cube.off", "--boundary", "b.png", "-o", "w.vti").is_refused("b.png")
 
 
@@ -128,7 +128,7 @@ def test_curves_and_oriented_points(folder):
     circle.SetRadius(1.0)
     circle.Update()
     bindpose.write(circle.GetOutput(), folder / "circle.vtp")
-    run = folder.run("winding", "circle.vtp", "--grid", "20", "-o", "w.vti", "--report", "-").is_good()
+    run = folder.run("winding", "circle.vtp", "--resolution", "20", "-o", "w.vti", "--report", "-").is_good()
     field = bindpose.read(folder / "w.vti")
     assert field.GetDimensions() == (20, 20, 1)
     radius = np.array([np.hypot(*field.GetPoint(i)[:2]) for i in range(400)])

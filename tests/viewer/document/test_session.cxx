@@ -135,6 +135,22 @@ TEST(Sessions, ComeBackToTheLastBit)
   EXPECT_EQ(after.history()->count(), 0);
 }
 
+TEST(Sessions, ChoicesAreWordsInTheFile)
+{
+  const test::Folder folder;
+  Session session;
+  session.work = full_work();
+  write(folder / "a.bindpose", session);
+  const std::string file = folder.read("a.bindpose");
+  EXPECT_THAT(file, testing::HasSubstr(R"("pose.method": "reduced-arap")"));
+  EXPECT_THAT(file, testing::HasSubstr(R"("bind.domain": "auto")"));
+  for (const OptionInfo& option : option_table())
+  {
+    const bool is_choice = option.initial.type() == QVariant::Int && option.highest < 100;
+    EXPECT_EQ(option.words.size(), is_choice ? std::size_t(option.highest) + 1 : 0u) << option.key;
+  }
+}
+
 TEST(Sessions, AnEmptyOneComesBack)
 {
   const test::Folder folder;
@@ -354,7 +370,7 @@ TEST(Sessions, SchemaOneIsRead)
     {"mode": "full", "transform": [1,0,0,0, 0,1,0,0, 0,0,1,0], "stretch": 1, "twist": [0, 0]},
     {"mode": "free", "transform": [1,0,0,2, 0,1,0,0, 0,0,1,0], "stretch": 1, "twist": [0, 0]}],
   "poses": {},
-  "options": {"pose.method": 1, "of.another.version": "x"},
+  "options": {"pose.method": 1, "tets.colours": 3, "of.another.version": "x"},
   "view": {"panel": 0, "camera": null}
 })");
   const Session session = read(folder / "old.bindpose");
@@ -362,7 +378,8 @@ TEST(Sessions, SchemaOneIsRead)
   ASSERT_EQ(session.work.pose.size(), 2u);
   EXPECT_EQ(session.work.pose[1].mode, HandleMode::free);
   EXPECT_EQ(session.work.pose[1].transform(0, 3), 2.0);
-  EXPECT_EQ(session.work.options["pose.method"].toInt(), 1);
+  EXPECT_EQ(session.work.options["pose.method"].toInt(), 1) << "an integer of an earlier version";
+  EXPECT_EQ(session.work.options["tets.colors"].toInt(), 3) << "a former key";
   EXPECT_EQ(session.work.options["tets.shrink"].toDouble(), 1.0);
   EXPECT_EQ(session.work.options["volume.place"].toDouble(), 0.5);
   EXPECT_EQ(session.work.options["volume.normal"], QVariant(QVariantList{ 0.0, 0.0, 1.0 }));
@@ -452,7 +469,9 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
   refused(with("/handles/cell_arrays/0/components", 1000000), "an array too large");
   refused(with("/handles/cell_arrays/0/values", json::array()), "an array too short");
   refused(with("/options/tets.shrink", 7), "an option out of range");
-  refused(with("/options/pose.method", "best"), "an option of another type");
+  refused(with("/options/pose.method", "best"), "an unknown word of a choice");
+  refused(with("/options/tets.shrink", "1"), "a text for a number");
+  refused(with("/options/volume.normal", { "0", "0", "1" }), "texts for a direction");
   refused(with("/options/volume.place", 1.5), "a place beyond the end");
   refused(with("/options/volume.place", json()), "a place that is not finite");
   refused(with("/options/volume.normal", { 0, 0, 2 }), "a direction that is too long");

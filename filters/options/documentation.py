@@ -1,0 +1,30 @@
+"""Write the tables of options in viewer/command_line.md."""
+
+from command_line import help_text, is_positional, placeholder, typed_name
+
+BEGIN, END = "<!-- options -->\n", "<!-- end of the options -->\n"
+HEAD = "| option | values | default | meaning |\n|---|---|---|---|\n"
+
+
+def row(option):
+    name = typed_name(option).split(",")[0] + ("…" if option.fields.get("repeated") else "")
+    value = placeholder(option)
+    required = option.fields.get("required") or (is_positional(option) and not option.fields.get("optional"))
+    default = "required" if required and not option.fields.get("unless") else option.default_text("cli")
+    values = ", ".join(text for text in (", ".join(option.choices), option.values_text()) if text)
+    return f"| `{name}{' ' + value if value else ''}` | {values} | {default} | {help_text(option)} |\n"
+
+
+def tables(verbs, common):
+    """The tables of all verbs as Markdown."""
+    text = ""
+    for verb in verbs:
+        text += f"### `bindpose {verb.name}`\n\n{verb.help}\n\n{HEAD}" + "".join(map(row, verb.options)) + "\n"
+    return text + f"### Every verb\n\n{HEAD}" + "".join(map(row, common))
+
+
+def page(text, verbs, common):
+    """The page with the tables between its marks."""
+    before, _, rest = text.partition(BEGIN)
+    _, _, after = rest.partition(END)
+    return before + BEGIN + tables(verbs, common) + END + after

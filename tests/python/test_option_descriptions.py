@@ -1,0 +1,190 @@
+"""Options: VTK setters match their descriptions, and a new description appears in all generated layers."""
+
+import ast
+import inspect
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import xml.etree.ElementTree
+
+import bindpose
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "filters" / "options"))
+import descriptions  # noqa: E402
+
+SETS = descriptions.read_sets()
+# Options of abstract classes are set on a class that derives from them.
+CONCRETE = {"vtkWeightsAlgorithm": "vtkBoundedBiharmonicWeights", "vtkPoseAlgorithm": "vtkSkinningDeformation"}
+CASES = [(group, name, option) for group in SETS.values() for name in group.filters for option in group.of_layer("vtk")]
+
+
+def instance(name):
+    return getattr(bindpose, CONCRETE.get(name, name))()
+
+
+def accessors(algorithm, option):
+    name = descriptions.vtk_name(option)
+    return getattr(algorithm, f"Set{name}"), getattr(algorithm, f"Get{name}")
+
+
+@pytest.mark.parametrize("group, name, option", CASES, ids=lambda case: getattr(case, "name", str(case)))
+def test_defaults_are_those_of_the_description(group, name, option):
+    _set, get = accessors(instance(name), option)
+    expected = option.defaults.get(name, option.default_of("vtk"))
+    if option.type == "choice":
+        expected = option.choices[expected]
+    if isinstance(expected, list):
+        expected = tuple(expected)
+    assert get() == (pytest.approx(expected, rel=1e-14) if option.type == "number" else expected)
+
+
+@pytest.mark.parametrize("group, name, option", CASES, ids=lambda case: getattr(case, "name", str(case)))
+def test_ranges_are_those_of_the_description(group, name, option):
+    """Every allowed end is accepted. A setter that clamps does so at the ends; others leave the check to the kernel."""
+    set_, get = accessors(instance(name), option)
+    if option.type == "choice":
+        for value in option.choices.values():
+            set_(value)
+            assert get() == value
+        return
+    if option.type not in ("integer", "id", "number"):
+        return
+    low = option.fields.get("minimums", {}).get(name, option.fields.get("minimum"))
+    high = option.fields.get("maximum")
+    for end, beyond in ((low, -1), (high, 1)):
+        if end is None:
+            continue
+        set_(end)
+        assert get() == end
+        set_(end + beyond)
+        assert get() in (end, end + beyond)
+
+
+def test_every_bind_and_pose_setter_is_described():
+    """A setter with a getter, of a filter that has descriptions, is an option unless it is listed here."""
+    others = {"AbortExecute", "ProgressText", "NumberOfThreads", "InputData", "ReleaseDataFlag", "Debug", "ReferenceCount",
+              "Step", "NumberOfSteps", "Interactive", "GlobalWarningDisplay", "ObjectName", "ErrorCode", "Information",
+              "Executive", "ProgressObserver"}
+    for name in {name for group in SETS.values() for name in group.filters}:
+        described = {descriptions.vtk_name(option) for group in SETS.values() if name in group.filters or
+                     (name in ("vtkBoundedBiharmonicWeights", "vtkMonotoneWeights", "vtkUnconstrainedWeights") and
+                      group.filter == "vtkWeightsAlgorithm") or
+                     (issubclass(getattr(bindpose, name), bindpose.vtkPoseAlgorithm) and group.filter == "vtkPoseAlgorithm")
+                     for option in group.options}
+        if name == "vtkWeightedColors" or name == "vtkDepthOrder":
+            described.add("ArrayName")
+        members = dir(getattr(bindpose, name))
+        setters = {member[3:] for member in members if member.startswith("Set") and f"Get{member[3:]}" in members}
+        base = {member[3:] for member in dir(bindpose.vtkBindposeAlgorithm) if member.startswith("Set")}
+        assert setters - base - others - described == set(), name
+
+
+# ---- The Python package ----------------------------------------------------------------------------
+
+
+def test_signature_documentation_and_stub():
+    signature = inspect.signature(bindpose.tetrahedralize)
+    assert list(signature.parameters)[:2] == ["surface", "handles"]
+    assert list(signature.parameters)[-2:] == ["threads", "progress"]
+    stub = ast.parse((pathlib.Path(bindpose.__file__).parent / "functions.pyi").read_text(encoding="utf-8"))
+    function = next(node for node in stub.body if getattr(node, "name", "") == "tetrahedralize")
+    stubbed = {argument.arg for argument in function.args.kwonlyargs}
+    for option in SETS["tetrahedralize"].of_layer("python"):
+        assert signature.parameters[option.name].default == option.default
+        assert signature.parameters[option.name].kind == inspect.Parameter.KEYWORD_ONLY
+        assert re.search(rf"^    {option.name} : ", bindpose.tetrahedralize.__doc__, re.MULTILINE)
+        assert option.name in stubbed
+    assert "{options}" not in bindpose.tetrahedralize.__doc__
+
+
+@pytest.mark.parametrize("keywords, sentence", [
+    ({"method": "best"}, "method must be one of auto, cdt, remesh, embed, wrap, ftetwild (got 'best')"),
+    ({"quality": 21}, "quality must be float (degrees, 0 to 20), got 21"),
+    ({"quality": "high"}, "quality must be float (degrees, 0 to 20), got 'high'"),
+    ({"quality": float("nan")}, "quality must be float"),
+    ({"winding_threshold": 0}, "winding_threshold must be float (above 0), got 0"),
+    ({"resolution": 2.5}, "resolution must be int (0 to 1000), got 2.5"),
+    ({"method": "cdt", "wrap_alpha": 0.1}, "wrap_alpha is not used by method 'cdt' (used by wrap)"),
+])
+def test_what_an_option_does_not_allow_is_named(keywords, sentence):
+    with pytest.raises(bindpose.InvalidInput) as error:
+        bindpose.tetrahedralize(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), **keywords)
+    assert sentence in str(error.value)
+
+
+def test_vectors_need_their_length():
+    triangle = ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    for bounds in ((0, 1), "0,1,0,1,0,1", 3, (0, 1, 0, 1, 0, float("inf"))):
+        with pytest.raises(bindpose.InvalidInput, match="bounds must be 6 numbers"):
+            bindpose.winding_number(triangle, 4, bounds=bounds)
+
+
+# ---- A new option ----------------------------------------------------------------------------------
+
+
+def copy_of_the_descriptions(folder):
+    for path in [*descriptions.option_files(), *(ROOT / "filters" / "options").glob("*.py"), ROOT / "viewer" / "cli" / "verbs.json",
+                 ROOT / "viewer" / "command_line.md", *(ROOT / "filters" / "paraview" / "plugin").glob("*.xml"),
+                 *(ROOT / "python" / "bindpose").glob("*.py")]:
+        target = folder / path.relative_to(ROOT)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(path, target)
+    return folder / "filters" / "core" / "inside" / "tetrahedralize.options.json"
+
+
+def generate(folder, *words):
+    return subprocess.run([sys.executable, "-B", folder / "filters" / "options" / "generate.py", *words], capture_output=True,
+                          text=True, check=False)
+
+
+def add_option(path, **fields):
+    sets = json.loads(path.read_text(encoding="utf-8"))
+    sets["tetrahedralize"]["options"].append({"name": "made_up", "type": "number", "default": 0.25, "minimum": 0, "maximum": 2,
+                                              "unit": "degrees", "help": "An option that a test made up.", **fields})
+    path.write_text(json.dumps(sets), encoding="utf-8")
+
+
+def test_a_described_option_is_everywhere(tmp_path):
+    add_option(copy_of_the_descriptions(tmp_path))
+    out = tmp_path / "out"
+    for words in (["option-table", out], ["set-options", tmp_path / "set"],
+                  ["paraview", tmp_path / "filters" / "paraview" / "plugin" / "inside.xml", tmp_path / "xml"],
+                  ["python-table", tmp_path / "table.py"],
+                  ["python-stub", tmp_path / "python" / "bindpose" / "functions.py", tmp_path / "stub"],
+                  ["page", tmp_path / "viewer" / "command_line.md", tmp_path / "page"]):
+        done = generate(tmp_path, *words)
+        assert done.returncode == 0, done.stderr
+    assert '"--made-up", "DEGREES", OptionKind::number, "0.25"' in out.read_text()
+    assert 'filter->SetMadeUp(arguments.number("made-up"))' in (tmp_path / "set").read_text()
+    proxies = xml.etree.ElementTree.parse(tmp_path / "xml")
+    element = proxies.find(".//DoubleVectorProperty[@name='MadeUp']")
+    assert element.get("default_values") == "0.25" and element.find("DoubleRangeDomain").get("max") == "2"
+    assert element.find("Documentation").text == "An option that a test made up. Degrees, 0 to 2."
+    assert "'name': 'made_up'" in (tmp_path / "table.py").read_text()
+    assert "made_up: float=0.25" in (tmp_path / "stub").read_text()
+    assert "| `--made-up DEGREES` | degrees, 0 to 2 | 0.25 | An option that a test made up. |" in (tmp_path / "page").read_text()
+
+
+@pytest.mark.parametrize("fields, sentence", [
+    ({"name": "quality"}, "set 'tetrahedralize' describes an option twice"),
+    ({"type": "real"}, "unknown type 'real'"),
+    ({"defualt": 1}, "unknown field 'defualt'"),
+    ({"default": 3}, "default 3 is out of range"),
+    ({"default": "much"}, "'much' is not a number"),
+    ({"help": "no sentence"}, "help must be one or more sentences"),
+    ({"help": "See `nothing`."}, "help mentions 'nothing', which is not an option of the set"),
+    ({"methods": ["best"]}, "unknown method 'best'"),
+    ({"layer_defaults": {"vtk": 1}}, "layer_defaults need a reason, 'why'"),
+    ({"above": 0}, "minimum and above exclude each other"),
+    ({"choices": {"a": 0}}, "choices belong to the type choice"),
+])
+def test_a_wrong_description_is_named(tmp_path, fields, sentence):
+    add_option(copy_of_the_descriptions(tmp_path), **fields)
+    done = generate(tmp_path, "check")
+    assert done.returncode == 1
+    assert "tetrahedralize.options.json" in done.stderr and sentence in done.stderr, done.stderr

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, naming on all
+# What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, a new option in a scratch copy, naming on all
 # files, the quickstart, every surface of libcgal-demo and every made horror through the mesher, weights of twenty
 # surfaces with their certificates, every night 300 other random unclean surfaces and 800,000 other poses, every verb on
 # a million triangles to its end and interrupted, weights and tets of hostile models and of a third of 820 real furniture
 # models (every night another third), the plugin in ParaView, a monkey in the window under sanitizers. Ends with a summary.
 # usage: tests/nightly.sh [PART…]   (default: all)
-# parts: asan permissive tidy quickstart surfaces weights fuzz drags scale hostile real paraview monkey
+# parts: asan permissive option tidy quickstart surfaces weights fuzz drags scale hostile real paraview monkey
 set -uo pipefail
 program=nightly.sh
 install=yes
@@ -52,6 +52,13 @@ permissive()
     -DBINDPOSE_BUILD_TESTS=ON &&
     ninja -C "$root/build-permissive" bindpose bindpose_core_tests bindpose_filter_tests || return 1
   under_xvfb ctest --test-dir "$root/build-permissive" --no-tests=error --output-on-failure -j "$(nproc)" -R '^(core|filters)\.'
+}
+
+option()
+{ # three edits add an option to all layers
+  local folder="$build_dir/nightly-option"
+  rm -rf "$folder"
+  /usr/bin/python3 "$root/tests/support/new_option.py" "$folder"
 }
 
 tidy()
@@ -120,7 +127,7 @@ monkey()
 )
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces weights fuzz drags scale hostile real paraview monkey)
+[ $# -gt 0 ] || parts=(asan permissive option tidy quickstart surfaces weights fuzz drags scale hostile real paraview monkey)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

@@ -74,7 +74,8 @@ def _checked(option, value):
     if option["length"] == 1:
         number = _number(option, value)
         if number is None:
-            raise InvalidInput(f"{name} must be {_TYPE_NAMES[option['type']]}{limits}, got {value!r}")
+            kind = "a number" if option["type"] == "number" else "an integer"
+            raise InvalidInput(f"{name} must be {kind}{limits}, got {value!r}")
         return number
     values = np.ravel(value) if np.ndim(value) == 1 else ()
     numbers = tuple(_number(option, each) for each in values)

@@ -104,11 +104,11 @@ def test_signature_documentation_and_stub():
 
 @pytest.mark.parametrize("keywords, sentence", [
     ({"method": "best"}, "method must be one of auto, cdt, remesh, embed, wrap, ftetwild (got 'best')"),
-    ({"quality": 21}, "quality must be float (degrees, 0 to 20), got 21"),
-    ({"quality": "high"}, "quality must be float (degrees, 0 to 20), got 'high'"),
-    ({"quality": float("nan")}, "quality must be float"),
-    ({"winding_threshold": 0}, "winding_threshold must be float (above 0), got 0"),
-    ({"resolution": 2.5}, "resolution must be int (0 to 1000), got 2.5"),
+    ({"quality": 21}, "quality must be a number (degrees, 0 to 20), got 21"),
+    ({"quality": "high"}, "quality must be a number (degrees, 0 to 20), got 'high'"),
+    ({"quality": float("nan")}, "quality must be a number"),
+    ({"winding_threshold": 0}, "winding_threshold must be a number (above 0), got 0"),
+    ({"resolution": 2.5}, "resolution must be an integer (0 to 1000), got 2.5"),
     ({"method": "cdt", "wrap_alpha": 0.1}, "wrap_alpha is not used by method 'cdt' (used by wrap)"),
 ])
 def test_what_an_option_does_not_allow_is_named(keywords, sentence):

@@ -1,12 +1,11 @@
-// vtkPolyDataNormals decides where to split vertices. Id arrays that it passes through give the
-// input point of each drawn point and the input cell of each triangle. Normals are then sums of
-// triangle normals weighted by area. Each point sums over its own triangles in a fixed order, so
-// that any number of cores gives the same bits.
+// Normals are sums of triangle normals weighted by area. Each point sums over its own triangles in
+// a fixed order, so that any number of cores gives the same bits.
 #include "scene/shaded_surface.h"
 
 #include "base/parallel.h"
 #include "conversion.h"
 #include "scene/colors.h"
+#include "scene/sharp_edges.h"
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"
@@ -18,7 +17,6 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataNormals.h"
 #include "vtkProperty.h"
 #include "vtkTriangleFilter.h"
 
@@ -31,26 +29,56 @@ namespace bindpose
 
 namespace
 {
-constexpr const char* id_name = "bindpose.Input";
-
-vtkSmartPointer<vtkIdTypeArray> make_ids(vtkIdType count)
+/// The triangles of a polydata, and the cell of each.
+struct DrawnTriangles
 {
-  auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
-  ids->SetName(id_name);
-  ids->SetNumberOfValues(count);
-  std::iota(ids->GetPointer(0), ids->GetPointer(0) + count, vtkIdType(0));
-  return ids;
+  Triangles triangles;
+  std::vector<Index> cells;
+};
+
+/// Report whether all polygons are triangles, so that none must be split.
+bool has_only_triangles(vtkPolyData* surface)
+{
+  vtkCellArray* polygons = surface->GetPolys();
+  return surface->GetNumberOfStrips() == 0 && polygons->GetMaxCellSize() == 3 &&
+    polygons->GetNumberOfConnectivityIds() == 3 * polygons->GetNumberOfCells();
 }
 
-/// Return the id array that a filter passed through.
-std::vector<Index> carried_ids(vtkDataSetAttributes* data, vtkIdType count)
+DrawnTriangles triangles_of(vtkPolyData* surface)
 {
-  std::vector<Index> result(static_cast<std::size_t>(count));
-  if (auto* ids = vtkIdTypeArray::SafeDownCast(data->GetArray(id_name)))
+  DrawnTriangles drawn;
+  vtkNew<vtkIdTypeArray> ids;
+  vtkNew<vtkTriangleFilter> split;
+  if (!has_only_triangles(surface))
   {
-    std::copy_n(ids->GetPointer(0), count, result.begin());
+    ids->SetName("bindpose.Cell");
+    ids->SetNumberOfValues(surface->GetNumberOfCells());
+    std::iota(ids->GetPointer(0), ids->GetPointer(0) + ids->GetNumberOfValues(), vtkIdType(0));
+    vtkNew<vtkPolyData> numbered;
+    numbered->CopyStructure(surface);
+    numbered->GetCellData()->AddArray(ids);
+    split->SetInputData(numbered);
+    split->PassVertsOff();
+    split->PassLinesOff();
+    split->Update();
   }
-  return result;
+  vtkPolyData* source = has_only_triangles(surface) ? surface : split->GetOutput();
+  vtkCellArray* polygons = source->GetPolys();
+  const vtkIdType count = polygons->GetNumberOfCells();
+  drawn.triangles.resize(count, 3);
+  drawn.cells.reserve(static_cast<std::size_t>(count));
+  // Cells of a polydata are numbered by type: vertices, lines, polygons.
+  const vtkIdType first = surface->GetNumberOfVerts() + surface->GetNumberOfLines();
+  auto* numbers = vtkIdTypeArray::SafeDownCast(source->GetCellData()->GetArray("bindpose.Cell"));
+  for (vtkIdType t = 0; t < count; ++t)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    polygons->GetCellAtId(t, size, corners);
+    std::copy_n(corners, 3, drawn.triangles.data() + 3 * t);
+    drawn.cells.push_back(source == surface ? first + t : numbers->GetValue(t));
+  }
+  return drawn;
 }
 
 /// Copy all arrays of `from`: the tuples with these ids, in this order.
@@ -83,39 +111,11 @@ ShadedSurface::ShadedSurface(vtkPolyData* surface, double feature_angle)
   : input_(vtkSmartPointer<vtkPolyData>::New())
 {
   this->input_->CopyStructure(surface);
-  vtkNew<vtkPolyData> input;
-  input->CopyStructure(surface);
-  input->GetPointData()->AddArray(make_ids(input->GetNumberOfPoints()));
-  input->GetCellData()->AddArray(make_ids(input->GetNumberOfCells()));
-  vtkNew<vtkTriangleFilter> triangles;
-  triangles->SetInputData(input);
-  triangles->PassVertsOff();
-  triangles->PassLinesOff();
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputConnection(triangles->GetOutputPort());
-  normals->SplittingOn();
-  normals->SetFeatureAngle(feature_angle);
-  normals->ConsistencyOff();
-  normals->AutoOrientNormalsOff();
-  normals->NonManifoldTraversalOff();
-  normals->ComputePointNormalsOn();
-  normals->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  normals->Update();
-
-  vtkPolyData* parted = normals->GetOutput();
-  this->input_cells_ = carried_ids(parted->GetCellData(), parted->GetNumberOfCells());
-  this->triangles_.resize(parted->GetNumberOfPolys(), 3);
-  vtkNew<vtkIdList> corners;
-  for (Index t = 0; t < this->triangles_.rows(); ++t)
-  {
-    parted->GetPolys()->GetCellAtId(t, corners);
-    for (int k = 0; k < 3; ++k)
-    {
-      this->triangles_(t, k) = corners->GetId(k);
-    }
-  }
-  this->input_points_ = carried_ids(parted->GetPointData(), parted->GetNumberOfPoints());
-  this->drop_unused_points();
+  DrawnTriangles drawn = triangles_of(surface);
+  this->triangles_ = std::move(drawn.triangles);
+  this->input_cells_ = std::move(drawn.cells);
+  this->input_points_ =
+    split_sharp_edges(to_points(surface).view(), feature_angle, this->triangles_);
   const auto count = static_cast<vtkIdType>(this->input_points_.size());
   this->find_triangles_of_points();
   this->display_ = to_polydata(Points(count, 3), this->triangles_);
@@ -164,30 +164,6 @@ void ShadedSurface::move(PointsView points)
   places->Modified();
   this->display_->GetPoints()->Modified();
   this->display_->Modified();
-}
-
-/// Remove unused points, so that the bounds are those of the drawn points.
-void ShadedSurface::drop_unused_points()
-{
-  std::vector<Index> kept(this->input_points_.size(), -1);
-  for (const Index v : this->triangles_.reshaped())
-  {
-    kept[static_cast<std::size_t>(v)] = 0;
-  }
-  std::vector<Index> input_points;
-  for (std::size_t v = 0; v < kept.size(); ++v)
-  {
-    if (kept[v] == 0)
-    {
-      kept[v] = static_cast<Index>(input_points.size());
-      input_points.push_back(this->input_points_[v]);
-    }
-  }
-  for (Index& v : this->triangles_.reshaped())
-  {
-    v = kept[static_cast<std::size_t>(v)];
-  }
-  this->input_points_ = std::move(input_points);
 }
 
 void ShadedSurface::find_triangles_of_points()

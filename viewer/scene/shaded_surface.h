@@ -49,7 +49,6 @@ public:
   void move(PointsView points);
 
 private:
-  void drop_unused_points();
   void find_triangles_of_points();
   void update_normals();
 

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, a new option in a scratch copy, naming on all
-# files, the quickstart, every surface of libcgal-demo and every made horror through the mesher, weights of twenty
-# surfaces with their certificates, every night 300 other random unclean surfaces and 800,000 other poses, every verb on
-# a million triangles to its end and interrupted, weights and tets of hostile models and of a third of 820 real furniture
-# models (every night another third), the plugin in ParaView, a monkey in the window under sanitizers. Ends with a summary.
+# What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, a new option in a scratch
+# copy, naming on all files, the quickstart, every surface of libcgal-demo and every made horror through the mesher, weights
+# of twenty surfaces with their certificates, every night 300 other random unclean surfaces and 800,000 other poses, every
+# verb on a million triangles to its end and interrupted, weights and tets of hostile models and of a third of 820 real
+# furniture models (every night another third), the plugin in ParaView, a monkey in the window under sanitizers. Ends with
+# a summary.
 # usage: tests/nightly.sh [PART…]   (default: all)
 # parts: asan permissive option tidy quickstart surfaces weights fuzz drags scale hostile real paraview monkey
 set -uo pipefail

@@ -51,7 +51,7 @@ def help_text(option):
     if option.type == "flag" and option.default:
         text = "Off: " + text[0].lower() + text[1:]
     if option.methods():
-        text += f" Used by {listed(option.methods())}."
+        text += f" Used by method{'s' if len(option.methods()) > 1 else ''} {listed(option.methods())}."
     if option.defaults:
         text += " Default of other methods: " + ", ".join(
             f"{plain(value)} ({name[3:]})" for name, value in option.defaults.items()) + "."

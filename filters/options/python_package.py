@@ -21,6 +21,8 @@ def entry(option):
     default = option.default_of("python")
     if option.type == "choice":
         default = python_word(default)
+    if option.type == "number":
+        default = float(default)
     if option.defaults or option.type == "point_array":
         default = None  # the filter's own
     return {"name": option.name, "setter": f"Set{vtk_name(option)}", "type": option.type,

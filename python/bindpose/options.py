@@ -41,7 +41,7 @@ def _entry(option):
     if option["type"] in _ARRAYS:
         text += f" Default: the array ``{option['array']}``, if it exists."
     if option["methods"]:
-        text += f" Used by {_listed(option['methods'])}."
+        text += f" Used by method{'s' if len(option['methods']) > 1 else ''} {_listed(option['methods'])}."
     body = textwrap.fill(text, 112, initial_indent=" " * 8, subsequent_indent=" " * 8, break_long_words=False)
     return f"    {option['name']} : {_type_text(option)}\n{body}\n"
 

@@ -24,8 +24,7 @@ void vtkBoundedBiharmonicWeights::SetOrder(int value)
 Status vtkBoundedBiharmonicWeights::Solve(const WeightsProblem& problem,
   const WeightsOptions& options, ExecutionContext& context, WeightsResult& result)
 {
-  BoundedWeightsOptions own;
-  static_cast<WeightsOptions&>(own) = options;
+  WeightsOptions own = options;
   own.order = this->Order;
   return bounded_biharmonic_weights(problem, own, context, result);
 }

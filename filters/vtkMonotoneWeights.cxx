@@ -24,8 +24,7 @@ void vtkMonotoneWeights::SetOrder(int value)
 Status vtkMonotoneWeights::Solve(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result)
 {
-  MonotoneWeightsOptions own;
-  static_cast<WeightsOptions&>(own) = options;
+  WeightsOptions own = options;
   own.order = this->Order;
   return monotone_weights(problem, own, context, result);
 }

@@ -1,12 +1,9 @@
-// Connects the kernels bindpose::unconstrained_weights() and bindpose::baseline_weights() to VTK.
+// Finds the kernel of the method in the registry of weight methods.
 #include "vtkUnconstrainedWeights.h"
 
-#include "weights/baseline_weights.h"
-#include "weights/unconstrained_weights.h"
+#include "weights/weight_methods.h"
 
 #include "vtkObjectFactory.h"
-
-#include <algorithm>
 
 using namespace bindpose;
 
@@ -16,10 +13,9 @@ vtkUnconstrainedWeights::vtkUnconstrainedWeights() = default;
 
 vtkUnconstrainedWeights::~vtkUnconstrainedWeights() = default;
 
-void vtkUnconstrainedWeights::SetMethod(int value)
+void vtkUnconstrainedWeights::SetMethod(const std::string& word)
 {
-  value = std::clamp<int>(value, HARMONIC, BONE_HEAT);
-  this->SetBindParameter(this->Method, value);
+  this->SetBindParameter(this->Method, word);
 }
 
 void vtkUnconstrainedWeights::SetPower(double value)
@@ -40,20 +36,17 @@ void vtkUnconstrainedWeights::SetHeat(double value)
 Status vtkUnconstrainedWeights::Solve(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result)
 {
-  if (this->Method >= INVERSE_DISTANCE)
+  const WeightMethod* method = find_weight_method(this->Method);
+  if (!method || method->constrained)
   {
-    BaselineWeightsOptions own;
-    static_cast<WeightsOptions&>(own) = options;
-    own.method = static_cast<BaselineMethod>(this->Method);
-    own.power = this->Power;
-    own.smoothing = this->Smoothing;
-    own.heat = this->Heat;
-    return baseline_weights(problem, own, context, result);
+    return Status::invalid_input(
+      "unknown method '" + this->Method + "': expected one of " + weight_method_words(false));
   }
-  UnconstrainedWeightsOptions own;
-  static_cast<WeightsOptions&>(own) = options;
-  own.method = static_cast<UnconstrainedMethod>(this->Method);
-  return unconstrained_weights(problem, own, context, result);
+  WeightsOptions own = options;
+  own.power = this->Power;
+  own.smoothing = this->Smoothing;
+  own.heat = this->Heat;
+  return method->kernel(problem, own, context, result);
 }
 
 void vtkUnconstrainedWeights::PrintSelf(ostream& os, vtkIndent indent)

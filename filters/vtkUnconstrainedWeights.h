@@ -7,16 +7,16 @@
  *
  * | Method | definition | shape-aware | smooth | in [0, 1] |
  * |---|---|---|---|---|
- * | HARMONIC | least gradient | yes | peaks at points | where cotangents are positive |
- * | BIHARMONIC | least Laplacian, independent of the mesh | yes | yes | no |
- * | TRIHARMONIC | least gradient of the Laplacian | yes | yes | no |
- * | GRAPH_BIHARMONIC | least Laplacian without masses | yes | where the mesh is uniform | no |
- * | LINEAR_SUBSPACE | as BIHARMONIC; points reproduce affine maps exactly | yes | yes | no |
- * | INVERSE_DISTANCE | 1 / distance^Power | no | peaks | yes |
- * | SMOOTHED_HARMONIC | HARMONIC, smoothed over the length Smoothing | yes | yes | nearly |
- * | BONE_HEAT | nearest visible handle, Heat / distance^2 | partly | creases | as HARMONIC |
+ * | harmonic | least gradient | yes | peaks at points | where cotangents are positive |
+ * | biharmonic | least Laplacian, independent of the mesh | yes | yes | no |
+ * | triharmonic | least gradient of the Laplacian | yes | yes | no |
+ * | graph-biharmonic | least Laplacian without masses | yes | where the mesh is uniform | no |
+ * | linear-subspace | as biharmonic; points reproduce affine maps exactly | yes | yes | no |
+ * | inverse-distance | 1 / distance^Power | no | peaks | yes |
+ * | smoothed-harmonic | harmonic, smoothed over the length Smoothing | yes | yes | nearly |
+ * | bone-heat | nearest visible handle, Heat / distance^2 | partly | creases | as harmonic |
  *
- * LINEAR_SUBSPACE is designed for points. Its weights are constant along bones, and beyond the
+ * linear-subspace is designed for points. Its weights are constant along bones, and beyond the
  * bones it overshoots far (-40 on an elephant's ear).
  *
  * WeightsMinimum, WeightsMaximum and WeightsInteriorExtrema show how far the weights are from the
@@ -28,10 +28,10 @@
  *
  * @par Thanks:
  * Botsch, Kobbelt, "An intuitive framework for real-time freeform modeling", ACM Transactions on
- * Graphics 23(3), 2004 (GRAPH_BIHARMONIC). Jacobson, Tosun, Sorkine, Zorin, "Mixed finite elements
+ * Graphics 23(3), 2004 (graph-biharmonic). Jacobson, Tosun, Sorkine, Zorin, "Mixed finite elements
  * for variational surface modeling", SGP 2010. Wang, Jacobson, Barbic, Kavan, "Linear subspace
  * design for real-time shape deformation", 2015. Baran, Popovic, "Automatic rigging and animation
- * of 3D characters", 2007 (BONE_HEAT). Shepard 1968 (INVERSE_DISTANCE).
+ * of 3D characters", 2007 (bone-heat). Shepard 1968 (inverse-distance).
  *
  * @sa vtkBoundedBiharmonicWeights vtkMonotoneWeights
  */
@@ -49,46 +49,27 @@ public:
   vtkTypeMacro(vtkUnconstrainedWeights, vtkWeightsAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  enum MethodType
-  {
-    HARMONIC = 1,
-    BIHARMONIC = 2,
-    TRIHARMONIC = 3,
-    GRAPH_BIHARMONIC = 4,
-    LINEAR_SUBSPACE = 5,
-    INVERSE_DISTANCE = 6,
-    SMOOTHED_HARMONIC = 7,
-    BONE_HEAT = 8
-  };
-
   ///@{
-  /// Method, see above; default BIHARMONIC. All parameters of this class are bind parameters.
-  void SetMethod(int method);
-  vtkGetMacro(Method, int);
-  void SetMethodToHarmonic() { this->SetMethod(HARMONIC); }
-  void SetMethodToBiharmonic() { this->SetMethod(BIHARMONIC); }
-  void SetMethodToTriharmonic() { this->SetMethod(TRIHARMONIC); }
-  void SetMethodToGraphBiharmonic() { this->SetMethod(GRAPH_BIHARMONIC); }
-  void SetMethodToLinearSubspace() { this->SetMethod(LINEAR_SUBSPACE); }
-  void SetMethodToInverseDistance() { this->SetMethod(INVERSE_DISTANCE); }
-  void SetMethodToSmoothedHarmonic() { this->SetMethod(SMOOTHED_HARMONIC); }
-  void SetMethodToBoneHeat() { this->SetMethod(BONE_HEAT); }
+  /// Method, a word of the table above; default "biharmonic". An unknown word is INVALID_INPUT when
+  /// the filter executes. All parameters of this class are bind parameters.
+  void SetMethod(const std::string& word);
+  std::string GetMethod() { return this->Method; }
   ///@}
 
   ///@{
-  /// INVERSE_DISTANCE: the exponent, above 0. Default 2.
+  /// inverse-distance: the exponent, above 0. Default 2.
   void SetPower(double power);
   vtkGetMacro(Power, double);
   ///@}
 
   ///@{
-  /// SMOOTHED_HARMONIC: the smoothing length, as a fraction of the diagonal, >= 0. Default 0.05.
+  /// smoothed-harmonic: the smoothing length, as a fraction of the diagonal, >= 0. Default 0.05.
   void SetSmoothing(double smoothing);
   vtkGetMacro(Smoothing, double);
   ///@}
 
   ///@{
-  /// BONE_HEAT: heat factor, above 0; a larger factor makes weights change faster between handles.
+  /// bone-heat: heat factor, above 0; a larger factor makes weights change faster between handles.
   /// Default 1.
   void SetHeat(double heat);
   vtkGetMacro(Heat, double);
@@ -106,7 +87,7 @@ private:
   vtkUnconstrainedWeights(const vtkUnconstrainedWeights&) = delete;
   void operator=(const vtkUnconstrainedWeights&) = delete;
 
-  int Method = BIHARMONIC;
+  std::string Method = "biharmonic";
   double Power = 2.0;
   double Smoothing = 0.05;
   double Heat = 1.0;

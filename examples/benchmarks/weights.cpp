@@ -148,12 +148,12 @@ void run(benchmark::State& state, Solve solve)
 
 void bounded_biharmonic(benchmark::State& state)
 {
-  run<BoundedWeightsOptions>(state, bounded_biharmonic_weights);
+  run<WeightsOptions>(state, bounded_biharmonic_weights);
 }
 
 void monotone(benchmark::State& state)
 {
-  run<MonotoneWeightsOptions>(state, monotone_weights);
+  run<WeightsOptions>(state, monotone_weights);
 }
 
 /// Measure the time of a whole preview in F, because this is the time until a user sees weights.

@@ -30,7 +30,7 @@ def filters():
     made = {}
     for order, energy in ((2, "biharmonic"), (3, "triharmonic")):
         free = bindpose.vtkUnconstrainedWeights()
-        free.SetMethod(free.BIHARMONIC if order == 2 else free.TRIHARMONIC)
+        free.SetMethod("biharmonic" if order == 2 else "triharmonic")
         bounded, monotone = bindpose.vtkBoundedBiharmonicWeights(), bindpose.vtkMonotoneWeights()
         bounded.SetOrder(order)
         monotone.SetOrder(order)

@@ -10,10 +10,11 @@ import re
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 LAYERS = ("vtk", "paraview", "python", "cli")
-STAGE_TYPES = {"flag", "integer", "id", "number", "integers", "numbers", "choice", "point_array", "cell_array"}
+STAGE_TYPES = {"flag", "integer", "id", "number", "integers", "numbers", "choice", "word",
+               "point_array", "cell_array"}
 VERB_TYPES = STAGE_TYPES | {"text", "path"}
 SET_FIELDS = {"filter", "also", "methods_of", "methods", "options"}
-OPTION_FIELDS = {"name", "type", "default", "help", "choices", "labels", "minimum", "above", "maximum", "below", "unit",
+OPTION_FIELDS = {"name", "type", "default", "help", "choices", "words", "labels", "minimum", "above", "maximum", "below", "unit",
                  "length", "advanced", "layers", "methods", "layer_defaults", "why", "defaults", "minimums", "columns",
                  "integers"}
 VERB_OPTION_FIELDS = OPTION_FIELDS | {"short", "value", "required", "repeated", "optional", "unless", "set"}
@@ -41,6 +42,7 @@ class Option:
         self.help = fields["help"]
         self.default = fields.get("default")
         self.choices = fields.get("choices", {})
+        self.words = fields.get("words", list(self.choices))
         self.length = fields.get("length", 1)
         self.advanced = fields.get("advanced", False)
         self.layers = fields.get("layers", LAYERS)
@@ -129,8 +131,8 @@ def require(condition, where, sentence):
 def check_default(option, default):
     """A default has the option's type and lies in its range."""
     where = option.where
-    if option.type == "choice":
-        require(default in option.choices, where, f"default {default!r} is not one of {', '.join(option.choices)}")
+    if option.type in ("choice", "word"):
+        require(default in option.words, where, f"default {default!r} is not one of {', '.join(option.words)}")
         return
     if option.type == "flag":
         require(isinstance(default, bool), where, f"default {default!r} must be true or false")
@@ -156,6 +158,7 @@ def check_option(option, allowed_fields, types):
     require(option.type in types, where, f"unknown type '{option.type}'")
     require(option.help.endswith(".") and option.help[0].isalnum(), where, "help must be one or more sentences")
     require((option.type == "choice") == bool(option.choices), where, "choices belong to the type choice, and to no other")
+    require((option.type == "word") == ("words" in fields), where, "words belong to the type word, and to no other")
     require(set(fields.get("labels", {})) <= set(option.choices), where, "a label belongs to no choice")
     require(set(option.layers) <= set(LAYERS), where, f"layers must be of {', '.join(LAYERS)}")
     require("layer_defaults" not in fields or fields.get("why"), where, "layer_defaults need a reason, 'why'")
@@ -172,7 +175,7 @@ def check_references(sets):
     for group in sets.values():
         for option in group.options:
             if option.name == "method":
-                known[group.methods_of or group.name] = set(option.choices)
+                known[group.methods_of or group.name] = set(option.words)
     for group in sets.values():
         words = known.get(group.methods_of or group.name, set())
         for option in group.options:

@@ -7,7 +7,8 @@ from descriptions import MENTION, plain, vtk_name
 
 MARK = re.compile(r"^( *)<Options set=\"(\w+)\"(?: filter=\"(\w+)\")?/>\n", re.MULTILINE)
 ELEMENTS = {"flag": "IntVectorProperty", "choice": "IntVectorProperty", "integer": "IntVectorProperty",
-            "integers": "IntVectorProperty", "id": "IdTypeVectorProperty", "number": "DoubleVectorProperty",
+            "integers": "IntVectorProperty", "id": "IdTypeVectorProperty", "word": "StringVectorProperty",
+            "number": "DoubleVectorProperty",
             "numbers": "DoubleVectorProperty", "point_array": "StringVectorProperty", "cell_array": "StringVectorProperty"}
 
 
@@ -29,6 +30,9 @@ def domain(option, filter_name):
         entries = [f"  <Entry value=\"{value}\" text={quoteattr(option.label(word))}/>"
                    for word, value in option.choices.items()]
         return ['<EnumerationDomain name="enum">', *entries, "</EnumerationDomain>"]
+    if option.type == "word":
+        return ['<StringListDomain name="list">', *(f'  <String value="{word}"/>' for word in option.words),
+                "</StringListDomain>"]
     if option.type.endswith("_array"):
         return []
     fields = option.fields
@@ -44,7 +48,7 @@ def hints(option):
     """An option that only some methods use is shown for these methods; a set's methods are those of its filter."""
     words = option.fields.get("methods", [])
     method = next((other for other in option.owner.options if other.name == "method"), None)
-    if not words or not method:
+    if not words or not method or method.type != "choice":
         return []
     values = " ".join(str(method.choices[word]) for word in words)
     return ["<Hints>", f'  <PropertyWidgetDecorator type="GenericDecorator" mode="visibility" property="Method" values="{values}"/>',

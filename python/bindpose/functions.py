@@ -239,7 +239,7 @@ def _make_weights(method):
     if method == "monotone":
         return filters.vtkMonotoneWeights()
     result = filters.vtkUnconstrainedWeights()
-    result.SetMethod(getattr(result, method.upper().replace("-", "_")))
+    result.SetMethod(method)
     return result
 
 

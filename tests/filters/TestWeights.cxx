@@ -361,11 +361,11 @@ TEST(WeightsFilters, WithoutBoundsByMethod)
   run.filter->Update();
   EXPECT_EQ(run.report().text("method"), "biharmonic");
   EXPECT_LT(run.output()->GetFieldData()->GetArray("WeightsMinimum")->GetTuple1(1), -0.05);
-  run.filter->SetMethodToHarmonic();
+  run.filter->SetMethod("harmonic");
   run.filter->Update();
   EXPECT_EQ(run.report().text("method"), "harmonic");
   EXPECT_GE(run.output()->GetFieldData()->GetArray("WeightsMinimum")->GetTuple1(1), -1e-12);
-  run.filter->SetMethodToTriharmonic();
+  run.filter->SetMethod("triharmonic");
   run.filter->Update();
   EXPECT_EQ(run.report().text("method"), "triharmonic");
   EXPECT_EQ(run.filter->GetNumberOfBinds(), 3);
@@ -544,7 +544,7 @@ TEST(WeightsFilters, ExtremaComeAsPoints)
     to_polydata({ test::point_handle("c", Vec3(0.5, 0.5, 0)),
       test::point_handle("a", Vec3(0.2, 0.2, 0)), test::point_handle("b", Vec3(0.8, 0.2, 0)),
       test::point_handle("d", Vec3(0.8, 0.8, 0)), test::point_handle("e", Vec3(0.2, 0.8, 0)) }));
-  weights.filter->SetMethod(vtkUnconstrainedWeights::BIHARMONIC);
+  weights.filter->SetMethod("biharmonic");
   weights.filter->SetKeepRaw(true);
   weights.filter->Update();
   vtkDataArray* raw = weights.output()->GetPointData()->GetArray("RawWeights");
@@ -676,7 +676,7 @@ TEST(WeightsFilters, HandlesHaveBoundsOfTheirOwn)
     test::point_handle("low", Vec3(0.75, 0.25, 0)),
     test::point_handle("middle", Vec3(0.5, 0.5, 0)) });
   Pipeline<vtkUnconstrainedWeights> free(mesh, handles);
-  free.filter->SetMethod(vtkUnconstrainedWeights::BIHARMONIC);
+  free.filter->SetMethod("biharmonic");
   free.filter->SetKeepRaw(true);
   free.filter->Update();
   vtkNew<vtkDoubleArray> bounds;

@@ -12,6 +12,7 @@ import xml.etree.ElementTree
 
 import bindpose
 import pytest
+from bindpose.meshes import to_dataset
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "filters" / "options"))
@@ -63,6 +64,19 @@ def test_ranges_are_those_of_the_description(group, name, option):
         assert get() == end
         set_(end + beyond)
         assert get() in (end, end + beyond)
+
+
+def test_weight_methods_are_those_of_the_registry():
+    described = SETS["weights_method"].options[0].words
+    solver = bindpose.vtkUnconstrainedWeights()
+    solver.SetInputData(0, to_dataset(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])))
+    solver.SetInputData(1, bindpose.handles(points=[[0, 0, 0], [1, 0, 0]]))
+    solver.SetMethod("best")
+    with pytest.raises(bindpose.InvalidInput) as error:
+        bindpose.run(solver)
+    registry = str(error.value).split("expected one of ")[1].split(", ")
+    assert ["bounded-biharmonic", "monotone", *registry] == described
+    assert SETS["unconstrained_weights"].options[0].words == registry
 
 
 def test_every_bind_and_pose_setter_is_described():

@@ -2,10 +2,6 @@
 #include "bind_job.h"
 
 #include "base/execution.h"
-#include "weights/baseline_weights.h"
-#include "weights/bounded_biharmonic_weights.h"
-#include "weights/monotone_weights.h"
-#include "weights/unconstrained_weights.h"
 
 #include <functional>
 #include <memory>
@@ -14,32 +10,6 @@ using namespace bindpose;
 
 namespace
 {
-Status solve(BindMethod method, const WeightsProblem& problem, ExecutionContext& context,
-  WeightsResult& weights)
-{
-  switch (method)
-  {
-    case BindMethod::bounded:
-      return bounded_biharmonic_weights(problem, {}, context, weights);
-    case BindMethod::monotone:
-      return monotone_weights(problem, {}, context, weights);
-    case BindMethod::inverse_distance:
-    case BindMethod::smoothed_harmonic:
-    case BindMethod::bone_heat:
-    {
-      BaselineWeightsOptions options;
-      options.method = static_cast<BaselineMethod>(method);
-      return baseline_weights(problem, options, context, weights);
-    }
-    default:
-    {
-      UnconstrainedWeightsOptions options;
-      options.method = static_cast<UnconstrainedMethod>(method);
-      return unconstrained_weights(problem, options, context, weights);
-    }
-  }
-}
-
 void run_bind(const BindInput& input, const std::function<void(const Weights&)>& preview,
   ExecutionContext& context, BindResult& result)
 {
@@ -53,7 +23,7 @@ void run_bind(const BindInput& input, const std::function<void(const Weights&)>&
   }
   const WeightsMethod method =
     [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
-  { return solve(input.method, problem, of_method, weights); };
+  { return input.method->kernel(problem, {}, of_method, weights); };
   SurfaceWeights weights;
   result.status = surface_weights(input.surface.points, input.surface.triangles,
     input.region_of_vertex, input.handles, options, {}, method, context, weights);

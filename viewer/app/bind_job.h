@@ -7,24 +7,9 @@
 #include "kernel_job.h"
 #include "weights/handles.h"
 #include "weights/surface_weights.h"
+#include "weights/weight_methods.h"
 
 #include <QObject>
-
-/// The weight methods: bounded and monotone weights, then the methods to compare with. The latter
-/// have the numbers of UnconstrainedMethod and BaselineMethod.
-enum class BindMethod
-{
-  bounded = -1,
-  monotone = 0,
-  harmonic = 1,
-  biharmonic = 2,
-  triharmonic = 3,
-  graph_biharmonic = 4,
-  linear_subspace = 5,
-  inverse_distance = 6,
-  smoothed_harmonic = 7,
-  bone_heat = 8
-};
 
 /// Input of a bind. It consists of copies, so that the bind shares nothing with the window.
 struct BindInput
@@ -34,7 +19,8 @@ struct BindInput
   /// The geometry of the handles that becomes part of the tets.
   bindpose::HandlePlaces handle_places;
   std::vector<bindpose::Index> region_of_vertex; ///< #V labels, empty without regions
-  BindMethod method = BindMethod::bounded;
+  /// The method, a row of weight_methods(); never null.
+  const bindpose::WeightMethod* method = bindpose::weight_methods().data();
   bindpose::WeightsDomain domain = bindpose::WeightsDomain::automatic;
   bool preview = true; ///< whether to compute preliminary weights to pose with
 };

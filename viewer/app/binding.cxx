@@ -35,7 +35,7 @@ void Binding::start()
   {
     return;
   }
-  input.method = this->panel_->monotone() ? BindMethod::monotone : BindMethod::bounded;
+  input.method = &this->panel_->method();
   input.domain = this->panel_->domain();
   this->document_->begin_bind();
   this->job_->start(std::move(input));

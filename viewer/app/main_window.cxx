@@ -75,28 +75,25 @@ QString short_name(const QString& path)
   constexpr int longest = 60;
   return shortened(QFileInfo(path).fileName(), longest);
 }
-QString method_words(BindMethod method)
+QString method_words(const WeightMethod& method)
 {
-  const std::vector<ComparedMethod>& methods = compared_methods();
-  const auto found = std::find_if(methods.begin(), methods.end(),
-    [method](const ComparedMethod& each) { return each.method == method; });
-  return QCoreApplication::translate("WeightPanel", found->name).toLower();
+  return QCoreApplication::translate("WeightPanel", method.label).toLower();
 }
 /// Return a sentence with the method and, if known, the accuracy of the bound weights. The panel of
 /// weights shows the accuracy per column.
 /// @param chosen  the method of the next bind; the certificate is about the bound method
-QString certificate_note(vtkPolyData* surface, BindMethod chosen)
+QString certificate_note(vtkPolyData* surface, const WeightMethod& chosen)
 {
   vtkDataArray* gaps = surface->GetFieldData()->GetArray("WeightsRelativeGap");
   const int bound = method_of_weights(surface);
-  const QString name = bound < 0 ? MainWindow::tr("the mesh's weights")
-                                 : method_words(compared_methods()[bound].method);
+  const QString name =
+    bound < 0 ? MainWindow::tr("the mesh's weights") : method_words(weight_methods()[bound]);
   QString note = gaps && gaps->GetNumberOfTuples() > 0
     ? MainWindow::tr("Bound: %1. Optimal to within %2.")
         .arg(name)
         .arg(gaps->GetRange()[1], 0, 'e', 1)
     : MainWindow::tr("Bound: %1.").arg(name);
-  if (bound >= 0 && compared_methods()[bound].method != chosen)
+  if (bound >= 0 && &weight_methods()[bound] != &chosen)
   {
     note += ' ' + MainWindow::tr("Bind again for %1.").arg(method_words(chosen));
   }
@@ -987,8 +984,7 @@ void MainWindow::update_panel()
 
 QString MainWindow::bound_note() const
 {
-  return certificate_note(this->document_->surface(),
-    this->panel_->monotone() ? BindMethod::monotone : BindMethod::bounded);
+  return certificate_note(this->document_->surface(), this->panel_->method());
 }
 
 void MainWindow::show_outlines(bool shown)

@@ -9,6 +9,7 @@
 #include "pose/pose.h"
 
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
@@ -58,8 +59,14 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   column->addWidget(heading(tr("Bind"), this));
   this->kind_ = combo(this);
   this->kind_->setObjectName("bind.method");
-  this->kind_->addItem(tr("Bounded biharmonic weights"));
-  this->kind_->addItem(tr("Monotone weights"));
+  for (const bindpose::WeightMethod& method : bindpose::weight_methods())
+  {
+    if (method.constrained)
+    {
+      this->kind_->addItem(
+        tr("%1 weights").arg(QCoreApplication::translate("WeightPanel", method.label)));
+    }
+  }
   // This line determines the width of the panel, in any font.
   this->kind_->setMinimumContentsLength(0);
   this->kind_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
@@ -333,9 +340,10 @@ void SidePanel::set_method(int method)
   this->pose_->set_method(method);
 }
 
-bool SidePanel::monotone() const
+const bindpose::WeightMethod& SidePanel::method() const
 {
-  return this->kind_->currentIndex() == 1;
+  // The constrained methods come first in the registry, in the order of the list.
+  return bindpose::weight_methods()[static_cast<std::size_t>(this->kind_->currentIndex())];
 }
 
 bindpose::WeightsDomain SidePanel::domain() const

@@ -4,6 +4,7 @@
 #include "handle_tree.h"
 
 #include "weights/surface_weights.h"
+#include "weights/weight_methods.h"
 
 #include <QFrame>
 
@@ -53,8 +54,8 @@ public:
   HandleFields* fields() const { return this->fields_; }
   PoseList* poses() const { return this->poses_; }
 
-  /// Report whether monotone weights are chosen.
-  bool monotone() const;
+  /// Return the chosen method of weights.
+  const bindpose::WeightMethod& method() const;
   /// Return the domain on which weights are solved.
   bindpose::WeightsDomain domain() const;
   /// Return the column of the weights that is shown; -1: plain shading.

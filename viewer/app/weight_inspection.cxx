@@ -246,7 +246,7 @@ QString WeightInspection::certificate(int column) const
   }
   const int method = method_of_weights(this->surface_);
   QString text = method < 0 ? tr("Weights of the mesh:\n")
-                            : tr("%1 weights:\n").arg(name_of(compared_methods()[method].name));
+                            : tr("%1 weights:\n").arg(name_of(weight_methods()[method].label));
   text += (column < 0 ? tr("Worst gap %1, residual %2\n") : tr("Gap %1, residual %2\n"))
             .arg(number(gap), number(residual));
   const double iterations = value("WeightsIterations");
@@ -266,8 +266,8 @@ void WeightInspection::compare(int method)
   {
     return;
   }
-  const ComparedMethod& other = compared_methods()[method];
-  this->method_ = name_of(other.brief);
+  const WeightMethod& other = weight_methods()[method];
+  this->method_ = name_of(other.short_label);
   input.method = other.method;
   input.preview = false;
   // Use the same mesh, if it is known.

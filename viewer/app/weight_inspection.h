@@ -32,7 +32,7 @@ public:
   /// Show the column of the handle that was chosen in the picture.
   void choose_column(int column);
 
-  void compare(int method); ///< an index of compared_methods()
+  void compare(int method); ///< an index of weight_methods()
   void cancel() { this->job_.cancel(); }
   bool is_busy() const { return this->job_.is_running(); }
 
@@ -72,8 +72,9 @@ private:
   double compared_seconds_ = 0.0;
 };
 
-/// Add the result of a bind to a surface, as in a file that `bindpose weights --keep-raw` writes: the
-/// point arrays Weights and RawWeights, the columns' certificates, and the seconds in the report.
+/// Add the result of a bind to a surface, as in a file that `bindpose weights --keep-raw` writes:
+/// the point arrays Weights and RawWeights, the columns' certificates, and the seconds in the
+/// report.
 void add_weights(const BindResult& result, const bindpose::Handles& handles, vtkPolyData* surface);
 /// Return the tets that were solved on, with the same arrays; null if the surface itself was solved
 /// on.

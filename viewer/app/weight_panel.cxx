@@ -34,44 +34,12 @@ void enable_or_say(QWidget* widget, const QString& reason)
 }
 } // namespace
 
-const std::vector<ComparedMethod>& compared_methods()
-{
-  static const std::vector<ComparedMethod> methods = {
-    { BindMethod::bounded, "bounded-biharmonic",
-      QT_TRANSLATE_NOOP("WeightPanel", "Bounded biharmonic"),
-      QT_TRANSLATE_NOOP("WeightPanel", "Bounded") },
-    { BindMethod::monotone, "monotone", QT_TRANSLATE_NOOP("WeightPanel", "Monotone"),
-      QT_TRANSLATE_NOOP("WeightPanel", "Monotone") },
-    { BindMethod::harmonic, "harmonic", QT_TRANSLATE_NOOP("WeightPanel", "Harmonic"),
-      QT_TRANSLATE_NOOP("WeightPanel", "Harmonic") },
-    { BindMethod::biharmonic, "biharmonic", QT_TRANSLATE_NOOP("WeightPanel", "Biharmonic"),
-      QT_TRANSLATE_NOOP("WeightPanel", "Biharmonic") },
-    { BindMethod::triharmonic, "triharmonic", QT_TRANSLATE_NOOP("WeightPanel", "Triharmonic"),
-      QT_TRANSLATE_NOOP("WeightPanel", "Triharmonic") },
-    { BindMethod::graph_biharmonic, "graph-biharmonic",
-      QT_TRANSLATE_NOOP("WeightPanel", "Graph biharmonic"),
-      QT_TRANSLATE_NOOP("WeightPanel", "Graph") },
-    { BindMethod::linear_subspace, "linear-subspace",
-      QT_TRANSLATE_NOOP("WeightPanel", "Linear subspace"),
-      QT_TRANSLATE_NOOP("WeightPanel", "Linear subspace") },
-    { BindMethod::inverse_distance, "inverse-distance",
-      QT_TRANSLATE_NOOP("WeightPanel", "Inverse distance"),
-      QT_TRANSLATE_NOOP("WeightPanel", "Distance") },
-    { BindMethod::smoothed_harmonic, "smoothed-harmonic",
-      QT_TRANSLATE_NOOP("WeightPanel", "Smoothed harmonic"),
-      QT_TRANSLATE_NOOP("WeightPanel", "Smoothed") },
-    { BindMethod::bone_heat, "bone-heat", QT_TRANSLATE_NOOP("WeightPanel", "Bone heat"),
-      QT_TRANSLATE_NOOP("WeightPanel", "Bone heat") },
-  };
-  return methods;
-}
-
 int method_of_weights(vtkDataSet* surface)
 {
-  const std::vector<ComparedMethod>& methods = compared_methods();
+  const std::vector<WeightMethod>& methods = weight_methods();
   const std::string word = surface ? bindpose::read_report(surface).text("method") : std::string();
   const auto found = std::find_if(methods.begin(), methods.end(),
-    [&word](const ComparedMethod& method) { return word == method.word; });
+    [&word](const WeightMethod& method) { return word == method.word; });
   return found == methods.end() ? -1 : static_cast<int>(found - methods.begin());
 }
 
@@ -161,9 +129,9 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(heading(tr("Other method"), this));
   this->method_ = new QComboBox(this);
   this->method_->setObjectName("weights.compare_with");
-  for (const ComparedMethod& method : compared_methods())
+  for (const WeightMethod& method : weight_methods())
   {
-    this->method_->addItem(tr(method.name));
+    this->method_->addItem(tr(method.label));
   }
   this->method_->setCurrentIndex(1);
   this->method_->setToolTip(tr("Weights to compare with; the shape keeps its own"));

@@ -17,18 +17,8 @@ class QPushButton;
 class ValueRow;
 class vtkDataSet;
 
-/// A method that weights can be compared with. Names are in English, in the translation context
-/// WeightPanel.
-struct ComparedMethod
-{
-  BindMethod method;
-  const char* word; ///< in reports and on the command line
-  const char* name;
-  const char* brief; ///< short name for a narrow line
-};
-const std::vector<ComparedMethod>& compared_methods();
-/// Return the index in compared_methods() of the method that solved for a surface's weights, from
-/// their report; -1: unknown.
+/// Return the index in bindpose::weight_methods() of the method that solved for a surface's
+/// weights, from their report; -1: unknown.
 int method_of_weights(vtkDataSet* surface);
 
 /// The panel to the right of the picture to inspect weights: which weights, how they are shown, how
@@ -62,7 +52,8 @@ public:
     bool has_picture = false; ///< the colors are drawn over a picture
     bool comparing = false;
     bool compared = false;
-    int method = -1; ///< the method of the weights, an index of compared_methods(); -1: unknown
+    int method =
+      -1; ///< the method of the weights, an index of bindpose::weight_methods(); -1: unknown
   };
   void set_facts(const Facts& facts);
   /// Set the three lines about the method and the column's certificate.
@@ -91,7 +82,7 @@ Q_SIGNALS:
   void column_chosen(int column);
   /// The result of any getter has changed.
   void look_changed();
-  /// An index of compared_methods().
+  /// An index of bindpose::weight_methods().
   void comparison_wanted(int method);
   void cancel_wanted();
   void orientation_chosen(int orientation); ///< a PlaneHandle::Orientation

@@ -42,18 +42,8 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_method(const Arguments& arguments)
     set_bounded_weights_options(arguments, weights.Get());
     return weights;
   }
-  static const std::map<std::string, int> methods = {
-    { "harmonic", vtkUnconstrainedWeights::HARMONIC },
-    { "biharmonic", vtkUnconstrainedWeights::BIHARMONIC },
-    { "triharmonic", vtkUnconstrainedWeights::TRIHARMONIC },
-    { "graph-biharmonic", vtkUnconstrainedWeights::GRAPH_BIHARMONIC },
-    { "linear-subspace", vtkUnconstrainedWeights::LINEAR_SUBSPACE },
-    { "inverse-distance", vtkUnconstrainedWeights::INVERSE_DISTANCE },
-    { "smoothed-harmonic", vtkUnconstrainedWeights::SMOOTHED_HARMONIC },
-    { "bone-heat", vtkUnconstrainedWeights::BONE_HEAT },
-  };
-  auto weights = vtkSmartPointer<vtkUnconstrainedWeights>::New();
-  weights->SetMethod(methods.at(method));
+  const auto weights = vtkSmartPointer<vtkUnconstrainedWeights>::New();
+  weights->SetMethod(method);
   return weights;
 }
 
@@ -64,8 +54,7 @@ bool set_terms(Session& session, vtkDataSet* mesh, vtkWeightsAlgorithm* weights)
   const Arguments& arguments = session.arguments();
   for (const char* option : { "rigidity", "rigid-set", "lower", "upper", "pinned" })
   {
-    if (arguments.typed(option) &&
-      !mesh->GetPointData()->GetArray(arguments.text(option).c_str()))
+    if (arguments.typed(option) && !mesh->GetPointData()->GetArray(arguments.text(option).c_str()))
     {
       return session.invalid("--" + std::string(option) + ": the mesh has no point array '" +
         arguments.text(option) + "'");

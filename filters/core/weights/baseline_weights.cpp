@@ -155,7 +155,7 @@ SparseMatrix with_diagonal(const SparseMatrix& matrix, double factor, const Vect
   return SparseMatrix(sum + d);
 }
 
-Status smoothed_harmonic(const WeightsProblem& problem, const BaselineWeightsOptions& options,
+Status smoothed_harmonic(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, MatrixXd& w, VectorXd& residuals)
 {
   const MatrixXd zero = MatrixXd::Zero(w.rows(), w.cols());
@@ -293,7 +293,7 @@ Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext
   return whole ? Status() : Status::canceled();
 }
 
-Status bone_heat(const WeightsProblem& problem, const BaselineWeightsOptions& options,
+Status bone_heat(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, MatrixXd& w, VectorXd& residuals, Index& heated)
 {
   VectorXd h;
@@ -316,35 +316,9 @@ Status bone_heat(const WeightsProblem& problem, const BaselineWeightsOptions& op
   return {};
 }
 
-Status check_options(const BaselineWeightsOptions& options)
-{
-  const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
-  if (!positive(options.power) || !positive(options.heat))
-  {
-    return Status::invalid_input("power and heat must be positive");
-  }
-  return options.smoothing >= 0.0 && std::isfinite(options.smoothing)
-    ? Status()
-    : Status::invalid_input("smoothing must not be negative");
-}
-} // namespace
-
-const char* to_string(BaselineMethod method)
-{
-  switch (method)
-  {
-    case BaselineMethod::inverse_distance:
-      return "inverse-distance";
-    case BaselineMethod::smoothed_harmonic:
-      return "smoothed-harmonic";
-    case BaselineMethod::bone_heat:
-      return "bone-heat";
-  }
-  return "";
-}
-
-Status baseline_weights(const WeightsProblem& problem, const BaselineWeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+/// Start the weights with the rows that are given.
+Status begin(
+  const WeightsProblem& problem, const WeightsOptions& options, WeightsResult& result, MatrixXd& w)
 {
   result = {};
   if (problem.terms.any())
@@ -352,41 +326,78 @@ Status baseline_weights(const WeightsProblem& problem, const BaselineWeightsOpti
     return Status::invalid_input(
       "rigidity, rigid sets, bounds, pins and mirrors are for bounded and monotone weights");
   }
-  Status status = check_options(options);
-  if (!status.ok())
+  const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+  if (!positive(options.power) || !positive(options.heat))
   {
-    return status;
+    return Status::invalid_input("power and heat must be positive");
   }
-  const Phase phase(context, "weights", 0.1, 0.95);
-  MatrixXd w = with_fixed_rows(problem);
-  VectorXd residuals = VectorXd::Zero(problem.handle_count());
-  Index heated = -1;
-  switch (options.method)
+  if (!(options.smoothing >= 0.0 && std::isfinite(options.smoothing)))
   {
-    case BaselineMethod::inverse_distance:
-      status = inverse_distances(problem, options.power, context, w);
-      break;
-    case BaselineMethod::smoothed_harmonic:
-      status = smoothed_harmonic(problem, options, context, w, residuals);
-      break;
-    case BaselineMethod::bone_heat:
-      status = bone_heat(problem, options, context, w, residuals, heated);
-      break;
-    default:
-      status = Status::invalid_input("there is no such baseline method");
+    return Status::invalid_input("smoothing must not be negative");
   }
-  if (!status.ok())
-  {
-    return status;
-  }
+  w = with_fixed_rows(problem);
+  return {};
+}
+
+Status finish(const WeightsProblem& problem, const char* method, const WeightsOptions& options,
+  const MatrixXd& w, const VectorXd& residuals, ExecutionContext& context, WeightsResult& result)
+{
   std::vector<BoxQpSolution> solutions(static_cast<std::size_t>(w.cols()));
   for (Index j = 0; j < w.cols(); ++j)
   {
     solutions[j].w = w.col(j);
     solutions[j].certificate.kkt_residual = residuals[j];
   }
-  status = finish_weights(
-    problem, to_string(options.method), options.tolerance, solutions, w, context, result);
+  return finish_weights(problem, method, options.tolerance, solutions, w, context, result);
+}
+} // namespace
+
+Status inverse_distance_weights(const WeightsProblem& problem, const WeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result)
+{
+  MatrixXd w;
+  Status status = begin(problem, options, result, w);
+  if (status.ok())
+  {
+    const Phase phase(context, "weights", 0.1, 0.95);
+    status = inverse_distances(problem, options.power, context, w);
+  }
+  return status.ok() ? finish(problem, "inverse-distance", options, w,
+                         VectorXd::Zero(problem.handle_count()), context, result)
+                     : status;
+}
+
+Status smoothed_harmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result)
+{
+  MatrixXd w;
+  VectorXd residuals = VectorXd::Zero(problem.handle_count());
+  Status status = begin(problem, options, result, w);
+  if (status.ok())
+  {
+    const Phase phase(context, "weights", 0.1, 0.95);
+    status = smoothed_harmonic(problem, options, context, w, residuals);
+  }
+  return status.ok() ? finish(problem, "smoothed-harmonic", options, w, residuals, context, result)
+                     : status;
+}
+
+Status bone_heat_weights(const WeightsProblem& problem, const WeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result)
+{
+  MatrixXd w;
+  VectorXd residuals = VectorXd::Zero(problem.handle_count());
+  Index heated = -1;
+  Status status = begin(problem, options, result, w);
+  if (status.ok())
+  {
+    const Phase phase(context, "weights", 0.1, 0.95);
+    status = bone_heat(problem, options, context, w, residuals, heated);
+  }
+  if (status.ok())
+  {
+    status = finish(problem, "bone-heat", options, w, residuals, context, result);
+  }
   if (heated >= 0 && status.usable())
   {
     status.report.set("counts.heated_vertices", Report::Value(heated));

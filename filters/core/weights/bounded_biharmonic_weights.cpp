@@ -5,8 +5,8 @@
 namespace bindpose
 {
 
-Status bounded_biharmonic_weights(const WeightsProblem& problem,
-  const BoundedWeightsOptions& options, ExecutionContext& context, WeightsResult& result)
+Status bounded_biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result)
 {
   result = {};
   if (options.order != 2 && options.order != 3)

@@ -6,19 +6,13 @@
 namespace bindpose
 {
 
-struct BoundedWeightsOptions : WeightsOptions
-{
-  /// Order of the energy: 2 biharmonic, 3 triharmonic (oscillates within the bounds).
-  int order = 2;
-};
-
 /// Compute bounded biharmonic weights. The weights of a handle minimize the k-harmonic energy
 /// subject to 0 <= w <= 1, are 1 on the handle and 0 on all other handles. Afterward rows are
 /// divided by their sums. Every column has a certificate.
 /// Cost: see BoxQp.
 /// Jacobson et al. 2011, Bounded biharmonic weights for real-time deformation.
-Status bounded_biharmonic_weights(const WeightsProblem& problem,
-  const BoundedWeightsOptions& options, ExecutionContext& context, WeightsResult& result);
+Status bounded_biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result);
 
 } // namespace bindpose
 

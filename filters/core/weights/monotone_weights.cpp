@@ -220,7 +220,7 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
   return {};
 }
 
-Status monotone_weights(const WeightsProblem& problem, const MonotoneWeightsOptions& options,
+Status monotone_weights(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result)
 {
   result = {};

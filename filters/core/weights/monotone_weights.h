@@ -6,12 +6,6 @@
 namespace bindpose
 {
 
-struct MonotoneWeightsOptions : WeightsOptions
-{
-  /// Order of the energy: 2 biharmonic, 3 triharmonic.
-  int order = 2;
-};
-
 /// The guides of monotone weights and their ordered pairs, one list per column of the group. A
 /// guide has extrema only on handles and on pinned vertices. Vertices where a guide is exactly 0 or
 /// 1 (regions enclosed by one handle) are pinned in the columns. The pairs are added to the
@@ -30,7 +24,7 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
 /// can be an extremum. The certificate is that of bounded weights. Cost: 10 to 25 factorizations
 /// per handle.
 /// Jacobson, Weinkauf, Sorkine 2012, Smooth shape-aware functions with controlled extrema.
-Status monotone_weights(const WeightsProblem& problem, const MonotoneWeightsOptions& options,
+Status monotone_weights(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result);
 
 } // namespace bindpose

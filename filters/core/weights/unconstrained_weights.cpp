@@ -79,61 +79,19 @@ SparseMatrix linear_subspace_energy(const WeightsProblem& problem, bool spanned)
   }
   return 0.5 * (q + SparseMatrix(q.transpose()));
 }
-} // namespace
 
-const char* to_string(UnconstrainedMethod method)
+Status check_terms(const WeightsProblem& problem)
 {
-  switch (method)
-  {
-    case UnconstrainedMethod::harmonic:
-      return "harmonic";
-    case UnconstrainedMethod::biharmonic:
-      return "biharmonic";
-    case UnconstrainedMethod::triharmonic:
-      return "triharmonic";
-    case UnconstrainedMethod::graph_biharmonic:
-      return "graph-biharmonic";
-    case UnconstrainedMethod::linear_subspace:
-      return "linear-subspace";
-  }
-  return "";
+  return problem.terms.any()
+    ? Status::invalid_input(
+        "rigidity, rigid sets, bounds, pins and mirrors are for bounded and monotone weights")
+    : Status();
 }
 
-Status unconstrained_weights(const WeightsProblem& problem,
-  const UnconstrainedWeightsOptions& options, ExecutionContext& context, WeightsResult& result)
+/// Minimize 1/2 w' Q w for every handle.
+Status minimize(const WeightsProblem& problem, const char* method, const SparseMatrix& q,
+  const WeightsOptions& options, ExecutionContext& context, WeightsResult& result)
 {
-  result = {};
-  if (problem.terms.any())
-  {
-    return Status::invalid_input(
-      "rigidity, rigid sets, bounds, pins and mirrors are for bounded and monotone weights");
-  }
-  std::vector<std::string> warnings;
-  SparseMatrix q;
-  switch (options.method)
-  {
-    case UnconstrainedMethod::harmonic:
-    case UnconstrainedMethod::biharmonic:
-    case UnconstrainedMethod::triharmonic:
-      q = harmonic_energy(problem.stiffness, problem.mass, static_cast<int>(options.method));
-      break;
-    case UnconstrainedMethod::graph_biharmonic:
-      q = harmonic_energy(problem.stiffness, Eigen::VectorXd::Ones(problem.vertex_count()), 2);
-      break;
-    case UnconstrainedMethod::linear_subspace:
-    {
-      const bool spanned = fixed_vertices_span(problem);
-      q = linear_subspace_energy(problem, spanned);
-      if (!spanned)
-      {
-        warnings.emplace_back("the handles do not span the shape: what is linear is not told by "
-                              "them, and a millionth of the biharmonic energy decides");
-      }
-      break;
-    }
-    default:
-      return Status::invalid_input("there is no such method of weights without bounds");
-  }
   BoxQp solver(q, problem.fixed, { options.tolerance, options.maximum_iterations, options.solver });
   Status status = solver.prepare(context);
   if (!status.ok())
@@ -152,9 +110,64 @@ Status unconstrained_weights(const WeightsProblem& problem,
   {
     fallback.col(static_cast<Index>(j)) = solutions[j].w;
   }
-  status = finish_weights(
-    problem, to_string(options.method), options.tolerance, solutions, fallback, context, result);
-  status.warnings.insert(status.warnings.end(), warnings.begin(), warnings.end());
+  return finish_weights(problem, method, options.tolerance, solutions, fallback, context, result);
+}
+
+/// Minimize the energy of an order with these masses.
+Status minimize_order(const WeightsProblem& problem, const char* method, int order,
+  const Eigen::VectorXd& mass, const WeightsOptions& options, ExecutionContext& context,
+  WeightsResult& result)
+{
+  result = {};
+  const Status status = check_terms(problem);
+  return status.ok() ? minimize(problem, method, harmonic_energy(problem.stiffness, mass, order),
+                         options, context, result)
+                     : status;
+}
+} // namespace
+
+Status harmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result)
+{
+  return minimize_order(problem, "harmonic", 1, problem.mass, options, context, result);
+}
+
+Status biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result)
+{
+  return minimize_order(problem, "biharmonic", 2, problem.mass, options, context, result);
+}
+
+Status triharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result)
+{
+  return minimize_order(problem, "triharmonic", 3, problem.mass, options, context, result);
+}
+
+Status graph_biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result)
+{
+  return minimize_order(problem, "graph-biharmonic", 2,
+    Eigen::VectorXd::Ones(problem.vertex_count()), options, context, result);
+}
+
+Status linear_subspace_weights(const WeightsProblem& problem, const WeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result)
+{
+  result = {};
+  Status status = check_terms(problem);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const bool spanned = fixed_vertices_span(problem);
+  status = minimize(
+    problem, "linear-subspace", linear_subspace_energy(problem, spanned), options, context, result);
+  if (!spanned && status.usable())
+  {
+    status.warnings.emplace_back("the handles do not span the shape, so a millionth of the "
+                                 "biharmonic energy is added");
+  }
   return status;
 }
 

@@ -35,6 +35,14 @@ struct WeightsOptions
   WeightTerms terms; ///< for bounded and monotone weights; read by make_weights_problem()
   HandleInsertionOptions insertion;
   SparseSolver::Options solver;
+  /// Bounded and monotone weights: order of the energy, 2 biharmonic, 3 triharmonic (which
+  /// oscillates within the bounds).
+  int order = 2;
+  double power = 2.0; ///< inverse-distance weights: exponent, > 0
+  /// Smoothed harmonic weights: smoothing length as a fraction of the diagonal, >= 0.
+  double smoothing = 0.05;
+  /// Bone heat weights: > 0; larger values make the transition between handles sharper.
+  double heat = 1.0;
 };
 
 /// A mesh with the handles inserted as vertices, and the matrices of its energies. It is the common

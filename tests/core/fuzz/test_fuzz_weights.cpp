@@ -1,9 +1,6 @@
 // Handles at random positions: on, in and outside of the mesh, and touching each other. The weights
 // satisfy their definition, or the problem is refused with one sentence.
-#include "weights/baseline_weights.h"
-#include "weights/bounded_biharmonic_weights.h"
-#include "weights/monotone_weights.h"
-#include "weights/unconstrained_weights.h"
+#include "weights/weight_methods.h"
 
 #include "core/weights/weights_shapes.h"
 #include "support/fuzz.h"
@@ -161,52 +158,26 @@ void expect_same_shape(const Domain& before, const HandleInsertion& after)
   EXPECT_NEAR(measure(domain), measure(before), 1e-9 * measure(before));
 }
 
-enum class Method
-{
-  unconstrained,
-  baseline,
-  bounded,
-  monotone
-};
-
-Status solve(Random& random, const WeightsProblem& problem, Method method, WeightsResult& result)
+Status solve(
+  Random& random, const WeightsProblem& problem, const WeightMethod& method, WeightsResult& result)
 {
   ExecutionContext context;
   context.set_threads(1);
-  const int order = 2 + static_cast<int>(random.below(4)) / 3;
-  if (method == Method::unconstrained)
-  {
-    UnconstrainedWeightsOptions options;
-    options.method = static_cast<UnconstrainedMethod>(1 + random.below(5));
-    return unconstrained_weights(problem, options, context, result);
-  }
-  if (method == Method::baseline)
-  {
-    BaselineWeightsOptions options;
-    options.method = static_cast<BaselineMethod>(6 + random.below(3));
-    options.smoothing = random.below(2) == 0 ? 0.0 : random.uniform(1e-3, 1.0);
-    options.power = random.uniform(0.1, 9.0);
-    options.heat = std::exp(random.uniform(-7.0, 7.0));
-    return baseline_weights(problem, options, context, result);
-  }
-  if (method == Method::bounded)
-  {
-    BoundedWeightsOptions options;
-    options.order = order;
-    return bounded_biharmonic_weights(problem, options, context, result);
-  }
-  MonotoneWeightsOptions options;
-  options.order = order;
-  return monotone_weights(problem, options, context, result);
+  WeightsOptions options;
+  options.order = 2 + static_cast<int>(random.below(4)) / 3;
+  options.smoothing = random.below(2) == 0 ? 0.0 : random.uniform(1e-3, 1.0);
+  options.power = random.uniform(0.1, 9.0);
+  options.heat = std::exp(random.uniform(-7.0, 7.0));
+  return method.kernel(problem, options, context, result);
 }
 
-void expect_weights(
-  const WeightsProblem& problem, Method method, const Status& status, const WeightsResult& result)
+void expect_weights(const WeightsProblem& problem, const WeightMethod& method, const Status& status,
+  const WeightsResult& result)
 {
   ASSERT_EQ(result.weights.rows(), problem.vertex_count());
   ASSERT_EQ(result.weights.cols(), problem.handle_count());
   ASSERT_TRUE(result.weights.allFinite() && result.raw.allFinite());
-  if (method == Method::bounded || method == Method::monotone)
+  if (method.constrained)
   {
     for (const Weights* weights : { &result.raw, &result.weights })
     {
@@ -266,8 +237,12 @@ TEST(FuzzWeights, HandlesAnywhere)
       {
         EXPECT_EQ(problem.constraints.values.col(h).maxCoeff(), 1.0) << "a handle without a vertex";
       }
-      const auto method = static_cast<Method>(random.below(4));
-      SCOPED_TRACE(static_cast<int>(method));
+      // Every second case is bounded or monotone weights.
+      const std::vector<WeightMethod>& methods = weight_methods();
+      const WeightMethod& method =
+        methods[random.below(2) == 0 ? random.below(2)
+                                     : 2 + random.below(static_cast<int>(methods.size()) - 2)];
+      SCOPED_TRACE(method.word);
       WeightsResult result;
       const Status status = solve(random, problem, method, result);
       expect_spoken(status);

@@ -1,7 +1,7 @@
 // Baseline weights for comparisons: closed forms, limits in which two methods agree, and their
 // differences.
 #include "weights/baseline_weights.h"
-#include "weights/unconstrained_weights.h"
+#include "weights/weight_methods.h"
 
 #include "weights_shapes.h"
 
@@ -16,16 +16,21 @@ using ::testing::HasSubstr;
 
 namespace
 {
-WeightsResult unconstrained(
-  const WeightsProblem& problem, UnconstrainedMethod method, Status* status = nullptr)
+/// Solve with the method of a word in the registry.
+WeightsResult solve(const WeightsProblem& problem, const char* word,
+  const WeightsOptions& options = {}, Status* status = nullptr)
 {
   ExecutionContext context;
-  UnconstrainedWeightsOptions options;
-  options.method = method;
   WeightsResult result;
-  const Status done = unconstrained_weights(problem, options, context, result);
+  const WeightMethod* method = find_weight_method(word);
+  if (!method)
+  {
+    ADD_FAILURE() << word;
+    return result;
+  }
+  const Status done = method->kernel(problem, options, context, result);
   EXPECT_TRUE(done.ok()) << done.message;
-  EXPECT_EQ(done.report.text("method"), to_string(method));
+  EXPECT_EQ(done.report.text("method"), word);
   if (status)
   {
     *status = done;
@@ -33,22 +38,12 @@ WeightsResult unconstrained(
   return result;
 }
 
-WeightsResult baseline(const WeightsProblem& problem, const BaselineWeightsOptions& options)
+WeightsResult baseline(
+  const WeightsProblem& problem, const char* word, const WeightsOptions& options = {})
 {
-  ExecutionContext context;
-  WeightsResult result;
-  const Status status = baseline_weights(problem, options, context, result);
-  EXPECT_TRUE(status.ok()) << status.message;
-  EXPECT_EQ(status.report.text("method"), to_string(options.method));
+  WeightsResult result = solve(problem, word, options);
   EXPECT_LE((result.weights.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
   return result;
-}
-
-BaselineWeightsOptions options_for(BaselineMethod method)
-{
-  BaselineWeightsOptions options;
-  options.method = method;
-  return options;
 }
 
 /// Return the largest |sum w_j p_j - p|, where p_j is the vertex of point handle j.
@@ -124,13 +119,12 @@ TEST(LinearSubspace, PointsCarryAffineMaps)
   const WeightsProblem box = problem_of(test::to_domain(test::tet_box(5, 4, 6)),
     test::point_handles({ Vec3(0.1, 0.2, 0.1), Vec3(0.9, 0.1, 0.3), Vec3(0.2, 0.9, 0.4),
       Vec3(0.5, 0.5, 0.95), Vec3(0.8, 0.7, 0.6) }));
-  EXPECT_LT(affine_error(box, unconstrained(box, UnconstrainedMethod::linear_subspace)), 1e-9);
-  EXPECT_GT(affine_error(box, unconstrained(box, UnconstrainedMethod::biharmonic)), 1e-2);
+  EXPECT_LT(affine_error(box, solve(box, "linear-subspace")), 1e-9);
+  EXPECT_GT(affine_error(box, solve(box, "biharmonic")), 1e-2);
   const WeightsProblem square =
     problem_of(test::to_domain(test::grid(20, 20)), test::five_points());
-  EXPECT_LT(
-    affine_error(square, unconstrained(square, UnconstrainedMethod::linear_subspace)), 1e-9);
-  EXPECT_GT(affine_error(square, unconstrained(square, UnconstrainedMethod::biharmonic)), 1e-2);
+  EXPECT_LT(affine_error(square, solve(square, "linear-subspace")), 1e-9);
+  EXPECT_GT(affine_error(square, solve(square, "biharmonic")), 1e-2);
 }
 
 TEST(LinearSubspace, HandlesThatDoNotSpanAreAWarning)
@@ -138,7 +132,7 @@ TEST(LinearSubspace, HandlesThatDoNotSpanAreAWarning)
   Status status;
   const WeightsProblem two = problem_of(test::to_domain(test::grid(12, 12)),
     test::point_handles({ Vec3(0.2, 0.5, 0.0), Vec3(0.8, 0.5, 0.0) }));
-  const WeightsResult weights = unconstrained(two, UnconstrainedMethod::linear_subspace, &status);
+  const WeightsResult weights = solve(two, "linear-subspace", {}, &status);
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("do not span"));
   // The result is nearly linear along the line through the two handles.
@@ -152,9 +146,7 @@ TEST(LinearSubspace, OnClosedSurfacesItIsBiharmonic)
 {
   const WeightsProblem sphere = problem_of(test::to_domain(test::sphere(2)),
     test::point_handles({ Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1) }));
-  EXPECT_LT(difference(unconstrained(sphere, UnconstrainedMethod::linear_subspace),
-              unconstrained(sphere, UnconstrainedMethod::biharmonic)),
-    1e-8);
+  EXPECT_LT(difference(solve(sphere, "linear-subspace"), solve(sphere, "biharmonic")), 1e-8);
 }
 
 TEST(GraphBiharmonic, DependsOnTheMesh)
@@ -169,9 +161,9 @@ TEST(GraphBiharmonic, DependsOnTheMesh)
     warped.domain.points(v, 0) = uneven(warped.domain.points(v, 0));
   }
   const WeightsProblem problem = problem_of(warped.domain, warped.handles, warped.region_ids);
-  const auto error = [&](UnconstrainedMethod method)
+  const auto error = [&](const char* method)
   {
-    const WeightsResult result = unconstrained(problem, method);
+    const WeightsResult result = solve(problem, method);
     double largest = 0.0;
     for (Index v = 0; v < problem.vertex_count(); ++v)
     {
@@ -180,15 +172,15 @@ TEST(GraphBiharmonic, DependsOnTheMesh)
     }
     return largest;
   };
-  EXPECT_LT(error(UnconstrainedMethod::biharmonic), 0.01);
-  EXPECT_GT(error(UnconstrainedMethod::graph_biharmonic), 0.05);
+  EXPECT_LT(error("biharmonic"), 0.01);
+  EXPECT_GT(error("graph-biharmonic"), 0.05);
 }
 
 TEST(InverseDistance, IsShepards)
 {
   Handles handles = test::point_handles({ Vec3(0.3, 0.9, 0.0), Vec3(0.8, 0.9, 0.0) });
   const WeightsProblem slot = problem_of(slotted_square(20), handles);
-  const WeightsResult straight = baseline(slot, options_for(BaselineMethod::inverse_distance));
+  const WeightsResult straight = baseline(slot, "inverse-distance");
   for (Index v = 0; v < slot.vertex_count(); ++v)
   {
     const Vec3 p = slot.mesh.domain.points.row(v);
@@ -213,9 +205,9 @@ TEST(InverseDistance, IsShepards)
     }
   }
   const WeightsProblem problem = problem_of(test::to_domain(box), handles, labels);
-  BaselineWeightsOptions options = options_for(BaselineMethod::inverse_distance);
+  WeightsOptions options;
   options.power = 3.0;
-  const WeightsResult result = baseline(problem, options);
+  const WeightsResult result = baseline(problem, "inverse-distance", options);
   for (Index v = 0; v < problem.vertex_count(); ++v)
   {
     if (problem.constraints.roles[v] != VertexRole::solved)
@@ -244,15 +236,15 @@ TEST(SmoothedHarmonic, LiesBetweenHarmonicAndBiharmonic)
 {
   const WeightsProblem problem =
     problem_of(test::to_domain(test::grid(24, 24)), test::five_points());
-  const WeightsResult harmonic = unconstrained(problem, UnconstrainedMethod::harmonic);
-  const WeightsResult biharmonic = unconstrained(problem, UnconstrainedMethod::biharmonic);
-  BaselineWeightsOptions options = options_for(BaselineMethod::smoothed_harmonic);
+  const WeightsResult harmonic = solve(problem, "harmonic");
+  const WeightsResult biharmonic = solve(problem, "biharmonic");
+  WeightsOptions options;
   options.smoothing = 0.0;
-  EXPECT_LT(difference(baseline(problem, options), harmonic), 1e-12);
+  EXPECT_LT(difference(baseline(problem, "smoothed-harmonic", options), harmonic), 1e-12);
   options.smoothing = 1e3;
-  EXPECT_LT(difference(baseline(problem, options), biharmonic), 1e-6);
+  EXPECT_LT(difference(baseline(problem, "smoothed-harmonic", options), biharmonic), 1e-6);
   options.smoothing = 0.05;
-  const WeightsResult between = baseline(problem, options);
+  const WeightsResult between = baseline(problem, "smoothed-harmonic", options);
   EXPECT_GT(difference(between, harmonic), 0.02);
   EXPECT_GT(difference(between, biharmonic), 0.02);
 }
@@ -261,13 +253,11 @@ TEST(BoneHeat, GoesFromHarmonicToNearest)
 {
   const WeightsProblem problem =
     problem_of(test::to_domain(test::grid(24, 24)), test::five_points());
-  BaselineWeightsOptions options = options_for(BaselineMethod::bone_heat);
+  WeightsOptions options;
   options.heat = 1e-12;
-  EXPECT_LT(
-    difference(baseline(problem, options), unconstrained(problem, UnconstrainedMethod::harmonic)),
-    1e-8);
+  EXPECT_LT(difference(baseline(problem, "bone-heat", options), solve(problem, "harmonic")), 1e-8);
   options.heat = 1e12;
-  const WeightsResult nearest = baseline(problem, options);
+  const WeightsResult nearest = baseline(problem, "bone-heat", options);
   for (Index v = 0; v < problem.vertex_count(); ++v)
   {
     const Vec3 p = problem.mesh.domain.points.row(v);
@@ -288,12 +278,12 @@ TEST(BoneHeat, GoesFromHarmonicToNearest)
 TEST(BoneHeat, HandlesHideBehindWalls)
 {
   const Handles handles = test::point_handles({ Vec3(0.3, 0.9, 0.0), Vec3(0.8, 0.1, 0.0) });
-  BaselineWeightsOptions options = options_for(BaselineMethod::bone_heat);
+  WeightsOptions options;
   options.heat = 1e6;
   const auto at_probe = [&](const Domain& domain)
   {
     const WeightsProblem problem = problem_of(domain, handles);
-    const WeightsResult result = baseline(problem, options);
+    const WeightsResult result = baseline(problem, "bone-heat", options);
     Index v;
     (problem.mesh.domain.points.rowwise() - Vec3(0.65, 0.9, 0.0).transpose())
       .rowwise()
@@ -326,7 +316,7 @@ TEST(BoneHeat, HandlesHideBehindWalls)
   const Handles bones = { test::bone_handle("left", Vec3(0.3, 0.9, 0.1), Vec3(0.3, 0.5, 0.1)),
     test::bone_handle("below", Vec3(0.8, 0.1, 0.1), Vec3(0.6, 0.1, 0.1)) };
   const WeightsProblem problem = problem_of(u, bones);
-  const WeightsResult result = baseline(problem, options);
+  const WeightsResult result = baseline(problem, "bone-heat", options);
   for (Index v = 0; v < problem.vertex_count(); ++v)
   {
     const Vec3 p = problem.mesh.domain.points.row(v);
@@ -344,22 +334,34 @@ TEST(BaselineWeights, BadOptionsAreOneSentence)
   WeightsResult result;
   for (const double bad : { 0.0, -1.0, std::nan("") })
   {
-    BaselineWeightsOptions options;
+    WeightsOptions options;
     options.power = bad;
-    EXPECT_EQ(baseline_weights(problem, options, context, result).code, StatusCode::invalid_input);
+    EXPECT_EQ(
+      inverse_distance_weights(problem, options, context, result).code, StatusCode::invalid_input);
     options = {};
     options.heat = bad;
-    EXPECT_EQ(baseline_weights(problem, options, context, result).code, StatusCode::invalid_input);
+    EXPECT_EQ(
+      inverse_distance_weights(problem, options, context, result).code, StatusCode::invalid_input);
   }
-  BaselineWeightsOptions options;
+  WeightsOptions options;
   options.smoothing = -1.0;
-  EXPECT_EQ(baseline_weights(problem, options, context, result).code, StatusCode::invalid_input);
+  EXPECT_EQ(
+    inverse_distance_weights(problem, options, context, result).code, StatusCode::invalid_input);
   ExecutionContext stopped(nullptr, [] { return true; });
-  for (const int method : { 6, 7, 8 })
+  for (const char* word : { "inverse-distance", "smoothed-harmonic", "bone-heat" })
   {
     EXPECT_EQ(
-      baseline_weights(problem, options_for(static_cast<BaselineMethod>(method)), stopped, result)
-        .code,
-      StatusCode::canceled);
+      find_weight_method(word)->kernel(problem, {}, stopped, result).code, StatusCode::canceled);
   }
+}
+
+TEST(WeightMethods, AreFoundByTheirWords)
+{
+  for (const WeightMethod& method : weight_methods())
+  {
+    EXPECT_EQ(find_weight_method(method.word), &method);
+  }
+  EXPECT_EQ(find_weight_method("best"), nullptr);
+  EXPECT_THAT(weight_method_words(true), testing::StartsWith("bounded-biharmonic, monotone, "));
+  EXPECT_THAT(weight_method_words(false), testing::StartsWith("harmonic, "));
 }

@@ -337,7 +337,7 @@ TEST(MonotoneSmoothing, WithoutDataItIsMonotoneWeights)
   for (const int order : { 2, 3 })
   {
     const WeightsProblem problem = test::problem_of(domain, test::five_points());
-    MonotoneWeightsOptions weights_options;
+    WeightsOptions weights_options;
     weights_options.order = order;
     ExecutionContext context;
     WeightsResult weights;

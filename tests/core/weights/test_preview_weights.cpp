@@ -37,7 +37,7 @@ Weights clamped_biharmonic(const WeightsProblem& problem)
 {
   ExecutionContext context;
   WeightsResult result;
-  EXPECT_TRUE(unconstrained_weights(problem, {}, context, result).ok());
+  EXPECT_TRUE(biharmonic_weights(problem, {}, context, result).ok());
   return result.raw.cwiseMax(0.0).cwiseMin(1.0);
 }
 

@@ -4,6 +4,7 @@
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/unconstrained_weights.h"
+#include "weights/weight_methods.h"
 
 #include "weights_shapes.h"
 
@@ -35,23 +36,15 @@ struct Solved
   }
 };
 
-template <typename Options = BoundedWeightsOptions>
-Solved solve(const Domain& domain, const Handles& handles, const Options& options,
-  const std::vector<Index>& regions = {})
+Solved solve(const Domain& domain, const Handles& handles, const WeightsOptions& options,
+  const std::vector<Index>& regions = {}, WeightsKernel kernel = bounded_biharmonic_weights)
 {
   Solved solved;
   ExecutionContext context;
   solved.status = make_weights_problem(domain, regions, handles, options, context, solved.problem);
   if (solved.status.ok())
   {
-    if constexpr (std::is_same_v<Options, BoundedWeightsOptions>)
-    {
-      solved.status = bounded_biharmonic_weights(solved.problem, options, context, solved.result);
-    }
-    else
-    {
-      solved.status = monotone_weights(solved.problem, options, context, solved.result);
-    }
+    solved.status = kernel(solved.problem, options, context, solved.result);
   }
   return solved;
 }
@@ -153,12 +146,12 @@ TEST(WeightTerms, BoundsAndPinsAreTheDenseMinimizer)
   const Handles handles = three_points();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  BoundedWeightsOptions options;
+  WeightsOptions options;
   options.tolerance = 1e-9;
   options.terms.lower = no_values(domain, handles);
   options.terms.upper = no_values(domain, handles);
   options.terms.pinned = no_values(domain, handles);
-  const WeightsProblem plain = solve(domain, handles, BoundedWeightsOptions()).problem;
+  const WeightsProblem plain = solve(domain, handles, WeightsOptions()).problem;
   for (Index v = 0; v < domain.points.rows(); ++v)
   {
     if (plain.constraints.roles[v] != VertexRole::solved)
@@ -217,7 +210,7 @@ TEST(WeightTerms, BoundsOfHandlesWidenTheBox)
   // Bounds that are wide enough have no effect.
   const Domain domain = test::to_domain(test::grid(20, 20));
   const Handles handles = test::five_points();
-  BoundedWeightsOptions options;
+  WeightsOptions options;
   options.tolerance = 1e-9;
   options.terms.handle_bounds.resize(5, 2);
   options.terms.handle_bounds.col(0).setConstant(-3.0);
@@ -228,12 +221,12 @@ TEST(WeightTerms, BoundsOfHandlesWidenTheBox)
   WeightsResult free;
   WeightsProblem plain = wide.problem;
   plain.terms = {};
-  ASSERT_TRUE(unconstrained_weights(plain, UnconstrainedWeightsOptions(), context, free).ok());
+  ASSERT_TRUE(biharmonic_weights(plain, WeightsOptions(), context, free).ok());
   EXPECT_LT(free.raw.minCoeff(), -0.01);
   EXPECT_LE((wide.result.raw - free.raw).cwiseAbs().maxCoeff(), 1e-6);
   // The weight of a single handle is 1 everywhere if no bound or pin prevents it.
   const Handles one(handles.begin(), handles.begin() + 1);
-  BoundedWeightsOptions pinned;
+  WeightsOptions pinned;
   pinned.terms.pinned = no_values(domain, one);
   pinned.terms.pinned(400, 0) = 1.0;
   EXPECT_EQ(solve(domain, one, pinned).result.raw.minCoeff(), 1.0);
@@ -245,7 +238,7 @@ TEST(WeightTerms, WhatContradictsIsNamed)
   const Handles handles = three_points(); // vertices 20, 24 and 58
   const auto with = [&](const auto& change)
   {
-    BoundedWeightsOptions options;
+    WeightsOptions options;
     options.terms.lower = options.terms.upper = options.terms.pinned = no_values(domain, handles);
     change(options.terms);
     return solve(domain, handles, options).status;
@@ -292,10 +285,10 @@ TEST(WeightTerms, WhatContradictsIsNamed)
     { "vertex 3", "vertex 5" });
   ExecutionContext context;
   WeightsResult result;
-  BoundedWeightsOptions painted;
+  WeightsOptions painted;
   painted.terms.rigidity = Eigen::VectorXd::Ones(81);
   const WeightsProblem problem = solve(domain, handles, painted).problem;
-  expect_error(unconstrained_weights(problem, {}, context, result), { "bounded and monotone" });
+  expect_error(biharmonic_weights(problem, {}, context, result), { "bounded and monotone" });
 }
 
 TEST(WeightTerms, GradientsFallWithRigidity)
@@ -306,7 +299,7 @@ TEST(WeightTerms, GradientsFallWithRigidity)
   std::vector<double> painted = { 0.0, 0.1, 10.0, 100.0, 1000.0 };
   for (const double paint : painted)
   {
-    BoundedWeightsOptions options;
+    WeightsOptions options;
     options.terms.rigidity = Eigen::VectorXd::Zero(bar.domain.points.rows());
     for (Index v = 0; v < bar.domain.points.rows(); ++v)
     {
@@ -344,7 +337,7 @@ TEST(WeightTerms, RigidityHasNoUnitAndHardlyDependsOnTheMesh)
       handle.head *= scale;
       handle.tail *= scale;
     }
-    BoundedWeightsOptions options;
+    WeightsOptions options;
     options.terms.rigidity.resize(mesh.points.rows());
     for (Index v = 0; v < mesh.points.rows(); ++v)
     {
@@ -361,7 +354,7 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
   const int n = 20;
   const Domain domain = test::to_domain(test::grid(n, n));
   const Handles handles = test::five_points();
-  BoundedWeightsOptions options;
+  WeightsOptions options;
   options.tolerance = 1e-9;
   const Solved free = solve(domain, handles, options);
   options.terms.rigid_sets.assign(static_cast<std::size_t>(domain.points.rows()), 0);
@@ -418,7 +411,7 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
   Domain parts;
   parts.points = points;
   parts.triangles = triangles;
-  BoundedWeightsOptions joined;
+  WeightsOptions joined;
   joined.terms.rigid_sets.assign(static_cast<std::size_t>(2 * count), 0);
   joined.terms.rigid_sets[12] = joined.terms.rigid_sets[12 + count] = 1;
   const Solved both =
@@ -436,7 +429,7 @@ TEST(WeightTerms, MonotoneWeightsTakeThem)
 {
   const Domain domain = test::to_domain(test::grid(20, 20));
   const Handles handles = test::five_points();
-  MonotoneWeightsOptions options;
+  WeightsOptions options;
   options.terms.rigid_sets.assign(static_cast<std::size_t>(domain.points.rows()), 0);
   options.terms.pinned = no_values(domain, handles);
   options.terms.upper = no_values(domain, handles);
@@ -450,7 +443,7 @@ TEST(WeightTerms, MonotoneWeightsTakeThem)
   const Index pin = 10 * 21 + 5;
   options.terms.pinned(pin, 0) = 0.3;
   options.terms.upper(3 * 21 + 9, 0) = 0.45;
-  const Solved solved = solve(domain, handles, options);
+  const Solved solved = solve(domain, handles, options, {}, monotone_weights);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   EXPECT_EQ(solved.result.raw(pin, 0), 0.3);
   EXPECT_LE(solved.result.raw(3 * 21 + 9, 0), 0.45);
@@ -468,7 +461,8 @@ TEST(WeightTerms, MonotoneWeightsTakeThem)
   {
     options.terms.upper(v, 0) = std::nan("");
   }
-  expect_error(solve(domain, handles, options).status, { "'p1'", "vertex", "monotone" });
+  expect_error(
+    solve(domain, handles, options, {}, monotone_weights).status, { "'p1'", "vertex", "monotone" });
 }
 
 TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
@@ -477,7 +471,7 @@ TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
   const Domain domain = test::to_domain(test::grid(n, n));
   Handles handles = test::point_handles(
     { Vec3(0.25, 0.25, 0), Vec3(0.75, 0.25, 0), Vec3(0.5, 0.75, 0), Vec3(0.125, 0.875, 0) });
-  BoundedWeightsOptions options;
+  WeightsOptions options;
   options.tolerance = 1e-9;
   const Solved free = solve(domain, handles, options);
   options.terms.mirror = mirrored(n);
@@ -505,7 +499,7 @@ TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
   EXPECT_NEAR(solved.result.columns[0].certificate.energy, pair, 1e-9 * pair);
 
   // A mirror plane gives the same result.
-  BoundedWeightsOptions plane;
+  WeightsOptions plane;
   plane.tolerance = 1e-9;
   plane.terms.mirror_origin = Vec3(0.5, 0, 0);
   plane.terms.mirror_normal = Vec3(2, 0, 0);
@@ -521,7 +515,7 @@ TEST(WeightTerms, FewInfluences)
   double last = 0.0;
   for (const int most : { 5, 4, 3, 2, 1 })
   {
-    BoundedWeightsOptions options;
+    WeightsOptions options;
     options.maximum_influences = most;
     const Solved solved = solve(domain, handles, options);
     ASSERT_TRUE(solved.status.ok()) << solved.status.message;
@@ -545,7 +539,7 @@ TEST(WeightTerms, CoupledColumnsAreTheDenseMinimizer)
   const Domain domain = test::to_domain(test::grid(n, n));
   const Handles handles =
     test::point_handles({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 1, 0), Vec3(0.5, 0.5, 0) });
-  BoundedWeightsOptions options;
+  WeightsOptions options;
   options.tolerance = 1e-8;
   options.partition = PartitionOfUnity::coupled;
   const Solved solved = solve(domain, handles, options);
@@ -599,7 +593,7 @@ TEST(WeightTerms, CoupledColumnsSumToOne)
 {
   const Domain domain = test::to_domain(test::grid(30, 30));
   const Handles handles = test::five_points();
-  BoundedWeightsOptions options;
+  WeightsOptions options;
   const Solved alone = solve(domain, handles, options);
   options.partition = PartitionOfUnity::coupled;
   const Solved solved = solve(domain, handles, options);
@@ -659,7 +653,7 @@ TEST(WeightTerms, CoupledIsTheSameForOneAndTwoHandles)
   {
     Handles handles = three_points();
     handles.resize(count);
-    BoundedWeightsOptions options;
+    WeightsOptions options;
     options.tolerance = 1e-9;
     const Solved alone = solve(domain, handles, options);
     options.partition = PartitionOfUnity::coupled;
@@ -673,7 +667,7 @@ TEST(WeightTerms, CoupledKeepsPinsBoundsSetsAndInfluences)
 {
   const Domain domain = test::to_domain(test::grid(16, 16));
   const Handles handles = test::five_points();
-  BoundedWeightsOptions options;
+  WeightsOptions options;
   options.partition = PartitionOfUnity::coupled;
   options.maximum_influences = 3;
   options.terms.pinned = options.terms.upper = no_values(domain, handles);
@@ -695,16 +689,16 @@ TEST(WeightTerms, CoupledKeepsPinsBoundsSetsAndInfluences)
   options.terms.pinned(100, 1) = std::nan("");
   options.maximum_influences = 0;
   expect_error(solve(domain, handles, options).status, { "vertex 100", "sums to one" });
-  MonotoneWeightsOptions monotone;
+  WeightsOptions monotone;
   monotone.partition = PartitionOfUnity::coupled;
-  expect_error(solve(domain, handles, monotone).status, { "coupled" });
+  expect_error(solve(domain, handles, monotone, {}, monotone_weights).status, { "coupled" });
 }
 
 TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
 {
   const Domain domain = test::to_domain(test::grid(16, 16));
   const Handles handles = test::five_points();
-  BoundedWeightsOptions options;
+  WeightsOptions options;
   options.partition = PartitionOfUnity::coupled;
   const WeightsProblem problem = solve(domain, handles, options).problem;
   Weights first;

@@ -55,7 +55,7 @@ TEST(WeightedColors, UnconstrainedWeightsLeaveTheGamutByANinth)
   BlackAndWhite test;
   ExecutionContext context;
   WeightsResult solved;
-  ASSERT_TRUE(unconstrained_weights(test.problem, {}, context, solved).ok());
+  ASSERT_TRUE(biharmonic_weights(test.problem, {}, context, solved).ok());
   for (const bool linear_light : { false, true })
   {
     Report report;
@@ -170,7 +170,7 @@ TEST(WeightedColors, EqualColorsAreThatColorEverywhere)
   BlackAndWhite test;
   ExecutionContext context;
   WeightsResult solved;
-  ASSERT_TRUE(unconstrained_weights(test.problem, {}, context, solved).ok());
+  ASSERT_TRUE(biharmonic_weights(test.problem, {}, context, solved).ok());
   test.colors.rowwise() = Eigen::RowVector3d(0.25, 0.5, 0.75);
   Report report;
   const WeightedColors result = blend(solved.weights, test.colors, true, false, &report);

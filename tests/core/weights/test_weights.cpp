@@ -3,6 +3,7 @@
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/unconstrained_weights.h"
+#include "weights/weight_methods.h"
 
 #include "weights_shapes.h"
 
@@ -23,7 +24,7 @@ WeightsResult bounded(
 {
   ExecutionContext context;
   context.set_threads(threads);
-  BoundedWeightsOptions options;
+  WeightsOptions options;
   options.order = order;
   options.tolerance = tolerance;
   WeightsResult result;
@@ -35,7 +36,7 @@ WeightsResult bounded(
 WeightsResult monotone(const WeightsProblem& problem, int order = 2)
 {
   ExecutionContext context;
-  MonotoneWeightsOptions options;
+  WeightsOptions options;
   options.order = order;
   WeightsResult result;
   const Status status = monotone_weights(problem, options, context, result);
@@ -46,10 +47,9 @@ WeightsResult monotone(const WeightsProblem& problem, int order = 2)
 WeightsResult unconstrained(const WeightsProblem& problem, int order)
 {
   ExecutionContext context;
-  UnconstrainedWeightsOptions options;
-  options.method = static_cast<UnconstrainedMethod>(order);
+  const WeightsKernel kernels[] = { harmonic_weights, biharmonic_weights, triharmonic_weights };
   WeightsResult result;
-  const Status status = unconstrained_weights(problem, options, context, result);
+  const Status status = kernels[order - 1](problem, {}, context, result);
   EXPECT_TRUE(status.ok()) << status.message;
   return result;
 }
@@ -466,7 +466,7 @@ TEST(Weights, WithoutCholmodTheyAreTheSame)
     problem_of(test::to_domain(test::grid(24, 24)), test::five_points());
   const WeightsResult usual = bounded(problem, 2, 1e-9);
   ExecutionContext context;
-  BoundedWeightsOptions options;
+  WeightsOptions options;
   options.tolerance = 1e-9;
   options.solver.backend = SparseSolver::Backend::eigen;
   WeightsResult other;
@@ -479,7 +479,7 @@ TEST(Weights, BudgetCancelAndBadOptions)
   const WeightsProblem problem =
     problem_of(test::to_domain(test::grid(30, 30)), test::five_points());
   ExecutionContext context;
-  BoundedWeightsOptions options;
+  WeightsOptions options;
   options.order = 3;
   options.maximum_iterations = 1;
   WeightsResult result;

@@ -393,11 +393,7 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   ASSERT_TRUE(surface_weights(
     mesh.points, mesh.triangles, {}, handles, options, {},
     [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
-    {
-      UnconstrainedWeightsOptions own;
-      own.method = UnconstrainedMethod::harmonic;
-      return unconstrained_weights(problem, own, of_method, weights);
-    },
+    { return harmonic_weights(problem, {}, of_method, weights); },
     context, other)
                 .usable());
   double largest = 0.0;

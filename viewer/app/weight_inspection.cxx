@@ -268,7 +268,7 @@ void WeightInspection::compare(int method)
   }
   const WeightMethod& other = weight_methods()[method];
   this->method_ = name_of(other.short_label);
-  input.method = other.method;
+  input.method = &other;
   input.preview = false;
   // Use the same mesh, if it is known.
   const std::string domain = read_report(this->surface_).text("domain");

@@ -36,10 +36,10 @@ void enable_or_say(QWidget* widget, const QString& reason)
 
 int method_of_weights(vtkDataSet* surface)
 {
-  const std::vector<WeightMethod>& methods = weight_methods();
+  const std::vector<bindpose::WeightMethod>& methods = bindpose::weight_methods();
   const std::string word = surface ? bindpose::read_report(surface).text("method") : std::string();
   const auto found = std::find_if(methods.begin(), methods.end(),
-    [&word](const WeightMethod& method) { return word == method.word; });
+    [&word](const bindpose::WeightMethod& method) { return word == method.word; });
   return found == methods.end() ? -1 : static_cast<int>(found - methods.begin());
 }
 
@@ -129,7 +129,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(heading(tr("Other method"), this));
   this->method_ = new QComboBox(this);
   this->method_->setObjectName("weights.compare_with");
-  for (const WeightMethod& method : weight_methods())
+  for (const bindpose::WeightMethod& method : bindpose::weight_methods())
   {
     this->method_->addItem(tr(method.label));
   }

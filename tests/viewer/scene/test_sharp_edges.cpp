@@ -95,5 +95,5 @@ TEST(SharpEdges, NothingIsHarmless)
 {
   Triangles none(0, 3);
   EXPECT_TRUE(split_sharp_edges(Points(0, 3), 50.0, none).empty());
-  EXPECT_TRUE(split_sharp_edges(Points::Zero(4, 3), 50.0, none).empty());
+  EXPECT_TRUE(split_sharp_edges(Points(Points::Zero(4, 3)), 50.0, none).empty());
 }

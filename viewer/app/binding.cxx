@@ -114,7 +114,7 @@ void Binding::show_preview(const Weights& weights)
   if (bound && this->document_->set_preview(bound))
   {
     this->preview_ = bound;
-    this->panel_->set_note(tr("A preview to pose with; exact weights follow …"));
+    this->panel_->set_note(tr("Preview weights are ready; computing exact weights …"));
   }
 }
 
@@ -129,12 +129,12 @@ void Binding::finish()
   {
     if (this->document_->is_bound())
     {
-      this->panel_->set_note(tr("Canceled; the weights stay as they were."));
+      this->panel_->set_note(tr("Canceled; the weights are unchanged."));
     }
     else if (preview && this->document_->set_bound(preview, nullptr))
     {
-      this->panel_->set_note(tr("Canceled; the preview's weights stay, without a certificate. "
-                                "Bind again for exact ones."));
+      this->panel_->set_note(tr("Canceled; preview weights are kept, without a certificate. Bind "
+                                "again for exact weights."));
     }
     else
     {
@@ -166,6 +166,6 @@ void Binding::finish()
   if (!result.status.warnings.empty())
   {
     Q_EMIT this->noticed(
-      tr("Bound, but: %1.").arg(QString::fromStdString(result.status.warnings.front())));
+      tr("Bound with a warning: %1.").arg(QString::fromStdString(result.status.warnings.front())));
   }
 }

@@ -182,6 +182,7 @@ void BodyMotion::show_time()
   this->panel_->set_time(this->has_started()
       ? tr("Time %1 s%2")
           .arg(this->body_->time(), 0, 'f', 2)
-          .arg(this->body_->run_is_whole() ? QString() : tr("; recorded up to 10 minutes"))
+          .arg(this->body_->run_is_whole() ? QString()
+                                           : tr("; only the first 10 minutes are recorded"))
       : QString());
 }

@@ -143,8 +143,8 @@ ModeBar::ModeBar(QAction* inside, QWidget* parent) : QFrame(parent)
   QObject::connect(this->inside_, &QCheckBox::clicked, inside, &QAction::trigger);
   QObject::connect(inside, &QAction::toggled, this->inside_, &QCheckBox::setChecked);
   row->addWidget(this->inside_);
-  this->end_cage_ = button(tr("Leave it open"), this);
-  this->end_cage_->setToolTip(tr("Ends the cage as it is (Enter, or a double click)"));
+  this->end_cage_ = button(tr("Leave cage open"), this);
+  this->end_cage_->setToolTip(tr("End the cage without closing it (Enter or double click)"));
   row->addWidget(this->end_cage_);
   this->brush_ = new QLabel(tr("Brush"), this);
   row->addWidget(this->brush_);
@@ -152,10 +152,10 @@ ModeBar::ModeBar(QAction* inside, QWidget* parent) : QFrame(parent)
   this->radius_->setRange(0, radius_steps);
   this->radius_->setFixedWidth(110);
   this->radius_->setFocusPolicy(Qt::TabFocus);
-  this->radius_->setToolTip(tr("Radius of the brush ([ and ], or Shift and the wheel)"));
+  this->radius_->setToolTip(tr("Radius of the brush ([ and ], or Shift + wheel)"));
   row->addWidget(this->radius_);
   this->new_region_ = button(tr("New region"), this);
-  this->new_region_->setToolTip(tr("The next stroke begins another region"));
+  this->new_region_->setToolTip(tr("Start a new region with the next stroke"));
   row->addWidget(this->new_region_);
   QPushButton* done = button(tr("Done"), this);
   done->setToolTip(tr("Back to posing (Esc)"));

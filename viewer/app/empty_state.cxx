@@ -16,12 +16,12 @@ EmptyState::EmptyState(QWidget* parent) : QWidget(parent)
   column->addWidget(title);
   QPushButton* open = button(tr("Open and auto-rig…"), this);
   open->setObjectName("primary");
-  open->setToolTip(tr("Choose a mesh, make bones along it and bind it, ready to drag"));
+  open->setToolTip(tr("Open a mesh, create bones along it and bind it"));
   QObject::connect(open, &QPushButton::clicked, this, &EmptyState::open_and_rig_wanted);
   column->addWidget(open, 0, Qt::AlignHCenter);
   auto* text =
-    new QLabel(tr("<p>Or add handles or open some (.tgf or .vtp), bind, and drag them.</p>"
-                  "<p>A volume of winding numbers (.vti) is shown sliced.</p>"),
+    new QLabel(tr("<p>Or add handles or open a handle file (.tgf or .vtp), then bind and drag.</p>"
+                  "<p>A volume of winding numbers (.vti) is shown as a slice.</p>"),
       this);
   text->setAlignment(Qt::AlignCenter);
   text->setWordWrap(true);

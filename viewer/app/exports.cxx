@@ -121,9 +121,8 @@ void Exports::ask_for_film()
 {
   if (!this->window_->posing()->has_animation())
   {
-    this->bar_->offer(
-      tr("A film needs key frames: pose the shape and set a key (K), go on in time, "
-         "pose it again and set another."),
+    this->bar_->offer(tr("A film requires key frames: pose the shape and set a key (K), move to "
+                         "another time, pose it again and set another key."),
       { { tr("Show the timeline"), [this] { this->window_->show_timeline(true); } } }, tr("Close"));
     return;
   }
@@ -151,9 +150,9 @@ bool Exports::save_rig(const QString& path)
   const auto method = static_cast<PoseMethod>(document->number("pose.method"));
   const bool other = method != PoseMethod::linear_blend && this->window_->posing()->is_posed();
   return this->finish(path, status,
-    other
-      ? tr("Other programs pose it by linear blend skinning, not by %1.").arg(method_name(method))
-      : QString());
+    other ? tr("Other programs pose the rig by linear blend skinning, not by %1.")
+              .arg(method_name(method))
+          : QString());
 }
 
 bool Exports::save_pose(const QString& path)
@@ -239,8 +238,8 @@ void Exports::show_in_folder(const QString& path)
   const QString folder = QFileInfo(path).absolutePath();
   if (!QDesktopServices::openUrl(QUrl::fromLocalFile(folder)))
   {
-    this->window_->show_error(
-      tr("No program opens the folder %1.").arg(QDir::toNativeSeparators(folder)),
+    this->window_->show_error(tr("Cannot open the folder %1: no suitable program was found.")
+                                .arg(QDir::toNativeSeparators(folder)),
       ErrorKind::export_file);
   }
 }

@@ -44,7 +44,7 @@ std::vector<Index> to_list(const std::vector<int>& handles)
 HandleCommands::HandleCommands(
   HandleEditing* editing, Document* document, QWidget* picture, QWidget* list)
   : QObject(editing), editing_(editing), document_(document), picture_(picture),
-    menu_(new QMenu(picture)), fixes_(new QMenu(tr("&Holds"), picture)),
+    menu_(new QMenu(picture)), fixes_(new QMenu(tr("&Fixes"), picture)),
     mirror_(new QMenu(tr("&Mirror"), picture)), parents_(new QMenu(tr("&Parent"), picture))
 {
   this->make_actions();
@@ -77,12 +77,14 @@ void HandleCommands::make_actions()
 {
   this->add("rename", tr("&Rename…"), [this] { this->ask_for_name(); });
   this->add("color", tr("&Color…"), [this] { this->ask_for_color(); });
-  this->add("no_color", tr("Color of its mod&e"), [this] { this->set_color(std::nullopt); });
+  this->add(
+    "no_color", tr("Default color of the mod&e"), [this] { this->set_color(std::nullopt); });
   this->add("lock", tr("&Locked"), [this](bool locked) { this->set_locked(locked); })
     ->setCheckable(true);
   this->add("reset", tr("R&eset"), [this] { this->reset(); });
   this->add("snap", tr("&Snap to the surface"), [this] { this->snap(); });
-  this->add("cage_edge", tr("Cage ed&ge between the two"), [this] { this->toggle_cage_edge(); });
+  this->add(
+    "cage_edge", tr("Cage ed&ge between two vertices"), [this] { this->toggle_cage_edge(); });
   this->add("delete", tr("&Delete"), [this] { this->remove(); });
   this->add("select_all", tr("Select &all"), [this] { this->select_all(); });
   const QString axes[] = { tr("Left to right (&X)"), tr("Bottom to top (&Y)"),

@@ -295,8 +295,8 @@ void HandleEditing::show_state()
   this->drawn()->SetStretchableBones(
     this->document_->number("pose.method") == static_cast<int>(PoseMethod::stretchable_bones));
   ModeBar::State state;
-  const QString titles[] = { QString(), tr("Move rest places"), tr("Add points"), tr("Add bones"),
-    tr("Add a cage"), tr("Paint regions") };
+  const QString titles[] = { QString(), tr("Move rest positions"), tr("Add points"),
+    tr("Add bones"), tr("Add a cage"), tr("Paint regions") };
   state.title = titles[this->mode_];
   state.places = surface && (this->mode_ == add_points || this->mode_ == add_bones);
   state.cage = this->mode_ == add_cage;
@@ -617,12 +617,12 @@ QString HandleEditing::drag_sentence() const
   const QString what = capital(QString::fromStdString(this->widget()->GetInteractionName()));
   if (this->mode_ > move_rest)
   {
-    return tr("%1: let go to place it; Ctrl snaps, Esc cancels.").arg(what);
+    return tr("%1: release the button to place it; Ctrl snaps, Esc cancels.").arg(what);
   }
   const QString much = QString::fromStdString(this->drawn()->GetInteractionText());
   const QString keys = this->mode_ == pose
-    ? tr("X Y Z hold an axis, digits type; Shift fine, Ctrl snaps; Enter ends, Esc cancels")
-    : tr("X Y Z hold an axis; Shift fine, Ctrl snaps; Esc cancels");
+    ? tr("X Y Z: axis; digits: value; Shift: fine; Ctrl: snap; Enter: end; Esc: cancel")
+    : tr("X Y Z: axis; Shift: fine; Ctrl: snap; Esc: cancel");
   return QString("%1 %2   ·   %3").arg(what, much, keys);
 }
 
@@ -638,13 +638,13 @@ QString HandleEditing::refusal() const
   switch (this->drawn()->GetDragRefusal(cell))
   {
     case Drawn::IS_FREE:
-      return tr("%1 is free: the solver finds its place. Let it fix something to drag it.")
+      return tr("%1 is free: the solver computes its position. Fix its position to drag it.")
         .arg(name);
     case Drawn::IS_LOCKED:
       return tr("%1 is locked; %2 unlocks it when it is selected.")
         .arg(name, QString::fromStdString(keys_of("lock")));
     case Drawn::IS_AT_REST:
-      return tr("%1 is shown at rest; drag it where the picture shows the pose.").arg(name);
+      return tr("%1 is shown at rest and cannot be dragged; show the pose to drag it.").arg(name);
     default:
       return {};
   }
@@ -658,20 +658,20 @@ QString HandleEditing::mode_sentence() const
   switch (this->mode_)
   {
     case move_rest:
-      return tr("Drag handles, bones and joints to where they rest; Ctrl snaps, Esc ends.");
+      return tr("Drag handles, bones and joints to their rest positions; Ctrl snaps, Esc ends.");
     case add_points:
-      return tr("Click on the shape: a point goes %1; Ctrl snaps, Esc ends.").arg(where);
+      return tr("Click on the shape to add a point %1; Ctrl snaps, Esc ends.").arg(where);
     case add_bones:
-      return tr("Drag from a bone's head to its tail, %1; from a bone's end its child; Ctrl snaps, "
-                "Esc ends.")
+      return tr("Drag from a bone's head to its tail, %1; start at a bone's end to add a child; "
+                "Ctrl snaps, Esc ends.")
         .arg(where);
     case add_cage:
       return this->drawn()->IsMakingCage()
-        ? tr("Click on; the first vertex closes the cage, Enter leaves it open, Esc takes the last "
-             "one away.")
-        : tr("Click where the cage begins, on the shape or beside it; Esc ends.");
+        ? tr("Click to add vertices; the first vertex closes the cage, Enter leaves it open, Esc "
+             "removes the last vertex.")
+        : tr("Click to add the first vertex of the cage, on or next to the shape; Esc ends.");
     case paint_regions:
-      return tr("Paint %1; Ctrl erases, [ and ] change the brush, Esc ends.")
+      return tr("Paint %1; Ctrl erases, [ and ] change the brush size, Esc ends.")
         .arg(this->painting_->has_region() ? this->painting_->region() : tr("a new region"));
     default:
       return {};

@@ -45,8 +45,9 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
   };
   this->names_ = { label(grid, 0, tr("Move"),
                      tr("Translation along x, y and z, relative to the parent")),
-    label(grid, 1, tr("Turn °"), tr("About x, then y, then z, through the handle's place")),
-    label(grid, 2, tr("Scale"), tr("1 is the size at rest")) };
+    label(grid, 1, tr("Turn °"),
+      tr("Rotation about x, then y, then z, through the position of the handle")),
+    label(grid, 2, tr("Scale"), tr("Scale factor; 1 is the size at rest")) };
   for (int k = 0; k < 3; ++k)
   {
     this->fields_[k] = field(this, -1e6, 1e6, 0.01, 3);
@@ -66,9 +67,10 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
   bone->setColumnStretch(1, 1);
   bone->setColumnStretch(2, 1);
   bone->setColumnStretch(3, 1);
-  label(bone, 0, tr("Stretch"), tr("Length by that at rest; seen with the method Stretch"));
-  label(
-    bone, 1, tr("Twist °"), tr("Turn about the bone at head and tail; with the method Stretch"));
+  label(bone, 0, tr("Stretch"),
+    tr("Length divided by the length at rest; visible with the method Stretch"));
+  label(bone, 1, tr("Twist °"),
+    tr("Rotation about the bone at head and tail; visible with the method Stretch"));
   this->fields_[7] = field(this->bone_rows_, 0.001, 1000.0, 0.05, 3);
   bone->addWidget(this->fields_[7], 0, 1);
   for (int k = 0; k < 2; ++k)
@@ -91,15 +93,15 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
   layer->setColumnStretch(2, 1);
   label(layer, 0, tr("Layer"), tr("Where the shape overlaps itself, the larger layer is in front"));
   this->layer_ = field(this->layer_row_, -1000.0, 1000.0, 1.0, 1);
-  this->layer_->setToolTip(tr("Layer: what is larger is in front"));
+  this->layer_->setToolTip(tr("Layer: the larger one is in front"));
   this->layer_->setAccessibleName(tr("Layer"));
   layer->addWidget(this->layer_, 0, 1);
   QObject::connect(this->layer_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
     &HandleFields::layer_chosen);
   rows->addWidget(this->layer_row_);
-  this->more_ = new QLabel(tr("Has a shear or uneven scale besides."), this);
+  this->more_ = new QLabel(tr("Also has a shear or nonuniform scale."), this);
   this->more_->setObjectName("note");
-  this->more_->setToolTip(tr("Typing a number takes it away"));
+  this->more_->setToolTip(tr("Typing a number removes it"));
   rows->addWidget(this->more_);
   // Names for users who cannot see the grid.
   const char* const names[] = { QT_TR_NOOP("Move along x"), QT_TR_NOOP("Move along y"),
@@ -142,7 +144,7 @@ void HandleFields::show_values(const Handle* handle, const HandleValues& values,
 
 void HandleFields::show_count(const QString& name, int count)
 {
-  const QString words = tr("%1 selected; the values of %2:").arg(count);
+  const QString words = tr("%1 selected; values of %2:").arg(count);
   const int room = this->width() - this->fontMetrics().horizontalAdvance(words.arg(QString()));
   this->count_->setText(
     words.arg(this->fontMetrics().elidedText(name, Qt::ElideMiddle, std::max(room, 60))));

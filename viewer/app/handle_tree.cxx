@@ -118,8 +118,8 @@ HandleTree::HandleTree(QWidget* parent)
   this->search_->setPlaceholderText(tr("Search"));
   this->search_->setAccessibleName(tr("Search handles"));
   this->search_->setClearButtonEnabled(true);
-  this->search_->setToolTip(
-    tr("Shows the handles whose names contain this; Enter selects the first, Esc shows all again"));
+  this->search_->setToolTip(tr("Show only handles whose names contain this text; Enter selects the "
+                               "first one, Esc shows all handles"));
   this->search_->installEventFilter(this);
   line->addWidget(this->search_, 1);
   column->addLayout(line);

@@ -5,8 +5,8 @@
 void show_about(QWidget* window)
 {
   QMessageBox::about(window, QObject::tr("About Bindpose"),
-    QObject::tr("<b>Bindpose %1</b>"
-                "<p>Any triangle mesh to a shape that a person bends in real time.</p>"
-                "<p>Own code under the BSD 3-clause license.</p>")
+    QObject::tr(
+      "<b>Bindpose %1</b><p>Bind any triangle mesh to handles and bend it in real time.</p>"
+      "<p>The code of Bindpose is under the BSD 3-clause license.</p>")
       .arg(BINDPOSE_VERSION));
 }

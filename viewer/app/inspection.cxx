@@ -127,8 +127,8 @@ void Inspection::set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets)
   this->tets_->set_colors(std::nullopt);
   this->panel_->set_colors(TetPanel::plain);
   this->panel_->set_note(tets
-      ? tr("%L1 tets, as they were opened.").arg(qlonglong(tets->GetNumberOfCells()))
-      : tr("None yet."));
+      ? tr("%L1 tets, opened from a file.").arg(qlonglong(tets->GetNumberOfCells()))
+      : tr("No tets yet."));
   this->update_panel();
   this->show_position();
   this->panel_->show_tets(tets != nullptr);
@@ -195,13 +195,13 @@ void Inspection::tets_finished()
   if (status.code == StatusCode::canceled || !this->surface_)
   {
     this->panel_->set_note(
-      this->tets_->tets() ? tr("Canceled; the tets stay as they were.") : tr("Canceled."));
+      this->tets_->tets() ? tr("Canceled; the tets are unchanged.") : tr("Canceled."));
     return;
   }
   if (!status.usable() || !*this->made_tets_)
   {
     this->panel_->set_note(
-      this->tets_->tets() ? tr("Failed; the tets stay as they were.") : tr("Failed."));
+      this->tets_->tets() ? tr("Failed; the tets are unchanged.") : tr("Failed."));
     Q_EMIT this->failed(tr("Cannot make tets: %1.").arg(QString::fromStdString(status.message)));
     return;
   }
@@ -223,7 +223,7 @@ void Inspection::tets_finished()
   if (!status.warnings.empty())
   {
     Q_EMIT this->noticed(
-      tr("Tets are there, but: %1.").arg(QString::fromStdString(status.warnings.front())));
+      tr("Tets made with a warning: %1.").arg(QString::fromStdString(status.warnings.front())));
   }
 }
 
@@ -271,8 +271,8 @@ void Inspection::update_defects()
   }
   vtkPolyData* found = this->defects_.defects();
   this->panel_->set_defects_note(!wanted ? QString()
-      : !found                           ? tr("Looking at the surface …")
-                                         : tr("%L1 places").arg(count_all(found)));
+      : !found                           ? tr("Checking the surface …")
+                                         : tr("%L1 defects").arg(count_all(found)));
   Q_EMIT this->surface_look_changed();
 }
 
@@ -336,7 +336,7 @@ void Inspection::defects_finished()
     }
     this->panel_->show_defects(false);
     Q_EMIT this->failed(
-      tr("Cannot look at the surface: %1.").arg(QString::fromStdString(status.message)));
+      tr("Cannot check the surface: %1.").arg(QString::fromStdString(status.message)));
     return;
   }
   this->defects_.set_defects(*this->made_defects_);

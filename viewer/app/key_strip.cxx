@@ -46,9 +46,9 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
     line->addWidget(made);
     return made;
   };
-  this->play_ = add(tr("Play"), tr("Plays the key frames (space)"));
+  this->play_ = add(tr("Play"), tr("Play the key frames (Space)"));
   this->play_->setMinimumWidth(this->play_->fontMetrics().horizontalAdvance(tr("Pause")) + 26);
-  this->loop_ = add(tr("Loop"), tr("Begins again at the end"));
+  this->loop_ = add(tr("Loop"), tr("Repeat from the start when the end is reached"));
   this->loop_->setObjectName("toggle");
   this->loop_->setCheckable(true);
   this->loop_->setChecked(true);
@@ -56,12 +56,12 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
   this->clock_->setMinimumWidth(this->clock_->fontMetrics().horizontalAdvance("00.00 s"));
   this->clock_->setAlignment(Qt::AlignCenter);
   line->addWidget(this->clock_);
-  this->add_ = add(tr("Set key"), tr("Keeps the pose as it is, at this time (K)"));
-  this->remove_ = add(tr("Delete"), tr("Takes away the key at this time"));
+  this->add_ = add(tr("Set key"), tr("Store the current pose as a key at this time (K)"));
+  this->remove_ = add(tr("Delete"), tr("Delete the key at this time"));
   line->addStretch(1);
   this->smooth_ = add(tr("Curved"),
-    tr("Between keys places go on a smooth curve through all of them, not straight.\n"
-       "Turns take the shorter way round and sizes change evenly, either way."));
+    tr("Positions follow a smooth curve through all keys instead of straight lines.\n"
+       "In both cases rotations take the shorter arc, and scale changes linearly."));
   this->smooth_->setObjectName("toggle");
   this->smooth_->setCheckable(true);
   this->rate_ = new QDoubleSpinBox(this);

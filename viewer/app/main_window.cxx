@@ -86,8 +86,8 @@ QString certificate_note(vtkPolyData* surface, const WeightMethod& chosen)
 {
   vtkDataArray* gaps = surface->GetFieldData()->GetArray("WeightsRelativeGap");
   const int bound = method_of_weights(surface);
-  const QString name =
-    bound < 0 ? MainWindow::tr("the mesh's weights") : method_words(weight_methods()[bound]);
+  const QString name = bound < 0 ? MainWindow::tr("weights from the mesh file")
+                                 : method_words(weight_methods()[bound]);
   QString note = gaps && gaps->GetNumberOfTuples() > 0
     ? MainWindow::tr("Bound: %1. Optimal to within %2.")
         .arg(name)
@@ -600,7 +600,7 @@ void MainWindow::update_title()
 void MainWindow::offer_defects(const QString& counts)
 {
   const QString unclean =
-    tr("The surface is not clean (%1). It can be bound and bent all the same.").arg(counts);
+    tr("The surface has defects (%1). It can still be bound and posed.").arg(counts);
   this->note_bar_->offer(
     this->read_notice_.isEmpty() ? unclean : this->read_notice_ + '\n' + unclean,
     { { tr("Show where"),
@@ -782,10 +782,10 @@ void MainWindow::choose_and_open()
 {
   const QString endings = QString(vtkMeshFileReader::GetFileExtensions()).replace(' ', " *.") +
     " *.tgf *.glb *.gltf *.dmat *.png *.jpg *.jpeg *." + session_ending;
-  for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Open"), QString(),
-         tr("All that can be opened (*.%1);;Sessions (*.%2);;All files (*)")
-           .arg(endings, session_ending),
-         nullptr, QFileDialog::HideNameFilterDetails))
+  for (const QString& path :
+    QFileDialog::getOpenFileNames(this, tr("Open"), QString(),
+      tr("All supported files (*.%1);;Sessions (*.%2);;All files (*)").arg(endings, session_ending),
+      nullptr, QFileDialog::HideNameFilterDetails))
   {
     this->open(path);
   }
@@ -879,10 +879,10 @@ void MainWindow::draw_pose()
   this->show_state();
   const bool cuts = this->inspection_->tet_view()->is_shown();
   const bool slices = this->volume_view_->is_slice_shown() || this->weights_->wants_rest();
-  QString reading = cuts           ? tr("Drag the cut to move it, elsewhere to turn the view.")
-    : slices                       ? tr("Drag the slice to move it, elsewhere to turn the view.")
-    : !rest                        ? tr("Open a mesh (Ctrl+O) or drop one here.")
-    : !handles                     ? tr("Add handles (?: all keys), or open some (.tgf or .vtp).")
+  QString reading = cuts ? tr("Drag the cut to move it; drag elsewhere to turn the view.")
+    : slices             ? tr("Drag the slice to move it; drag elsewhere to turn the view.")
+    : !rest              ? tr("Open a mesh (Ctrl+O) or drop one here.")
+    : !handles           ? tr("Add handles (?: all keys), or open a handle file (.tgf or .vtp).")
     : this->binding_->is_running() ? tr("Binding; the view can be turned meanwhile.")
                                    : tr("Bind (Ctrl+B), then drag the handles.");
   if (this->posing_->can_pose() && !cuts && !slices)
@@ -907,18 +907,18 @@ void MainWindow::draw_pose()
 /// so.
 void MainWindow::show_state()
 {
-  const QString inspected = this->inspection_->tet_view()->is_shown() ? tr("the tets belong to it")
-    : this->inspection_->defect_view().is_shown()                     ? tr("its defects are marked")
-    : this->weights_->wants_rest()   ? tr("the slice of the weights belongs to it")
-    : this->volume_view_->is_shown() ? tr("the winding numbers belong to it")
-                                     : QString();
+  const QString inspected = this->inspection_->tet_view()->is_shown() ? tr("tets are shown at rest")
+    : this->inspection_->defect_view().is_shown() ? tr("defects are shown at rest")
+    : this->weights_->wants_rest()                ? tr("the slice of weights is shown at rest")
+    : this->volume_view_->is_shown()              ? tr("winding numbers are shown at rest")
+                                                  : QString();
   const bool looks = this->posing_->looks_at_rest();
   this->posing_->inspect_at_rest(!inspected.isEmpty());
   this->editing_->show_rest(!inspected.isEmpty() || looks);
   const bool edits = this->posing_->edits_at_rest() && this->posing_->is_posed();
   const QString why = !inspected.isEmpty() ? inspected
     : looks                                ? tr("T shows the pose")
-    : edits                                ? tr("handles are edited in it")
+    : edits                                ? tr("handles are edited at rest")
                                            : QString();
   this->viewport_->name_state(
     this->document_->handle_data() && !why.isEmpty() ? tr("Rest shape: %1").arg(why) : QString());
@@ -971,9 +971,9 @@ void MainWindow::update_panel()
   this->panel_->set_note(binding ? tr("Starting …")
       : bound                    ? this->bound_note()
       : ready                    ? tr("Not bound yet.")
-      : !surface && !handles     ? tr("Needs a mesh and handles.")
-      : surface                  ? tr("Needs handles.")
-                                 : tr("Needs a mesh."));
+      : !surface && !handles     ? tr("Binding requires a mesh and handles.")
+      : surface                  ? tr("Binding requires handles.")
+                                 : tr("Binding requires a mesh."));
   this->panels_->set_open(this->volume_view_->volume(), surface || handles, surface);
   this->winding_volume_->update();
   this->update_surface_look();

@@ -40,8 +40,8 @@ PanelColumn::PanelColumn(QWidget* parent)
   const char* const names[] = { QT_TR_NOOP("Pose"), QT_TR_NOOP("Weights"), QT_TR_NOOP("Tets"),
     QT_TR_NOOP("Volume") };
   const char* const tips[] = { QT_TR_NOOP("Bind handles, and drag them"),
-    QT_TR_NOOP("Look at the weights of each handle"),
-    QT_TR_NOOP("Fill the surface with tets; see where it is unclean"),
+    QT_TR_NOOP("Show the weights of each handle"),
+    QT_TR_NOOP("Fill the surface with tets, and show its defects"),
     QT_TR_NOOP("Slices and isosurfaces of winding numbers") };
   for (int k = 0; k < panel_count; ++k)
   {

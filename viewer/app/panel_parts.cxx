@@ -55,7 +55,8 @@ QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent)
     { translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the x axis")),
       translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the y axis")),
       translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the z axis")),
-      translated(QT_TRANSLATE_NOOP("Panel", "Turned by its arrow")) });
+      translated(
+        QT_TRANSLATE_NOOP("Panel", "Any orientation; drag the arrow of the plane to rotate it")) });
   group->button(1)->setProperty("place", "second"); // its place in a row of four
   group->button(2)->setChecked(true);
   return group;
@@ -97,15 +98,15 @@ QString sentence_of(const QString& phase)
     const char* phases;
     const char* sentence;
   } table[] = {
-    { "repair", QT_TRANSLATE_NOOP("Panel", "Looking at the surface") },
+    { "repair", QT_TRANSLATE_NOOP("Panel", "Checking the surface") },
     { "winding", QT_TRANSLATE_NOOP("Panel", "Finding the inside") },
     { "build evaluate", QT_TRANSLATE_NOOP("Panel", "Computing winding numbers") },
     { "tetrahedralize cdt refine tetgen label fill improve remesh distance wrap ftetwild "
       "lattice sample samples connect parts cut check",
-      QT_TRANSLATE_NOOP("Panel", "Filling it with tets") },
+      QT_TRANSLATE_NOOP("Panel", "Filling the inside with tets") },
     { "insert", QT_TRANSLATE_NOOP("Panel", "Placing the handles") },
     { "analyze guide weights", QT_TRANSLATE_NOOP("Panel", "Solving for the weights") },
-    { "transfer", QT_TRANSLATE_NOOP("Panel", "Taking the weights to the surface") },
+    { "transfer", QT_TRANSLATE_NOOP("Panel", "Transferring the weights to the surface") },
   };
   for (const auto& row : table)
   {

@@ -35,12 +35,11 @@ PictureDialog::PictureDialog(Viewport* viewport, QWidget* parent)
   }
   this->scale_->setObjectName(scale_key);
   this->scale_->setAccessibleName(tr("Scale factor"));
-  this->scale_->setToolTip(
-    tr("So many times as many pixels each way as the view has; lines, points, text and scalar bars "
-       "grow along: the same picture, only finer"));
+  this->scale_->setToolTip(tr("Pixels of the picture per pixel of the view, in each direction; "
+                              "lines, points, text and scalar bars are scaled by the same factor"));
   this->transparent_->setObjectName(transparent_key);
-  this->transparent_->setToolTip(
-    tr("Nothing where nothing is drawn, to be put over other colors; text stays as it is seen"));
+  this->transparent_->setToolTip(tr("Make the background transparent, so that the picture can be "
+                                    "placed over other colors; text keeps its color"));
   this->size_->setObjectName("note");
   this->size_->setWordWrap(true);
   this->size_->setMinimumWidth(300);

@@ -62,8 +62,8 @@ void PoseKeeper::connect_list()
     {
       if (!this->shelf_.library.rename(static_cast<std::size_t>(entry), name.toStdString()))
       {
-        Q_EMIT this->failed(
-          name.isEmpty() ? tr("A pose needs a name.") : tr("Another pose has that name."));
+        Q_EMIT this->failed(name.isEmpty() ? tr("The name of a pose must not be empty.")
+                                           : tr("Another pose already has this name."));
         this->show_shelf();
         return;
       }
@@ -163,13 +163,13 @@ void PoseKeeper::connect_strip()
     {
       this->shelf_.keys.interpolation =
         smooth ? KeyInterpolation::spline : KeyInterpolation::linear;
-      this->change_shelf(tr("ways between keys"));
+      this->change_shelf(tr("interpolation between keys"));
     });
   QObject::connect(strip, &KeyStrip::rate_chosen, this,
     [this](double rate)
     {
       this->shelf_.keys.frames_per_second = rate;
-      this->change_shelf(tr("frames a second"));
+      this->change_shelf(tr("frames per second"));
     });
 }
 

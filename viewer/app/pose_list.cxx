@@ -17,11 +17,11 @@ PoseList::PoseList(QWidget* parent) : QWidget(parent)
   rows->setSpacing(6);
   auto* buttons = new QHBoxLayout;
   this->store_ = button(tr("Store"), this);
-  this->store_->setToolTip(tr("Keeps the pose as it is now"));
+  this->store_->setToolTip(tr("Store the current pose"));
   this->apply_ = button(tr("Apply"), this);
-  this->apply_->setToolTip(tr("Takes all handles to the chosen pose"));
+  this->apply_->setToolTip(tr("Apply the selected pose to all handles"));
   this->remove_ = button(tr("Delete"), this);
-  this->remove_->setToolTip(tr("Takes the chosen pose off the list"));
+  this->remove_->setToolTip(tr("Delete the selected pose from the list"));
   for (QPushButton* each : { this->store_, this->apply_, this->remove_ })
   {
     buttons->addWidget(each, 1);
@@ -29,14 +29,14 @@ PoseList::PoseList(QWidget* parent) : QWidget(parent)
   rows->addLayout(buttons);
   this->list_ = new QListWidget(this);
   this->list_->setObjectName("poses");
-  this->list_->setToolTip(tr("A double click names a pose anew"));
+  this->list_->setToolTip(tr("Double-click a pose to rename it"));
   this->list_->setFixedHeight(5 * this->list_->fontMetrics().lineSpacing());
   rows->addWidget(this->list_);
   auto* blend = new QHBoxLayout;
   blend->addWidget(new QLabel(tr("Blend"), this));
   this->slider_ = new QSlider(Qt::Horizontal, this);
   this->slider_->setRange(0, 100);
-  this->slider_->setToolTip(tr("From the pose as it is toward the chosen one"));
+  this->slider_->setToolTip(tr("Blend from the current pose toward the selected pose"));
   blend->addWidget(this->slider_, 1);
   rows->addLayout(blend);
 

@@ -34,30 +34,31 @@ const struct
   { PoseMethod::linear_blend, QT_TRANSLATE_NOOP("PosePanel", "Linear"),
     QT_TRANSLATE_NOOP("PosePanel", "Linear blend"),
     QT_TRANSLATE_NOOP(
-      "PosePanel", "Blends the handles' motions. Fastest; strong twists grow thin.") },
+      "PosePanel", "Blends the transforms of the handles. Fastest; strong twists become thin.") },
   { PoseMethod::dual_quaternion, QT_TRANSLATE_NOOP("PosePanel", "Dual q."),
     QT_TRANSLATE_NOOP("PosePanel", "Dual quaternions"),
-    QT_TRANSLATE_NOOP("PosePanel", "Blends rigid motions. Twists stay thick; bends bulge.") },
+    QT_TRANSLATE_NOOP(
+      "PosePanel", "Blends rigid transforms. Twists keep their thickness; bends bulge.") },
   { PoseMethod::stretchable_bones, QT_TRANSLATE_NOOP("PosePanel", "Stretch"),
     QT_TRANSLATE_NOOP("PosePanel", "Stretchable bones"),
     QT_TRANSLATE_NOOP(
-      "PosePanel", "Bones that stretch and twist along themselves, without bulging ends.") },
+      "PosePanel", "Bones stretch and twist along their length, without bulges at their ends.") },
   { PoseMethod::rotation_centers, QT_TRANSLATE_NOOP("PosePanel", "Centers"),
     QT_TRANSLATE_NOOP("PosePanel", "Centers of rotation"),
-    QT_TRANSLATE_NOOP(
-      "PosePanel", "Every place turns about a center of its own: thick twists, no bulge.") },
+    QT_TRANSLATE_NOOP("PosePanel",
+      "Rotates every vertex about its own center: twists stay thick, bends do not bulge.") },
   { PoseMethod::reduced_arap, QT_TRANSLATE_NOOP("PosePanel", "ARAP"),
     QT_TRANSLATE_NOOP("PosePanel", "Reduced ARAP"),
-    QT_TRANSLATE_NOOP("PosePanel",
-      "As rigid as possible: finds what handles leave open, in microseconds, by weights.") },
+    QT_TRANSLATE_NOOP(
+      "PosePanel", "As rigid as possible, restricted to the weights; solves in microseconds.") },
   { PoseMethod::full_arap, QT_TRANSLATE_NOOP("PosePanel", "Full ARAP"),
     QT_TRANSLATE_NOOP("PosePanel", "Full ARAP"),
-    QT_TRANSLATE_NOOP(
-      "PosePanel", "As rigid as possible, every vertex on its own. Needs no weights; slower.") },
+    QT_TRANSLATE_NOOP("PosePanel",
+      "As rigid as possible, with every vertex free to move. Needs no weights; slower.") },
   { PoseMethod::variational, QT_TRANSLATE_NOOP("PosePanel", "Fair"),
     QT_TRANSLATE_NOOP("PosePanel", "Fair surface"),
     QT_TRANSLATE_NOOP(
-      "PosePanel", "The smoothest surface through what handles hold. Needs no weights.") },
+      "PosePanel", "The smoothest surface through the constrained vertices. Needs no weights.") },
 };
 
 /// The methods that fit rotations.
@@ -168,7 +169,8 @@ void PosePanel::add_methods(QVBoxLayout* column)
   this->bar_->setRange(0, 1000);
   this->bar_->setTextVisible(false);
   this->cancel_ = button(tr("Stop"), this->bind_row_);
-  this->cancel_->setToolTip(tr("Stops what this method prepares; choose it again to go on"));
+  this->cancel_->setToolTip(
+    tr("Cancel the preparation of this method; choose the method again to prepare it"));
   bind->addWidget(this->bar_, 1);
   bind->addWidget(this->cancel_);
   column->addWidget(this->bind_row_);
@@ -241,74 +243,81 @@ void PosePanel::add_options(QVBoxLayout* column)
   };
 
   this->endpoints_ =
-    combo(this, "pose.endpoints", { tr("nearest place"), tr("joints"), tr("bounded") });
+    combo(this, "pose.endpoints", { tr("nearest point"), tr("joints"), tr("bounded") });
   this->option(column, tr("Along bones"), this->endpoints_,
-    tr("Where a place is along a bone, from head to tail.\n"
-       "Nearest place: at once. Joints and bounded: follow the shape,\n"
-       "computed when they are chosen. The array EndpointWeights comes first."),
+    tr("Position of a vertex along a bone, from head to tail.\n"
+       "Nearest point: available immediately. Joints and bounded: follow the shape,\n"
+       "computed when they are chosen. An array EndpointWeights takes precedence."),
     { PoseMethod::stretchable_bones });
   this->pseudo_edges_ =
     combo(this, "pose.pseudo_edges", { tr("none"), tr("file's edges"), tr("automatic edges") });
   this->pseudo_edges_->setCurrentIndex(1);
   this->option(column, tr("Pseudo-edges"), this->pseudo_edges_,
-    tr("Points that are only moved rotate with the edges between them:\n"
-       "pseudo-edges of the handle file, or automatic ones along the shape."),
+    tr("Point handles that are only moved rotate with the edges between them:\n"
+       "pseudo-edges of the handle file, or automatic edges along the shape."),
     skinning);
   this->single_ = check("pose.single_precision", tr("Single precision"));
   this->option(column, QString(), this->single_,
-    tr("Half the memory and twice the speed, right to a millionth of the shape"), skinning);
+    tr("Half the memory and twice the speed; accurate to a millionth of the size of the shape"),
+    skinning);
 
   this->in_tets_ = check("pose.in_tets", tr("Keep the volume"));
   this->option(column, QString(), this->in_tets_,
-    tr("The energy of the tets that the weights were solved in, instead of the surface's"), rigid);
+    tr("Use the energy of the tets on which the weights were solved, instead of the energy of the "
+       "surface"),
+    rigid);
   this->energy_ = combo(
     this, "pose.energy", { tr("automatic"), tr("spokes and rims"), tr("elements"), tr("spokes") });
-  this->option(column, tr("Rigid are"), this->energy_,
-    tr("What keeps its shape: the surroundings of each vertex (spokes and rims; spokes:\n"
-       "its edges only), or each triangle or tet (elements)"),
+  this->option(column, tr("Rigid parts"), this->energy_,
+    tr("Parts that keep their shape: the neighborhood of each vertex (spokes and rims; spokes:\n"
+       "only the edges at the vertex), or each triangle or tet (elements)"),
     rigid);
   this->extra_ = value("pose.extra_weights", 0.0, 30.0, 0.0);
   this->extra_->field()->setDecimals(0);
   this->option(column, tr("Extra weights"), this->extra_,
-    tr("Let the shape bend where no handle is; 15 is a good number"), reduced);
+    tr("Number of extra weights, which let the shape bend where there is no handle; 15 is a good "
+       "value"),
+    reduced);
   this->extra_kind_ = combo(this, "pose.extra_kind", { tr("bumps"), tr("eigenmodes") });
-  this->extra_kind_row_ = this->option(column, tr("These are"), this->extra_kind_,
-    tr("Bumps around places far apart, or the smoothest functions that vanish at handles"),
+  this->extra_kind_row_ = this->option(column, tr("Extra type"), this->extra_kind_,
+    tr("Type of the extra weights: bumps around points that are far apart, or the smoothest "
+       "functions that vanish at handles"),
     reduced);
   this->iterations_ = value("pose.iterations", 1.0, 200.0, 100.0);
   this->iterations_->field()->setDecimals(0);
   this->option(column, tr("Iterations"), this->iterations_,
-    tr("At most so many a frame; it stops when it has converged"), reduced);
+    tr("Maximum number of iterations per frame; the solver stops when it has converged"), reduced);
   this->budget_ = value("pose.budget_us", 0.0, 5000.0, 0.0);
   this->budget_->field()->setDecimals(0);
   this->budget_->field()->setSpecialValueText(tr("no limit"));
   this->option(column, tr("Budget, µs"), this->budget_,
-    tr("A frame's solve ends after so many microseconds; 0: no limit"), reduced);
+    tr("Time limit of the solve per frame, in microseconds; 0: no limit"), reduced);
 
   this->rotations_ =
     combo(this, "pose.rotations", { tr("not shown"), tr("clusters"), tr("angles") });
   this->option(column, tr("Rotations"), this->rotations_,
-    tr("Colors of what the shape is turned by: clusters of places that share a rotation, with\n"
-       "similar weights in reduced, each its own in full ARAP; or how far each is turned"),
+    tr(
+      "Color the shape by rotation angles, or by rotation clusters: vertices with similar weights\n"
+      "that share a rotation in reduced ARAP, single vertices in full ARAP"),
     rigid);
 
   this->order_ = combo(this, "pose.order", { tr("membrane"), tr("thin plate"), tr("smoother") });
   this->order_->setCurrentIndex(1);
-  this->option(column, tr("Like a"), this->order_,
-    tr("Membrane: straight between what is held. Thin plate: tangents go on.\n"
-       "Smoother: curvatures, too."),
+  this->option(column, tr("Model"), this->order_,
+    tr("Membrane: only positions continue at constrained vertices.\n"
+       "Thin plate: tangents continue, too. Smoother: curvatures continue, too."),
     smooth);
-  this->boundary_ = combo(this, "pose.boundary", { tr("goes on"), tr("hinged"), tr("clamped") });
-  this->option(column, tr("At its edge"), this->boundary_,
-    tr("Goes on smoothly into what is held; held by its place alone;\n"
-       "held by place and slope"),
+  this->boundary_ = combo(this, "pose.boundary", { tr("smooth"), tr("hinged"), tr("clamped") });
+  this->option(column, tr("Boundary"), this->boundary_,
+    tr("Smooth: continues smoothly into the constrained region.\n"
+       "Hinged: only positions are constrained. Clamped: positions and slopes are constrained."),
     smooth);
 }
 
 void PosePanel::add_comparison(QVBoxLayout* column)
 {
-  auto* section = new Section(
-    tr("Compare"), tr("A second method's shape, over this one or beside it"), false, this);
+  auto* section =
+    new Section(tr("Compare"), tr("Compare with the shape of a second method"), false, this);
   column->addSpacing(4);
   column->addWidget(section);
   QStringList names = { tr("nothing") };
@@ -318,7 +327,7 @@ void PosePanel::add_comparison(QVBoxLayout* column)
   }
   this->compared_ = combo(this, "pose.compared", names);
   this->compared_->setToolTip(
-    tr("Another method for the same pose, see-through, to see where they differ"));
+    tr("Second method for the same pose, to show where both shapes differ"));
   auto* line = new QHBoxLayout;
   line->addWidget(new QLabel(tr("With"), this));
   line->addWidget(this->compared_, 1);
@@ -328,10 +337,10 @@ void PosePanel::add_comparison(QVBoxLayout* column)
   places->setContentsMargins(0, 0, 0, 0);
   this->place_ =
     add_segments(places, this->place_row_, { tr("Over it"), tr("Beside it"), tr("Distance") },
-      { tr("See-through, in blue, over the shape, where the two differ"),
-        tr("In a half of its own, seen from the same place"),
-        tr("The shape in the colors of its distance from the other one,\n"
-           "in percent of the bounding-box diagonal of the shape at rest") });
+      { tr("Draw the second shape in see-through blue where both shapes differ"),
+        tr("Draw each shape in one half of the picture, from the same view"),
+        tr("Color the shape by its distance from the second shape,\n"
+           "in percent of the bounding-box diagonal of the rest shape") });
   this->place_->button(2)->setChecked(true); // shows the size of the distance
   this->place_->setObjectName("pose.ghost");
   this->difference_ = new QLabel(this->place_row_);
@@ -355,12 +364,13 @@ void PosePanel::add_comparison(QVBoxLayout* column)
 void PosePanel::add_motion(QVBoxLayout* column)
 {
   auto* section = new Section(tr("Motion"),
-    tr("The shape as a body with mass: what handles leave open swings and falls"), false, this);
+    tr("Simulate the shape as a body with mass: its free parts swing and fall"), false, this);
   column->addWidget(section);
-  this->moves_ = new QCheckBox(tr("Moves by itself"), this);
+  this->moves_ = new QCheckBox(tr("Simulate motion"), this);
   this->moves_->setObjectName("pose.moves");
-  this->moves_->setToolTip(tr("Handles lead, all else follows its inertia and gravity.\n"
-                              "A free handle can be pulled and let go."));
+  this->moves_->setToolTip(
+    tr("Handles lead the motion; everything else follows inertia and gravity.\n"
+       "A free handle can be pulled and released."));
   section->column()->addWidget(this->moves_);
   this->motion_ = new QWidget(this);
   auto* rows = new QVBoxLayout(this->motion_);
@@ -370,9 +380,10 @@ void PosePanel::add_motion(QVBoxLayout* column)
   this->play_ = button(tr("Play"), this->motion_);
   this->step_ = button(tr("Step"), this->motion_);
   this->restart_ = button(tr("Restart"), this->motion_);
-  this->play_->setToolTip(tr("Lets time run, or stops it"));
-  this->step_->setToolTip(tr("One sixtieth of a second on"));
-  this->restart_->setToolTip(tr("Back to time 0, at rest where the handles are"));
+  this->play_->setToolTip(tr("Run or pause the simulation"));
+  this->step_->setToolTip(tr("Advance the simulation by 1/60 s"));
+  this->restart_->setToolTip(
+    tr("Restart at time 0, with the shape at rest at the current handles"));
   for (QPushButton* each : { this->play_, this->step_, this->restart_ })
   {
     buttons->addWidget(each, 1);
@@ -402,19 +413,19 @@ void PosePanel::add_motion(QVBoxLayout* column)
   };
   const bindpose::BodyOptions usual;
   this->gravity_ = row("motion.gravity", tr("Gravity"), 5.0, usual.gravity,
-    tr("How fast things fall: diagonals of the shape / s²"));
+    tr("Gravitational acceleration in bounding-box diagonals of the shape per s²"));
   this->down_ = combo(this->motion_, "motion.down", { tr("-x"), tr("-y"), tr("-z") });
-  this->down_->setToolTip(tr("Where gravity pulls: along this axis of the world"));
+  this->down_->setToolTip(tr("World direction in which gravity acts"));
   this->down_->setCurrentIndex(usual.down);
   auto* line = new QHBoxLayout;
   line->setSpacing(8);
-  line->addWidget(new QLabel(tr("Down is"), this->motion_));
+  line->addWidget(new QLabel(tr("Direction"), this->motion_));
   line->addWidget(this->down_, 1);
   rows->addLayout(line);
   this->stiffness_ = row("motion.stiffness", tr("Stiffness"), 5.0, std::log10(usual.stiffness),
-    tr("Powers of ten: at 2 waves cross the shape ten times a second"));
+    tr("Exponent of ten; at 2, waves cross the shape ten times per second"));
   this->damping_ = row("motion.damping", tr("Damping"), 20.0, usual.damping,
-    tr("What motion loses: a share per second"));
+    tr("Damping rate of the velocity in 1/s"));
   section->column()->addWidget(this->motion_);
   this->motion_->hide();
   QObject::connect(this->down_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
@@ -444,8 +455,8 @@ PoseMethod PosePanel::method() const
 void PosePanel::show_options()
 {
   this->note_->setText(method_purpose(this->method()));
-  enable_all_but(
-    this->compared_, 1 + static_cast<int>(this->method()), tr("The shape is by this method"));
+  enable_all_but(this->compared_, 1 + static_cast<int>(this->method()),
+    tr("The shape already uses this method"));
   for (const Option& option : this->options_)
   {
     option.row->setVisible(std::find(option.methods.begin(), option.methods.end(),
@@ -536,12 +547,14 @@ void PosePanel::set_state(const State& state)
     each->setEnabled(state.ready);
   }
   this->moves_->setEnabled(state.bound);
-  this->moves_->setToolTip(state.bound ? tr("Handles lead, all else follows its inertia and "
-                                            "gravity.\nA free handle can be pulled and let go.")
-                                       : tr("Bind first: it moves by weights"));
+  this->moves_->setToolTip(state.bound
+      ? tr("Handles lead the motion; everything else follows inertia and gravity.\n"
+           "A free handle can be pulled and released.")
+      : tr("Bind first: the simulation requires weights"));
   this->in_tets_->setToolTip(state.tets
-      ? tr("The energy of the tets that the weights were solved in, instead of the surface's")
-      : tr("There are no tets with weights: bind in a volume first"));
+      ? tr("Use the energy of the tets on which the weights were solved, instead of the energy of "
+           "the surface")
+      : tr("There are no tets with weights: bind with a volume domain first"));
   this->show_options();
 }
 

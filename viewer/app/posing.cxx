@@ -239,7 +239,7 @@ void Posing::comparison_changed()
     !this->compared_->can_pose())
   {
     Q_EMIT this->failed(
-      tr("%1 blends by weights: bind first.").arg(method_name(this->compared_->options().method)));
+      tr("%1 requires weights: bind first.").arg(method_name(this->compared_->options().method)));
   }
   Q_EMIT this->moved();
 }
@@ -303,8 +303,8 @@ void Posing::show_difference()
   if (this->ghost_->place() == PoseGhost::hidden)
   {
     this->panels_.pose->set_difference(this->panels_.pose->compares_itself()
-        ? tr("The shape is by this method: choose another one to compare with.")
-        : tr("Bind first: it blends by weights."));
+        ? tr("The shape already uses this method: choose another method to compare with.")
+        : tr("Bind first: this method requires weights."));
     return;
   }
   if (this->compared_->is_binding())
@@ -329,7 +329,8 @@ void Posing::show_difference()
     return;
   }
   this->panels_.pose->set_difference(
-    tr("Apart by at most %1 % of the diagonal,\nrms %2 %%3")
+    tr("Largest distance %1 % of the diagonal,\n"
+       "rms %2 %%3")
       .arg(100.0 * largest / diagonal, 0, 'g', 3)
       .arg(100.0 * mean / diagonal, 0, 'g', 3)
       .arg(this->compared_->is_settled() && this->main_->is_settled() ? QString()
@@ -473,12 +474,12 @@ QString Posing::reading() const
 {
   if (this->at_rest_)
   {
-    return tr("The shape at rest. T shows the pose again.");
+    return tr("The rest shape is shown. T shows the pose again.");
   }
   const bool moves = this->panels_.pose->moves() && this->motion_->has_started();
   if (this->main_->is_binding())
   {
-    return tr("Preparing %1; the shape stays as it was meanwhile.")
+    return tr("Preparing %1; the shape is unchanged until then.")
       .arg(method_name(this->main_->options().method));
   }
   const Status& status = moves ? this->motion_->status() : this->main_->status();

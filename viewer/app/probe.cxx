@@ -384,7 +384,7 @@ QString Probe::difference(const SightHit& hit) const
     apart += hit.shares[k] * (a.row(vertex) - b.row(vertex)).transpose();
   }
   const double diagonal = posing->rest_diagonal();
-  return tr("Apart by %1 units, %2 % of the diagonal")
+  return tr("Distance %1 units, %2 % of the diagonal")
     .arg(apart.norm(), 0, 'g', 3)
     .arg(100.0 * apart.norm() / diagonal, 0, 'g', 3);
 }

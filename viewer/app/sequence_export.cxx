@@ -91,8 +91,8 @@ void SequenceExport::start(const Input& input, const QString& path)
   }
   if (known.ok() && ending == "json" && input.run.start)
   {
-    known = Status::invalid_input("a pose file holds key frames; a motion goes into datasets, glTF "
-                                  "or pictures");
+    known = Status::invalid_input(
+      "a motion cannot be exported as a pose file (.json): choose datasets, glTF or pictures");
   }
   if (!known.ok())
   {

@@ -30,8 +30,7 @@ ShapeHandles::ShapeHandles(Document* document, NoticeBar* bar, QWidget* window)
   this->auto_rig_->setObjectName("auto_rig");
   const QString keys = QString::fromStdString(keys_of("auto_rig"));
   this->auto_rig_->setShortcut(QKeySequence(keys));
-  this->auto_rig_->setToolTip(
-    tr("Make bones along the shape and bind it, ready to drag (%1)").arg(keys));
+  this->auto_rig_->setToolTip(tr("Create bones along the shape and bind it (%1)").arg(keys));
   QObject::connect(this->auto_rig_, &QAction::triggered, this, &ShapeHandles::auto_rig);
   QObject::connect(bar, &NoticeBar::closed, this, &ShapeHandles::cancel);
   QObject::connect(&this->job_, &KernelJob::finished, this, &ShapeHandles::finish);
@@ -65,7 +64,7 @@ void ShapeHandles::ask_for_count()
   auto* dialog = new QInputDialog(this->window_);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Points spread over the shape"));
-  dialog->setLabelText(tr("How many"));
+  dialog->setLabelText(tr("Number of points"));
   dialog->setInputMode(QInputDialog::IntInput);
   dialog->setIntRange(1, 500);
   dialog->setIntValue(static_cast<int>(SpreadPointsOptions().count));
@@ -151,11 +150,12 @@ void ShapeHandles::finish()
   {
     this->document_->editable_handles()->ShallowCopy(to_polydata(*this->made_));
     committed = this->document_->commit_handles(
-      points ? tr("points spread over it") : tr("bones along the shape"));
+      points ? tr("points spread over the shape") : tr("bones along the shape"));
   }
   if (!committed.usable())
   {
-    Q_EMIT this->failed(tr("No handles: %1.").arg(QString::fromStdString(committed.message)));
+    Q_EMIT this->failed(
+      tr("Cannot create handles: %1.").arg(QString::fromStdString(committed.message)));
     return;
   }
   if (this->rigging_)

@@ -18,7 +18,7 @@ ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
   auto* rows = new QVBoxLayout(this);
   rows->setContentsMargins(12, 12, 12, 12);
   this->words_ = new QLineEdit(this);
-  this->words_->setPlaceholderText(tr("Look for …"));
+  this->words_->setPlaceholderText(tr("Search …"));
   this->words_->setClearButtonEnabled(true);
   rows->addWidget(this->words_);
   this->table_ = new QTableWidget(0, 2, this);

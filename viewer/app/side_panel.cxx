@@ -70,8 +70,9 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   // This line determines the width of the panel, in any font.
   this->kind_->setMinimumContentsLength(0);
   this->kind_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  this->kind_->setToolTip(tr("Bounded: smooth functions between 0 and 1.\n"
-                             "Monotone: besides, no hill or hollow away from the handles."));
+  this->kind_->setToolTip(
+    tr("Bounded: smooth functions between 0 and 1.\n"
+       "Monotone: in addition, no local maxima or minima away from the handles."));
   QObject::connect(this->kind_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     &SidePanel::bind_method_changed);
   column->addWidget(this->kind_);
@@ -84,21 +85,21 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
     this->domain_->addItem(tr(choice.name));
   }
   this->domain_->setToolTip(
-    tr("Where the weights are solved.\n"
-       "Automatic: flat shapes on themselves, closed and clean ones in tets of their inside where\n"
-       "that is quick, all others in a lattice.\n"
-       "Tets of the inside: keeps the surface's triangles.\n"
-       "Embedding lattice: cubes that merely hold the surface, whatever it is.\n"
-       "Cage: the inside of the closed cage that the handles make.\n"
-       "Surface: on the triangles; what is near but not connected does not count."));
+    tr("Mesh on which the weights are solved.\n"
+       "Automatic: the surface of flat shapes; tets of the inside of closed and clean shapes if\n"
+       "that is fast; a lattice for all others.\n"
+       "Tets of the inside: keep the triangles of the surface.\n"
+       "Embedding lattice: cubes that contain the surface, even if it has defects.\n"
+       "Cage: the inside of the closed cage of the handles.\n"
+       "Surface: the triangles; near but unconnected parts do not influence each other."));
   domain_row->addWidget(this->domain_, 1);
   column->addLayout(domain_row);
   auto* buttons = new QHBoxLayout;
   this->bind_ = button(tr("Bind"), this);
   this->bind_->setObjectName("primary");
-  this->bind_->setToolTip(tr("Computes the weights of all handles (Ctrl+B)"));
+  this->bind_->setToolTip(tr("Compute the weights of all handles (Ctrl+B)"));
   this->cancel_ = button(tr("Cancel"), this);
-  this->cancel_->setToolTip(tr("Stops the bind; the weights stay as they were"));
+  this->cancel_->setToolTip(tr("Cancel the bind; the weights are unchanged"));
   buttons->addWidget(this->bind_, 1);
   buttons->addWidget(this->cancel_);
   column->addLayout(buttons);
@@ -122,7 +123,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   shown_row->addWidget(this->shown_label_);
   this->shown_ = combo(this);
   this->shown_->setObjectName("show.column");
-  this->shown_->setToolTip(tr("The shaded surface, or one handle's weights on it"));
+  this->shown_->setToolTip(tr("Show the shaded surface, or the weights of one handle on it"));
   shown_row->addWidget(this->shown_, 1);
   column->addLayout(shown_row);
 
@@ -141,7 +142,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   parts->setSpacing(6);
   this->pose_ = new PosePanel(content);
   auto* poses =
-    new Section(tr("Poses"), tr("Poses that are kept, to come back to"), false, content);
+    new Section(tr("Poses"), tr("Stored poses, which can be applied again"), false, content);
   this->poses_ = new PoseList(content);
   poses->column()->addWidget(this->poses_);
 
@@ -151,7 +152,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   list->setSpacing(6);
   list->addWidget(heading(tr("Selected handle"), handles));
   auto* mode_row = new QHBoxLayout;
-  this->mode_label_ = new QLabel(tr("Holds"), handles);
+  this->mode_label_ = new QLabel(tr("Fixes"), handles);
   mode_row->addWidget(this->mode_label_);
   this->mode_ = combo(handles);
   using bindpose::HandleMode;
@@ -164,7 +165,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
     this->mode_->addItem(text, static_cast<int>(mode));
   }
   this->mode_->setToolTip(
-    tr("What the selected handle holds; as-rigid-as-possible (ARAP) methods find the rest.\n"
+    tr("Constraints of the selected handle; as-rigid-as-possible (ARAP) methods compute the rest.\n"
        "Automatic: its position if it was only moved; rotation and scale as well\n"
        "if it was rotated, scaled, stretched or twisted, or is a bone at rest."));
   mode_row->addWidget(this->mode_, 1);
@@ -172,7 +173,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   this->fields_ = new HandleFields(handles);
   list->addWidget(this->fields_);
   this->rest_ = button(tr("Back to rest"), handles);
-  this->rest_->setToolTip(tr("All handles back to where they were bound (Ctrl+R)"));
+  this->rest_->setToolTip(tr("Move all handles back to their rest positions (Ctrl+R)"));
   list->addWidget(this->rest_);
 
   this->pose_->insert(handles);

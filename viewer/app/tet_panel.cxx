@@ -44,19 +44,19 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->method_->addItem(tr("fTetWild"));
   this->method_->addItem(tr("Whole hull (cdt)"));
   this->method_->setToolTip(
-    tr("Constrained: keeps the surface's triangles.\n"
+    tr("Constrained: keeps the triangles of the surface.\n"
        "Remeshed: well-shaped tets.\n"
-       "Embedding lattice: merely holds the surface.\n"
-       "Alpha wrap: the inside of a skin around it; open surfaces become shells.\n"
-       "fTetWild: where that program is installed.\n"
-       "Whole hull: outside tets, too, to see what is decided."));
+       "Embedding lattice: cubes that only contain the surface.\n"
+       "Alpha wrap: the inside of a wrapping surface; open surfaces become shells.\n"
+       "fTetWild: available if that program is installed.\n"
+       "Whole hull: also contains the outside tets, to show how tets are classified."));
   column->addWidget(this->method_);
   auto* buttons = new QHBoxLayout;
   this->make_ = button(tr("Make tets"), this);
   this->make_->setObjectName("primary");
-  this->make_->setToolTip(tr("Fills the surface; the window can be used meanwhile"));
+  this->make_->setToolTip(tr("Fill the surface with tets in the background"));
   this->cancel_ = button(tr("Cancel"), this);
-  this->cancel_->setToolTip(tr("Stops; the tets stay as they were"));
+  this->cancel_->setToolTip(tr("Cancel; the tets are unchanged"));
   buttons->addWidget(this->make_, 1);
   buttons->addWidget(this->cancel_);
   column->addLayout(buttons);
@@ -73,7 +73,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
 
   this->tets_ = new QCheckBox(tr("Show the tets"), this);
   this->tets_->setObjectName("tets.shown");
-  this->tets_->setToolTip(tr("The tets (tetrahedra) in place of the surface, at rest"));
+  this->tets_->setToolTip(tr("Show the tets (tetrahedra) at rest instead of the surface"));
   column->addWidget(this->tets_);
   this->colors_ = new QComboBox(this);
   this->colors_->setObjectName("tets.colors");
@@ -82,30 +82,32 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->colors_->addItem(tr("By label"));
   this->colors_->addItem(tr("By quality"));
   this->colors_->addItem(tr("By method"));
-  this->colors_->setToolTip(tr("Winding number: of the tet's center.\n"
-                               "Label: inside or outside, and where that goes against the number.\n"
-                               "Quality: the smallest dihedral angle.\n"
-                               "Method: what made the tets."));
+  this->colors_->setToolTip(
+    tr("Winding number: at the center of each tet.\n"
+       "Label: inside or outside, and where the label contradicts the winding number.\n"
+       "Quality: the smallest dihedral angle.\n"
+       "Method: the method that made the tets."));
   column->addWidget(this->colors_);
 
   column->addSpacing(10);
   column->addWidget(heading(tr("Cut"), this));
-  this->cut_ = new QCheckBox(tr("Cut them open"), this);
+  this->cut_ = new QCheckBox(tr("Cut the tets"), this);
   this->cut_->setChecked(true);
   this->cut_->setObjectName("tets.cut");
-  this->cut_->setToolTip(tr("Leaves out whole tets in front of a plane, which the mouse drags"));
+  this->cut_->setToolTip(tr("Hide the whole tets in front of a plane that the mouse can drag"));
   column->addWidget(this->cut_);
   this->orientations_ = add_orientations(column, this);
   this->orientations_->setObjectName("tets.orientation");
   this->position_ = new ValueRow(this);
   this->position_->setObjectName("tets.place");
   this->position_->tell_shares();
-  this->position_->setToolTip(tr("Where the plane lies along its normal; the mouse drags it, too"));
+  this->position_->setToolTip(
+    tr("Position of the plane along its normal; the mouse can also drag the plane"));
   column->addWidget(this->position_);
   this->other_side_ = new QCheckBox(tr("Keep the other side"), this);
   this->other_side_->setObjectName("tets.other_side");
   this->other_side_->setToolTip(
-    tr("What lies in front of the plane, in place of what lies behind it"));
+    tr("Show the tets in front of the plane instead of those behind it"));
   column->addWidget(this->other_side_);
   this->count_ = note();
   keep_place(this->count_);
@@ -118,13 +120,14 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->shrink_->setObjectName("tets.shrink");
   this->shrink_->set_range(0.1, 1.0);
   this->shrink_->set_value(1.0);
-  this->shrink_->setToolTip(tr("Below 1 the tets stand apart"));
+  this->shrink_->setToolTip(tr("Scale of each tet; below 1 there are gaps between the tets"));
   column->addWidget(this->shrink_);
 
   column->addSpacing(10);
   column->addWidget(heading(tr("Surface"), this));
   this->defects_ = new QCheckBox(tr("Show its defects"), this);
-  this->defects_->setToolTip(tr("Open, crossing and doubled places, each kind in its color"));
+  this->defects_->setToolTip(
+    tr("Mark open, intersecting and duplicate parts, each type in its own color"));
   this->defects_->setObjectName("defects.shown");
   column->addWidget(this->defects_);
   this->defects_note_ = note();
@@ -218,7 +221,7 @@ void TetPanel::set_position(double position, double lowest, double highest)
 
 void TetPanel::set_count(qlonglong shown, qlonglong all)
 {
-  this->count_->setText(shown == 0 ? tr("No tet is on this side.")
+  this->count_->setText(shown == 0 ? tr("There are no tets on this side.")
       : shown == all               ? tr("All %L1 tets").arg(all)
                                    : tr("%L1 of %L2 tets").arg(shown).arg(all));
 }

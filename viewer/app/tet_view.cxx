@@ -126,7 +126,7 @@ Status TetView::set_colors(std::optional<ColorBy> by)
     if (!values || on_points)
     {
       return Status::invalid_input(
-        "the tets have no such number each: '" + coloring.legend_name() + "' is one of points");
+        "the array '" + coloring.legend_name() + "' must have one value per tet");
     }
     this->values_ = values;
     this->coloring_ = coloring;

@@ -107,20 +107,21 @@ Status read_place(const Json& json, const std::string& who, TourPlace& place)
   {
     return read_pair(json, place.at)
       ? Status()
-      : Status::invalid_input(who + ": a place of the view is two shares of its size, [0.5, 0.5]");
+      : Status::invalid_input(
+          who + ": a position must be two fractions of the view size, for example [0.5, 0.5]");
   }
   const bool of_gizmo = json.is_object() && json.contains("gizmo");
   if (!of_gizmo && (!json.is_object() || !json.contains("handle")))
   {
     return Status::invalid_input(who +
-      ": a place is [0.5, 0.5], {\"handle\": \"NAME\", \"offset\": [0, 0]} or {\"gizmo\": "
+      ": a position must be [0.5, 0.5], {\"handle\": \"NAME\", \"offset\": [0, 0]} or {\"gizmo\": "
       "\"move_x\", \"offset\": [0, 0]}");
   }
   for (const auto& [key, value] : json.items())
   {
     if (!has_word(of_gizmo ? "gizmo offset" : "handle along offset", key))
     {
-      return Status::invalid_input(who + ": a place has no \"" + key + "\"");
+      return Status::invalid_input(who + ": a position cannot have the field \"" + key + "\"");
     }
   }
   JsonFields fields(json, who);
@@ -139,10 +140,10 @@ Status read_place(const Json& json, const std::string& who, TourPlace& place)
   }
   if (of_gizmo && place.gizmo_part == no_part)
   {
-    return Status::invalid_input(who + ": the gizmo has no part \"" + part + "\"");
+    return Status::invalid_input(who + ": unknown gizmo part \"" + part + "\"");
   }
   return !of_gizmo && place.handle.empty()
-    ? Status::invalid_input(who + ": a place needs the name of a handle")
+    ? Status::invalid_input(who + ": a position must contain the name of a handle")
     : Status();
 }
 
@@ -168,12 +169,13 @@ Status read_wanted(const Json& json, const std::string& who, TourStep& step)
     if (!finite_number(number))
     {
       return Status::invalid_input(
-        who + ": a value is a number, a list of numbers, a word, true or false");
+        who + ": a value must be a number, a list of numbers, a word, true or false");
     }
     step.wanted.push_back(number.get<double>());
   }
-  return step.wanted.empty() ? Status::invalid_input(who + ": the list of numbers is empty")
-                             : Status();
+  return step.wanted.empty()
+    ? Status::invalid_input(who + ": the list of numbers must not be empty")
+    : Status();
 }
 
 Status read_check(const Json& json, const std::string& who, TourStep& step)
@@ -195,13 +197,14 @@ Status read_check(const Json& json, const std::string& who, TourStep& step)
   }
   if (relations != 1)
   {
-    return Status::invalid_input(who + ": a check has one of is, at_least, at_most, as_at");
+    return Status::invalid_input(
+      who + ": a check must have exactly one of is, at_least, at_most, as_at");
   }
   const bool bound =
     step.relation == TourRelation::at_least || step.relation == TourRelation::at_most;
   if (bound && (step.wanted.size() != 1 || step.wants_truth))
   {
-    return Status::invalid_input(who + ": a bound is a number");
+    return Status::invalid_input(who + ": at_least and at_most must be numbers");
   }
   if (step.relation == TourRelation::as_at && !step.wants_text)
   {
@@ -217,7 +220,7 @@ Status read_about(const Json& value, About about, const std::string& who, TourSt
     case About::text:
       if (!value.is_string() || value.get<std::string>().empty())
       {
-        return Status::invalid_input(who + ": the verb needs a text");
+        return Status::invalid_input(who + ": the value of the verb must be a nonempty string");
       }
       step.text = value.get<std::string>();
       return {};
@@ -229,7 +232,7 @@ Status read_about(const Json& value, About about, const std::string& who, TourSt
       if (!read_pair(value, size) || !(size[0] >= 200 && size[0] <= 8000) ||
         !(size[1] >= 200 && size[1] <= 8000))
       {
-        return Status::invalid_input(who + ": a size is two numbers from 200 to 8000");
+        return Status::invalid_input(who + ": a size must be two numbers from 200 to 8000");
       }
       step.size = { static_cast<int>(size[0]), static_cast<int>(size[1]) };
       return {};
@@ -246,12 +249,13 @@ Status read_about(const Json& value, About about, const std::string& who, TourSt
         return {};
       }
       return Status::invalid_input(who +
-        (about == About::wait ? ": it waits for \"bind\", \"idle\" or 0 to 3600 seconds"
-                              : ": it takes 0 to 3600 seconds"));
+        (about == About::wait ? ": expected \"bind\", \"idle\" or 0 to 3600 seconds"
+                              : ": expected 0 to 3600 seconds"));
   }
 }
 
-constexpr const char* plain_names = " is up to 60 letters, digits, '_', '-' and '.'";
+constexpr const char* plain_names =
+  " must be 1 to 60 letters, digits, '_', '-' and '.', and must not start with '.'";
 
 /// Report whether a name is allowed for a written file.
 bool is_plain_name(const std::string& name)
@@ -266,7 +270,7 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   std::string who = "step " + std::to_string(index + 1);
   if (!json.is_object())
   {
-    return Status::invalid_input(who + " is no object");
+    return Status::invalid_input(who + " must be a JSON object");
   }
   const VerbInfo* info = nullptr;
   for (const auto& [key, value] : json.items())
@@ -285,7 +289,7 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   {
     const std::string first = json.empty() ? std::string() : json.begin().key();
     return Status::invalid_input(
-      who + (json.empty() ? " is empty" : " has no verb: \"" + first + "\" is none"));
+      who + (json.empty() ? " is empty" : " must have a verb: \"" + first + "\" is not a verb"));
   }
   step.verb = info->verb;
   who = step_name(index, step);
@@ -293,7 +297,7 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   {
     if (key != info->word && key != "say" && !has_word(info->fields, key))
     {
-      return Status::invalid_input(who + ": the verb has no \"" + key + "\"");
+      return Status::invalid_input(who + ": the verb cannot have the field \"" + key + "\"");
     }
   }
   if (const Status status = read_about(json[info->word], info->about, who, step); !status.ok())
@@ -319,8 +323,7 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   }
   if (step.part != TourPart::view && (step.scale > 1 || step.transparent))
   {
-    return Status::invalid_input(
-      who + ": \"scale\" and \"transparent\" are of pictures of the view");
+    return Status::invalid_input(who + ": \"scale\" and \"transparent\" require \"of\": \"view\"");
   }
   if (json.contains("held"))
   {
@@ -331,7 +334,8 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
       step.alt = step.alt || key == "alt";
       if (key != "shift" && key != "ctrl" && key != "alt")
       {
-        return Status::invalid_input(who + ": what is held is shift, ctrl or alt");
+        return Status::invalid_input(
+          who + ": \"held\" must be shift, ctrl or alt, or a list of these");
       }
     }
   }
@@ -379,7 +383,7 @@ Status check_names(const Tour& tour)
       if (filming != (step.text == "end"))
       {
         return Status::invalid_input(
-          who + (filming ? ": the film before has no end" : ": there is no film to end"));
+          who + (filming ? ": the previous film must end first" : ": no film was started"));
       }
       filming = !filming;
     }
@@ -387,7 +391,8 @@ Status check_names(const Tour& tour)
       step.verb == TourVerb::screenshot || (step.verb == TourVerb::film && filming);
     if (named && known(step.text))
     {
-      return Status::invalid_input(who + ": there is another \"" + step.text + "\" before it");
+      return Status::invalid_input(
+        who + ": the name \"" + step.text + "\" is already used by an earlier step");
     }
     if (named)
     {
@@ -397,10 +402,11 @@ Status check_names(const Tour& tour)
       !known(step.wanted_text))
     {
       return Status::invalid_input(
-        who + ": there is no screenshot \"" + step.wanted_text + "\" before it");
+        who + ": no earlier screenshot is named \"" + step.wanted_text + "\"");
     }
   }
-  return filming ? Status::invalid_input("the film has no end") : Status();
+  return filming ? Status::invalid_input("the last film must end: add the step {\"film\": \"end\"}")
+                 : Status();
 }
 } // namespace
 
@@ -420,17 +426,17 @@ Status parse_tour(const std::string& text, Tour& tour)
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded() || !json.is_object())
   {
-    return Status::invalid_input("it is no JSON object");
+    return Status::invalid_input("expected a JSON object");
   }
   if (!json.contains("tour") || !json["tour"].is_object())
   {
-    return Status::invalid_input("it is no tour: {\"tour\": {\"schema\": 1}, \"steps\": […]}");
+    return Status::invalid_input("expected a tour: {\"tour\": {\"schema\": 1}, \"steps\": […]}");
   }
   for (const auto& [key, value] : json.items())
   {
     if (!has_word("tour steps", key))
     {
-      return Status::invalid_input("a tour has no \"" + key + "\"");
+      return Status::invalid_input("a tour cannot have the field \"" + key + "\"");
     }
   }
   const Json& head = json["tour"];
@@ -438,7 +444,7 @@ Status parse_tour(const std::string& text, Tour& tour)
   {
     if (!has_word("schema name size view seconds", key))
     {
-      return Status::invalid_input("the head of a tour has no \"" + key + "\"");
+      return Status::invalid_input("the head of a tour cannot have the field \"" + key + "\"");
     }
   }
   int found = 0;
@@ -453,7 +459,7 @@ Status parse_tour(const std::string& text, Tour& tour)
   if (found != schema)
   {
     return Status::invalid_input("the schema of the tour is " + std::to_string(found) +
-      "; this program reads " + std::to_string(schema));
+      "; expected " + std::to_string(schema));
   }
   for (const auto& [key, size] : { std::pair("size", &tour.size), { "view", &tour.view } })
   {

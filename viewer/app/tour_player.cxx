@@ -151,7 +151,7 @@ Status TourPlayer::play(const TourRequest& request)
   {
     if (!QDir().mkpath(QString::fromStdString(this->folder_)))
     {
-      return Status::invalid_input("folder '" + this->folder_ + "' cannot be made");
+      return Status::invalid_input("folder '" + this->folder_ + "' cannot be created");
     }
     for (const TourStep& step : this->tour_.steps)
     {
@@ -233,7 +233,7 @@ double TourPlayer::left() const
 
 QString TourPlayer::out_of_time() const
 {
-  return QString("the tour has taken more than %1 s").arg(this->seconds_);
+  return QString("the tour exceeded its time limit of %1 s").arg(this->seconds_);
 }
 
 /// Let the window draw pending requests, without waiting for anything else.
@@ -254,7 +254,7 @@ QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const s
     QDir(QString::fromStdString(this->folder_)).absoluteFilePath(QString::fromStdString(answer));
   if (!answer.empty() && this->folder_.empty())
   {
-    return QString("the answer is a file and needs --screenshot-dir");
+    return QString("an answer that names a file requires --screenshot-dir");
   }
   QString title;
   bool answered = false;
@@ -292,7 +292,9 @@ QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const s
   {
     return QString("expected a file dialog, but none was opened");
   }
-  return title.isEmpty() ? sentence : QString("it opened the dialog %1, which waits").arg(title);
+  return title.isEmpty()
+    ? sentence
+    : QString("the step opened the dialog %1, which needs an answer").arg(title);
 }
 
 QString TourPlayer::perform(const TourStep& step)
@@ -326,7 +328,7 @@ QString TourPlayer::perform(const TourStep& step)
       this->let_draw();
       return this->window_->width() == step.size[0] && this->window_->height() == step.size[1]
         ? QString()
-        : QString("the window became %1 x %2")
+        : QString("cannot resize the window: its size is %1 x %2")
             .arg(this->window_->width())
             .arg(this->window_->height());
     case TourVerb::wait:
@@ -360,7 +362,7 @@ QString TourPlayer::choose(const TourStep& step)
 {
   if (step.wants_text || step.wanted.size() != 1)
   {
-    return QString("the value of an option is a number, true or false");
+    return QString("the value of an option must be a number, true or false");
   }
   return this->hand_.choose(QString::fromStdString(step.text),
     step.wants_truth ? QVariant(step.wanted[0] != 0.0) : QVariant(step.wanted[0]));
@@ -444,13 +446,13 @@ QString TourPlayer::wait(const TourStep& step)
   {
     return wait_until([this] { return !this->window_->binding()->is_running(); }, this->left())
       ? QString()
-      : QString("the bind has not ended in time");
+      : QString("the bind did not end within the time limit");
   }
   if (step.text == "idle")
   {
     return wait_until([this] { return is_idle(this->window_); }, this->left())
       ? QString()
-      : QString("the window was busy until the tour's time was over");
+      : QString("the window was still busy at the time limit of the tour");
   }
   // A wait that is cut short reports it here, because timers may end a millisecond before the
   // limit.
@@ -498,7 +500,7 @@ QString TourPlayer::check(const TourStep& step)
   const auto found = values.find(step.text);
   if (found == values.end())
   {
-    return QString("there is no such value now");
+    return QString("the value does not exist at this step");
   }
   Json wanted = step.wants_truth ? Json(step.wanted[0] != 0.0)
     : step.wants_text            ? Json(step.wanted_text)
@@ -510,11 +512,11 @@ QString TourPlayer::check(const TourStep& step)
     const Json& then = this->record_["screenshots"][step.wanted_text]["values"];
     if (!then.contains(step.text))
     {
-      return QString("there was no such value at '%1'")
+      return QString("the value did not exist at the screenshot '%1'")
         .arg(QString::fromStdString(step.wanted_text));
     }
     wanted = then[step.text];
-    where = QString(" as at '%1'").arg(QString::fromStdString(step.wanted_text));
+    where = QString(" as at the screenshot '%1'").arg(QString::fromStdString(step.wanted_text));
   }
   if (step.relation == TourRelation::at_least || step.relation == TourRelation::at_most)
   {
@@ -522,9 +524,10 @@ QString TourPlayer::check(const TourStep& step)
     const double limit = step.wanted[0];
     const double value = found->is_number() ? found->get<double>() : std::nan("");
     const bool kept = least ? value >= limit : value <= limit;
-    return kept
-      ? QString()
-      : QString("it is %1, not at %2 %3").arg(text(*found), least ? "least" : "most").arg(limit);
+    return kept ? QString()
+                : QString("the value is %1, expected at %2 %3")
+                    .arg(text(*found), least ? "least" : "most")
+                    .arg(limit);
   }
   if (distance(*found, wanted) <= step.tolerance)
   {
@@ -532,7 +535,7 @@ QString TourPlayer::check(const TourStep& step)
   }
   const QString within =
     step.tolerance > 0.0 ? QString(" within %1").arg(step.tolerance) : QString();
-  return QString("it is %1, not %2%3%4").arg(text(*found), text(wanted), where, within);
+  return QString("the value is %1, expected %2%3%4").arg(text(*found), text(wanted), where, within);
 }
 
 QImage TourPlayer::grab(TourPart part, int width)
@@ -586,8 +589,9 @@ QString TourPlayer::fit_view()
     this->let_draw();
   }
   const QSize now = this->window_->viewport()->size();
-  return now == wanted ? QString()
-                       : QString("the view became %1 x %2").arg(now.width()).arg(now.height());
+  return now == wanted
+    ? QString()
+    : QString("cannot resize the view: its size is %1 x %2").arg(now.width()).arg(now.height());
 }
 
 QString TourPlayer::screenshot(const TourStep& step)

@@ -53,17 +53,16 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
     this->samples_->addItem(tr(fineness.name));
   }
   this->samples_->setCurrentIndex(1);
-  this->samples_->setToolTip(
-    tr("Samples along the longest side of the grid around the surface; twice as many take eight "
-       "times the memory"));
+  this->samples_->setToolTip(tr("Samples along the longest side of the grid around the surface; "
+                                "twice as many samples need eight times the memory"));
   column->addWidget(this->samples_);
   auto* buttons = new QHBoxLayout;
   this->compute_ = button(tr("Compute"), this);
   this->compute_->setObjectName("primary");
-  this->compute_->setToolTip(tr("How many times the surface winds around each sample: 1 inside, 0 "
-                                "outside; the window can be used meanwhile"));
+  this->compute_->setToolTip(tr("Compute in the background how many times the surface winds around "
+                                "each sample: 1 inside, 0 outside"));
   this->cancel_ = button(tr("Cancel"), this);
-  this->cancel_->setToolTip(tr("Stops; the volume stays as it was"));
+  this->cancel_->setToolTip(tr("Cancel; the volume is unchanged"));
   buttons->addWidget(this->compute_, 1);
   buttons->addWidget(this->cancel_);
   column->addLayout(buttons);
@@ -82,14 +81,15 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   this->slice_ = new QCheckBox(tr("Show the slice"), this);
   this->slice_->setChecked(true);
   this->slice_->setObjectName("volume.slice");
-  this->slice_->setToolTip(tr("Winding numbers on a plane, which the mouse drags"));
+  this->slice_->setToolTip(tr("Show winding numbers on a plane that the mouse can drag"));
   column->addWidget(this->slice_);
   this->orientations_ = add_orientations(column, this);
   this->orientations_->setObjectName("volume.orientation");
   this->position_ = new ValueRow(this);
   this->position_->setObjectName("volume.place");
   this->position_->tell_shares();
-  this->position_->setToolTip(tr("Where the slice lies along its normal; the mouse drags it, too"));
+  this->position_->setToolTip(
+    tr("Position of the slice along its normal; the mouse can also drag the slice"));
   column->addWidget(this->position_);
 
   column->addSpacing(10);
@@ -97,7 +97,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   this->isosurface_ = new QCheckBox(tr("Isosurface where w is"), this);
   this->isosurface_->setObjectName("volume.isosurface");
   this->isosurface_->setToolTip(
-    tr("The surface where the winding number w (1 inside, 0 outside) is this"));
+    tr("Show the surface where the winding number w (1 inside, 0 outside) has this value"));
   column->addWidget(this->isosurface_);
   this->level_ = new ValueRow(this);
   this->level_->setObjectName("volume.level");
@@ -111,7 +111,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addWidget(heading(tr("Volume"), this));
   this->cloud_ = new QCheckBox(tr("Show as a cloud"), this);
   this->cloud_->setToolTip(tr("Volume rendering: clear where w is 0, faint inside, dense where the "
-                              "surface overlaps or is inside out"));
+                              "surface overlaps itself or is inside out"));
   this->cloud_->setObjectName("volume.cloud");
   column->addWidget(this->cloud_);
 
@@ -120,7 +120,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->surface_heading_);
   this->surface_ = new QComboBox(this);
   this->surface_->setObjectName("volume.surface_look");
-  this->surface_->setToolTip(tr("How the surface is drawn around the slice"));
+  this->surface_->setToolTip(tr("Drawing style of the surface around the slice"));
   this->surface_->addItem(tr("Solid"));
   this->surface_->addItem(tr("See-through"));
   this->surface_->addItem(tr("Edges only"));
@@ -239,7 +239,7 @@ void VolumePanel::set_position(double position, double lowest, double highest)
 void VolumePanel::set_area(double area)
 {
   this->area_->setText(
-    area > 0.0 ? tr("Area %1").arg(area, 0, 'g', 5) : tr("There is no such place."));
+    area > 0.0 ? tr("Area %1").arg(area, 0, 'g', 5) : tr("No point has this value."));
 }
 
 double VolumePanel::level() const

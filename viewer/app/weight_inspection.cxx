@@ -207,7 +207,7 @@ void WeightInspection::update()
   if (this->view_->is_shown() && what == WeightPanel::difference)
   {
     const Report& numbers = this->view_->numbers();
-    this->panel_->set_comparison(tr("Against %1 (%2 s): largest %3, rms %4")
+    this->panel_->set_comparison(tr("Difference from %1 (%2 s): largest %3, rms %4")
                                    .arg(this->compared_method_)
                                    .arg(this->compared_seconds_, 0, 'f', 1)
                                    .arg(number(numbers.number("picture.difference.largest", 0.0)))
@@ -290,7 +290,7 @@ void WeightInspection::comparison_finished()
   if (result.status.code == StatusCode::canceled || (result.status.usable() && !fits))
   {
     this->panel_->set_comparison(
-      this->compared_ ? tr("Canceled; the last comparison stays.") : tr("Canceled."));
+      this->compared_ ? tr("Canceled; the last comparison is kept.") : tr("Canceled."));
     return;
   }
   if (!result.status.usable())

@@ -72,41 +72,41 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
     return result;
   };
 
-  column->addWidget(heading(tr("Look at"), this));
+  column->addWidget(heading(tr("Show"), this));
   this->column_ = new QComboBox(this);
   this->column_->setObjectName("weights.column");
   this->column_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   this->column_->setMinimumContentsLength(8);
   this->column_->setToolTip(
-    tr("One handle's weights, or every triangle in the color of the handle that is strongest "
-       "there"));
+    tr("Show the weights of one handle, or color every triangle by its strongest handle"));
   column->addWidget(this->column_);
   this->what_ = this->add_choice({ tr("Weights"), tr("Row sums"), tr("Difference") },
-    { tr("What the handles weigh"),
-      tr("What a point's raw weights add up to: 1 where dividing by the sum changes nothing"),
-      tr("How far these weights are from those of the other method below") });
+    { tr("Show the weights of the handles"),
+      tr("Show the sum of the raw weights at each point; where it is 1, normalization changes "
+         "nothing"),
+      tr("Show the difference from the weights of the other method below") });
   this->raw_ = this->add_choice({ tr("Normalized"), tr("Raw") },
-    { tr("Rows divided by their sums: what bends the shape"),
-      tr("As solved for, before that: what the certificate is about") });
+    { tr("Weights divided by their sum at each vertex; these weights deform the shape"),
+      tr("Weights as solved, before normalization; the certificate applies to these weights") });
   this->what_->setObjectName("weights.what");
   this->raw_->setObjectName("weights.raw");
   this->certificate_ = note(3);
   this->certificate_->setToolTip(
-    tr("How well the column is solved for. Gap: its energy is at most this share above the least "
-       "possible. Residual: how far it is from meeting the conditions of the least."));
+    tr("Optimality certificate of the column. Gap: its energy exceeds the minimum by at most this "
+       "fraction. Residual: violation of the optimality conditions."));
   column->addWidget(this->certificate_);
   auto* lines = new QHBoxLayout;
   this->bands_ =
-    box(tr("Bands"), tr("One color for each tenth; else colors change smoothly"), true);
-  this->isolines_ = box(tr("Isolines"), tr("A line where a weight is 0.1, 0.2, … 0.9"), true);
+    box(tr("Bands"), tr("Use one color per interval of 0.1 instead of smooth colors"), true);
+  this->isolines_ = box(tr("Isolines"), tr("Draw lines where a weight is 0.1, 0.2, … 0.9"), true);
   this->bands_->setObjectName("weights.bands");
   this->isolines_->setObjectName("weights.isolines");
   lines->addWidget(this->bands_, 1);
   lines->addWidget(this->isolines_, 1);
   column->addLayout(lines);
   this->extrema_ = box(tr("Extrema away from handles"),
-    tr("Balls where the numbers have a local maximum (red) or minimum (blue) besides the handles, "
-       "by more than a thousandth of their range"));
+    tr("Draw balls at local maxima (red) and minima (blue) of the displayed values away from "
+       "handles, if they exceed a thousandth of the range of the values"));
   this->extrema_->setObjectName("weights.extrema");
   column->addWidget(this->extrema_);
   this->extrema_note_ = note(1);
@@ -118,8 +118,8 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   tint->addWidget(new QLabel(tr("Colors over the picture"), this->tint_row_));
   this->tint_ = new ValueRow(this->tint_row_);
   this->tint_->setObjectName("weights.over_picture");
-  this->tint_->setToolTip(
-    tr("How much of the colors is seen: 0 the picture alone, 1 the colors alone; isolines stay"));
+  this->tint_->setToolTip(tr(
+    "Opacity of the colors: 0 shows only the picture, 1 only the colors; isolines remain visible"));
   this->tint_->set_range(0.0, 1.0);
   this->tint_->set_value(0.5);
   tint->addWidget(this->tint_);
@@ -134,16 +134,16 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
     this->method_->addItem(tr(method.label));
   }
   this->method_->setCurrentIndex(1);
-  this->method_->setToolTip(tr("Weights to compare with; the shape keeps its own"));
+  this->method_->setToolTip(tr("Method to compare with; the weights of the shape do not change"));
   QObject::connect(
     this->method_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &WeightPanel::enable);
   column->addWidget(this->method_);
   auto* buttons = new QHBoxLayout;
   this->compare_ = button(tr("Compare"), this);
   this->compare_->setToolTip(
-    tr("Solves by the other method and shows the difference; the window can be used meanwhile"));
+    tr("Solve with the other method in the background and show the difference"));
   this->cancel_ = button(tr("Cancel"), this);
-  this->cancel_->setToolTip(tr("Stops; what was shown stays"));
+  this->cancel_->setToolTip(tr("Cancel; the displayed values do not change"));
   buttons->addWidget(this->compare_, 1);
   buttons->addWidget(this->cancel_);
   column->addLayout(buttons);
@@ -162,7 +162,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->inside_ = heading(tr("Inside"), this);
   column->addWidget(this->inside_);
   this->slice_ = box(tr("Slice through the volume"),
-    tr("Shows the weights on a plane inside, in the shape at rest; the mouse drags the plane"));
+    tr("Show the weights on a plane through the rest shape; the mouse can drag the plane"));
   this->slice_->setObjectName("weights.slice");
   column->addWidget(this->slice_);
   this->orientations_ = add_orientations(column, this);
@@ -170,7 +170,8 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->position_ = new ValueRow(this);
   this->position_->setObjectName("weights.place");
   this->position_->tell_shares();
-  this->position_->setToolTip(tr("Where the slice lies along its normal; the mouse drags it, too"));
+  this->position_->setToolTip(
+    tr("Position of the slice along its normal; the mouse can also drag the slice"));
   column->addWidget(this->position_);
   column->addStretch(1);
 
@@ -264,53 +265,53 @@ void WeightPanel::enable()
 {
   const QString none = this->facts_.has_weights
     ? QString()
-    : tr("There are no weights: bind, or open a mesh with some");
+    : tr("There are no weights: bind, or open a mesh with weights");
   const auto first = [&none](const QString& reason) { return none.isEmpty() ? reason : none; };
   const QString no_raw = this->facts_.has_raw
     ? QString()
-    : tr("The raw columns are not there: bind here, or let bindpose weights --keep-raw write them");
+    : tr("There are no raw weights: bind here, or write them with bindpose weights --keep-raw");
   const bool all = this->column() < 0;
   const bool sums = this->what() == row_sums;
   const bool differs = this->what() == difference;
-  enable_or_say(
-    this->column_, first(sums ? tr("Row sums are of all handles together") : QString()));
+  enable_or_say(this->column_, first(sums ? tr("Row sums include all handles") : QString()));
   enable_or_say(this->what_->button(weights), none);
   enable_or_say(this->what_->button(row_sums), first(no_raw));
   enable_or_say(this->what_->button(difference),
     first(this->facts_.compared ? QString() : tr("Compare with another method first, below")));
-  const QString of_all =
-    all && !sums ? tr("The strongest handle is the same either way") : QString();
+  const QString of_all = all && !sums
+    ? tr("The strongest handle is the same for raw and normalized weights")
+    : QString();
   enable_or_say(
-    this->raw_->button(0), first(sums ? tr("Row sums are those of raw weights") : of_all));
+    this->raw_->button(0), first(sums ? tr("Row sums are always sums of raw weights") : of_all));
   enable_or_say(this->raw_->button(1), first(no_raw.isEmpty() ? of_all : no_raw));
-  const QString not_a_column = sums ? tr("Row sums have colors of their own: white is 1")
-    : differs                       ? tr("Differences have colors of their own: white is 0")
-    : all                           ? tr("Choose one handle: this shows its numbers")
-                                    : QString();
+  const QString not_a_column = sums ? tr("Row sums have their own colors: white is 1")
+    : differs                       ? tr("Differences have their own colors: white is 0")
+    : all ? tr("Choose one handle: this requires the weights of a single handle")
+          : QString();
   enable_or_say(this->bands_, first(not_a_column));
   enable_or_say(this->isolines_, first(not_a_column));
   enable_or_say(this->extrema_,
-    first(all && !sums ? tr("Choose one handle: extrema are those of its numbers") : QString()));
+    first(all && !sums ? tr("Choose one handle: extrema require the weights of a single handle")
+                       : QString()));
   this->extrema_note_->setEnabled(this->extrema_->isEnabled());
-  const QString no_comparison = this->facts_.comparing ? tr("A comparison is being made")
+  const QString no_comparison = this->facts_.comparing ? tr("A comparison is running")
     : this->facts_.has_handles
     ? QString()
-    : tr("Open the handles that these weights belong to: another method needs them");
+    : tr("Open the handles of these weights: another method requires them");
   enable_or_say(this->method_, first(no_comparison));
-  const QString same = tr("The weights are by this method already: choose another one");
+  const QString same = tr("The weights already come from this method: choose another method");
   const bool is_same = this->method_->currentIndex() == this->facts_.method;
   enable_or_say(this->compare_, first(no_comparison.isEmpty() && is_same ? same : no_comparison));
   enable_all_but(this->method_, this->facts_.method, same);
   const QString no_slice = differs
-    ? tr("The other method was solved in tets of its own; only on the surface is there a "
-         "difference")
+    ? tr("The other method was solved on different tets: the difference exists only on the surface")
     : this->facts_.has_volume
     ? QString()
     : tr("There is no volume: bind here, or open the tets (.vtu) that bindpose weights writes");
   enable_or_say(this->slice_, first(no_slice));
   const QString no_plane = this->slice_->isEnabled() && this->slice_->isChecked()
     ? QString()
-    : tr("There is no slice to be moved: choose it above");
+    : tr("There is no slice to move: switch it on above");
   enable_or_say(this->position_, no_plane);
   for (QAbstractButton* orientation : this->orientations_->buttons())
   {

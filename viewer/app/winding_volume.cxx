@@ -80,7 +80,8 @@ void WindingVolume::start()
   const Status status = to_surface(this->document_->surface(), surface);
   if (!status.ok())
   {
-    Q_EMIT this->failed(tr("No winding numbers: %1.").arg(QString::fromStdString(status.message)));
+    Q_EMIT this->failed(
+      tr("Cannot compute winding numbers: %1.").arg(QString::fromStdString(status.message)));
     return;
   }
   TriangleMesh mesh;
@@ -107,7 +108,8 @@ void WindingVolume::finish()
   else if (!status.ok() || !volume)
   {
     this->panel_->set_note(QString());
-    Q_EMIT this->failed(tr("No winding numbers: %1.").arg(QString::fromStdString(status.message)));
+    Q_EMIT this->failed(
+      tr("Cannot compute winding numbers: %1.").arg(QString::fromStdString(status.message)));
   }
   else if (this->surface_ == this->document_->work().surface) // not if another one was opened
   {
@@ -119,7 +121,7 @@ void WindingVolume::finish()
     const double seconds = status.report.number("seconds.total", 0.0);
     this->panel_->set_note(range[1] - range[0] < noise
         // Each triangle also exists with the opposite orientation.
-        ? tr("0 everywhere: triangles cancel out.")
+        ? tr("w is 0 everywhere: triangles cancel.")
         : tr("%1 × %2 × %3 samples in %4.")
             .arg(size[0])
             .arg(size[1])

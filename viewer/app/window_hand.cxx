@@ -90,7 +90,7 @@ QString WindowHand::place_of(const QString& handle, double along, QPoint& at) co
   const int number = this->number_of(handle);
   if (number < 0)
   {
-    return QObject::tr("there is no handle '%1'").arg(handle);
+    return QObject::tr("unknown handle '%1'").arg(handle);
   }
   Viewport* viewport = this->window_->viewport();
   auto* drawn = viewport->handle_widget()->GetHandleSetRepresentation();
@@ -112,7 +112,7 @@ QString WindowHand::place_of_gizmo(int part, QPoint& at) const
   double pixel[2] = { 0.0, 0.0 };
   if (!drawn->GetGizmoGrip(part, pixel))
   {
-    return QObject::tr("that part of the gizmo is not seen");
+    return QObject::tr("this part of the gizmo is not visible");
   }
   at = this->from_display(pixel);
   return {};
@@ -207,11 +207,11 @@ QString WindowHand::drop(const QString& file)
   QApplication::sendEvent(this->window_, &enter);
   if (!enter.isAccepted())
   {
-    return QObject::tr("the window takes no files");
+    return QObject::tr("the window does not accept files now");
   }
   QDropEvent drop(at, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QApplication::sendEvent(this->window_, &drop);
-  return drop.isAccepted() ? QString() : QObject::tr("it cannot be opened");
+  return drop.isAccepted() ? QString() : QObject::tr("the file cannot be opened");
 }
 
 QString WindowHand::type(const QString& text, const QString& field)
@@ -232,7 +232,7 @@ QString WindowHand::type(const QString& text, const QString& field)
     each->setFocus(Qt::MouseFocusReason);
     if (QApplication::focusWidget() != each)
     {
-      return QObject::tr("the field '%1' does not take the keyboard").arg(field);
+      return QObject::tr("the field '%1' cannot receive keyboard input").arg(field);
     }
     auto* line = qobject_cast<QLineEdit*>(each);
     line = line ? line : each->findChild<QLineEdit*>();
@@ -244,7 +244,7 @@ QString WindowHand::type(const QString& text, const QString& field)
     }
     return {};
   }
-  return QObject::tr("no field '%1' is seen").arg(field);
+  return QObject::tr("no field '%1' is visible").arg(field);
 }
 
 QString WindowHand::press_key(const QString& keys)
@@ -252,7 +252,7 @@ QString WindowHand::press_key(const QString& keys)
   const QKeySequence sequence = QKeySequence::fromString(keys, QKeySequence::PortableText);
   if (sequence.count() != 1 || (sequence[0] & ~Qt::KeyboardModifierMask) == Qt::Key_unknown)
   {
-    return QObject::tr("'%1' is no key").arg(keys);
+    return QObject::tr("unknown key '%1'").arg(keys);
   }
   const auto held = Qt::KeyboardModifiers(sequence[0] & Qt::KeyboardModifierMask);
   const int key = sequence[0] & ~static_cast<int>(Qt::KeyboardModifierMask);
@@ -309,11 +309,11 @@ QString WindowHand::trigger(const QString& name)
   QAction* found = this->action(name);
   if (!found)
   {
-    return QObject::tr("there is no entry of the menus '%1'").arg(name);
+    return QObject::tr("unknown menu entry '%1'").arg(name);
   }
   if (!found->isEnabled())
   {
-    return QObject::tr("the entry of the menus '%1' is disabled").arg(name);
+    return QObject::tr("the menu entry '%1' is disabled").arg(name);
   }
   found->trigger();
   return {};
@@ -347,7 +347,7 @@ QString WindowHand::push(const QString& text)
     }
   }
   return seen ? QObject::tr("the button '%1' is disabled").arg(text)
-              : QObject::tr("no button '%1' is seen").arg(text);
+              : QObject::tr("no button '%1' is visible").arg(text);
 }
 
 QString WindowHand::choose(const QString& key, const QVariant& value)
@@ -356,18 +356,18 @@ QString WindowHand::choose(const QString& key, const QVariant& value)
   const OptionInfo* option = find_option(key);
   if (!option)
   {
-    return QObject::tr("there is no option '%1'").arg(key);
+    return QObject::tr("unknown option '%1'").arg(key);
   }
   const QVariant checked = checked_option(*option, value);
   if (!checked.isValid())
   {
-    return QObject::tr("the option '%1' cannot be %2").arg(key, value.toString());
+    return QObject::tr("the option '%1' cannot have the value %2").arg(key, value.toString());
   }
   QObject* found = this->window_->panels()->findChild<QObject*>(key);
   auto* widget = qobject_cast<QWidget*>(found);
   const QString disabled = QObject::tr("the option '%1' is disabled").arg(key);
   const QString missing =
-    QObject::tr("the option '%1' has no choice %2").arg(key, value.toString());
+    QObject::tr("the option '%1' cannot have the choice %2").arg(key, value.toString());
   if (widget && !widget->isEnabled())
   {
     return disabled;
@@ -413,7 +413,7 @@ QString WindowHand::choose(const QString& key, const QVariant& value)
   }
   else
   {
-    return QObject::tr("the option '%1' is in no panel").arg(key);
+    return QObject::tr("the option '%1' is not in any panel").arg(key);
   }
   return {};
 }
@@ -431,13 +431,13 @@ QString WindowHand::show_panel(const QString& name)
   const int panel = panel_names().indexOf(name);
   if (panel < 0)
   {
-    return QObject::tr("there is no panel '%1': it is one of %2")
+    return QObject::tr("unknown panel '%1': expected one of %2")
       .arg(name, panel_names().join(", "));
   }
   this->window_->panels()->show_panel(panel);
   return this->window_->panels()->shown_panel() == panel
     ? QString()
-    : QObject::tr("the panel '%1' cannot be chosen").arg(name);
+    : QObject::tr("the panel '%1' is not available").arg(name);
 }
 
 QString WindowHand::select(const QString& handle)
@@ -446,7 +446,7 @@ QString WindowHand::select(const QString& handle)
   const int number = this->number_of(handle);
   if (number < 0)
   {
-    return QObject::tr("there is no handle '%1'").arg(handle);
+    return QObject::tr("unknown handle '%1'").arg(handle);
   }
   this->window_->panel()->select_handle(number);
   return {};
@@ -468,8 +468,9 @@ QString WindowHand::set_mode(const QString& mode)
     [&](int handle) { return handles[static_cast<std::size_t>(handle)].kind == HandleKind::bone; });
   if (found == std::end(words) || (holds_tail(static_cast<HandleMode>(number)) && !bones))
   {
-    return selected.size() > 1 ? QObject::tr("'%1' is no mode of these handles").arg(mode)
-                               : QObject::tr("'%1' is no mode of this handle").arg(mode);
+    return selected.size() > 1
+      ? QObject::tr("the mode '%1' is not available for these handles").arg(mode)
+      : QObject::tr("the mode '%1' is not available for this handle").arg(mode);
   }
   this->window_->editing()->commands()->fix(static_cast<HandleMode>(number));
   return {};

@@ -166,12 +166,13 @@ void WindowMenus::add_view_menu()
   this->outlines_ = this->add(view, tr("&Outlines"), "",
     [window] { window->show_outlines(!window->viewport()->has_outlines()); });
   this->outlines_->setCheckable(true);
-  this->outlines_->setToolTip(tr("Lines where the shape turns away"));
+  this->outlines_->setToolTip(
+    tr("Dark lines along the silhouette and the open edges of the shape"));
   this->timeline_ = this->add(
     view, tr("Ti&meline"), "", [window] { window->show_timeline(!window->shows_timeline()); });
   this->timeline_->setCheckable(true);
   view->addSeparator();
-  this->add(view, tr("&Rest or posed"), "look_at_rest",
+  this->add(view, tr("&Rest shape or pose"), "look_at_rest",
     [window] { window->posing()->look_at_rest(!window->posing()->looks_at_rest()); });
   this->add(view, tr("&Play or pause"), "play",
     [window] { window->posing()->keeper()->play(!window->posing()->keeper()->is_playing()); });
@@ -193,7 +194,7 @@ void WindowMenus::add_view_menu()
   view->addSeparator();
   QMenu* appearance = view->addMenu(tr("&Appearance"));
   auto* looks = new QActionGroup(this);
-  for (const auto& [text, look] : { std::pair(tr("As the &desktop"), Appearance::system),
+  for (const auto& [text, look] : { std::pair(tr("Same as the &desktop"), Appearance::system),
          std::pair(tr("&Light"), Appearance::light), std::pair(tr("D&ark"), Appearance::dark) })
   {
     QAction* entry =

@@ -103,7 +103,7 @@ void WindowSessions::show_notes(const Session& session)
       [this, path]
       {
         const QString found = QFileDialog::getOpenFileName(this->window_,
-          tr("Where is %1?").arg(QFileInfo(path).fileName()), QFileInfo(path).absolutePath());
+          tr("Locate %1").arg(QFileInfo(path).fileName()), QFileInfo(path).absolutePath());
         if (!found.isEmpty())
         {
           this->window_->open(found);
@@ -149,7 +149,7 @@ bool WindowSessions::write(const QString& path)
   if (!status.ok())
   {
     this->window_->show_error(
-      tr("The session is not saved: %1.").arg(QString::fromStdString(status.message)),
+      tr("Cannot save the session: %1.").arg(QString::fromStdString(status.message)),
       ErrorKind::save_session);
     return false;
   }
@@ -187,7 +187,7 @@ bool WindowSessions::may_go()
   QMessageBox question(QMessageBox::Question, "Bindpose",
     tr("Save the changes to %1?").arg(this->name().isEmpty() ? tr("the work") : this->name()),
     QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this->window_);
-  question.setInformativeText(tr("Without saving, they are lost."));
+  question.setInformativeText(tr("Unsaved changes are lost."));
   question.setDefaultButton(QMessageBox::Save);
   switch (question.exec())
   {
@@ -229,12 +229,12 @@ void WindowSessions::fill_recent(QMenu* menu)
   }
   if (paths.isEmpty())
   {
-    menu->addAction(tr("Nothing was opened yet"))->setEnabled(false);
+    menu->addAction(tr("No recent files"))->setEnabled(false);
     return;
   }
   menu->addSeparator();
   QObject::connect(
-    menu->addAction(tr("Forget them")), &QAction::triggered, this, &RecentFiles::clear);
+    menu->addAction(tr("Clear the list")), &QAction::triggered, this, &RecentFiles::clear);
 }
 
 // ---- After a crash -----------------------------------------------------------------------------
@@ -253,7 +253,7 @@ void WindowSessions::offer_recovery(const QString& root)
     this->offer_recovery(root); // there may be another one
   };
   this->recovery_->offer(
-    tr("Bindpose did not end as it should. Its work from %1 is still there.").arg(when),
+    tr("Bindpose did not close properly. The work from %1 can be restored.").arg(when),
     { { tr("&Restore"), [this] { this->recover(); } }, { tr("Discard"), discard } }, tr("Later"));
 }
 

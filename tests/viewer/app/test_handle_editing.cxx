@@ -257,7 +257,7 @@ TEST_F(HandleWindow, HandlesComeFromTheShape)
   EXPECT_EQ(this->window.error(), QString());
   EXPECT_EQ(this->window.note_bar()->sentence(), QString());
   EXPECT_EQ(this->names(), QStringList({ "p1", "p2", "p3", "p4", "p5" }));
-  EXPECT_EQ(this->history()->undoText(), "points spread over it");
+  EXPECT_EQ(this->history()->undoText(), "points spread over the shape");
   for (const Handle& each : this->document()->handles())
   {
     EXPECT_LT((each.head.array() / Vec3(0.4, 0.4, 1.0).array()).matrix().norm(), 1.0) << "inside";
@@ -270,7 +270,8 @@ TEST_F(HandleWindow, HandlesComeFromTheShape)
   EXPECT_EQ(this->window.error(), QString());
   makes->start(AutomaticMethod::points, 1000000);
   ASSERT_TRUE(wait());
-  EXPECT_TRUE(this->window.error().contains("No handles")) << this->window.error().toStdString();
+  EXPECT_TRUE(this->window.error().contains("Cannot create handles"))
+    << this->window.error().toStdString();
   EXPECT_EQ(this->names().size(), 5);
   this->history()->undo();
   EXPECT_TRUE(this->names().isEmpty());
@@ -852,7 +853,7 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
     }
     return all.join('|');
   }();
-  for (const char* text : { "Rename", "Color", "Locked", "Holds", "Parent", "Reset",
+  for (const char* text : { "Rename", "Color", "Locked", "Fixes", "Parent", "Reset",
          "Snap to the surface", "Mirror", "Delete" })
   {
     EXPECT_TRUE(texts.contains(text)) << text;

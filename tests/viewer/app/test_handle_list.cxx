@@ -181,7 +181,7 @@ TEST_F(HandleList, TheFieldsAreThoseOfTheFirstAndSayHowMany)
   this->click(0, Qt::ControlModifier);
   QDoubleSpinBox* along_x = this->window.panel()->fields()->field(0);
   EXPECT_EQ(along_x->value(), 0.25);
-  EXPECT_EQ(this->note(), "2 selected; the values of top:");
+  EXPECT_EQ(this->note(), "2 selected; values of top:");
   along_x->setValue(0.5);
   EXPECT_NEAR(this->window.document()->pose()[2].transform(0, 3), 0.5, 1e-12);
   EXPECT_EQ(this->window.document()->pose()[0].transform(0, 3), 0.125) << "only the first";

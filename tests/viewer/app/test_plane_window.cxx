@@ -177,10 +177,11 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(All, PlaneWindow,
   testing::Values(PlaneCase{ "volume", PanelColumn::volume_slice, "move the slice",
-                    "turn the slice", "slice turned" },
-    PlaneCase{ "tets", PanelColumn::tets, "move the cut", "turn the cut", "cut turned" },
+                    "turn the slice", "orientation of the slice" },
+    PlaneCase{
+      "tets", PanelColumn::tets, "move the cut", "turn the cut", "orientation of the cut" },
     PlaneCase{ "weights", PanelColumn::weights, "move the slice of weights",
-      "turn the slice of weights", "slice of weights turned" }),
+      "turn the slice of weights", "orientation of the slice of weights" }),
   [](const auto& each) { return std::string(each.param.name); });
 
 TEST(PlaneShare, IsNotWornAwayByPositionsGivenBack)

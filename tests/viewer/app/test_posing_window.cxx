@@ -749,7 +749,7 @@ TEST_F(PosingWindow, NoMethodIsComparedWithItself)
   EXPECT_TRUE(is_enabled(PoseMethod::linear_blend));
   const auto labels = this->panel()->findChildren<QLabel*>();
   EXPECT_TRUE(std::any_of(labels.begin(), labels.end(),
-    [](const QLabel* label) { return label->text().contains("choose another one"); }));
+    [](const QLabel* label) { return label->text().contains("choose another method"); }));
   hand.trigger("edit.undo");
   EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::in_colors);
 }

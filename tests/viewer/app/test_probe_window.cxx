@@ -264,7 +264,7 @@ TEST_F(ProbeWindow, TheDifferenceOfTwoMethodsIsReadInUnitsAndShares)
     const std::string text = this->read(place);
     SurfaceReading reading;
     ASSERT_TRUE(parse(text, reading)) << text;
-    const double units = number_after(text, "Apart by ");
+    const double units = number_after(text, "Distance ");
     const double share = number_after(text, " units, ");
     const double diagonal =
       (this->ball.points.colwise().maxCoeff() - this->ball.points.colwise().minCoeff()).norm();

@@ -595,7 +595,7 @@ TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
     << this->window.note_bar()->sentence().toStdString();
   // The search for defects ends later and does not remove the sentence.
   ASSERT_TRUE(
-    test::wait_for([this] { return this->window.note_bar()->sentence().contains("not clean"); }));
+    test::wait_for([this] { return this->window.note_bar()->sentence().contains("has defects"); }));
   EXPECT_TRUE(this->window.note_bar()->sentence().startsWith(lost));
   // Another mesh has no such loss.
   const TriangleMesh other = test::open_cube();

@@ -135,11 +135,11 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
   EXPECT_GT(count(image, is_cut), 5000);
   EXPECT_TRUE(is_cut(image.pixelColor(this->pixel(Vec3(0.11, 0.23, 0.0)))));
   // Without the cut, no exposed sides are visible.
-  this->find<QCheckBox>("Cut them open")->setChecked(false);
+  this->find<QCheckBox>("Cut the tets")->setChecked(false);
   EXPECT_EQ(this->view()->shown_count(), mesh.tets.rows());
   EXPECT_LT(count(this->picture(), is_cut), 20);
   // The two sides add up to the whole, except for centers on the plane.
-  this->find<QCheckBox>("Cut them open")->setChecked(true);
+  this->find<QCheckBox>("Cut the tets")->setChecked(true);
   const Index behind = this->view()->shown_count();
   this->find<QCheckBox>("Keep the other side")->setChecked(true);
   EXPECT_GE(this->view()->shown_count() + behind, mesh.tets.rows());
@@ -264,7 +264,7 @@ TEST_F(TetWindow, TheMouseDragsThePlane)
   // At the lower end no tet is left, and a label says so.
   this->row(0)->slider()->setValue(0);
   EXPECT_EQ(this->view()->shown_count(), 0);
-  EXPECT_NE(this->find<QLabel>("No tet is on this side."), nullptr);
+  EXPECT_NE(this->find<QLabel>("There are no tets on this side."), nullptr);
 }
 
 TEST_F(TetWindow, AHundredThousandTetsFollowTheMouse)
@@ -292,7 +292,7 @@ TEST_F(TetWindow, AHundredThousandTetsFollowTheMouse)
 TEST_F(TetWindow, ShrunkTetsStandApart)
 {
   this->open(tets_of(box_of(3)));
-  this->find<QCheckBox>("Cut them open")->setChecked(false);
+  this->find<QCheckBox>("Cut the tets")->setChecked(false);
   const auto backgrounds = [this]
   {
     // Position of the front side: z = 1, seen obliquely.
@@ -327,7 +327,7 @@ TEST_F(TetWindow, ColorsAreThoseOfTheLegend)
   }
   grid->GetCellData()->AddArray(labels);
   this->open(grid);
-  this->find<QCheckBox>("Cut them open")->setChecked(false);
+  this->find<QCheckBox>("Cut the tets")->setChecked(false);
   this->choose("By label");
   EXPECT_EQ(this->window.error(), QString());
   const QImage image = this->picture();
@@ -386,7 +386,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
   EXPECT_EQ(seen[8].count, filter->GetReport().number("counts.inward_components", -1))
     << "components, as bindpose info counts them";
   EXPECT_EQ(seen[8].count, 1);
-  EXPECT_NE(this->find<QLabel>(QString("%1 places").arg(all)), nullptr);
+  EXPECT_NE(this->find<QLabel>(QString("%1 defects").arg(all)), nullptr);
   EXPECT_LT(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   // The edge of the opening is green in the picture.
   const QColor edge = this->picture().pixelColor(this->pixel(Vec3(-1.0, -0.4, 1.0)));
@@ -446,7 +446,7 @@ TEST_F(TetWindow, ThePanelDecidesWhatIsSeen)
   EXPECT_GT(this->view()->shown_count(), 0);
   this->find<QCheckBox>("Show the tets")->setChecked(false);
   EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
-  EXPECT_FALSE(this->find<QCheckBox>("Cut them open")->isEnabled());
+  EXPECT_FALSE(this->find<QCheckBox>("Cut the tets")->isEnabled());
 }
 
 TEST_F(TetWindow, NoTextOfTheTetPanelIsClipped)

@@ -108,77 +108,81 @@ TEST(Tour, EveryVerbIsRead)
 
 TEST(Tour, AMistakeIsOneSentenceThatNamesTheStep)
 {
-  EXPECT_EQ(refusal(R"({"opne": "a"})"), "step 1 has no verb: \"opne\" is none");
-  EXPECT_EQ(refusal(R"({"wait": 1}, 7)"), "step 2 is no object");
+  EXPECT_EQ(refusal(R"({"opne": "a"})"), "step 1 must have a verb: \"opne\" is not a verb");
+  EXPECT_EQ(refusal(R"({"wait": 1}, 7)"), "step 2 must be a JSON object");
   EXPECT_EQ(refusal("{}"), "step 1 is empty");
   EXPECT_EQ(refusal(R"({"open": "a", "key": "B"})"), "step 1 has two verbs, \"open\" and \"key\"");
-  EXPECT_EQ(refusal(R"({"open": 3})"), "step 1 (open): the verb needs a text");
   EXPECT_EQ(
-    refusal(R"({"open": "a", "button": "left"})"), "step 1 (open): the verb has no \"button\"");
+    refusal(R"({"open": 3})"), "step 1 (open): the value of the verb must be a nonempty string");
+  EXPECT_EQ(refusal(R"({"open": "a", "button": "left"})"),
+    "step 1 (open): the verb cannot have the field \"button\"");
   EXPECT_EQ(refusal(R"({"wait": 0}, {"wait": "lunch"})"),
-    "step 2 (wait): it waits for \"bind\", \"idle\" or 0 to 3600 seconds");
+    "step 2 (wait): expected \"bind\", \"idle\" or 0 to 3600 seconds");
   EXPECT_EQ(refusal(R"({"click": [1]})"),
-    "step 1 (click): a place of the view is two shares of its size, [0.5, 0.5]");
+    "step 1 (click): a position must be two fractions of the view size, for example [0.5, 0.5]");
+  EXPECT_EQ(refusal(R"({"click": {"handle": "a", "of": 1}})"),
+    "step 1 (click): a position cannot have the field \"of\"");
   EXPECT_EQ(
-    refusal(R"({"click": {"handle": "a", "of": 1}})"), "step 1 (click): a place has no \"of\"");
-  EXPECT_EQ(refusal(R"({"click": {"gizmo": "move_w"}})"),
-    "step 1 (click): the gizmo has no part \"move_w\"");
+    refusal(R"({"click": {"gizmo": "move_w"}})"), "step 1 (click): unknown gizmo part \"move_w\"");
   EXPECT_EQ(refusal(R"({"click": {"gizmo": "move_x", "along": 1}})"),
-    "step 1 (click): a place has no \"along\"");
+    "step 1 (click): a position cannot have the field \"along\"");
   EXPECT_EQ(refusal(R"({"click": [0, 0], "button": "fourth"})"),
     "step 1 (click): \"button\" must be one of left, middle, right");
   EXPECT_EQ(refusal(R"({"click": [0, 0], "held": "hat"})"),
-    "step 1 (click): what is held is shift, ctrl or alt");
+    "step 1 (click): \"held\" must be shift, ctrl or alt, or a list of these");
   EXPECT_EQ(refusal(R"({"drag": [0, 0]})"), "step 1 (drag): \"to\" is missing");
   EXPECT_EQ(refusal(R"({"drag": [0, 0], "to": [1, 1], "moves": 0})"),
     "step 1 (drag): \"moves\" must be a number from 1 to 1000");
   EXPECT_EQ(refusal(R"({"wheel": [0, 0]})"), "step 1 (wheel): \"turns\" is missing");
   EXPECT_EQ(refusal(R"({"type": "5"})"), "step 1 (type): \"into\" is missing");
   EXPECT_EQ(refusal(R"({"push": "Open", "answer": "../a.ply"})"),
-    "step 1 (push): the answer is up to 60 letters, digits, '_', '-' and '.'");
-  EXPECT_EQ(
-    refusal(R"({"key": "K", "answer": "a.ply"})"), "step 1 (key): the verb has no \"answer\"");
+    "step 1 (push): the answer must be 1 to 60 letters, digits, '_', '-' and '.', and must not "
+    "start with '.'");
+  EXPECT_EQ(refusal(R"({"key": "K", "answer": "a.ply"})"),
+    "step 1 (key): the verb cannot have the field \"answer\"");
   EXPECT_EQ(refusal(R"({"option": "a"})"), "step 1 (option): \"value\" is missing");
   EXPECT_EQ(refusal(R"({"check": "a"})"),
-    "step 1 (check): a check has one of is, at_least, at_most, as_at");
+    "step 1 (check): a check must have exactly one of is, at_least, at_most, as_at");
   EXPECT_EQ(refusal(R"({"check": "a", "is": 1, "at_most": 2})"),
-    "step 1 (check): a check has one of is, at_least, at_most, as_at");
-  EXPECT_EQ(
-    refusal(R"({"check": "a", "at_least": "many"})"), "step 1 (check): a bound is a number");
+    "step 1 (check): a check must have exactly one of is, at_least, at_most, as_at");
+  EXPECT_EQ(refusal(R"({"check": "a", "at_least": "many"})"),
+    "step 1 (check): at_least and at_most must be numbers");
   EXPECT_EQ(refusal(R"({"check": "a", "as_at": "start"})"),
-    "step 1 (check): there is no screenshot \"start\" before it");
+    "step 1 (check): no earlier screenshot is named \"start\"");
   EXPECT_EQ(refusal(R"({"screenshot": "a/b"})"),
-    "step 1 (screenshot): a name is up to 60 letters, digits, '_', '-' and '.'");
+    "step 1 (screenshot): a name must be 1 to 60 letters, digits, '_', '-' and '.', and must not "
+    "start with '.'");
   EXPECT_EQ(refusal(R"({"screenshot": "a"}, {"screenshot": "a"})"),
-    "step 2 (screenshot): there is another \"a\" before it");
-  EXPECT_EQ(refusal(R"({"film": "a"})"), "the film has no end");
-  EXPECT_EQ(refusal(R"({"film": "end"})"), "step 1 (film): there is no film to end");
+    "step 2 (screenshot): the name \"a\" is already used by an earlier step");
   EXPECT_EQ(
-    refusal(R"({"resize": [10, 10]})"), "step 1 (resize): a size is two numbers from 200 to 8000");
+    refusal(R"({"film": "a"})"), "the last film must end: add the step {\"film\": \"end\"}");
+  EXPECT_EQ(refusal(R"({"film": "end"})"), "step 1 (film): no film was started");
+  EXPECT_EQ(refusal(R"({"resize": [10, 10]})"),
+    "step 1 (resize): a size must be two numbers from 200 to 8000");
   EXPECT_EQ(refusal(""), "\"steps\" must be a list of 1 to 10000 steps");
 }
 
 TEST(Tour, AnotherFileIsRefused)
 {
   Tour tour;
-  EXPECT_EQ(parse_tour("no JSON", tour).message, "it is no JSON object");
-  EXPECT_EQ(parse_tour("[1]", tour).message, "it is no JSON object");
+  EXPECT_EQ(parse_tour("no JSON", tour).message, "expected a JSON object");
+  EXPECT_EQ(parse_tour("[1]", tour).message, "expected a JSON object");
   EXPECT_EQ(parse_tour(R"({"steps": []})", tour).message,
-    "it is no tour: {\"tour\": {\"schema\": 1}, \"steps\": […]}");
+    "expected a tour: {\"tour\": {\"schema\": 1}, \"steps\": […]}");
   EXPECT_EQ(parse_tour(R"({"tour": {"schema": 2}, "steps": []})", tour).message,
-    "the schema of the tour is 2; this program reads 1");
+    "the schema of the tour is 2; expected 1");
   EXPECT_EQ(parse_tour(R"({"tour": {"schema": 1, "speed": 2}, "steps": []})", tour).message,
-    "the head of a tour has no \"speed\"");
+    "the head of a tour cannot have the field \"speed\"");
   EXPECT_EQ(
     parse_tour(R"({"tour": {"schema": 1, "view": [760, 10]}, "steps": [{"wait": 0}]})", tour)
       .message,
-    "the head of the tour: a size is two numbers from 200 to 8000");
+    "the head of the tour: a size must be two numbers from 200 to 8000");
   ASSERT_TRUE(
     parse_tour(R"({"tour": {"schema": 1, "view": [760, 560]}, "steps": [{"wait": 0}]})", tour)
       .ok());
   EXPECT_EQ(tour.view, (std::array<int, 2>{ 760, 560 }));
-  EXPECT_EQ(
-    parse_tour(R"({"tour": {"schema": 1}, "stops": []})", tour).message, "a tour has no \"stops\"");
+  EXPECT_EQ(parse_tour(R"({"tour": {"schema": 1}, "stops": []})", tour).message,
+    "a tour cannot have the field \"stops\"");
   EXPECT_EQ(read_tour("/no/such.json", tour).message, "tour '/no/such.json' cannot be read");
 
   const test::Folder folder;

@@ -309,21 +309,21 @@ TEST(FailedTours, EndWithASentenceThatNamesTheStep)
 {
   int code = 0;
   EXPECT_EQ(failure(R"({"open": "data/figure.off"}, {"check": "triangles", "is": 3})", &code),
-    "bindpose view: tour 'wrong', step 2 (check 'triangles'): it is 1554, not 3.0");
+    "bindpose view: tour 'wrong', step 2 (check 'triangles'): the value is 1554, expected 3.0");
   EXPECT_EQ(code, 2);
   EXPECT_EQ(failure(R"({"open": "no_such.off"})"),
     "bindpose view: tour 'wrong', step 1 (open 'no_such.off'): cannot open no_such.off: "
     "No such file or directory");
   EXPECT_EQ(failure(R"({"action": "edit.bind"})"),
-    "bindpose view: tour 'wrong', step 1 (action 'edit.bind'): the entry of the menus 'edit.bind' "
-    "is disabled");
+    "bindpose view: tour 'wrong', step 1 (action 'edit.bind'): the menu entry 'edit.bind' is "
+    "disabled");
   EXPECT_EQ(failure(R"({"action": "file.open"})"),
-    "bindpose view: tour 'wrong', step 1 (action 'file.open'): it opened the dialog 'Open', which "
-    "waits");
+    "bindpose view: tour 'wrong', step 1 (action 'file.open'): the step opened the dialog "
+    "'Open', which needs an answer");
   EXPECT_EQ(failure(R"({"click": {"handle": "nose"}})"),
-    "bindpose view: tour 'wrong', step 1 (click): there is no handle 'nose'");
+    "bindpose view: tour 'wrong', step 1 (click): unknown handle 'nose'");
   EXPECT_EQ(failure(R"({"option": "pose.methd", "value": 1})"),
-    "bindpose view: tour 'wrong', step 1 (option 'pose.methd'): there is no option 'pose.methd'");
+    "bindpose view: tour 'wrong', step 1 (option 'pose.methd'): unknown option 'pose.methd'");
   // After turning the view away, the picture is empty.
   EXPECT_EQ(failure(R"({"open": "data/figure.off"}, {"drag": [0.5, 0.5], "to": [0.9, 0.5],
     "button": "middle"}, {"drag": [0.1, 0.5], "to": [0.9, 0.5], "button": "middle"},
@@ -334,7 +334,7 @@ TEST(FailedTours, EndWithASentenceThatNamesTheStep)
 TEST(FailedTours, ATimeLimitEndsThem)
 {
   EXPECT_EQ(failure(R"({"wait": 60})", nullptr, { "--time-limit", "1" }),
-    "bindpose view: tour 'wrong', step 1 (wait): the tour has taken more than 1 s");
+    "bindpose view: tour 'wrong', step 1 (wait): the tour exceeded its time limit of 1 s");
 }
 
 TEST(FailedTours, NothingIsReplacedUnasked)

@@ -334,7 +334,7 @@ TEST_F(VolumeWindow, NoSliceLiesInAPosedShape)
   EXPECT_TRUE(this->view()->is_slice_shown());
   EXPECT_NEAR(top(), 1.2, 1e-3);
   EXPECT_NEAR(handles->GetBounds()[3], 0.0, 1e-9);
-  EXPECT_EQ(this->window.viewport()->state_name(), "Rest shape: the winding numbers belong to it");
+  EXPECT_EQ(this->window.viewport()->state_name(), "Rest shape: winding numbers are shown at rest");
   // The pose returns if nothing of the volume is shown. It also returns in the other panel, which
   // shows neither the slice nor its legend.
   this->find<QCheckBox>("Show the slice")->setChecked(false);

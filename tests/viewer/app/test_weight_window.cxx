@@ -420,7 +420,7 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   this->button("Compare again")->click();
   this->button("Cancel")->click();
   this->wait_while([this] { return this->weights()->is_busy(); });
-  EXPECT_TRUE(this->says("the last comparison stays"));
+  EXPECT_TRUE(this->says("the last comparison is kept"));
   EXPECT_TRUE(this->button("Difference")->isEnabled());
   // Opening another mesh ends the comparison.
   this->button("Compare again")->click();
@@ -468,7 +468,7 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
   EXPECT_TRUE(this->button("Compare")->isEnabled());
   other->setCurrentIndex(0);
   EXPECT_FALSE(this->button("Compare")->isEnabled());
-  EXPECT_TRUE(this->button("Compare")->toolTip().contains("by this method already"));
+  EXPECT_TRUE(this->button("Compare")->toolTip().contains("already come from this method"));
   EXPECT_FALSE(other->model()->flags(other->model()->index(0, 0)) & Qt::ItemIsEnabled);
   EXPECT_TRUE(other->model()->flags(other->model()->index(1, 0)) & Qt::ItemIsEnabled);
   // Weights without a report may come from any method.
@@ -549,7 +549,7 @@ TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
   EXPECT_NEAR(reach(this->window.viewport()->drawn()), 1.0, 1e-5);
   EXPECT_NEAR(handles->GetBounds()[5], 0.9, 1e-5);
   EXPECT_EQ(
-    this->window.viewport()->state_name(), "Rest shape: the slice of the weights belongs to it");
+    this->window.viewport()->state_name(), "Rest shape: the slice of weights is shown at rest");
   this->find<QCheckBox>("Slice through the volume")->setChecked(false);
   EXPECT_NEAR(reach(this->window.viewport()->drawn()), 2.0, 1e-5);
   EXPECT_NEAR(handles->GetBounds()[5], 1.9, 1e-5);
@@ -600,7 +600,8 @@ TEST_F(WeightWindow, NoTextOfTheWeightPanelIsClipped)
     0, "a handle whose name somebody has made much too long for any list");
   this->open(grid);
   this->find<QCheckBox>("Extrema away from handles")->setChecked(true);
-  this->panel()->set_comparison("Against Linear subspace (12.3 s): largest 0.00012, rms 1.2e-05");
+  this->panel()->set_comparison(
+    "Difference from Linear subspace (12.3 s): largest 0.00012, rms 1.2e-05");
   this->panel()->set_certificate(
     "Bounded biharmonic weights:\nWorst gap 1.2e-07, residual 1.2e-07\n123 iterations, all handles "
     "12.34 s");

@@ -149,9 +149,9 @@ TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
       ASSERT_TRUE(d.commit_handles("delete all").ok());
       EXPECT_EQ(d.handle_data(), nullptr);
     });
-  this->check("way to pose", [&] { d.set_option("pose.method", 2); });
-  this->check("kind of weights", [&] { d.set_option("bind.method", 1); });
-  this->check("what is shown", [&] { d.set_option("show.column", 1); });
+  this->check("pose method", [&] { d.set_option("pose.method", 2); });
+  this->check("type of weights", [&] { d.set_option("bind.method", 1); });
+  this->check("displayed weights", [&] { d.set_option("show.column", 1); });
   this->check("bands", [&] { d.set_option("weights.bands", false); });
   this->check("keep a pose",
     [&]

@@ -47,8 +47,8 @@ def reduced(rows):
                       f"{given['handles']}, {given['clusters']}", number(row["plain_us"]), number(row["us"]),
                       int(row["iterations"]), number(row["converge_us"]), number(row["modes_ms"]), number(row["bind_s"]),
                       number(row["bind_MiB"])])
-    head = ["energy", "triangles", "handles, clusters", "µs an iteration", "accelerated", "iterations to convergence",
-            "µs to convergence", "ms a change of modes", "s of the bind", "MiB of the bind"]
+    head = ["energy", "triangles", "handles, clusters", "µs per iteration", "accelerated", "iterations to convergence",
+            "µs to convergence", "ms per change of modes", "bind, s", "bind, MiB"]
     return table(head, lines)
 
 
@@ -60,10 +60,10 @@ def skinning(rows):
             found.setdefault((given["bounded"], given["method"], given["handles"]), {})[given["single"]] = row
     lines = []
     for (bounded, method, handles), both in sorted(found.items(), reverse=True, key=lambda item: (item[0][0], -item[0][1], -item[0][2])):
-        lines.append(["bounded biharmonic" if bounded else "none is zero", METHODS[method], handles,
+        lines.append(["bounded biharmonic" if bounded else "all nonzero", METHODS[method], handles,
                       number(both[0]["weights_each"]), number(both[0]["cpu_time"]), number(both[1]["cpu_time"]),
                       f"{both[0]['error']:.0e}", f"{both[1]['error']:.0e}"])
-    head = ["weights", "method", "handles", "weights a vertex", "ms, double", "ms, float", "error, double", "error, float"]
+    head = ["weights", "method", "handles", "weights per vertex", "ms, double", "ms, float", "error, double", "error, float"]
     return table(head, lines)
 
 
@@ -73,11 +73,11 @@ def others(rows):
         name, given = arguments(row)
         if name == "crowd":
             what = f"100 instances of {given['triangles']:,} triangles, {given['handles']} handles, {given['clusters']} clusters"
-            lines.append([what, f"{number(row['cpu_time'])} ms a frame, of which {number(row['ms_of_solves'])} are solves; "
+            lines.append([what, f"{number(row['cpu_time'])} ms per frame, including {number(row['ms_of_solves'])} ms of solves; "
                           f"{number(row['iterations_each'])} iterations each"])
         elif name.startswith("stretch"):
             lines.append([name.replace("_", " "), f"{number(1e6 * row['cpu_time'] / row['elements'])} ns each"])
-    return table(["what", ""], lines)
+    return table(["measured", "time"], lines)
 
 
 def write(readme, text):

@@ -25,11 +25,13 @@ PICTURES = ROOT / "viewer" / "pictures"
 FILM = ROOT / "examples" / "pictures" / "bend.gif"
 HEAD = """# Five minutes with the window
 
-Every step and every picture here is one of the tour [tutorial.json](../examples/tours/tutorial.json), which a test
-replays with its checks. To watch it on your own display, in the folder that holds the Debian package libcgal-demo's
-`elephant-with-holes.off`:
+In nine steps you bind, bend and animate a mesh with the mouse. Watch the steps on your own display, after
+`examples/quickstart.sh` has built the program and unpacked `elephant-with-holes.off` of the Debian package libcgal-demo:
 
-    bindpose view --play examples/tours/tutorial.json
+    cd build/demo-meshes && ../bin/bindpose view --play ../../examples/tours/tutorial.json
+
+All steps and pictures of this page come from this tour, [tutorial.json](../examples/tours/tutorial.json). A test replays it and
+its checks.
 
 """
 

@@ -51,7 +51,7 @@ def demo_mesh(folder, name=DEMO_MESH):
                 subprocess.run(["dpkg-deb", "-x", package, scratch], check=True)
             archives = [scratch + archives[0]]
         if not archives or not os.path.exists(archives[0]):
-            raise Stop(f"the default mesh comes with the Debian package {DEMO_PACKAGE}; install it or name a MESH")
+            raise Stop(f"the default mesh is in the Debian package {DEMO_PACKAGE}; install it or give a MESH")
         with tarfile.open(archives[0]) as archive:
             for member in archive:
                 if member.name.endswith("/" + name):
@@ -151,7 +151,7 @@ def main_job(options, program, bindpose):
     if handles_from.startswith("auto"):
         wanted = handles_from.partition(":")[2] or "8"
         if not wanted.isdigit() or int(wanted) < 1:
-            raise Stop(f"--handles {handles_from}: after 'auto:' comes how many, at least 1", 1)
+            raise Stop(f"--handles auto:N needs an integer N of at least 1 (got {wanted!r})", 1)
         bindpose.write(bindpose.farthest_point_handles(surface, int(wanted)), folder / "handles.vtp")
     else:
         bindpose.write(bindpose.read_handles(handles_from), folder / "handles.vtp")
@@ -163,34 +163,34 @@ def main_job(options, program, bindpose):
     else:
         write_json(folder / "pose.json", invented_poses(handles, diagonal_of(surface)))
 
-    program.run("What kind of mesh is it?", "info", mesh, report="info")
+    program.run("Inspect the mesh.", "info", mesh, report="info")
 
-    program.run("Inside or outside? The winding number on a grid.",
+    program.run("Compute the winding number on a grid: 1 inside, 0 outside.",
                 "winding", mesh, "--resolution", "96", "-o", "winding.vti", report="winding")
-    program.run("A slice through it.", "render", "winding.vti", "-o", "winding.png")
+    program.run("Draw a slice through the grid.", "render", "winding.vti", "-o", "winding.png")
 
-    program.run("The inside as tets.", "tetrahedralize", mesh, "-o", "tets.vtu", report="tetrahedralize")
-    program.run("The tets, cut open.", "render", "tets.vtu", "-o", "tets.png")
+    program.run("Fill the inside with tets.", "tetrahedralize", mesh, "-o", "tets.vtu", report="tetrahedralize")
+    program.run("Draw a section through the tets.", "render", "tets.vtu", "-o", "tets.png")
 
-    program.run("Smooth bounded weights, one function a handle.",
+    program.run("Compute smooth bounded weights, one function per handle.",
                 "weights", mesh, "--handles", "handles.vtp", "-o", "weights.vtp", report="weights")
     pictures = []
     for number in spread(len(handles), 4):
         name = handles[number][0]
         picture = f"weights_{name}.png"
-        program.run(f"The weights of {name}.", "render", "weights.vtp", "--handles", "handles.vtp",
+        program.run(f"Draw the weights of handle {name}.", "render", "weights.vtp", "--handles", "handles.vtp",
                     "--array", "Weights", "--component", name, "-o", picture)
         pictures.append(picture)
 
     frames = {}
     for method, stem in (("lbs", "posed_lbs"), ("reduced-arap", "posed_arap")):
-        program.run(f"Posed, by {method}.", "deform", "weights.vtp", "--handles", "handles.vtp",
+        program.run(f"Pose the mesh with method {method}.", "deform", "weights.vtp", "--handles", "handles.vtp",
                     "--pose", "pose.json", "--method", method, "-o", f"{stem}.vtp", report=f"deform_{method}")
         frames[method] = sorted(p.name for p in folder.glob(f"{stem}*.vtp"))
     chosen = spread(len(frames["lbs"]), 8)
     tiles = [frames["lbs"][k] for k in chosen] + [frames["reduced-arap"][k] for k in chosen]
     labels = [f"{method} {k}" for method in frames for k in chosen]
-    program.run("All poses: linear blend skinning above, reduced as-rigid-as-possible below.",
+    program.run("Draw all poses: linear blend skinning above, reduced as-rigid-as-possible below.",
                 "render", *tiles, "--labels", ",".join(labels), "--columns", len(chosen), "--size", "2000x700",
                 "-o", "poses.png")
     return mesh, pictures
@@ -202,14 +202,14 @@ def summary(options, mesh, program, pictures, seconds):
     tets, weights = reports.get("tetrahedralize", {}), reports.get("weights", {})
     pose = reports.get("deform_reduced-arap", {})
     print(f"\nDone in {seconds:.0f} s: {mesh.name} in {output}/")
-    print(f"  winding.vti, winding.png     inside and outside, {reports['winding'].get('winding_volume', 0):.4g} enclosed")
+    print(f"  winding.vti, winding.png     inside and outside, enclosed volume {reports['winding'].get('winding_volume', 0):.4g}")
     print(f"  tets.vtu, tets.png           {tets.get('counts', {}).get('tets', 0)} tets by {tets.get('method')}")
     print(f"  weights.vtp, {pictures[0]} …  certified to {weights.get('relative_gap', 0):.1e} (gap), "
           f"{weights.get('kkt_residual', 0):.1e} (residual)")
     print("  posed_lbs_*.vtp, posed_arap_*.vtp, poses.png"
-          f"   {pose.get('microseconds_per_iteration', 0):.0f} µs an iteration")
-    print("  handles.vtp, pose.json       change them and deform again")
-    print("  report.json                  all numbers")
+          f"   {pose.get('microseconds_per_iteration', 0):.0f} µs per iteration")
+    print("  handles.vtp, pose.json       edit them and run deform again")
+    print("  report.json                  all reports")
     program_path = os.path.relpath(program.path)
     print("\nTry next:")
     print(f"  {program_path} deform {output}/weights.vtp --handles {output}/handles.vtp \\")
@@ -231,10 +231,10 @@ def main():
         options.handles = str(pathlib.Path(options.handles).resolve())
     for given in (options.mesh, options.pose, options.handles):
         if given and not str(given).startswith("auto") and not os.path.isfile(given):
-            raise Stop(f"there is no file {given}")
+            raise Stop(f"the file {given} does not exist")
     if options.output.exists() and not (options.output.is_dir() and
                                         ((options.output / "report.json").exists() or not any(options.output.iterdir()))):
-        raise Stop(f"{options.output} is there already and is not an output of this script")
+        raise Stop(f"{options.output} already exists and was not written by this script; choose another --output")
 
     sys.path.insert(0, str(options.build / "lib" / "python3" / "dist-packages"))
     import bindpose  # pylint: disable=import-outside-toplevel,import-error

@@ -9,17 +9,18 @@ usage()
   cat <<'TEXT'
 usage: examples/quickstart.sh [MESH] [options]
 
-Takes MESH (off, obj, ply, stl, vtp; default: elephant-with-holes.off of the Debian package
-libcgal-demo) the whole way to posed shapes and writes datasets, pictures and report.json.
+Computes winding numbers, tets, weights and posed shapes of MESH (off, obj, ply, stl, vtp; default:
+elephant-with-holes.off of the Debian package libcgal-demo) and writes datasets, pictures and
+report.json.
 
 options:
-  --handles FILE|auto[:N]  handles as .tgf or .vtp, or N (8) points spread over the surface
+  --handles FILE|auto[:N]  handles as .tgf or .vtp, or N points (default: 8) spread over the surface
                            (default: the elephant's skeleton; auto for any other MESH)
-  --pose FILE              pose sequence as JSON (default: made from the handles)
-  --output DIR             where to write (default: quickstart-output)
+  --pose FILE              pose sequence as JSON (default: generated from the handles)
+  --output DIR             output folder (default: quickstart-output)
   --headless               do not open the viewer at the end, even with a display
-  --no-install             install nothing; say what is missing
-  --help                   this text
+  --no-install             install nothing; list missing packages
+  --help                   show this help
 TEXT
 }
 

@@ -7,8 +7,8 @@ build_packages="
 g++:compiler
 cmake:configures_the_build
 ninja-build:runs_the_build
-ccache:makes_the_next_build_fast
-libvtk9-dev:VTK,_the_pipeline_and_the_pictures
+ccache:speeds_up_later_builds
+libvtk9-dev:VTK,_data_processing_and_rendering
 python3-vtk9:VTK_in_Python
 python3-dev:the_Python_package
 python3-numpy:the_Python_package
@@ -18,31 +18,31 @@ libqt5opengl5-dev:the_viewer
 libeigen3-dev:matrices
 libspectra-dev:eigenvalues_of_sparse_matrices
 libtbb-dev:threads
-libopenblas-pthread-dev:fast_dense_kernels_under_CHOLMOD
-libsuitesparse-dev:CHOLMOD,_the_sparse_solver
+libopenblas-pthread-dev:fast_dense_kernels_for_CHOLMOD
+libsuitesparse-dev:CHOLMOD,_a_sparse_solver
 libcgal-dev:exact_intersections_in_bindpose-mesher
 libtet1.5-dev:TetGen_in_bindpose-mesher
-libopenvdb-dev:OpenVDB,_volumes_as_.vdb_files
-libboost-dev:Boost.Graph,_the_cut_between_inside_and_outside
+libopenvdb-dev:OpenVDB,_writes_volumes_as_.vdb_files
+libboost-dev:Boost.Graph,_graph_cut_between_inside_and_outside
 libcli11-dev:command_line_options
-nlohmann-json3-dev:reports_and_poses
-libtinygltf-dev:rigs_as_glTF_files
-xvfb:pictures_without_a_display
-xauth:pictures_without_a_display
-libgl1-mesa-dri:pictures_without_a_graphics_card
-libcgal-demo:example_meshes,_elephant-with-holes.off_among_them
+nlohmann-json3-dev:reports_and_poses_as_JSON
+libtinygltf-dev:reads_and_writes_rigs_as_glTF_files
+xvfb:rendering_without_a_display
+xauth:rendering_without_a_display
+libgl1-mesa-dri:rendering_without_a_graphics_card
+libcgal-demo:example_meshes_such_as_elephant-with-holes.off
 "
 test_packages="
 libgtest-dev:C++_tests
 libgmock-dev:C++_tests
 libbenchmark-dev:benchmarks
 python3-pytest:Python_tests
-openbox:the_window_among_others
-xdotool:keys_and_mouse_for_it
-libopenvdb-tools:vdb_print_reads_.vdb_files_back
+openbox:window_manager_for_tests_of_the_window
+xdotool:keyboard_and_mouse_input_for_tests_of_the_window
+libopenvdb-tools:vdb_print_checks_.vdb_files
 clang-format-14:the_format_check
 clang-tidy-14:the_naming_check
-git:the_format_check_looks_at_tracked_files
+git:lists_tracked_files_for_the_format_check
 "
 
 die()
@@ -84,7 +84,7 @@ install_packages()
     as_root="sudo"
   fi
   echo "Installing them with apt-get$([ -n "$as_root" ] && echo " (sudo)") ..."
-  $as_root apt-get update -qq || echo "$program: apt-get update failed; trying with the lists at hand" >&2
+  $as_root apt-get update -qq || echo "$program: apt-get update failed; using the existing package lists" >&2
   # shellcheck disable=SC2086
   $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing \
     >"$log_dir/apt.log" 2>&1 || { tail -5 "$log_dir/apt.log" >&2; die "apt-get install failed; the log is $log_dir/apt.log"; }

@@ -14,7 +14,7 @@ tests/paraview/in_paraview.py with pvbatch on 1 and on 2 MPI ranks. tests/paravi
 compares: winding numbers have the same bits on both and in the program bindpose.
 
 options:
-  --no-install   install nothing; say what is missing
+  --no-install   install nothing; list missing packages
   --help         this text
 TEXT
 }

@@ -9,12 +9,12 @@ usage()
 usage: tests/run.sh [options] [-- CTEST OPTIONS…]
 
 options:
-  --bless NAME   make the picture that render test NAME draws now its baseline, then stop
-  --no-install   install nothing; say what is missing
-  --help         this text
+  --bless NAME   replace the baseline picture of render test NAME by its current picture, then exit
+  --no-install   install nothing; list missing packages
+  --help         show this help
 
-Everything after -- goes to ctest, for example: tests/run.sh -- -R weights
-In a tree that has been built before, only the test programs that these options choose are built.
+All arguments after -- are passed to ctest, for example: tests/run.sh -- -R weights
+In an existing build tree, only the test programs that these options select are built.
 A skipped test counts as a failure.
 TEXT
 }
@@ -72,7 +72,7 @@ log="$log_dir/ctest.log"
 status=0
 under_xvfb ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -j "$(nproc)" "$@" 2>&1 | tee "$log" || status=$?
 if grep -qE '\*\*\*(Skipped|Not Run)' "$log"; then
-  echo "$program: a test was skipped; here that is a failure" >&2
+  echo "$program: a test was skipped, which counts as a failure" >&2
   status=1
 fi
 exit "$status"

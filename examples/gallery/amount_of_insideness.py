@@ -46,7 +46,7 @@ def make(options):
         numbers[f"{name}: largest distance from an integer"] = float(max(
             np.abs(values - np.rint(values)).max(), distance_off_surface(field)))
         if name == "spheres":
-            numbers["spheres: points counted otherwise"] = int((spheres_around(spheres, random) != values).sum())
+            numbers["spheres: points with a wrong count"] = int((spheres_around(spheres, random) != values).sum())
         else:
             some = random[:50]
             numbers["tube: error"] = float(np.abs(meshes.plain_winding_number(shape, some) - values[:50]).max())
@@ -55,8 +55,8 @@ def make(options):
         bindpose.write(shape, options.scratch / f"{name}.off")
     common.render(options, "spheres.off", fields[0], "tube.off", fields[1], "--columns", 4, "--range", "0,3",
                   "--azimuth", -20, "--elevation", -10, "--size", "1600x640",
-                  "--labels", "three closed spheres,up to 3 times inside,one closed tube,twice inside where it crosses itself",
-                  "--title", "How many times is a point inside?")
+                  "--labels", "three closed spheres,winding number 0 to 3,one closed tube,winding number 2 at the self-crossing",
+                  "--title", "Winding numbers of overlapping solids")
     return numbers
 
 

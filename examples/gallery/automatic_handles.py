@@ -75,10 +75,10 @@ def make(options):
                    for k in range(0, len(vertices), 4096))
     numbers["points on the surface: distance by covering radius"] = float(apart.min() / covering)
 
-    tiles = [("bones", armadillo, bones, "its curve skeleton as bones", ["--azimuth", 20]),
-             ("posed", posed, None, "bent at every joint; colors of bones", ["--azimuth", 20, "--color", "handle"]),
-             ("elephant", elephant, others, "full of holes", ["--azimuth", 40]),
-             ("points", armadillo, inside, "sixteen points inside", ["--azimuth", 20])]
+    tiles = [("bones", armadillo, bones, "bones along its curve skeleton", ["--azimuth", 20]),
+             ("posed", posed, None, "all joints bent; colored by bone", ["--azimuth", 20, "--color", "handle"]),
+             ("elephant", elephant, others, "mesh with many holes", ["--azimuth", 40]),
+             ("points", armadillo, inside, "sixteen point handles inside", ["--azimuth", 20])]
     pictures = []
     for name, mesh, handles, caption, words in tiles:
         bindpose.write(mesh, options.scratch / f"{name}.vtp")

@@ -66,7 +66,7 @@ def make(options):
             bindpose.write(posed, options.scratch / files[-1])
     common.render(options, *files, "--columns", 3, "--size", "1500x1000", "--edges", "--elevation", 10, "--section", "none",
                   "--labels", ",".join(labels),
-                  "--title", "A bent elbow: distance of its outside from the axis, 1 at rest")
+                  "--title", "A bent elbow: distance of the outer side from the axis, 1 at rest")
     return numbers
 
 

@@ -110,13 +110,13 @@ def make(options):
         numbers[f"{name}: triangles"] = report["counts"]["triangles"]
         numbers[f"{name}: defects"] = [report["counts"].get(defect, 0) for defect in DEFECTS]
         numbers[f"{name}: largest gap of a certificate"] = report["relative_gap"]
-        numbers[f"{name}: farthest apart of what touched"] = float(apart / np.linalg.norm(box[1] - box[0]))
+        numbers[f"{name}: largest gap between parts that touched"] = float(apart / np.linalg.norm(box[1] - box[0]))
         for kind, data in (("rest", mesh), ("bent", posed)):
             files.append(f"{name}-{kind}.vtp")
             bindpose.write(data, options.scratch / files[-1])
     common.render(options, *files[::2], *files[1::2], "--columns", 4, "--size", "1400x900", "--up", "y", "--azimuth", 20,
                   "--elevation", 10, "--labels", ",".join([*PIECES, *["bent"] * len(PIECES)]),
-                  "--title", "Furniture as people model it")
+                  "--title", "Furniture models with surface defects")
     return numbers
 
 

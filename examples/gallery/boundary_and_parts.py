@@ -133,7 +133,7 @@ def draw(path, surface, boundary, lines, multiplicity, columns):
         renderer.AddActor(actor_of(tubes_of(boundary.GetPoints(), lines[multiplicity == times], 0.035), color))
         renderer.AddActor2D(text(f"counts {times} times" if times > 1 else "counts once", 0.36 + 0.14 * (times - 1), 0.885,
                                  24, color, True))
-    renderer.AddActor2D(text("The parts of an unclean mesh and where they are open  (violet: seen from inside)",
+    renderer.AddActor2D(text("Parts of an unclean mesh and their open edges  (violet: back faces)",
                              0.5, 0.97, 28, INK, True))
     count = len(columns)
     camera = renderer.GetActiveCamera()

@@ -41,8 +41,8 @@ def make(options):
     labels = [f"{100 * m:.0f} % missing" for m in MISSING] + [f"{d:.2g}" for d in distances]
     common.render(options, *surfaces, *fields, "--columns", len(MISSING), "--azimuth", -14, "--elevation", -8,
                   "--size", "1700x900", "--labels", ",".join(labels),
-                  "--title", "Holes close: mean distance of the winding number from 1 inside and 0 outside")
-    return {"part missing": list(MISSING), "mean |winding number - indicator|": distances}
+                  "--title", "Closing holes: mean distance of the winding number from 1 inside and 0 outside")
+    return {"fraction missing": list(MISSING), "mean |winding number - indicator|": distances}
 
 
 if __name__ == "__main__":

@@ -94,19 +94,19 @@ def make(options):
     box = (-0.02, 1.02, -0.02, 1.02)
     unit = np.array([1 / size, 1 / size, 1])
     window = planar.show(
-        [("a color for each bone, blended as light", [planar.painted(scaled(light, unit)), *planar.edges(scaled(light, unit), cat),
+        [("one color per bone, blended in linear light", [planar.painted(scaled(light, unit)), *planar.edges(scaled(light, unit), cat),
                                                        *planar.handle_actors(scaled(handles, unit), 0.009)]),
-         ("blended as the screen's numbers", [planar.painted(scaled(plain, unit)), *planar.edges(scaled(plain, unit), cat)]),
+         ("blended in sRGB", [planar.painted(scaled(plain, unit)), *planar.edges(scaled(plain, unit), cat)]),
          (f"{len(bones)} curves with two sides each", [planar.painted(drawn)])],
-        box, tile=(560, 560), title="Weights carry colors as well as poses")
+        box, tile=(560, 560), title="Colors of handles blended by weights")
     common.write_picture(window, options.picture)
     return {
         "handles": len(names),
         "points out of the gamut": [report["counts"]["out_of_gamut"] for report in reports],
         "points beyond the handles' colors": [report["counts"]["beyond_handles"] for report in reports],
         "on handles: largest difference from their color": float(np.abs(values[on] - colors[array[on].argmax(axis=1)]).max()),
-        "red and green half-way, as light": [float(value) for value in half["light"][0]],
-        "red and green half-way, as numbers": [float(value) for value in half["numbers"][0]],
+        "red and green half-way, in linear light": [float(value) for value in half["light"][0]],
+        "red and green half-way, in sRGB": [float(value) for value in half["numbers"][0]],
         "curves": len(bones),
         "points doubled by the cut": bindpose.report(cut)["counts"]["doubled_vertices"],
         "on curves: largest difference from their sides": float(leak),

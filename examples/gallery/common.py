@@ -23,8 +23,8 @@ try:
     import bindpose
 except ModuleNotFoundError as error:
     if error.name != "bindpose":
-        sys.exit(f"{sys.executable} has no {error.name}; take the Python that VTK was built for, often /usr/bin/python3")
-    sys.exit(f"there is no package bindpose in {BUILD}; run examples/quickstart.sh first, or set PYTHONPATH")
+        sys.exit(f"{sys.executable} cannot import {error.name}; use the Python that VTK was built for, often /usr/bin/python3")
+    sys.exit(f"the package bindpose is not in {BUILD}; run examples/quickstart.sh first, or set PYTHONPATH")
 import quickstart  # noqa: E402  the demo meshes
 from vtkmodules.vtkFiltersCore import vtkImageAppend  # noqa: E402
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter  # noqa: E402
@@ -40,7 +40,7 @@ def program():
     named = os.environ.get("BINDPOSE_PROGRAM")
     found = named or shutil.which("bindpose", path=f"{BUILD / 'bin'}:{os.environ.get('PATH', '')}")
     if not found:
-        raise Stop("the program bindpose is not there; run examples/quickstart.sh first, or set BINDPOSE_PROGRAM")
+        raise Stop("cannot find the program bindpose; run examples/quickstart.sh first, or set BINDPOSE_PROGRAM")
     return found
 
 
@@ -120,7 +120,7 @@ def main(file, text, make):
     parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("gallery-output"),
                         help="folder for the picture and the numbers (default: gallery-output)")
-    parser.add_argument("--small", action="store_true", help="less data, quicker; the claims hold all the same")
+    parser.add_argument("--small", action="store_true", help="use less data for a quick run; the claims are still checked")
     options = parser.parse_args()
     options.output = options.output.absolute()
     options.picture = options.output / f"{name}.png"

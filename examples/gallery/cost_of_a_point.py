@@ -29,7 +29,7 @@ def run(options):
     """Return the benchmark's rows as {name: {"median": counters, "stddev": counters, …}}."""
     program = common.BUILD / "bin" / "bindpose_benchmarks"
     if not program.exists():
-        raise common.Stop(f"{program} is not there; configure with -DBINDPOSE_BUILD_BENCHMARKS=ON and build")
+        raise common.Stop(f"cannot find {program}; configure with -DBINDPOSE_BUILD_BENCHMARKS=ON and build")
     folder = options.output / "meshes"
     for name in ("refined_elephant.off", "elephant-with-holes.off"):
         quickstart.demo_mesh(folder, name)
@@ -70,9 +70,9 @@ def make(options):
         rows.append((group, text, median["Y"], spread["Y"]))
         numbers[f"{text}: Y"] = median["Y"]
         numbers[f"{text}: ns"] = median["ns"]
-    numbers["largest error beyond what is allowed"] = beyond
+    numbers["largest error minus the tolerance"] = beyond
     rows.reverse()  # the first row at the top
-    panel = charts.Panel("What a point costs, in triangles of the textbook sum", ("Y = one triangle of the textbook sum, about 20 ns", 0.05, 300),
+    panel = charts.Panel("Cost of a query point, in triangles of the textbook sum", ("Y = one triangle of the textbook sum, about 20 ns", 0.05, 300),
                          ("", 10 ** -0.7, 10 ** (len(rows) - 0.3)), log=True,
                          x_names={0.1: "0.1", 1: "1", 10: "10", 100: "100"},
                          y_names={10.0 ** i: text for i, (_, text, *_) in enumerate(rows)})

@@ -70,14 +70,14 @@ def make(options):
                                     for _ in range(repeats)) / count)
     vertices = ("vertices", 4e3, 8e4)
     names = {5e3: "5,000", 1e4: "10,000", 2e4: "20,000", 5e4: "50,000"}
-    times = charts.Panel("one thread", vertices, ("time a handle", 1e-3, 100), log=True, x_names=names,
+    times = charts.Panel("one thread", vertices, ("time per handle", 1e-3, 100), log=True, x_names=names,
                          y_names={1e-3: "1 ms", 1e-2: "10 ms", 0.1: "100 ms", 1: "1 s", 10: "10 s", 100: "100 s"})
     numbers = {"vertices": sizes, "tets": tet_counts}
     for (count, part), spread in spreads.items():
         fastest, median, slowest = np.array(spread).T
         power = float(np.polyfit(np.log(sizes[:len(median)]), np.log(median), 1)[0])
         few = count == handle_counts[0]
-        numbers[f"{count} handles, {part}: seconds a handle"] = [float(s) for s in median]
+        numbers[f"{count} handles, {part}: seconds per handle"] = [float(s) for s in median]
         numbers[f"{count} handles, {part}: exponent"] = power
         if few or part == "whole":
             times.line(f"{part}, {count} handles: exponent {power:.2f}", sizes[:len(median)], median, PARTS[part],
@@ -88,10 +88,10 @@ def make(options):
     memory = charts.Panel("4 handles", vertices, ("memory, MiB", 50, 5e3), log=True, x_names=names,
                           y_names={100: "100", 200: "200", 500: "500", 1e3: "1,000", 2e3: "2,000"})
     memory.line("peak", sizes, peaks, charts.DARK, dots=True)
-    memory.line("estimated before it is begun", sizes, estimates, charts.BLUE, dots=True, dashed=True)
+    memory.line("estimate before the solve", sizes, estimates, charts.BLUE, dots=True, dashed=True)
     charts.draw(options.picture, [times, memory], (1700, 700),
                 legends=[(vtkChartLegend.LEFT, vtkChartLegend.TOP)] * 2)
-    return {**numbers, "preview: seconds a handle": previews, "MiB at the peak": peaks, "MiB estimated": estimates,
+    return {**numbers, "preview: seconds per handle": previews, "MiB at the peak": peaks, "MiB estimated": estimates,
             "worst relative gap": gap, "worst natural residual": residual}
 
 

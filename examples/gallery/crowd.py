@@ -131,7 +131,7 @@ def make(options):
     solve, skin = (1e3 * float(min(report["seconds"][part] for report in reports)) for part in ("solve", "skin"))
     assert crowd.GetNumberOfBinds() == 1
     draw(options, crowd.GetOutput(), [
-        (f"A hundred elephants of {mesh.GetNumberOfCells():,} triangles, each in a pose of its own", 955),
+        (f"A hundred elephants of {mesh.GetNumberOfCells():,} triangles, each in a different pose", 955),
         (f"on one thread {solve:.1f} ms to solve, {skin:.1f} ms to move all points", 920)])
     return {
         "triangles": mesh.GetNumberOfCells(),
@@ -140,9 +140,9 @@ def make(options):
         "seconds of the bind": bound["seconds"]["bind"],
         "milliseconds of all solves": solve,
         "milliseconds of moving all points": skin,
-        "frames a second": 1e3 / (solve + skin),
-        "iterations an instance": float(np.median([report["iterations"] for report in reports])) / SIDE ** 2,
-        "apart from one alone, diagonals": float(abs(apart).max() / size),
+        "frames per second": 1e3 / (solve + skin),
+        "iterations per instance": float(np.median([report["iterations"] for report in reports])) / SIDE ** 2,
+        "difference from a single instance, diagonals": float(abs(apart).max() / size),
     }
 
 

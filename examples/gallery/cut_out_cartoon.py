@@ -61,7 +61,7 @@ def make(options):
         ("a picture with alpha", [planar.textured(whole, planar.to_texture(on_paper))]),
         (f"its mesh: {len(triangles)} triangles, angles from {report['min_angle']:.0f}°",
          [planar.textured(cut_out, texture), planar.wires(cut_out), *planar.handle_actors(handles, 0.011 * size)]),
-        ("posed", [planar.textured(posed, texture)])], box, title="A cut-out bends as what it shows")
+        ("posed", [planar.textured(posed, texture)])], box, title="A cut-out picture bent as a mesh")
     common.write_picture(window, options.picture)
     x, y = planar.pixel_centers(size)
     return {
@@ -74,7 +74,7 @@ def make(options):
         "area / area of the drawing": report["area"] / float((planar.cat_distance(x, y) < 0).sum()),
         "outline and mesh, seconds": seconds,
         "unposed: largest difference from the picture, of 255": planar.difference(cut_out, pixels, planar.cat_distance(x, y) < -2 / size),
-        "triangles turned over": int((planar.signed_areas(planar.points_of(posed), triangles) <= 0).sum()),
+        "flipped triangles": int((planar.signed_areas(planar.points_of(posed), triangles) <= 0).sum()),
     }
 
 

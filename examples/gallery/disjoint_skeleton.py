@@ -51,24 +51,24 @@ def make(options):
     plain = np.tile(np.eye(3, 4), (len(names), 1, 1))
     for name in ("hand", "tip"):
         plain[names.index(name)] = transforms[names.index(name)]
-    tiles = [("at rest: bones that nothing connects", [planar.textured(shape, planar.to_texture(pixels)),
+    tiles = [("at rest: disconnected bones", [planar.textured(shape, planar.to_texture(pixels)),
                                                        *planar.handle_actors(handles, 0.011 * size)])]
     lengths = []
-    for key, used, caption in (("skinned", plain, "skinned: what is free stays"), ("found", transforms, "free bones find themselves")):
+    for key, used, caption in (("skinned", plain, "skinned: free bones do not move"), ("found", transforms, "free bones are optimized")):
         moved = np.einsum("bij,bej->bei", used[:, :2, :2], ends) + used[:, None, :2, 3]
         numbers[f"{key}: arm to hand"] = float(np.linalg.norm(moved[names.index("arm"), 1] - moved[names.index("hand"), 0]) / size)
         lengths = np.linalg.norm(moved[:, 1] - moved[:, 0], axis=1) / np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
         at = np.zeros((2 * len(names), 3))
         at[:, :2] = moved.reshape(-1, 2)
         areas = planar.signed_areas(planar.points_of(results[key]), planar.triangles_of(shape))
-        numbers[f"{key}: triangles turned over"] = int((areas <= 0).sum())
+        numbers[f"{key}: flipped triangles"] = int((areas <= 0).sum())
         tiles.append((caption, [planar.textured(results[key], planar.to_texture(pixels)),
                                 *planar.handle_actors(planar.posed_points(handles, at), 0.011 * size)]))
     arm = transforms[names.index("arm")]
-    numbers["arm's turn, degrees"] = float(np.degrees(np.arctan2(arm[1, 0] - arm[0, 1], arm[0, 0] + arm[1, 1])))
+    numbers["rotation of the arm, degrees"] = float(np.degrees(np.arctan2(arm[1, 0] - arm[0, 1], arm[0, 0] + arm[1, 1])))
     numbers["bones' lengths"] = [float(lengths.min()), float(lengths.max())]
     numbers["iterations"] = report["iterations"]
-    numbers["microseconds an iteration"] = report["microseconds_per_iteration"]
+    numbers["microseconds per iteration"] = report["microseconds_per_iteration"]
     box = (-0.06 * size, 1.06 * size, -0.03 * size, 1.03 * size)
     common.write_picture(planar.show(tiles, box, title="A skeleton without joints"), options.picture)
     return numbers

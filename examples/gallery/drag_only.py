@@ -50,23 +50,23 @@ def make(options):
     numbers, texture = {}, planar.to_texture(pixels)
     moved = at + np.array([pose[name]["translate"] for name in POINTS])
     tiles = [("at rest", [planar.textured(shape, texture), *planar.handle_actors(handles, 0.012 * size)])]
-    for name, caption, posed in (("skinned", "linear blend: points only move", skinned), ("found", "turns are found", found)):
+    for name, caption, posed in (("skinned", "linear blend: translations only", skinned), ("found", "rotations are optimized", found)):
         stretch, area = stretches(rest, planar.points_of(posed), triangles)
         worst_first = np.argsort(-stretch)
         covered = np.cumsum(area[worst_first]) / area.sum()
         numbers[f"{name}: mean stretch"] = float((stretch * area).sum() / area.sum())
-        numbers[f"{name}: exceeded by a hundredth"] = float(stretch[worst_first[np.searchsorted(covered, 0.01)]])
+        numbers[f"{name}: 99th percentile of the stretch"] = float(stretch[worst_first[np.searchsorted(covered, 0.01)]])
         tiles.append((f"{caption}: stretch {numbers[f'{name}: mean stretch']:.0%}", [
             planar.textured(posed, texture), *planar.handle_actors(planar.posed_points(handles, moved), 0.012 * size)]))
     for name in DRAGGED:
         turn = transforms[list(POINTS).index(name)]
-        numbers[f"{name}: turn found, degrees"] = float(np.degrees(np.arctan2(turn[1, 0] - turn[0, 1], turn[0, 0] + turn[1, 1])))
+        numbers[f"{name}: rotation found, degrees"] = float(np.degrees(np.arctan2(turn[1, 0] - turn[0, 1], turn[0, 0] + turn[1, 1])))
     report = bindpose.report(found)
-    numbers["largest miss of a place, diagonals"] = report["constraint_residual"]
+    numbers["largest position error, diagonals"] = report["constraint_residual"]
     numbers["iterations"] = report["iterations"]
-    numbers["microseconds an iteration"] = report["microseconds_per_iteration"]
+    numbers["microseconds per iteration"] = report["microseconds_per_iteration"]
     box = (-0.06 * size, 1.06 * size, -0.03 * size, 1.03 * size)
-    common.write_picture(planar.show(tiles, box, title="Points that are only dragged"), options.picture)
+    common.write_picture(planar.show(tiles, box, title="Dragged points without given rotations"), options.picture)
     return numbers
 
 

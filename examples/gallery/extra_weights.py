@@ -80,7 +80,7 @@ def make(options):
             for count in (0, 3, 6, 10, 15)]
     common.render(options, *files, "--columns", 3, "--size", "1500x800", "--edges", "--up", "z", "--azimuth", 15,
                   "--elevation", 10, "--section", "none", "--labels", ",".join(labels),
-                  "--title", "Two handles, and weights beside theirs: energies")
+                  "--title", "Two handles with extra weights: energies")
     return numbers
 
 

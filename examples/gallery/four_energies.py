@@ -47,7 +47,7 @@ def make(options):
                              Energy=getattr(bindpose.vtkReducedARAP, energy.upper().replace("-", "_")))
         first = posed if first is None else first
         numbers[f"{energy}: energy"] = bindpose.report(posed)["energy"]
-        numbers[f"{energy}: apart from the first"] = posing.rms_apart(points, first, posed)
+        numbers[f"{energy}: difference from the first"] = posing.rms_apart(points, first, posed)
         apart = np.linalg.norm(points_of(posed) - points_of(first), axis=1) / diagonal
         farthest = max(farthest, apart.max())
         add_point_array(posed, "Apart", apart)

@@ -60,13 +60,13 @@ def make(options):
                 bindpose.report(each)["microseconds_per_iteration"] for each in tries)
             if surface:
                 numbers[f"{name}, {method}, sharpest fold"] = posing.sharpest_fold(points_of(posed[method]), mesh[1])
-        numbers[f"{name}, apart"] = posing.rms_apart(mesh[0], posed["reduced"], posed["full"])
+        numbers[f"{name}, difference"] = posing.rms_apart(mesh[0], posed["reduced"], posed["full"])
     labels = [f"{name}: {method} {numbers[f'{name}, {method}, energy']:.3g}"
               for method in METHODS for name in cases]
     common.render(options, *files["reduced"], *files["full"], "--columns", 3, "--size", "1500x900", "--edges",
                   "--up", "z", "--azimuth", -35, "--elevation", 20, "--section", "none",
                   "--labels", ",".join(labels),
-                  "--title", "As rigid as possible, reduced above and full below, with energies")
+                  "--title", "As-rigid-as-possible energies, reduced above and full below")
     return numbers
 
 

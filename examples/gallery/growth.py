@@ -113,7 +113,7 @@ def make(options):
                 if name == "exact":
                     edges = field.open_edges
         panel = charts.Panel(f"{title}, {edges:,} open edges at the end" if edges else title,
-                             ("triangles", 5e3, 8e5), ("time a point", 1e-8, 1), log=True,
+                             ("triangles", 5e3, 8e5), ("time per point", 1e-8, 1), log=True,
                              x_names={1e4: "10,000", 1e5: "100,000"},
                              y_names={1e-8: "10 ns", 1e-7: "100 ns", 1e-6: "1 µs", 1e-5: "10 µs", 1e-4: "100 µs",
                                       1e-3: "1 ms", 1e-2: "10 ms"})
@@ -125,7 +125,7 @@ def make(options):
             for ends in zip(sizes, sizes, fastest, slowest):
                 panel.line("", ends[:2], ends[2:], COLORS[name], 2)
             numbers[f"{title}, {name}: exponent"] = power
-            numbers[f"{title}, {name}: µs a point"] = [float(m) for m in 1e6 * median]
+            numbers[f"{title}, {name}: µs per point"] = [float(m) for m in 1e6 * median]
             numbers[f"{title}, {name}: slowest / fastest"] = float((slowest / fastest).max())
         numbers[f"{title}: triangles"] = sizes
         numbers[f"{title}: open edges at the end"] = edges

@@ -36,8 +36,8 @@ def make(options):
     handles = bindpose.handles(points=[(x, 0.5, 0.5) for x in PLACES])
     weighted = bindpose.weights(to_dataset(mesh), handles)
     diagonal = np.linalg.norm(np.ptp(mesh[0], axis=0))
-    cases = {"all full": ("full", "full"), "middle by place": ("position", "full"),
-             "middle free": ("free", "full"), "ends by place": ("free", "position")}
+    cases = {"all full": ("full", "full"), "middle by position": ("position", "full"),
+             "middle free": ("free", "full"), "ends by position": ("free", "position")}
     numbers, files, energies, given = {}, [], [], []
     misses = []
     for name, modes in cases.items():
@@ -53,13 +53,13 @@ def make(options):
                 np.abs(points_of(posed) - points_of(skinned)).max() / diagonal)
         files.append(f"{name.replace(' ', '-')}.vtu")
         bindpose.write(posed, options.scratch / files[-1])
-    numbers["numbers given"] = given
+    numbers["constrained numbers"] = given
     numbers["energies"] = energies
-    numbers["largest miss of what is given, diagonals"] = float(max(misses))
+    numbers["largest constraint error, diagonals"] = float(max(misses))
     labels = [f"{name}: {count} numbers: energy {energy:.3g}" for name, count, energy in zip(cases, given, energies)]
     common.render(options, *files, "--columns", 2, "--size", "1300x850", "--edges", "--up", "z", "--azimuth", -35,
                   "--elevation", 15, "--section", "none", "--labels", ",".join(labels),
-                  "--title", "What handles do not say is found")
+                  "--title", "Free parameters of handles are optimized")
     return numbers
 
 

@@ -68,16 +68,16 @@ def make(options):
         "volume enclosed by the winding number": report["winding_volume"],
         "energy of the graph cut": report["energy"],
         "energy of the threshold": report["threshold_energy"],
-        "energies, largest relative difference from their definition":
+        "energies, largest relative difference from the definition":
             float(max(abs(cut / report["energy"] - 1), abs(threshold / report["threshold_energy"] - 1))),
         "tets that the cut has changed": report["counts"]["changed_by_cut"],
     }
     view = ["--section", "z=0.06", "--azimuth", -14, "--elevation", -8, "--size", "850x620"]
     pictures = []
     for name, file, words, title in (
-            ("a", "surface.vtp", ["--defects"], "The surface and where it is open"),
+            ("a", "surface.vtp", ["--defects"], "The surface and its open edges"),
             ("b", "hull.vtu", ["--color", "winding-number"], f"{len(tets)} tets of the hull by winding number"),
-            ("c", "hull.vtu", ["--color", "label"], "What the graph cut decides"),
+            ("c", "hull.vtu", ["--color", "label"], "Labels of the graph cut"),
             ("d", "kept.vtu", ["--color", "winding-number"], f"{inside.sum()} tets kept")):
         only_tets = view if file != "surface.vtp" else view[2:]
         pictures.append(options.scratch / f"{name}.png")

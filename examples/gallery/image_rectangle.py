@@ -57,16 +57,16 @@ def make(options):
         (f"the whole image: {len(triangles)} triangles, angles from {report['min_angle']:.0f}°",
          [planar.textured(rectangle, texture), planar.wires(rectangle, opacity=0.45), *planar.handle_actors(handles, radius)]),
         ("points moved", [planar.textured(warped, texture), *planar.handle_actors(moved, radius)])],
-        box, tile=(700, 700), title="A whole image as a rectangle that bends")
+        box, tile=(700, 700), title="A whole image bent as a rectangle mesh")
     common.write_picture(window, options.picture)
     return {
         "pixels": size * size,
         "triangles": len(triangles),
         "area / pixels": report["area"] / size ** 2,
         "smallest angle, degrees": report["min_angle"],
-        "points that are no vertices": report["counts"]["outside_handles"],
+        "points that are not vertices": report["counts"]["outside_handles"],
         "unposed: largest difference from the picture, of 255": planar.difference(rectangle, pixels, np.ones((size, size), dtype=bool)),
-        "triangles turned over": int((planar.signed_areas(planar.points_of(warped), triangles) <= 0).sum()),
+        "flipped triangles": int((planar.signed_areas(planar.points_of(warped), triangles) <= 0).sum()),
     }
 
 

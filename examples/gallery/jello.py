@@ -51,14 +51,14 @@ def make(options):
     common.render(options, *files, "--columns", 4, "--size", "1500x900", "--edges", "--up", "z", "--azimuth", 20,
                   "--elevation", 10, "--section", "none",
                   "--labels", ",".join(f"{k * STEP:.2f} s" for k in SHOWN),
-                  "--title", "Drawn aside, and let go after a quarter of a second")
+                  "--title", "Pulled aside, released after a quarter of a second")
     iterations = [report["iterations"] for report in reports[1:]]
     return {
         "aside": [float(aside[k] / 3) for k in SHOWN],
         "turns": int((swing[1:] != swing[:-1]).sum()),
         "kinetic energy at its peaks": [float(x / largest[0]) for x in largest],
-        "iterations a step": float(np.mean(iterations)),
-        "microseconds an iteration": float(np.median([r["microseconds_per_iteration"] for r in reports[1:]])),
+        "iterations per step": float(np.mean(iterations)),
+        "microseconds per iteration": float(np.median([r["microseconds_per_iteration"] for r in reports[1:]])),
     }
 
 

@@ -65,9 +65,9 @@ def make(options):
 
     t = np.linspace(0, 4, 400 if options.small else 4000)
     line = START + t[:, None] * ALONG
-    left = charts.Panel("Along a line through the surface", ("position", -2, 2), ("winding number", -0.2, 2.2))
+    left = charts.Panel("Winding number along a line through the surface", ("position", -2, 2), ("winding number", -0.2, 2.2))
     jumps = []
-    for name, mesh, color in (("open and a closed one in it", nested, charts.GREEN), ("open", opened, charts.ORANGE),
+    for name, mesh, color in (("closed in open", nested, charts.GREEN), ("open", opened, charts.ORANGE),
                                ("closed", closed, charts.BLUE)):
         where, sign = crossings(mesh)
         before, after = (field(mesh, START + (where + side)[:, None] * ALONG) for side in (-BESIDE, BESIDE))
@@ -84,12 +84,12 @@ def make(options):
     means = [abs(sphere_mean(opened, middle, r) - float(field(opened, [middle])[0])) for r in radii]
     steps = [0.2 / 2 ** k for k in range(6)]
     laplacians = [abs(laplacian(opened, middle, h)) for h in steps]
-    right = charts.Panel("How harmonic it is inside of the open one", ("radius or step h", 4e-3, 0.3),
+    right = charts.Panel("Harmonicity inside the open surface", ("radius or step h", 4e-3, 0.3),
                          ("distance from 0", 1e-18, 10), log=True)
     right.line("discrete Laplacian", steps, laplacians, charts.ORANGE, dots=True)
     right.line("h^2, for comparison", steps, [4 * laplacians[2] * (h / steps[2]) ** 2 for h in steps], (150, 150, 155),
                1.5, dashed=True)
-    right.line("mean over a sphere - value in its middle", radii, [max(m, 1e-17) for m in means], charts.BLUE, dots=True)
+    right.line("mean over a sphere - value at its center", radii, [max(m, 1e-17) for m in means], charts.BLUE, dots=True)
     charts.draw(options.picture, [left, right], legends=[(vtkChartLegend.LEFT, vtkChartLegend.TOP),
                                                          (vtkChartLegend.LEFT, vtkChartLegend.TOP)])
     other = meshes.sphere(2, 0.4, (0.1, 0.05, 0.02))

@@ -81,15 +81,15 @@ def make(options):
                                                     *planar.handle_actors(handles, 0.010 * size)])]
     tiles += [(f"the arm {caption}" if caption != "equal" else "equal layers: the later bone wins",
                [planar.textured(mesh, texture), *planar.edges(mesh, shape, width=1.5)]) for caption, mesh in ordered.items()]
-    window = planar.show(tiles, box, tile=(480, 480), title="One pose, one set of weights, other layers")
+    window = planar.show(tiles, box, tile=(480, 480), title="One pose and one set of weights, different layers")
     common.write_picture(window, options.picture)
     equal = vtk_to_numpy(ordered["equal"].GetPointData().GetArray("Depth"))
     return {
         "triangles": len(triangles),
         "pixels of the arm, in front": int(owned["in front"].sum()),
         "pixels of the arm, behind": int(owned["behind"].sum()),
-        "pixels that change their owner": int((owned["in front"] ^ owned["behind"]).sum()),
-        "of these, to the arm when it is in front": int((owned["in front"] & ~owned["behind"]).sum()),
+        "pixels that change with the layers": int((owned["in front"] ^ owned["behind"]).sum()),
+        "of these, shown as arm when the arm is in front": int((owned["in front"] & ~owned["behind"]).sum()),
         "equal layers: lowest and highest depth": [float(equal.min()), float(equal.max())],
         "layer 1: lowest and highest depth": [float(depth.min()), float(depth.max())],
     }

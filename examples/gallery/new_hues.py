@@ -78,10 +78,10 @@ def make(options):
         report = bindpose.report(colored)
         outside = report["counts"]["out_of_gamut"] / count
         numbers[f"{caption}: lowest and highest weight"] = [float(values.min()), float(values.max())]
-        numbers[f"{caption}: out of the gamut, part"] = outside
-        numbers[f"{caption}: out of the gamut, at most"] = report["largest_gamut_violation"]
-        numbers[f"{caption}: beyond the points' colors, part"] = report["counts"]["beyond_handles"] / count
-        numbers[f"{caption}: beyond the points' colors, at most"] = report["largest_overshoot"]
+        numbers[f"{caption}: out of the gamut, fraction"] = outside
+        numbers[f"{caption}: out of the gamut, maximum"] = report["largest_gamut_violation"]
+        numbers[f"{caption}: beyond the points' colors, fraction"] = report["counts"]["beyond_handles"] / count
+        numbers[f"{caption}: beyond the points' colors, maximum"] = report["largest_overshoot"]
         weights = bindpose.weights(strip, across, method=method, domain="surface")
         gray = bindpose.weighted_colors(strip, across, [[1, 1, 1], [0, 0, 0], [0, 0, 0]], weights=weights, linear_light=False,
                                         clamp=False)

@@ -47,7 +47,7 @@ def make(options):
         bindpose.write(shapes["flipped"] if orient else shape, options.scratch / surfaces[-1])
         bindpose.write(field, options.scratch / fields[-1])
     common.render(options, *surfaces, *fields, "--columns", 4, "--azimuth", -20, "--elevation", -8, "--size", "1600x760",
-                  "--labels", "pieces missing,two spheres crossing,a cap looks inwards,the same with orient_patches,"
+                  "--labels", "pieces missing,two spheres crossing,a cap faces inwards,the same with orient_patches,"
                   "open,crossing,flipped,turned back",
                   "--title", "Winding numbers of surfaces and below on a slice through their middle")
     return numbers

@@ -86,7 +86,7 @@ def make(options):
     numbers["distance of rings"] = step
     common.render(options, *files, "--columns", 3, "--size", "1500x1300", "--edges", "--up", "z", "--azimuth", 20,
                   "--elevation", 12, "--labels", ",".join(labels), "--zoom", 0.95,
-                  "--title", "A lifted disc: orders 1 to 3, and what is fixed at its edges")
+                  "--title", "A lifted disc: orders 1 to 3 and constraints at its edges")
     return numbers
 
 

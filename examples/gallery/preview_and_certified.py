@@ -48,10 +48,10 @@ def make(options):
                                                                   shown["difference"]["rms"]]
         numbers[f"{name} minus {other}: all, largest and rms"] = [float(abs(difference).max()),
                                                                float(np.sqrt((difference ** 2).mean()))]
-        numbers[f"{name} minus {other}: other strongest handle, part"] = float(
+        numbers[f"{name} minus {other}: other strongest handle, fraction"] = float(
             (found[name].argmax(axis=1) != found[other].argmax(axis=1)).mean())
         if abs(difference[:, SHOWN]).max() - shown["difference"]["largest"] > 1e-12:
-            raise common.Stop("the program's difference is not the one of the arrays")
+            raise common.Stop("the difference of the program does not match that of the arrays")
     halves = options.picture
     options.picture = options.scratch / "below.png"
     common.side_by_side(options, pictures[:2], 2)

@@ -47,7 +47,7 @@ def make(options):
     common.render(options, *files, "--columns", 2, "--size", "1500x900", "--edges", "--up", "z", "--azimuth", 15,
                   "--elevation", 10, "--section", "none", "--labels", ",".join(f"t = {t:g}" for t in TIMES),
                   "--title", "Five handles driven by 0.7 sin(7 t - 1.5 k)")
-    return {"largest miss": float(max(misses)), "least volume": min(volumes) / volume(points, tets)}
+    return {"largest error": float(max(misses)), "least volume": min(volumes) / volume(points, tets)}
 
 
 if __name__ == "__main__":

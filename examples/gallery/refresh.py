@@ -83,7 +83,7 @@ def main():
         table = "\n".join(["| number | |", "|---|---|", *rows(json.loads((output / f"{name}.json").read_text()))])
         text, found = re.subn(f"(<!-- {name} -->\n).*?(<!-- end -->)", lambda m: m[1] + table + "\n" + m[2], text, flags=re.S)
         if found != 1:
-            sys.exit(f"refresh.py: {readme} has no place <!-- {name} -->")
+            sys.exit(f"refresh.py: {readme} has no line <!-- {name} -->")
     readme.write_text(text)
 
 

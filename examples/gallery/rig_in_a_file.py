@@ -55,7 +55,7 @@ def make(options):
         back[name] = bindpose.deform(rig.mesh, rig.handles, rig.pose)
         numbers[f"{name}: bytes"] = report["file_bytes"]
         numbers[f"{name}: sets of weights"] = report["sets"]
-        numbers[f"{name}: left out, of a vertex's weights"] = report["dropped_share"]
+        numbers[f"{name}: largest dropped fraction of a vertex's weights"] = report["dropped_share"]
         numbers[f"{name}: error, as written"] = report["animation_error"]
         numbers[f"{name}: error, as read"] = max(largest(a, b, size) for a, b in zip(back[name], exact))
     files, labels = [], []
@@ -65,7 +65,7 @@ def make(options):
         labels.append(f"four weights: {largest(back['four'][k], frame, size):.2g}")
     common.render(options, *files, "--columns", FRAMES, "--size", "1500x480", "--color", "handle",
                   "--labels", ",".join(labels),
-                  "--title", "An animation read from one glTF file, and what four weights a vertex cost")
+                  "--title", "An animation read from one glTF file, and the error of four weights per vertex")
     return numbers
 
 

@@ -39,8 +39,8 @@ def make(options):
               for (_, rotations), away, time in zip(found, apart, times)]
     common.render(options, *shown, "--columns", 2, "--size", "1300x1000", "--color", "rotation-cluster", "--up", "z", "--azimuth", -35,
                   "--elevation", 15, "--section", "none", "--labels", ",".join(labels[:4]),
-                  "--title", "As many rotations as handles need")
-    return {"clusters": [rotations for _, rotations in found], "microseconds an iteration": times,
+                  "--title", "Rotation clusters: error and time")
+    return {"clusters": [rotations for _, rotations in found], "microseconds per iteration": times,
             "distance from all rotations": apart}
 
 

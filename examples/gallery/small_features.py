@@ -61,7 +61,7 @@ def make(options):
     lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
 
     scale = ((0, (0.96, 0.95, 0.90)), (0.35, (0.56, 0.76, 0.70)), (1, (0.16, 0.20, 0.50)))
-    numbers, tiles = {}, [("the middle point will be pulled up", [planar.flat_actor(shape, (0.87, 0.86, 0.82)),
+    numbers, tiles = {}, [("at rest: the middle point is dragged up", [planar.flat_actor(shape, (0.87, 0.86, 0.82)),
                                                                  *planar.edges(shape, shape), *dots(at)])]
     for caption, method in METHODS.items():
         weighted = bindpose.weights(shape, handles, method=method, domain="surface")
@@ -72,7 +72,7 @@ def make(options):
         its = bindpose.report(weighted)["handles"][1]["interior_extrema"]
         numbers[f"{caption}: middle point's weight at foot and tip"] = [float(column[foot]), float(column[tip])]
         ahead = places[tip] - places[foot] - points[tip] + points[foot]
-        numbers[f"{caption}: tip runs ahead, part of the pull"] = float(ahead[1] / PULL[1])
+        numbers[f"{caption}: excess motion of the tip, fraction of the pull"] = float(ahead[1] / PULL[1])
         numbers[f"{caption}: largest stretch of an antenna's edge"] = float(abs(stretch).max())
         numbers[f"{caption}: extrema away from handles"] = int(its)
         tiles.append((f"{caption}: tip {column[tip]:.2f}, {its} extrema",

@@ -82,7 +82,7 @@ def make(options):
         labels.append(f"{name.split()[0]}: {len(before) or 'no'} extrema")
     shown = common.render(options, *files, "--component", SHOWN, "--extrema", "--columns", 3,
                           "--labels", ",".join(labels), "--handles", "handles.vtp", "--size", "1500x1060", "--range", "-0.55,1.55",
-                          "--title", "One point's weights, extrema away from handles: biharmonic, below triharmonic")
+                          "--title", "Weights of one point, extrema away from handles: biharmonic above, triharmonic below")
     for name, its in zip(filters(), shown["extrema"]):
         numbers[f"{name}: maxima, minima in the picture"] = [its["maxima"], its["minima"]]
     return numbers

@@ -63,7 +63,7 @@ def make(options):
             files.append(f"{move}-{name}.vtp")
             bindpose.write(to_dataset((moved - moved.mean(axis=0), triangles)), options.scratch / files[-1])
             labels.append(f"{move}: energy of the {name}: middle section {share[along // 2]:.0%}")
-        numbers[f"{move}: apart"] = posing.rms_apart(points, posed["surface"], posed["volume"])
+        numbers[f"{move}: difference"] = posing.rms_apart(points, posed["surface"], posed["volume"])
     common.render(options, *files, "--columns", 2, "--size", "1300x900", "--edges", "--up", "z", "--azimuth", -35,
                   "--elevation", 15, "--labels", ",".join(labels),
                   "--title", "One subspace, the energy of the surface or of the volume")

@@ -59,10 +59,10 @@ def make(options):
     add_point_array(twice, "Weights", np.vstack([row, row]), ["p1", "p2", "p3"])
     both = points_of(posing.posed(bindpose.vtkReducedARAP(), twice, handles, pose, MaximumIterations=200))
     diagonal = np.linalg.norm(np.ptp(mesh[0], axis=0))
-    numbers["copies at one place, apart"] = float(np.abs(both[:len(mesh[0])] - both[len(mesh[0]):]).max() / diagonal)
+    numbers["copies at one position, difference"] = float(np.abs(both[:len(mesh[0])] - both[len(mesh[0]):]).max() / diagonal)
     common.render(options, *files, "--columns", 1, "--size", "1100x1250", "--up", "z", "--azimuth", -35, "--elevation", 15,
-                  "--labels", "at rest: nine balls,reduced: weights hold them together,full: nothing does",
-                  "--title", "Parts that nothing connects")
+                  "--labels", "at rest: nine balls,reduced: weights keep them together,full: they separate",
+                  "--title", "Disconnected parts")
     return numbers
 
 

@@ -68,8 +68,8 @@ def make(options):
     for name, values in results.items():
         report = bindpose.report(values)
         numbers[f"{name}: relative gap"] = report["relative_gap"]
-        numbers[f"{name}: rms distance to what had no noise"] = float(np.sqrt(np.mean((values - smooth) ** 2)) / np.ptp(smooth))
-        numbers[f"{name}: listed ones are extrema"] = are_extrema(values, report["extrema"], edges(triangles))
+        numbers[f"{name}: rms distance to the data without noise"] = float(np.sqrt(np.mean((values - smooth) ** 2)) / np.ptp(smooth))
+        numbers[f"{name}: listed vertices are extrema"] = are_extrema(values, report["extrema"], edges(triangles))
     return numbers
 
 

@@ -83,7 +83,7 @@ def make(options):
         numbers[f"{name}: kink at the end, degrees"] = kinks
     common.render(options, *files, "--columns", 3, "--size", "1350x1250", "--array", "Free", "--range", "0,1", "--edges",
                   "--up", "z", "--azimuth", 0, "--elevation", 60, "--labels", ",".join(labels), "--zoom", 0.95,
-                  "--title", "A quarter of a torus made anew, orders 1 to 3")
+                  "--title", "A quarter of a torus reconstructed, orders 1 to 3")
     return numbers
 
 

@@ -66,10 +66,10 @@ def make(options):
                "lowest and highest weight": [float(weights.min()), float(weights.max())],
                "largest |row sum - 1|": float(abs(weights.sum(axis=1) - 1).max()),
                "extrema away from handles": sum(handle["interior_extrema"] for handle in report["handles"]),
-               "tets away from their territory, part": float(stray(cells, owner))}
+               "tets apart from their handle's main region, fraction": float(stray(cells, owner))}
     look = ["--section", "0.56", "--handles", "handles.vtp", "--size", "760x700", *VIEW]
     pictures = [options.scratch / "territories.png", options.scratch / "column.png"]
-    shown = common.render(options, "elephant.vtu", "--color", "handle", *look, "--labels", "the handle that moves a tet most",
+    shown = common.render(options, "elephant.vtu", "--color", "handle", *look, "--labels", "the handle with the largest weight",
                           picture=pictures[0])
     column = common.render(options, "elephant.vtu", "--component", report["handles"][COLUMN]["name"], "--extrema", *look,
                            "--labels", "the weights of one handle", picture=pictures[1])

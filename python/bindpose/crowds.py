@@ -21,7 +21,7 @@ def _placement(place):
         return np.column_stack([np.eye(3), place])
     if place.shape in ((3, 4), (4, 4)):
         return place[:3]
-    raise InvalidInput(f"a placement is a translation, a 3x4 or a 4x4 matrix, not an array of shape {place.shape}")
+    raise InvalidInput(f"a placement must be a translation, a 3x4 or a 4x4 matrix (got an array of shape {place.shape})")
 
 
 @with_options("arap", "reduced_arap_bind")
@@ -71,7 +71,7 @@ def crowd(mesh, handles, poses, *, placements=None, weights=None, appended=False
     count = instances.GetNumberOfBlocks()
     if placements is not None:
         if len(placements) != count:
-            raise InvalidInput(f"there are {len(placements)} placements for {count} instances")
+            raise InvalidInput(f"placements has {len(placements)} entries; expected {count}, one per instance")
         for k, place in enumerate(placements):
             array = numpy_to_vtk(np.ascontiguousarray(_placement(place).reshape(1, 12)), deep=True)
             array.SetName("Placement")

@@ -52,7 +52,7 @@ def fair(mesh, fixed=None, *, tangents=None, parameters=None, load=None, options
     def add(name, values, columns):
         values = np.asarray(values, dtype=float)
         if values.shape not in [(vertices, *c) for c in columns]:
-            raise InvalidInput(f"{name} of shape {values.shape} do not fit {vertices} vertices")
+            raise InvalidInput(f"{name} has shape {values.shape}, which does not match {vertices} vertices")
         add_point_array(data, name, values)
         added.append(name)
 
@@ -61,7 +61,7 @@ def fair(mesh, fixed=None, *, tangents=None, parameters=None, load=None, options
         if fixed.dtype.kind in "iu":
             outside = fixed[(fixed < 0) | (fixed >= vertices)]
             if outside.size:
-                raise InvalidInput(f"fixed vertex {outside.flat[0]} is no vertex: there are {vertices}")
+                raise InvalidInput(f"fixed vertex {outside.flat[0]} is out of range: the mesh has {vertices} vertices")
             fixed = np.isin(np.arange(vertices), fixed)
         add("Fixed", fixed, [()])
     if parameters is not None:

@@ -176,7 +176,7 @@ def write_rig(mesh, handles, path, *, frames=(), fps=24.0, animation="joints", m
         Weights or frames that do not match, an existing file, an output path that cannot be written.
     """
     if animation not in ("joints", "morph"):
-        raise InvalidInput(f"animation is 'joints' or 'morph', not {animation!r}")
+        raise InvalidInput(f"animation must be 'joints' or 'morph' (got {animation!r})")
     if isinstance(handles, (str, os.PathLike)):
         handles = read_handles(handles)
     writer = vtkGLTFSkinWriter()

@@ -218,7 +218,7 @@ def planar_shape(image_or_curves, *, handles=None, options, threads=0, progress=
     elif not is_dataset(data):
         data, as_arrays = to_curves(data), True
     if not data.IsA("vtkImageData") and not data.IsA("vtkPolyData"):
-        raise InvalidInput(f"a {data.GetClassName()} is neither an image nor curves")
+        raise InvalidInput(f"expected an image or curves (got a {data.GetClassName()})")
     shaper = filters.vtkPlanarShape()
     shaper.SetInputData(0, data)
     if handles is not None:
@@ -317,7 +317,7 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
     data = to_dataset(mesh)
     handle_data = to_handles(handles, data)
     if is_tets(data) and options.domain == "surface":
-        raise InvalidInput("the mesh holds tets: domain 'surface' needs a surface")
+        raise InvalidInput("domain 'surface' needs a surface, but the mesh contains tets")
     solver = _make_weights(options.method)
     if options.method in ("bounded-biharmonic", "monotone"):
         options.apply(solver, "bounded_weights", "weight_terms")
@@ -392,7 +392,7 @@ def _make_poser(handles, pose):
         try:
             poser.SetPoseJSON(json.dumps(pose))
         except TypeError as error:
-            raise InvalidInput(f"the pose is no JSON object: {error}") from None
+            raise InvalidInput(f"the pose must be a JSON object: {error}") from None
     return poser
 
 

@@ -46,23 +46,23 @@ def handles(points=None, bones=None, names=None, parents=None, pseudo_edges=None
     points = np.zeros((0, 3)) if points is None else np.array(points, dtype=float, ndmin=2)
     bones = np.zeros((0, 2, 3)) if bones is None else np.array(bones, dtype=float, ndmin=3)
     if points.ndim != 2 or points.shape[1] != 3:
-        raise InvalidInput("points are an array #P x 3")
+        raise InvalidInput("points must be an array #P x 3")
     if bones.ndim != 3 or bones.shape[1:] != (2, 3):
-        raise InvalidInput("bones are an array #B x 2 x 3: head and tail of each")
+        raise InvalidInput("bones must be an array #B x 2 x 3, head and tail per bone")
     count = len(points) + len(bones)
     if count == 0:
-        raise InvalidInput("there is no handle")
+        raise InvalidInput("no handle is given: expected at least one point or bone")
     edges = np.zeros((0, 2), dtype=int) if pseudo_edges is None else np.array(pseudo_edges, ndmin=2)
     if edges.shape[1:] != (2,) or edges.dtype.kind not in "iu" or (len(edges) and (
             edges.min() < 0 or edges.max() >= len(points) or (edges[:, 0] == edges[:, 1]).any())):
-        raise InvalidInput("pseudo-edges are an array #E x 2 of numbers of two different points each")
+        raise InvalidInput("pseudo_edges must be an array #E x 2 of ids of two different points per edge")
     if names is None:
         names = [f"p{i + 1}" for i in range(len(points))] + [f"b{i + 1}" for i in range(len(bones))]
     if parents is None:
         parents = [-1] * len(points) + [_parent(bones, i, len(points)) for i in range(len(bones))]
     if len(names) != count or len(parents) != count:
         raise InvalidInput(
-            f"there are {count} handles, but {len(names)} names and {len(parents)} parents")
+            f"names and parents must have {count} entries, one per handle (got {len(names)} names and {len(parents)} parents)")
 
     data = vtkPolyData()
     data.SetPoints(to_vtk_points(np.concatenate([points, bones.reshape(-1, 3)])))
@@ -157,13 +157,13 @@ def to_handles(value, surface):
     word, colon, count = value.partition(":") if isinstance(value, str) else ("", "", "")
     if word in ("auto", "skeleton"):
         if colon and (not count.isdigit() or int(count) < 1):
-            raise InvalidInput(f"handles {value!r}: behind {word}: stands how many, at least 1")
+            raise InvalidInput(f"handles {word}:N needs an integer N of at least 1 (got {value!r})")
         if word == "skeleton":
             return automatic_handles(surface, maximum_bones=int(count or 0))
         return farthest_point_handles(surface, int(count or 8))
     if isinstance(value, (str, os.PathLike)):
         return read_handles(value)
-    raise InvalidInput("handles are a handle dataset (see bindpose.handles), a file, 'auto:N' or 'skeleton:N'")
+    raise InvalidInput("handles must be a handle dataset (see bindpose.handles), a file, 'auto:N' or 'skeleton:N'")
 
 
 def _names(handles):
@@ -183,7 +183,7 @@ def with_cell_values(handles, array_name, values, components, missing=None):
         names = _names(handles)
         unknown = [name for name in values if name not in names]
         if unknown:
-            raise InvalidInput(f"there is no handle {unknown[0]!r}")
+            raise InvalidInput(f"unknown handle {unknown[0]!r}")
         filled = np.zeros(shape)
         if missing is not None:
             filled[:] = missing
@@ -191,14 +191,14 @@ def with_cell_values(handles, array_name, values, components, missing=None):
             try:
                 filled[names.index(name)] = value
             except (TypeError, ValueError):
-                raise InvalidInput(f"{array_name} of handle {name!r} is {components} numbers, not {value!r}") from None
+                raise InvalidInput(f"{array_name} of handle {name!r} must be {components} numbers (got {value!r})") from None
         if missing is None and components > 1 and len(values) < count:
             missing = next(name for name in names if name not in values)
-            raise InvalidInput(f"handle {missing!r} has no {array_name}")
+            raise InvalidInput(f"{array_name} is missing for handle {missing!r}")
         values = filled
     values = np.asarray(values)
     if values.shape != shape or values.dtype.kind not in "iufb":
-        raise InvalidInput(f"{array_name} is an array of numbers {' x '.join(map(str, shape))}, one a handle")
+        raise InvalidInput(f"{array_name} must be an array of numbers {' x '.join(map(str, shape))}, one row per handle")
     if values.dtype != np.uint8:
         values = values.astype(float)
     copy = shallow_copy(handles)

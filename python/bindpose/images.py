@@ -51,7 +51,7 @@ def read_image(path):
         reader.Update()
         if not caught and not reader.GetErrorCode() and reader.GetOutput().GetNumberOfPoints():
             return reader.GetOutput()
-    raise InvalidInput(f"{path} cannot be read: it is no image of this kind, or broken")
+    raise InvalidInput(f"{path} cannot be read: the file is damaged or does not have the format of its extension")
 
 
 def to_image(pixels):
@@ -62,7 +62,7 @@ def to_image(pixels):
     """
     pixels = np.asarray(pixels)
     if pixels.ndim not in (2, 3) or pixels.dtype.kind not in "buif" or (pixels.ndim == 3 and not 1 <= pixels.shape[2] <= 4):
-        raise InvalidInput("an image is an array of numbers, rows x columns of alpha, or rows x columns x 1 to 4")
+        raise InvalidInput("an image must be an array of numbers: rows x columns of alpha, or rows x columns x 1 to 4 channels")
     if pixels.size == 0:
         raise InvalidInput("the image has no pixels")
     if pixels.dtype == bool:

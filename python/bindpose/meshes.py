@@ -92,9 +92,9 @@ def to_vtk_points(points):
     try:
         values = np.array(points, dtype=float, order="C", ndmin=2)
     except (TypeError, ValueError) as error:
-        raise InvalidInput(f"points are an array of numbers, #V x 3: {error}") from None
+        raise InvalidInput(f"points must be an array of numbers, #V x 3: {error}") from None
     if values.ndim != 2 or values.shape[1] != 3:
-        raise InvalidInput(f"points are an array #V x 3, not {' x '.join(map(str, values.shape))}")
+        raise InvalidInput(f"points must be an array #V x 3 (got {' x '.join(map(str, values.shape))})")
     result = vtkPoints()
     result.SetData(numpy_support.numpy_to_vtk(values, deep=True))
     return result
@@ -124,9 +124,9 @@ def to_dataset(mesh):
     try:
         vertices, elements = mesh[0], np.asarray(mesh[1])
     except (TypeError, IndexError, KeyError):
-        raise InvalidInput("a mesh is a VTK dataset or a pair of arrays (vertices, elements)") from None
+        raise InvalidInput("a mesh must be a VTK dataset or a pair of arrays (vertices, elements)") from None
     if elements.ndim != 2 or elements.shape[1] not in (3, 4) or elements.dtype.kind not in "iu":
-        raise InvalidInput("elements are whole numbers, #F x 3 for triangles or #T x 4 for tets")
+        raise InvalidInput("elements must be integers, #F x 3 for triangles or #T x 4 for tets")
     triangles = elements.shape[1] == 3
     data = vtkPolyData() if triangles else vtkUnstructuredGrid()
     data.SetPoints(to_vtk_points(vertices))
@@ -142,11 +142,11 @@ def to_curves(curves):
     try:
         points, segments = np.asarray(curves[0], dtype=float), np.asarray(curves[1])
     except (TypeError, ValueError, IndexError, KeyError):
-        raise InvalidInput("curves are a vtkPolyData or a pair of arrays (points, segments)") from None
+        raise InvalidInput("curves must be a vtkPolyData or a pair of arrays (points, segments)") from None
     if points.ndim == 2 and points.shape[1] == 2:
         points = np.column_stack([points, np.zeros(len(points))])
     if segments.ndim != 2 or segments.shape[1] != 2 or segments.dtype.kind not in "iu":
-        raise InvalidInput("segments are whole numbers, #E x 2")
+        raise InvalidInput("segments must be integers, #E x 2")
     data = vtkPolyData()
     data.SetPoints(to_vtk_points(points))
     data.SetLines(_to_cells(segments))

@@ -19,14 +19,14 @@ def _to_list(maxima, minima, count):
     for ids, kind, word in ((maxima, 1, "maximum"), (minima, -1, "minimum")):
         ids = np.asarray(() if ids is None else ids)
         if ids.size and ids.dtype.kind not in "iu":
-            raise InvalidInput(f"a {word} is the number of a vertex, not {ids.flat[0]!r}")
+            raise InvalidInput(f"a {word} must be a vertex id (got {ids.flat[0]!r})")
         ids = ids.astype(np.int64).ravel()
         outside = ids[(ids < 0) | (ids >= count)]
         if outside.size:
-            raise InvalidInput(f"{word} {outside[0]} is no vertex: there are {count}")
+            raise InvalidInput(f"{word} {outside[0]} is out of range: the mesh has {count} vertices")
         both = ids[result[ids] == -kind]
         if both.size:
-            raise InvalidInput(f"vertex {both[0]} is listed as maximum and as minimum")
+            raise InvalidInput(f"vertex {both[0]} is listed both as maximum and as minimum")
         result[ids] = kind
     return result
 
@@ -70,16 +70,16 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, options, th
         if not isinstance(data, str):
             values = np.asarray(data, dtype=float)
             if values.shape != (vertices,):
-                raise InvalidInput(f"data of shape {values.shape} are not one number for each of {vertices} vertices")
+                raise InvalidInput(f"data has shape {values.shape}; expected one number for each of the {vertices} vertices")
             add_point_array(dataset, _DATA, values)
             name = _DATA
         smoother.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, name)
     elif not is_dataset(mesh):
-        raise InvalidInput("a mesh of arrays needs data, one number a vertex")
+        raise InvalidInput("a mesh of arrays needs data, one number per vertex")
     extrema = options.extrema
     given = maxima is not None or minima is not None
     if given and extrema is not None:
-        raise InvalidInput("the extrema are given twice: as maxima and minima, and as an array")
+        raise InvalidInput("extrema cannot be combined with maxima or minima")
     if given:
         extrema = _to_list(maxima, minima, vertices)
     if isinstance(extrema, str):
@@ -87,7 +87,7 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, options, th
     elif extrema is not None:
         kinds = np.sign(np.asarray(extrema, dtype=float))
         if kinds.shape != (vertices,):
-            raise InvalidInput(f"a list of shape {kinds.shape} is not one entry for each of {vertices} vertices")
+            raise InvalidInput(f"extrema has shape {kinds.shape}; expected one entry for each of the {vertices} vertices")
         add_point_array(dataset, _LIST, kinds)
         smoother.SetExtremaArrayName(_LIST)
     else:

@@ -181,7 +181,7 @@ def test_weights_with_terms():
     assert w.names == ["p1", "p2"]
     alike = bindpose.weights(BAR, handles, domain="surface", bounds={"p2": (0, 1)})
     assert np.array_equal(alike, free)
-    with pytest.raises(bindpose.InvalidInput, match="no handle 'p3'"):
+    with pytest.raises(bindpose.InvalidInput, match="unknown handle 'p3'"):
         bindpose.weights(BAR, handles, bounds={"p3": (0, 1)})
     with pytest.raises(bindpose.InvalidInput, match="bounds of handle 'p1'"):
         bindpose.weights(BAR, handles, domain="surface", bounds={"p1": (1, 0)})
@@ -340,8 +340,8 @@ def test_crowd():
     together = bindpose.crowd(data, handles, poses, weights=weights, appended=True)
     assert together.GetNumberOfPoints() == 4 * len(BAR[0]) and together.GetPointData().HasArray("Instance")
 
-    for what, sentence in ((dict(placements=[[0, 0, 0]]), "1 placements for 4"),
-                           (dict(placements=[[0, 0]] * 4), "a placement is")):
+    for what, sentence in ((dict(placements=[[0, 0, 0]]), "1 entries; expected 4"),
+                           (dict(placements=[[0, 0]] * 4), "a placement must be")):
         with pytest.raises(bindpose.InvalidInput, match=sentence):
             bindpose.crowd(BAR, handles, poses, weights=weights, **what)
     with pytest.raises(bindpose.InvalidInput, match="there is no instance"):
@@ -444,7 +444,7 @@ def test_planar_shape_with_handles_takes_weights():
 
 
 @pytest.mark.parametrize("value, words", [
-    (np.zeros((5, 5)), "transparent"), (np.zeros((0, 5)), "no pixels"), (np.zeros(5), "an image is"),
+    (np.zeros((5, 5)), "transparent"), (np.zeros((0, 5)), "no pixels"), (np.zeros(5), "an image must be"),
     (([[0, 0], [1, 1], [2, 2]], [[0, 1], [1, 2]]), "one line"), (([[0, 0]], [[0, 1, 2]]), "segments"),
     ((3, 4), "segments"), ("nowhere.png", "no such file"), (vtkImageData(), "no pixels"), (vtkPolyData(), "no lines")])
 def test_planar_shape_refuses(value, words):

@@ -72,5 +72,5 @@ def test_automatic_bones():
     assert bindpose.report(data)["counts"]["joints_outside"] == 0
     bound = bindpose.weights((points, triangles), "skeleton:1")
     assert len(bound) == len(points) and np.allclose(bound, 1)
-    with pytest.raises(bindpose.InvalidInput, match="how many"):
+    with pytest.raises(bindpose.InvalidInput, match="an integer N"):
         bindpose.weights((points, triangles), "skeleton:none")

@@ -70,19 +70,19 @@ def test_datasets_keep_their_arrays():
 
 
 def test_bad_input_is_named():
-    with pytest.raises(bindpose.InvalidInput, match="99999 is no vertex"):
+    with pytest.raises(bindpose.InvalidInput, match="99999 is out of range"):
         bindpose.monotone_smoothing(BAR, DATA, maxima=[99999], minima=[LEFT])
-    with pytest.raises(bindpose.InvalidInput, match="-1 is no vertex"):
+    with pytest.raises(bindpose.InvalidInput, match="-1 is out of range"):
         bindpose.monotone_smoothing(BAR, DATA, maxima=[RIGHT], minima=[-1])
     with pytest.raises(bindpose.InvalidInput, match="maximum and as minimum"):
         bindpose.monotone_smoothing(BAR, DATA, maxima=[RIGHT], minima=[RIGHT])
-    with pytest.raises(bindpose.InvalidInput, match="number of a vertex"):
+    with pytest.raises(bindpose.InvalidInput, match="must be a vertex id"):
         bindpose.monotone_smoothing(BAR, DATA, maxima=[0.5], minima=[LEFT])
     with pytest.raises(bindpose.InvalidInput, match="no minimum"):
         bindpose.monotone_smoothing(BAR, DATA, maxima=[RIGHT])
     with pytest.raises(bindpose.InvalidInput, match="is empty"):
         bindpose.monotone_smoothing(BAR, DATA, maxima=[], minima=[])
-    with pytest.raises(bindpose.InvalidInput, match="twice"):
+    with pytest.raises(bindpose.InvalidInput, match="cannot be combined"):
         bindpose.monotone_smoothing(BAR, DATA, maxima=[RIGHT], extrema=np.zeros(len(X)))
     with pytest.raises(bindpose.InvalidInput, match="needs data"):
         bindpose.monotone_smoothing(BAR)

@@ -35,9 +35,9 @@ std::vector<double> parse_numbers(const std::string& text, bool integers)
   {
     double value = 0;
     Index integer = 0;
-    const bool good =
-      integers ? parse_index(word, integer) && std::abs(integer) <= std::numeric_limits<int>::max()
-               : parse_number(word, value) && std::isfinite(value);
+    const bool good = integers
+      ? parse_index(word, integer) && std::abs(integer) <= std::numeric_limits<int>::max()
+      : parse_number(word, value) && std::isfinite(value);
     if (!good)
     {
       return {};
@@ -52,8 +52,8 @@ std::string expected_numbers(const Option& option)
 {
   const bool integers = option.kind == OptionKind::integer || option.kind == OptionKind::integers;
   std::string text = option.length == 1 ? (integers ? "an integer" : "a finite number")
-    : std::to_string(option.length) + (integers ? " integers" : " numbers") +
-      " with commas between";
+                                        : std::to_string(option.length) +
+      (integers ? " integers" : " numbers") + " separated by commas";
   return text + (option.values[0] ? std::string(" (") + option.values + ")" : "");
 }
 
@@ -67,8 +67,7 @@ std::string number_error(const Option& option, const std::string& word)
   {
     good = good && option.range.contains(number);
   }
-  return good ? std::string()
-              : "'" + word + "' is not valid: expected " + expected_numbers(option);
+  return good ? std::string() : "'" + word + "' is not valid: expected " + expected_numbers(option);
 }
 
 void add_check(CLI::Option* parsed, const Option& option)
@@ -193,8 +192,7 @@ std::string unexpected_argument(const Verb& verb, const std::vector<std::string>
       files += (files.empty() ? "" : " and ") + std::string(option.name);
     }
   }
-  return "unexpected argument '" + rest.front() + "': only " + files +
-    " is given without an option";
+  return "unexpected argument '" + rest.front() + "'; expected positional arguments: " + files;
 }
 
 /// @return the error sentence for the first option that was typed although the method does not use
@@ -213,7 +211,7 @@ std::string unused_option(const Verb& verb, const Arguments& arguments)
     if (arguments.typed(option.key()) && !users.empty() &&
       std::find(users.begin(), users.end(), method) == users.end())
     {
-      return std::string(option.name) + " is not used by --method " + method + ": expected " +
+      return std::string(option.name) + " is not used by --method " + method + "; it is used by " +
         option.methods;
     }
   }
@@ -256,12 +254,12 @@ std::vector<double> Arguments::numbers(const std::string& key) const
 
 int parse_arguments(int argc, char** argv, Arguments& arguments)
 {
-  CLI::App app("Any triangle mesh to a shape that a person bends: winding number, tets, weights, "
-               "poses.");
+  CLI::App app(
+    "Turn triangle meshes into deformable shapes: winding numbers, tets, weights and poses.");
   app.name("bindpose");
   app.set_version_flag("--version", BINDPOSE_VERSION);
   app.require_subcommand(1);
-  app.footer("bindpose VERB --help tells the options of a verb.");
+  app.footer("Run bindpose VERB --help for the options of a verb.");
   for (const Verb& verb : verbs())
   {
     CLI::App* sub = app.add_subcommand(verb.name, verb.summary);
@@ -275,7 +273,7 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
       add_option(*sub, option, arguments);
     }
   }
-  app.add_subcommand("key-table", "the table of the window's keys as Markdown")
+  app.add_subcommand("key-table", "print the keys of the window as a Markdown table")
     ->group("")
     ->callback([&arguments]() { arguments.verb = "key-table"; });
   if (argc < 2)

@@ -51,7 +51,8 @@ void run(Session& session)
       return;
     }
   }
-  session.fail(Status::failure(StatusCode::internal_error, "the verb has no function"));
+  session.fail(
+    Status::failure(StatusCode::internal_error, "no function is registered for the verb"));
 }
 } // namespace
 

@@ -121,8 +121,8 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
   const bool skinned = mesh->GetPointData()->GetArray("Weights") != nullptr;
   if (!morph && !skinned)
   {
-    session.invalid("joints need weights, and the mesh has no point array 'Weights': take "
-                    "--gltf-animation morph");
+    session.invalid("animated joints need the point array 'Weights', which the mesh does not have; "
+                    "use --gltf-animation morph");
     return;
   }
   const bool stands = linear && !morph && !frames.sequence;
@@ -153,7 +153,7 @@ void run_fairing(Session& session, const std::string& output, const std::string&
   const Arguments& arguments = session.arguments();
   if (is_rig(output))
   {
-    session.invalid("a fair surface without handles is no rig: write .vtp");
+    session.invalid("--fair without handles cannot write .glb or .gltf; write .vtp");
     return;
   }
   const auto mesh = session.read(arguments.text("MESH_WITH_WEIGHTS"));
@@ -193,7 +193,7 @@ void run_deform(Session& session)
     if (!arguments.has(needed))
     {
       session.invalid(std::string("--") + needed +
-        " is required; only --method variational --fair does without handles and pose");
+        " is required (only --method variational --fair works without --handles and --pose)");
       return;
     }
   }
@@ -217,7 +217,7 @@ void run_deform(Session& session)
   const bool moves = dynamic || (given == 1 && pose->GetHasExpressions());
   if (asked > 0 && !moves)
   {
-    session.invalid("--frames is for poses with expressions in t and for --dynamics");
+    session.invalid("--frames needs a pose with expressions in t, or --dynamics");
     return;
   }
   const double time_step = arguments.number("time-step");

@@ -100,8 +100,8 @@ Status tell_surface(vtkDataSet* data, Facts& facts)
   facts.table.add("misoriented edges", found.misoriented_edges);
   facts.table.add("inward components", found.inward_components);
   facts.table.add("self-intersections",
-    std::to_string(found.self_intersections) + " pairs of " +
-      std::to_string(found.crossing_triangles) + " crossing triangles");
+    std::to_string(found.self_intersections) + " pairs, " +
+      std::to_string(found.crossing_triangles) + " intersecting triangles");
   facts.table.add("duplicates",
     std::to_string(found.duplicate_vertices) + " vertices, " +
       std::to_string(found.duplicate_triangles) + " triangles");
@@ -255,14 +255,14 @@ bool tell_rig(Session& session, const std::string& path, Facts& facts)
   if (data->GetNumberOfCells() > 0 && to_handles(data, handles).ok())
   {
     facts.table.add(
-      "weights a vertex", "up to " + Table::number(4.0 * session.report().number("sets", 0.0)));
+      "weights per vertex", "up to " + Table::number(4.0 * session.report().number("sets", 0.0)));
     tell_handles(handles, facts);
   }
   if (reader->GetNumberOfFrames() > 0)
   {
     facts.table.add("animation",
       std::to_string(reader->GetNumberOfFrames()) + " frames, " +
-        Table::number(reader->GetFramesPerSecond()) + " a second");
+        Table::number(reader->GetFramesPerSecond()) + " per second");
   }
   return true;
 }
@@ -338,7 +338,7 @@ void run_info(Session& session)
     }
     if (defects->GetOutput()->GetNumberOfCells() == 0)
     {
-      session.warn("the surface has no defect, and " + defects_path + " was not written");
+      session.warn("the surface has no defects, so " + defects_path + " was not written");
     }
     else if (!session.write(defects->GetOutput(), defects_path))
     {

@@ -45,7 +45,7 @@ void run_outline(Session& session)
   }
   if (!data->IsA("vtkPolyData") && !data->IsA("vtkImageData"))
   {
-    session.invalid(path + " holds neither an image nor curves");
+    session.invalid(path + " must contain an image or curves");
     return;
   }
   vtkNew<vtkPlanarShape> shape;

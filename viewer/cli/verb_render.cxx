@@ -89,8 +89,9 @@ bool read_section(Session& session, PictureOptions& options)
   else if (at == std::string::npos || !parse_vector(text.substr(0, at), plane.normal) ||
     !parse_vector(text.substr(at + 1), plane.origin))
   {
-    return session.invalid("--section " + text +
-      ": expected is a number from 0 to 1, a plane as in x=0.2 or 1,0,0@0.2,0,0, or none");
+    return session.invalid("--section '" + text +
+      "' is not valid: expected a number from 0 to 1, a plane such as x=0.2 or 1,0,0@0.2,0,0, or "
+      "none");
   }
   options.section_plane = plane;
   return true;
@@ -117,8 +118,8 @@ bool read_options(Session& session, PictureOptions& options)
   if (!parse_pair(arguments.text("size"), 'x', width, height) || !(width >= 1 && width <= 1e6) ||
     !(height >= 1 && height <= 1e6))
   {
-    return session.invalid("--size " + arguments.text("size") +
-      ": expected are width and height in pixels, as in 1200x900");
+    return session.invalid("--size '" + arguments.text("size") +
+      "' is not valid: expected width and height in pixels, such as 1200x900");
   }
   options.width = static_cast<int>(width);
   options.height = static_cast<int>(height);
@@ -126,7 +127,7 @@ bool read_options(Session& session, PictureOptions& options)
     !parse_pair(arguments.text("range"), ',', options.range[0], options.range[1]))
   {
     return session.invalid(
-      "--range " + arguments.text("range") + ": expected are two numbers, as in 0,1");
+      "--range '" + arguments.text("range") + "' is not valid: expected two numbers, such as 0,1");
   }
   options.array = arguments.text("array");
   options.component = arguments.text("component");
@@ -134,7 +135,7 @@ bool read_options(Session& session, PictureOptions& options)
   if (options.color_by != ColorBy::array && (!options.array.empty() || !options.component.empty()))
   {
     return session.invalid(
-      "--color " + arguments.text("color") + " goes without --array and --component");
+      "--color " + arguments.text("color") + " cannot be combined with --array or --component");
   }
   options.extrema = arguments.has("extrema");
   const bool of_weights = !options.component.empty() || options.extrema || arguments.has("minus");
@@ -149,8 +150,8 @@ bool read_options(Session& session, PictureOptions& options)
       options.isosurfaces.emplace_back();
       if (!parse_number(word, options.isosurfaces.back()))
       {
-        return session.invalid("--isosurface " + arguments.text("isosurface") +
-          ": expected are numbers with commas between, as in 0.25,0.5");
+        return session.invalid("--isosurface '" + arguments.text("isosurface") +
+          "' is not valid: expected numbers separated by commas, such as 0.25,0.5");
       }
     }
   }
@@ -214,7 +215,7 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
     }
   }
   return any || !found.empty() ||
-    session.invalid("--defects: there is no surface; name it by --context SURFACE");
+    session.invalid("--defects needs a surface; add one with --context SURFACE");
 }
 
 /// List the files to draw; a collection is replaced by its files. For a strip in one picture a
@@ -235,7 +236,7 @@ bool list_files(Session& session, bool moving, std::vector<std::string>& files,
     }
     if (named.size() > 1)
     {
-      return session.invalid(file + " is a sequence: it is drawn alone");
+      return session.invalid(file + " is a sequence and must be the only FILE");
     }
     Sequence sequence;
     const Status status = read_collection(file, sequence);
@@ -259,7 +260,7 @@ bool list_files(Session& session, bool moving, std::vector<std::string>& files,
   }
   return (rate > 0.0 && rate <= 1000.0) ||
     session.invalid("the sequence has " + std::to_string(rate) +
-      " frames per second: expected a number above 0 and at most 1000");
+      " frames per second; expected more than 0 and at most 1000 (see --fps)");
 }
 
 /// Render one picture per tile, all with one view and one range of colors, then run ffmpeg.
@@ -333,7 +334,7 @@ void run_render(Session& session)
   {
     if (moving)
     {
-      session.invalid("--transparent: only a .png has a transparent background");
+      session.invalid("--transparent needs a .png output");
       return;
     }
     options.background = Background::transparent;
@@ -360,8 +361,9 @@ void run_render(Session& session)
     const std::vector<std::string> labels = split_at_commas(arguments.text("labels"));
     if (labels.size() > tiles.size())
     {
-      session.invalid("--labels: " + std::to_string(labels.size()) + " labels for " +
-        std::to_string(tiles.size()) + (tiles.size() == 1 ? " tile" : " tiles"));
+      session.invalid("--labels has " + std::to_string(labels.size()) +
+        " labels, but the picture has only " + std::to_string(tiles.size()) +
+        (tiles.size() == 1 ? " tile" : " tiles"));
       return;
     }
     for (std::size_t i = 0; i < labels.size(); ++i)

@@ -31,14 +31,15 @@ void run_smooth(Session& session)
   }
   if (!mesh->IsA("vtkPointSet"))
   {
-    session.invalid(arguments.text("MESH") + " holds neither a surface nor tets");
+    session.invalid(arguments.text("MESH") + " must contain a surface or tets");
     return;
   }
   const std::string ending = file_extension(output);
   if (ending != "vtk" && (ending == "vtp") != bool(mesh->IsA("vtkPolyData")))
   {
-    session.invalid(arguments.text("MESH") + " holds " +
-      (ending == "vtp" ? "no polygon dataset: write .vtu" : "a polygon dataset: write .vtp") +
+    session.invalid(arguments.text("MESH") + " is " +
+      (ending == "vtp" ? "not a polygon dataset; the output must be .vtu"
+                       : "a polygon dataset; the output must be .vtp") +
       " or .vtk");
     return;
   }

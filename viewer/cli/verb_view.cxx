@@ -32,7 +32,7 @@ bool tour_request(Session& session, TourRequest& request)
     return session.invalid("--time-limit must be 0 or more seconds");
   }
   return !request.path.empty() || request.folder.empty() ||
-    session.invalid("--screenshot-dir is where --play puts its pictures: name a tour by --play");
+    session.invalid("--screenshot-dir needs --play TOUR");
 }
 
 /// Read the files before the window opens, with progress on a terminal. A program that is started
@@ -84,8 +84,8 @@ void run_view(Session& session)
       run_again_under_xvfb(session.arguments().words);
     }
     session.fail(Status::failure(StatusCode::unavailable,
-      "there is no display to open a window on: DISPLAY is not set or its X server does not "
-      "answer; for pictures without one there is: bindpose render"));
+      "cannot open a window without a display: DISPLAY is not set or its X server does not answer; "
+      "use bindpose render to draw pictures without a window"));
     return;
   }
   std::vector<FirstFile> files;

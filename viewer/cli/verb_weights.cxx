@@ -204,13 +204,13 @@ void run_weights(Session& session)
   const bool solve_on_surface = domain == "surface";
   if (tets_given && (solve_on_surface || ending == "vtp"))
   {
-    session.invalid(arguments.text("MESH") + " holds tets: " +
+    session.invalid(arguments.text("MESH") + " contains tets; " +
       (solve_on_surface ? "--domain surface needs a surface" : "write .vtu or .dmat, not .vtp"));
     return;
   }
   if (solve_on_surface && ending == "vtu")
   {
-    session.invalid("--domain surface makes no tets: write .vtp or .dmat, not .vtu");
+    session.invalid("--domain surface creates no tets; write .vtp or .dmat, not .vtu");
     return;
   }
   auto handles = session.read_handles(arguments.text("handles"), mesh);
@@ -247,7 +247,7 @@ void run_weights(Session& session)
     auto* data = vtkDataSet::SafeDownCast(weights->GetOutputDataObject(port));
     if (data->GetNumberOfPoints() == 0)
     {
-      session.invalid("a flat shape has no tets: write .vtp or .dmat, not .vtu");
+      session.invalid("a planar shape has no tets; write .vtp or .dmat, not .vtu");
       return;
     }
     write_with_endpoints(session, data, handles, output);

@@ -94,15 +94,18 @@ QString BoundColumns::reason() const
   {
     return {};
   }
-  QStringList parts{ counted(this->new_,
-                       QT_TRANSLATE_NOOP("Document", "%1 handle is new and moves nothing yet"),
-                       QT_TRANSLATE_NOOP("Document", "%1 handles are new and move nothing yet")),
+  QStringList parts{
+    counted(this->new_, QT_TRANSLATE_NOOP("Document", "%1 handle was added and has no weights yet"),
+      QT_TRANSLATE_NOOP("Document", "%1 handles were added and have no weights yet")),
     counted(this->moved_, QT_TRANSLATE_NOOP("Document", "%1 handle was moved"),
       QT_TRANSLATE_NOOP("Document", "%1 handles were moved")),
-    counted(this->gone_, QT_TRANSLATE_NOOP("Document", "%1 handle is gone and what it held rests"),
-      QT_TRANSLATE_NOOP("Document", "%1 handles are gone and what they held rests")) };
+    counted(this->gone_,
+      QT_TRANSLATE_NOOP("Document", "%1 handle was removed and its part of the mesh stays at rest"),
+      QT_TRANSLATE_NOOP(
+        "Document", "%1 handles were removed and their parts of the mesh stay at rest"))
+  };
   parts.removeAll(QString());
-  return QCoreApplication::translate("Document", "Since the bind %1.").arg(parts.join(", "));
+  return QCoreApplication::translate("Document", "Since the last bind, %1.").arg(parts.join(", "));
 }
 
 vtkSmartPointer<vtkPointSet> BoundColumns::arranged(vtkPointSet* data) const
@@ -151,7 +154,7 @@ bool weights_are_of(vtkDataArray* weights, const Handles& handles, QString* why_
     if (name && handles[c].name != name)
     {
       reason = QCoreApplication::translate(
-        "Document", "The mesh has weights for handles of other names: bind again.");
+        "Document", "The mesh has weights for handles with other names: bind again.");
     }
   }
   if (why_not)

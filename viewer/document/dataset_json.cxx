@@ -77,14 +77,15 @@ json array_to_json(vtkAbstractArray* array)
 
 vtkSmartPointer<vtkAbstractArray> array_from_json(const json& value, vtkIdType tuples)
 {
-  const std::string name = json_text(json_at(value, "name"), "the name of an array");
-  const std::string type = json_text(json_at(value, "type"), "the type of an array");
-  const int components =
-    json_integer(json_at(value, "components"), "the components of an array", 1, most_components);
+  const std::string name = json_text(json_at(value, "name"), "the name of a handle array");
+  const std::string type = json_text(json_at(value, "type"), "the type of a handle array");
+  const int components = json_integer(
+    json_at(value, "components"), "the number of components of a handle array", 1, most_components);
   const json& values = json_at(value, "values");
   if (!values.is_array() || values.size() != static_cast<std::size_t>(tuples) * components)
   {
-    throw SessionError("the array " + name + " of the handles has a wrong number of values");
+    throw SessionError("the handle array '" + name + "' must have " +
+      std::to_string(tuples * components) + " values");
   }
   if (type == "text")
   {
@@ -93,7 +94,7 @@ vtkSmartPointer<vtkAbstractArray> array_from_json(const json& value, vtkIdType t
     texts->SetNumberOfComponents(components);
     for (const json& text : values)
     {
-      texts->InsertNextValue(json_text(text, "a name of a handle"));
+      texts->InsertNextValue(json_text(text, "a value of a text array of the handles"));
     }
     return texts;
   }
@@ -111,17 +112,17 @@ vtkSmartPointer<vtkAbstractArray> array_from_json(const json& value, vtkIdType t
     {
       const bool nothing = values[i].is_null() && is_real(known.type);
       const double number = nothing ? std::numeric_limits<double>::quiet_NaN()
-                                    : json_number(values[i], "a number of the handles");
+                                    : json_number(values[i], "a value of a handle array");
       if (number < numbers->GetDataTypeMin() || number > numbers->GetDataTypeMax())
       {
-        throw SessionError("a number of the array " + name + " of the handles is out of range");
+        throw SessionError("a value of the handle array '" + name + "' is out of range");
       }
       numbers->SetComponent(
         static_cast<vtkIdType>(i / components), static_cast<int>(i % components), number);
     }
     return numbers;
   }
-  throw SessionError("the array " + name + " of the handles is of an unknown type");
+  throw SessionError("the handle array '" + name + "' has the unknown type '" + type + "'");
 }
 
 json cells_to_json(vtkCellArray* cells)
@@ -143,19 +144,19 @@ vtkSmartPointer<vtkCellArray> cells_from_json(const json& list, vtkIdType points
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   if (!list.is_array())
   {
-    throw SessionError("the cells of the handles are no list");
+    throw SessionError("the handle cells must be a list");
   }
   for (const json& cell : list)
   {
     if (!cell.is_array() || cell.empty())
     {
-      throw SessionError("a cell of the handles is no list of points");
+      throw SessionError("a handle cell must be a nonempty list of point ids");
     }
     cells->InsertNextCell(static_cast<int>(cell.size()));
     for (const json& id : cell)
     {
       cells->InsertCellPoint(
-        json_integer(id, "a point of a handle", 0, static_cast<int>(points) - 1));
+        json_integer(id, "a point id of a handle cell", 0, static_cast<int>(points) - 1));
     }
   }
   return cells;
@@ -168,12 +169,12 @@ const json& json_at(const json& object, const char* key)
 {
   if (!object.is_object())
   {
-    throw SessionError(std::string("what should hold '") + key + "' is no object");
+    throw SessionError(std::string("expected an object with the key '") + key + "'");
   }
   const auto found = object.find(key);
   if (found == object.end())
   {
-    throw SessionError(std::string("it lacks '") + key + "'");
+    throw SessionError(std::string("the key '") + key + "' is missing");
   }
   return *found;
 }
@@ -182,7 +183,7 @@ double json_number(const json& value, const char* what)
 {
   if (!value.is_number() || !std::isfinite(value.get<double>()))
   {
-    throw SessionError(std::string(what) + " is not a finite number");
+    throw SessionError(std::string(what) + " must be a finite number");
   }
   return value.get<double>();
 }
@@ -192,7 +193,8 @@ int json_integer(const json& value, const char* what, int lowest, int highest)
   const double number = json_number(value, what);
   if (number != std::floor(number) || number < lowest || number > highest)
   {
-    throw SessionError(std::string(what) + " is out of range");
+    throw SessionError(std::string(what) + " must be an integer from " + std::to_string(lowest) +
+      " to " + std::to_string(highest));
   }
   return static_cast<int>(number);
 }
@@ -201,7 +203,7 @@ std::string json_text(const json& value, const char* what)
 {
   if (!value.is_string())
   {
-    throw SessionError(std::string(what) + " is no text");
+    throw SessionError(std::string(what) + " must be a string");
   }
   return value.get<std::string>();
 }
@@ -239,11 +241,12 @@ json handles_to_json(vtkPolyData* handles)
 vtkSmartPointer<vtkPolyData> handles_from_json(const json& value)
 {
   auto handles = vtkSmartPointer<vtkPolyData>::New();
-  const std::string type = json_text(json_at(value, "points_type"), "the type of the points");
+  const std::string type =
+    json_text(json_at(value, "points_type"), "the type of the handle points");
   const json& places = json_at(value, "points");
   if (!places.is_array() || (type != "float" && type != "double"))
   {
-    throw SessionError("the points of the handles are no list of numbers");
+    throw SessionError("the handle points must be a list with points_type 'float' or 'double'");
   }
   vtkNew<vtkPoints> points;
   points->SetDataType(type == "float" ? VTK_FLOAT : VTK_DOUBLE);
@@ -251,12 +254,12 @@ vtkSmartPointer<vtkPolyData> handles_from_json(const json& value)
   {
     if (!place.is_array() || place.size() != 3)
     {
-      throw SessionError("a point of the handles has not three coordinates");
+      throw SessionError("a handle point must have three coordinates");
     }
     double p[3];
     for (int k = 0; k < 3; ++k)
     {
-      p[k] = json_number(place[k], "a coordinate of the handles");
+      p[k] = json_number(place[k], "a coordinate of a handle point");
     }
     points->InsertNextPoint(p);
   }
@@ -273,7 +276,7 @@ vtkSmartPointer<vtkPolyData> handles_from_json(const json& value)
   const json& arrays = json_at(value, "cell_arrays");
   if (!arrays.is_array())
   {
-    throw SessionError("the arrays of the handles are no list");
+    throw SessionError("the handle arrays must be a list");
   }
   for (const json& array : arrays)
   {
@@ -294,7 +297,7 @@ json pose_to_json(const bindpose::HandlePose& pose)
 bindpose::HandlePose pose_from_json(const json& value)
 {
   bindpose::HandlePose pose;
-  const std::string mode = json_text(json_at(value, "mode"), "the mode of a handle");
+  const std::string mode = json_text(json_at(value, "mode"), "the mode of a pose");
   const auto& words = bindpose::handle_mode_words;
   const auto* const word = std::find(std::begin(words), std::end(words), mode);
   const bool known = word != std::end(words);
@@ -304,17 +307,18 @@ bindpose::HandlePose pose_from_json(const json& value)
   if (!known || !transform.is_array() || transform.size() != 12 || !twist.is_array() ||
     twist.size() != 2)
   {
-    throw SessionError("the pose of a handle has no mode, or not 12 numbers and a twist");
+    throw SessionError("the pose of a handle must have a known mode, a transform of 12 numbers and "
+                       "a twist of 2 numbers");
   }
   for (int k = 0; k < 12; ++k)
   {
-    pose.transform.data()[k] = json_number(transform[k], "a number of the pose");
+    pose.transform.data()[k] = json_number(transform[k], "a number of a pose transform");
   }
   for (int k = 0; k < 2; ++k)
   {
-    pose.twist[k] = json_number(twist[k], "a twist");
+    pose.twist[k] = json_number(twist[k], "the twist of a pose");
   }
-  pose.stretch = json_number(json_at(value, "stretch"), "a stretch");
+  pose.stretch = json_number(json_at(value, "stretch"), "the stretch of a pose");
   return pose;
 }
 
@@ -406,7 +410,7 @@ Options options_from_json(const json& value)
   Options result = initial_options();
   if (!value.is_object())
   {
-    throw SessionError("the options are no object");
+    throw SessionError("the options must be an object");
   }
   for (const auto& [key, item] : value.items())
   {
@@ -418,7 +422,7 @@ Options options_from_json(const json& value)
     const QVariant checked = checked_option(*option, value_from_json(item));
     if (!checked.isValid())
     {
-      throw SessionError("the option '" + key + "' has a value that it cannot have");
+      throw SessionError("the option '" + key + "' has an invalid value");
     }
     result[option->key] = checked;
   }

@@ -373,7 +373,7 @@ Status Document::commit_regions(vtkDataArray* labels, const QString& step)
     labels->GetNumberOfTuples() != this->work_.surface->GetNumberOfPoints())
   {
     this->revert_handles();
-    return Status::invalid_input("regions are painted on the mesh's own vertices");
+    return Status::invalid_input("region labels must have one value per vertex of the mesh");
   }
   Work after = this->work_;
   Status status = this->take_live(after);

@@ -121,8 +121,8 @@ Status read_file(const std::string& path, OpenedFile& file, const RunReader& run
   }
   if (is_defect_data(file.data))
   {
-    return Status::invalid_input(
-      "these are defects of a surface; open the surface, whose panel Tets shows them");
+    return Status::invalid_input("surface defects cannot be opened directly; open the surface and "
+                                 "show its defects in the Tets panel");
   }
   file.kind = is_curve_data(file.data) ? OpenedFile::Kind::curves
     : looks_like_handles(file.data)    ? OpenedFile::Kind::handles

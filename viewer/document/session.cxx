@@ -110,7 +110,7 @@ std::array<double, 3> triple(const json& value, const char* what)
   std::array<double, 3> result{};
   if (!value.is_array() || value.size() != 3)
   {
-    throw SessionError(std::string(what) + " has not three numbers");
+    throw SessionError(std::string(what) + " must be a list of three numbers");
   }
   for (int k = 0; k < 3; ++k)
   {
@@ -122,7 +122,7 @@ std::array<double, 3> triple(const json& value, const char* what)
 SessionView view_from_json(const json& value)
 {
   SessionView view;
-  view.panel = json_integer(json_at(value, "panel"), "the panel", 0, 100);
+  view.panel = json_integer(json_at(value, "panel"), "the panel number", 0, 100);
   const json& camera = json_at(value, "camera");
   if (!camera.is_null())
   {
@@ -136,7 +136,8 @@ SessionView view_from_json(const json& value)
     if (!parallel.is_boolean() || view.camera->angle <= 0.0 || view.camera->angle >= 180.0 ||
       view.camera->scale <= 0.0)
     {
-      throw SessionError("the camera is impossible");
+      throw SessionError("the camera must have an angle between 0 and 180 degrees, a positive "
+                         "scale and a Boolean value 'parallel'");
     }
     view.camera->parallel = parallel.get<bool>();
   }
@@ -164,14 +165,15 @@ public:
     const json& companions = json_at(this->text_, "companions");
     if (!inputs.is_object() || !companions.is_object())
     {
-      throw SessionError("its inputs are no object");
+      throw SessionError("the inputs and companions must be objects");
     }
     if (this->text_.contains("saved_as"))
     {
-      session.saved_as = QString::fromStdString(json_text(this->text_["saved_as"], "its origin"));
+      session.saved_as =
+        QString::fromStdString(json_text(this->text_["saved_as"], "the value of 'saved_as'"));
     }
     const QString name =
-      QString::fromStdString(json_text(json_at(this->text_, "name"), "its name"));
+      QString::fromStdString(json_text(json_at(this->text_, "name"), "the session name"));
     this->read_mesh(inputs, companions, name, session);
     this->read_others(inputs, companions, session);
   }
@@ -183,7 +185,7 @@ private:
     const json& pose = json_at(this->text_, "pose");
     if (!pose.is_array())
     {
-      throw SessionError("the pose is no list");
+      throw SessionError("the pose must be a list");
     }
     if (!handles.is_null())
     {
@@ -196,8 +198,8 @@ private:
       }
       if (pose.size() != list.size())
       {
-        throw SessionError("the pose has " + std::to_string(pose.size()) + " entries for " +
-          std::to_string(list.size()) + " handles");
+        throw SessionError("the pose has " + std::to_string(pose.size()) + " entries; expected " +
+          std::to_string(list.size()) + ", one per handle");
       }
       for (const json& of_handle : pose)
       {
@@ -215,16 +217,18 @@ private:
     }
     else if (!bound.is_null())
     {
-      throw SessionError("the handles that were bound are no handles");
+      throw SessionError("the bound handles must be an object, 'handles' or null");
     }
   }
 
   Source source(const json& input) const
   {
     Source source;
-    const QString path = QString::fromStdString(json_text(json_at(input, "path"), "a path"));
+    const QString path =
+      QString::fromStdString(json_text(json_at(input, "path"), "the path of a file"));
     source.path = QDir::cleanPath(this->folder_.absoluteFilePath(path));
-    source.checksum = QByteArray::fromStdString(json_text(json_at(input, "sha256"), "a checksum"));
+    source.checksum =
+      QByteArray::fromStdString(json_text(json_at(input, "sha256"), "the checksum of a file"));
     return source;
   }
 
@@ -262,15 +266,16 @@ private:
       const Status status = use_mesh(surface, name, source, work);
       if (!status.ok())
       {
-        throw SessionError("its surface cannot be used: " + status.message);
+        throw SessionError("the surface is not valid: " + status.message);
       }
       work.made_here = true;
       work.weighted_tets = vtkUnstructuredGrid::SafeDownCast(tets);
       if (has_input && now != source.checksum)
       {
         session.notes << (now.isEmpty()
-            ? tr("%1 is missing; the session's own copy of the mesh is shown.")
-            : tr("%1 has changed since; the session's own copy of the mesh is shown."))
+            ? tr("%1 is missing; the mesh saved with the session is shown.")
+            : tr("%1 has changed since the session was saved; the mesh saved with the session is "
+                 "shown."))
                            .arg(file);
       }
     }
@@ -282,9 +287,9 @@ private:
       if (!read)
       {
         session.lost.push_back({ "mesh", source.path, source.checksum });
-        session.notes << (now.isEmpty() ? tr("%1 is missing; the session is open without it.")
-                                        : tr("%1 cannot be read any more; the session is open "
-                                             "without it."))
+        session.notes << (now.isEmpty()
+            ? tr("%1 is missing; the session was opened without it.")
+            : tr("%1 cannot be read; the session was opened without it."))
                            .arg(file);
       }
       else if (now != source.checksum)
@@ -294,8 +299,8 @@ private:
     }
     if (lost)
     {
-      session.notes << tr("A file beside the session, with what was made here, is missing or "
-                          "damaged: bind again.");
+      session.notes << tr(
+        "A file with results next to the session file is missing or damaged: bind again.");
     }
     // The handles of the bind are correct for any surface, so they replace those that use_mesh()
     // has set.
@@ -323,12 +328,13 @@ private:
     }
     if (lost)
     {
-      session.notes << tr("The volume beside the session is missing or damaged: compute it again.");
+      session.notes << tr(
+        "The volume file next to the session file is missing or damaged: compute it again.");
     }
     const auto lose = [&](const char* role, const Source& source)
     {
       session.lost.push_back({ role, source.path, source.checksum });
-      session.notes << tr("%1 is missing; the session is open without it.")
+      session.notes << tr("%1 is missing; the session was opened without it.")
                          .arg(QFileInfo(source.path).fileName());
     };
     if (inputs.contains("handles"))
@@ -546,21 +552,21 @@ Status read_session(const QString& path, Session& session)
   QFile file(path);
   if (!file.open(QIODevice::ReadOnly))
   {
-    return broken("there is no such file, or it may not be read");
+    return broken("the file does not exist or is not readable");
   }
   if (file.size() > largest_session)
   {
-    return broken("it is too large for a session");
+    return broken("the file is too large for a session");
   }
   const QByteArray bytes = file.readAll();
   try
   {
     const json text = json::parse(bytes.begin(), bytes.end());
     const int schema =
-      json_integer(json_at(json_at(text, "bindpose"), "schema"), "its schema version", 1, 1 << 20);
+      json_integer(json_at(json_at(text, "bindpose"), "schema"), "the schema version", 1, 1 << 20);
     if (schema > session_schema)
     {
-      return broken("a newer Bindpose has written it");
+      return broken("the file was written by a newer version of Bindpose");
     }
     Session read;
     SessionReader(text, path).read(read);
@@ -573,6 +579,6 @@ Status read_session(const QString& path, Session& session)
   }
   catch (const json::exception&)
   {
-    return broken("it is no session, or damaged");
+    return broken("the file is damaged or is not a Bindpose session");
   }
 }

@@ -121,20 +121,20 @@ Status use_weights(const Weights& weights, const QString& name, Work& work)
   const std::string file = name.toStdString();
   if (!work.surface || !work.handles)
   {
-    return Status::invalid_input(file + " holds weights: open their mesh and handles first");
+    return Status::invalid_input(file + " contains weights; open the mesh and the handles first");
   }
   const Handles handles = handles_of(work.handles);
   if (weights.rows() != work.surface->GetNumberOfPoints() ||
     weights.cols() != static_cast<Index>(handles.size()))
   {
-    return Status::invalid_input(file + " holds weights of " + std::to_string(weights.rows()) +
-      " points and " + std::to_string(weights.cols()) + " handles; the mesh has " +
+    return Status::invalid_input(file + " contains weights for " + std::to_string(weights.rows()) +
+      " points and " + std::to_string(weights.cols()) + " handles, but the mesh has " +
       std::to_string(work.surface->GetNumberOfPoints()) + " points, and " +
       std::to_string(handles.size()) + " handles are open");
   }
   if (!weights.allFinite())
   {
-    return Status::invalid_input(file + " holds a weight that is not a finite number");
+    return Status::invalid_input(file + " contains a weight that is not finite");
   }
   auto surface = vtkSmartPointer<vtkPolyData>::New();
   surface->ShallowCopy(work.surface);

@@ -128,7 +128,7 @@ Status Body::restart(ExecutionContext& context, const Pose& pose, Points& posed)
 {
   if (!this->bound_)
   {
-    return Status::invalid_input("nothing is bound yet");
+    return Status::invalid_input("the mesh is not bound: bind first");
   }
   ReducedSolveOptions still;
   still.max_iterations = 1000;
@@ -150,7 +150,7 @@ Status Body::step(
 {
   if (!this->bound_ || !this->run_.start)
   {
-    return Status::invalid_input("the body has not been started");
+    return Status::invalid_input("the simulation has not been started");
   }
   Status status;
   {
@@ -190,7 +190,7 @@ Status Body::play(ExecutionContext& context, const BodyRun& given,
 {
   if (!given.start)
   {
-    return Status::invalid_input("there is no run to play");
+    return Status::invalid_input("no recorded simulation is available for playback");
   }
   // A copy, because `given` may be the body's own run, which restart() clears.
   const BodyRun run = given;

@@ -24,7 +24,7 @@ public:
   {
     if (!json.is_object())
     {
-      this->status_ = Status::invalid_input(this->what_ + " are no object of a session");
+      this->status_ = Status::invalid_input(this->what_ + " must be an object");
     }
   }
 
@@ -61,7 +61,7 @@ public:
     const Json* found = this->find(key);
     if (found && !found->is_string())
     {
-      this->fail(key, "a text");
+      this->fail(key, "a string");
       return;
     }
     value = found ? found->get<std::string>() : value;

@@ -194,7 +194,7 @@ Status from_json(const Json& json, KeyFrames& keys)
     Status status = key.status();
     if (status.ok() && (time < 0.0 || !handles))
     {
-      status = Status::invalid_input("a key frame has no \"time\" or no \"handles\"");
+      status = Status::invalid_input("a key frame must have \"time\" and \"handles\"");
     }
     status = status.ok() ? from_json(*handles, pose) : status;
     if (!status.ok())

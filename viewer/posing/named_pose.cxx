@@ -78,7 +78,7 @@ Status from_json(const Json& json, NamedPose& pose)
 {
   if (!json.is_object())
   {
-    return Status::invalid_input("a pose of the session is no object with a handle a key");
+    return Status::invalid_input("a pose must be an object with one key per handle");
   }
   NamedPose read;
   for (const auto& [name, entry] : json.items())

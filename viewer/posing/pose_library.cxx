@@ -73,7 +73,7 @@ Status from_json(const Json& json, PoseLibrary& library)
 {
   if (!json.is_array())
   {
-    return Status::invalid_input("the poses of the session are no list");
+    return Status::invalid_input("the pose library must be a list");
   }
   PoseLibrary read;
   for (const Json& entry : json)

@@ -13,7 +13,7 @@ Json to_json(const PoseShelf& shelf)
 Status from_json(const Json& json, PoseShelf& shelf)
 {
   PoseShelf read;
-  JsonFields fields(json, "the kept poses");
+  JsonFields fields(json, "the stored poses");
   const Json* library = fields.part("library", true);
   const Json* keys = fields.part("key_frames", false);
   Status status = fields.status();

@@ -37,9 +37,9 @@ Status check_endpoints(const PoseSource& source)
     {
       if (source.endpoints(v, j) < 0.0 || source.endpoints(v, j) > 1.0)
       {
-        return Status::invalid_input("the array 'EndpointWeights' has a number for handle '" +
+        return Status::invalid_input("the array 'EndpointWeights' has a value for handle '" +
           source.handles[static_cast<std::size_t>(j)].name +
-          "' that is not between 0 (the bone's head) and 1 (its tail)");
+          "' that is not between 0 (head of the bone) and 1 (tail)");
       }
     }
   }

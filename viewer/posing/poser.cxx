@@ -16,7 +16,7 @@ Status Poser::bind(ExecutionContext& context, const PoseOptions& options)
   }
   if (needs_weights(options.method) && !this->source().has_weights())
   {
-    return Status::invalid_input("this method blends by weights: bind first");
+    return Status::invalid_input("this method needs weights: bind first");
   }
   const Status status = this->bind_missing(context, options);
   this->binds_ += status.usable() ? 1 : 0;
@@ -28,7 +28,7 @@ Status Poser::solve(ExecutionContext& context, const Pose& pose, const PoseOptio
 {
   if (!this->is_bound(options))
   {
-    return Status::invalid_input("nothing is bound yet");
+    return Status::invalid_input("the mesh is not bound: bind first");
   }
   Status status = check_pose(this->source().handles, pose);
   if (status.ok())
@@ -69,8 +69,8 @@ Status check_tets(const PoseSource& source, const PoseOptions& options)
 {
   return !options.in_tets || source.has_tets()
     ? Status()
-    : Status::invalid_input("there are no tets with weights: bind in a volume first, or take the "
-                            "energy of the surface");
+    : Status::invalid_input(
+        "there are no tets with weights: bind in a volume first, or use a surface energy");
 }
 
 } // namespace bindpose

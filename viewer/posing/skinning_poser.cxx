@@ -166,8 +166,8 @@ Status SkinningPoser::pose(ExecutionContext& context, const Pose& given, const P
     case PoseMethod::stretchable_bones:
       if (!has_bones(source.handles))
       {
-        status.warnings.emplace_back(
-          "no handle is a bone that could stretch or twist: this is linear blending");
+        status.warnings.emplace_back("no handle is a bone that can stretch or twist, so the result "
+                                     "equals linear blend skinning");
       }
       moved = this->skinning_.stretchable_bones(context, source.points, this->transforms_,
         bone_changes(source.handles, given),

@@ -121,7 +121,7 @@ Status count_labels(vtkDataSet* tets, std::vector<Category>& categories)
   const Index bad = count_values(labels, categories);
   return bad < 0 ? Status()
                  : Status::invalid_input("'Label' of cell " + std::to_string(bad) + " is " +
-                     short_number(labels->GetComponent(bad, 0)) + "; labels are -1, 0, 1 and 2");
+                     short_number(labels->GetComponent(bad, 0)) + "; expected -1, 0, 1 or 2");
 }
 
 Status count_rung(vtkDataSet* tets, std::vector<Category>& categories)
@@ -129,8 +129,8 @@ Status count_rung(vtkDataSet* tets, std::vector<Category>& categories)
   auto* array = vtkStringArray::SafeDownCast(tets->GetFieldData()->GetAbstractArray("Method"));
   if (!array || array->GetNumberOfValues() == 0)
   {
-    return Status::invalid_input("the tets do not say how they were made; bindpose tetrahedralize "
-                                 "writes it (field data 'Method' of a .vtu file)");
+    return Status::invalid_input(
+      "the tets have no field data array 'Method'; bindpose tetrahedralize writes it (.vtu)");
   }
   const std::string method = array->GetValue(0);
   auto found = std::find_if(categories.begin(), categories.end(),

@@ -302,7 +302,7 @@ Status choose_handle_coloring(
 {
   if (options.range[0] <= options.range[1])
   {
-    return Status::invalid_input("colors by handle have no range");
+    return Status::invalid_input("colors by handle cannot have a range");
   }
   std::vector<std::string> names;
   for (const Tile& tile : tiles)
@@ -369,7 +369,7 @@ Status choose_cluster_coloring(
 {
   if (options.range[0] <= options.range[1])
   {
-    return Status::invalid_input("colors by rotation cluster have no range");
+    return Status::invalid_input("colors by rotation cluster cannot have a range");
   }
   std::vector<vtkDataSet*> datasets;
   for (const Tile& tile : tiles)
@@ -424,21 +424,21 @@ Status check_minus(const FoundArray& found, const Coloring& coloring)
   const FoundArray other = find_array(coloring.minus, coloring.array);
   if (!other.array || other.on_points != found.on_points)
   {
-    return Status::invalid_input("what is to be subtracted has no " +
+    return Status::invalid_input("the subtracted dataset has no " +
       std::string(found.on_points ? "point" : "cell") + " array '" + coloring.array + "'");
   }
   if (other.array->GetNumberOfTuples() != found.array->GetNumberOfTuples())
   {
     const std::string things = found.on_points ? " points" : " cells";
-    return Status::invalid_input("what is to be subtracted has " +
-      std::to_string(other.array->GetNumberOfTuples()) + things + ", the dataset has " +
-      std::to_string(found.array->GetNumberOfTuples()) + ": a difference needs the same");
+    return Status::invalid_input("the subtracted dataset has " +
+      std::to_string(other.array->GetNumberOfTuples()) + things + "; expected " +
+      std::to_string(found.array->GetNumberOfTuples()) + ", as in the dataset");
   }
   if (find_component(other.array, coloring) == no_component)
   {
     return Status::invalid_input("the array '" + coloring.array +
-      "' of what is to be subtracted has no component '" + coloring.component +
-      "'; there are: " + component_words(other.array));
+      "' of the subtracted dataset has no component '" + coloring.component +
+      "'; available: " + component_words(other.array));
   }
   return {};
 }
@@ -450,7 +450,7 @@ Status choose_tet_coloring(
   const bool given = options.range[0] <= options.range[1];
   if (given && coloring.by != ColorBy::quality)
   {
-    return Status::invalid_input("colors by " + word_of(coloring.by) + " have no range");
+    return Status::invalid_input("colors by " + word_of(coloring.by) + " cannot have a range");
   }
   if (coloring.by != ColorBy::quality)
   {
@@ -477,7 +477,7 @@ Status choose_tet_coloring(
   if (!any)
   {
     return Status::invalid_input(
-      "only tets are colored by " + word_of(coloring.by) + ", and there are none");
+      "colors by " + word_of(coloring.by) + " need tets, but the picture has none");
   }
   coloring.kind = Coloring::Kind::other;
   if (coloring.by == ColorBy::quality)
@@ -578,14 +578,14 @@ Status choose_coloring(
   coloring.minus = options.minus;
   if (coloring.minus && coloring.by != ColorBy::array && coloring.by != ColorBy::winding_number)
   {
-    return Status::invalid_input("only the numbers of an array have a difference");
+    return Status::invalid_input("a difference needs colors by an array or by winding number");
   }
   if (coloring.by != ColorBy::array)
   {
     if (!coloring.array.empty() || !coloring.component.empty())
     {
       return Status::invalid_input(
-        "colors come from an array or from what else is named, not from both");
+        "an array or a component cannot be combined with another choice of colors");
     }
     if (names_tets(coloring.by))
     {
@@ -614,9 +614,10 @@ Status choose_coloring(
   }
   if (coloring.array.empty())
   {
-    return coloring.minus         ? Status::invalid_input("a difference needs the name of an array")
-      : options.component.empty() ? Status()
-                                  : Status::invalid_input("a component is named, but no array");
+    return coloring.minus ? Status::invalid_input("a difference needs the name of an array")
+      : options.component.empty()
+      ? Status()
+      : Status::invalid_input("a component needs the name of its array");
   }
   double lower = 1e300;
   double upper = -1e300;
@@ -677,16 +678,16 @@ Status choose_coloring(
   {
     const std::string there = list_words(array_names(tiles));
     return Status::invalid_input("there is no array '" + coloring.array + "'" +
-      (there.empty() ? std::string("; the data has no arrays") : "; there are: " + there));
+      (there.empty() ? std::string("; the data has no arrays") : "; available: " + there));
   }
   if (!has_component)
   {
     return Status::invalid_input("the array '" + coloring.array + "' has no component '" +
-      coloring.component + "'; there are: " + component_words(sample));
+      coloring.component + "'; available: " + component_words(sample));
   }
   if (lower > upper)
   {
-    return Status::invalid_input("the array '" + coloring.array + "' holds no finite number");
+    return Status::invalid_input("the array '" + coloring.array + "' has no finite value");
   }
   const bool given = options.range[0] <= options.range[1];
   if (coloring.minus || coloring.by == ColorBy::row_sum)
@@ -695,8 +696,8 @@ Status choose_coloring(
     const double reach = std::max(std::abs(lower - center), std::abs(upper - center));
     if (given && !(options.range[0] <= center && center <= options.range[1]))
     {
-      return Status::invalid_input(
-        coloring.minus ? "the range of a difference holds 0" : "the range of row sums holds 1");
+      return Status::invalid_input(coloring.minus ? "the range of a difference must contain 0"
+                                                  : "the range of row sums must contain 1");
     }
     coloring.map = diverging_map(
       given ? options.range[0] : center - reach, given ? options.range[1] : center + reach, center);

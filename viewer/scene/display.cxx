@@ -49,7 +49,8 @@ bool can_render()
 
 const char* no_display_message()
 {
-  return "there is no X display to draw with; run the command under xvfb-run (Debian package xvfb)";
+  return "no X display is available for drawing; run the command under xvfb-run (Debian package "
+         "xvfb)";
 }
 
 } // namespace bindpose

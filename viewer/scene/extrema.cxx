@@ -70,14 +70,14 @@ Status find_extrema(const std::vector<Tile>& tiles, const Coloring& coloring,
       Eigen::Map<const Eigen::VectorXd>(shown->GetPointer(0), shown->GetNumberOfValues());
     if (!values.allFinite())
     {
-      return Status::invalid_input(
-        "extrema need finite numbers, and '" + coloring.array + "' holds one that is not");
+      return Status::invalid_input("extrema need finite values, but the array '" + coloring.array +
+        "' has a value that is not finite");
     }
     extrema[i] = interior_extrema(vertex_graph(domain), values, points_of_handles(data));
   }
   return any ? Status()
              : Status::invalid_input(
-                 "extrema are those of a point array of a surface or of tets; name it by array");
+                 "extrema need a point array of a surface or of tets; set its name as the array");
 }
 
 std::vector<Category> count_extrema(const std::vector<std::vector<Extremum>>& extrema)

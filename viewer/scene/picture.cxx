@@ -55,13 +55,14 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
   { return value >= lower && value <= upper; };
   if (!in(options.width, 16, 8192) || !in(options.height, 16, 8192))
   {
-    return Status::invalid_input("a picture is 16 to 8192 pixels wide and high, not " +
+    return Status::invalid_input(
+      "the width and height of a picture must be from 16 to 8192 pixels, got " +
       std::to_string(options.width) + " x " + std::to_string(options.height));
   }
   if (!in(options.scale, 1, largest_scale_factor))
   {
-    return Status::invalid_input("the scale factor of a picture is 1 to " +
-      std::to_string(largest_scale_factor) + ", not " + std::to_string(options.scale));
+    return Status::invalid_input("the scale factor of a picture must be from 1 to " +
+      std::to_string(largest_scale_factor) + ", got " + std::to_string(options.scale));
   }
   const Status size = check_picture_size(
     std::int64_t(options.width) * options.scale, std::int64_t(options.height) * options.scale);
@@ -71,37 +72,38 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
   }
   if (!in(options.supersampling, 1, 4))
   {
-    return Status::invalid_input("supersampling is 1 to 4");
+    return Status::invalid_input("supersampling must be from 1 to 4");
   }
   if (!in(options.section, 0.0, 1.0))
   {
-    return Status::invalid_input("the section lies between 0 and 1");
+    return Status::invalid_input("the section must be between 0 and 1");
   }
   if (options.section_plane &&
     (!options.section_plane->origin.allFinite() || !options.section_plane->normal.allFinite() ||
       options.section_plane->normal.norm() <= 0.0))
   {
-    return Status::invalid_input("the plane of a section has a point and a normal");
+    return Status::invalid_input(
+      "the section plane must have a finite point and a finite nonzero normal");
   }
   if (!(options.shrink > 0.0 && options.shrink <= 1.0))
   {
-    return Status::invalid_input("tets shrink to a size above 0 and up to 1");
+    return Status::invalid_input("the size of shrunk tets must be above 0 and at most 1");
   }
   if (!in(options.view.zoom, 1e-3, 1e3))
   {
-    return Status::invalid_input("the zoom lies between 0.001 and 1000");
+    return Status::invalid_input("the zoom must be between 0.001 and 1000");
   }
   for (const double level : options.isosurfaces)
   {
     if (!std::isfinite(level))
     {
-      return Status::invalid_input("the level of an isosurface is a number");
+      return Status::invalid_input("the level of an isosurface must be a finite number");
     }
   }
   if (options.isosurfaces.size() > 16)
   {
-    return Status::invalid_input(
-      "a picture shows at most 16 isosurfaces, not " + std::to_string(options.isosurfaces.size()));
+    return Status::invalid_input("a picture can show at most 16 isosurfaces, got " +
+      std::to_string(options.isosurfaces.size()));
   }
   for (const Tile& tile : tiles)
   {
@@ -110,26 +112,26 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
       const bool empty = data && data->GetNumberOfPoints() == 0 && !is_defect_data(data);
       if (!data || empty || vtkImageData::SafeDownCast(data))
       {
-        return Status::invalid_input("the context of a picture is a surface, tets or curves");
+        return Status::invalid_input("the context of a picture must be a surface, tets or curves");
       }
     }
   }
   if (!std::isfinite(options.view.azimuth) || !std::isfinite(options.view.elevation))
   {
-    return Status::invalid_input("azimuth and elevation are degrees");
+    return Status::invalid_input("azimuth and elevation must be finite numbers of degrees");
   }
   const std::string& up = options.view.up;
   if (up != "auto" && up != "x" && up != "y" && up != "z")
   {
-    return Status::invalid_input("up is auto, x, y or z, not '" + up + "'");
+    return Status::invalid_input("up must be auto, x, y or z, got '" + up + "'");
   }
   if (options.columns < 0)
   {
-    return Status::invalid_input("the number of columns is not negative");
+    return Status::invalid_input("the number of columns must not be negative");
   }
   if (tiles.empty())
   {
-    return Status::invalid_input("there is nothing to draw");
+    return Status::invalid_input("the picture has no data to draw");
   }
   for (std::size_t i = 0; i < tiles.size(); ++i)
   {
@@ -155,19 +157,20 @@ Status check_tets(const std::vector<Tile>& tiles, const PictureOptions& options)
   const bool tets = std::any_of(tiles.begin(), tiles.end(), has_tets);
   if (options.shrink < 1.0 && !tets)
   {
-    return Status::invalid_input("only tets shrink, and there are none");
+    return Status::invalid_input("shrinking needs tets, but the picture has none");
   }
   if (options.slice && (!tets || !options.cut || options.shrink < 1.0))
   {
-    return Status::invalid_input(!tets ? "only tets are cut through, and there are none"
-        : options.cut                  ? "tets are cut through or shrunk, not both"
-                                       : "tets that are cut through need a section");
+    return Status::invalid_input(!tets ? "a slice needs tets, but the picture has none"
+        : options.cut                  ? "a slice cannot be combined with shrunk tets"
+                                       : "a slice needs a section");
   }
   const bool volumes = std::any_of(tiles.begin(), tiles.end(),
     [](const Tile& tile) { return vtkImageData::SafeDownCast(tile.data) != nullptr; });
   if (options.section_plane && !tets && !volumes)
   {
-    return Status::invalid_input("only tets and volumes have a section, and there are none");
+    return Status::invalid_input(
+      "a section plane needs tets or a volume, but the picture has none");
   }
   return {};
 }
@@ -206,12 +209,12 @@ Status check_volumes(
 {
   if (coloring.minus && !options.isosurfaces.empty())
   {
-    return Status::invalid_input("a difference is shown by a slice, not by isosurfaces");
+    return Status::invalid_input("a difference cannot be shown by isosurfaces; use a slice");
   }
   if (options.volume && coloring.kind != Coloring::Kind::winding)
   {
-    return Status::invalid_input("volume rendering shows the array WindingNumber of a volume (a "
-                                 ".vti file) in its own colors; it takes no other array or range");
+    return Status::invalid_input("volume rendering supports only the array WindingNumber of a "
+                                 "volume (a .vti file), without a range");
   }
   Status result;
   double lower = 1e300;
@@ -239,7 +242,7 @@ Status check_volumes(
     if (!(level > lower && level <= upper))
     {
       result.warnings.push_back("no isosurface at " + short_number(level, legend_digits) +
-        ": the values run from " + short_number(lower, legend_digits) + " to " +
+        ": the values range from " + short_number(lower, legend_digits) + " to " +
         short_number(upper, legend_digits));
     }
   }
@@ -471,7 +474,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   const Points all = all_points(seen, options, coloring, nullptr);
   if (all.rows() == 0)
   {
-    return Status::invalid_input("there is nothing to draw");
+    return Status::invalid_input("the picture has no data to draw");
   }
   if (!all.allFinite())
   {

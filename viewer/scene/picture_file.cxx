@@ -75,7 +75,7 @@ Status read_by_vtk(const std::string& path, vtkSmartPointer<vtkImageData>& image
       return {};
     }
   }
-  return broken(path, "it is no picture of this kind, or damaged");
+  return broken(path, "the file is damaged or does not have the format of its extension");
 }
 } // namespace
 

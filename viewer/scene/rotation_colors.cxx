@@ -93,7 +93,7 @@ Status check_clusters(const std::vector<vtkDataSet*>& datasets)
       if (!(value >= -1.0 && value < most && value == std::floor(value)))
       {
         return Status::invalid_input("'RotationCluster' of point " + std::to_string(v) + " is " +
-          short_number(value) + ", which is no number of a cluster");
+          short_number(value) + ", which is not a cluster number");
       }
     }
   }

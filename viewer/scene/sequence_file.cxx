@@ -63,7 +63,7 @@ Status read_collection(const std::string& path, Sequence& sequence)
   vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
   if (!collection)
   {
-    return Status::invalid_input(path + " is no collection of files (.pvd)");
+    return Status::invalid_input(path + " is not a collection of files (.pvd)");
   }
   const std::size_t name = path.find_last_of('/') + 1; // npos + 1 is 0
   std::vector<std::pair<double, std::string>> frames;
@@ -76,13 +76,13 @@ Status read_collection(const std::string& path, Sequence& sequence)
     if (!file || !*file || (time && !(parse_number(time, seconds) && std::isfinite(seconds))))
     {
       return Status::invalid_input(
-        path + ": entry " + std::to_string(k + 1) + " has no file or a time that is no number");
+        path + ": entry " + std::to_string(k + 1) + " must have a file and a numeric time");
     }
     frames.emplace_back(seconds, file[0] == '/' ? file : path.substr(0, name) + file);
   }
   if (frames.empty())
   {
-    return Status::invalid_input(path + " names no file");
+    return Status::invalid_input(path + " lists no files");
   }
   std::stable_sort(
     frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -251,7 +251,7 @@ Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const Tet
   const auto cut = slice_tets(grid, plane.origin, plane.normal);
   if (cut->GetNumberOfPolys() == 0)
   {
-    return Status::invalid_input("the section goes through no tet");
+    return Status::invalid_input("the section does not cross any tet");
   }
   shown += static_cast<Index>(met.size());
   const auto actor = add_actor(renderer, cut, coloring);
@@ -302,7 +302,7 @@ Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
   }
   if (cut.kept_count() == 0)
   {
-    return Status::invalid_input("the section leaves no tet: all lie toward the camera");
+    return Status::invalid_input("the section removes all tets; move it toward the camera");
   }
   shown += cut.kept_count();
   if (options.shrink < 1.0)

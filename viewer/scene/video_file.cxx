@@ -39,8 +39,8 @@ Status check_ffmpeg()
 {
   return find_on_path("ffmpeg").empty()
     ? Status::failure(StatusCode::unavailable,
-        "moving pictures are made by ffmpeg, which is not on the PATH (on Debian: apt-get install "
-        "ffmpeg); a .png file shows the frames side by side without it")
+        "videos need ffmpeg, which is not on the PATH (on Debian: apt-get install ffmpeg); a .png "
+        "output shows the frames side by side without ffmpeg")
     : Status();
 }
 

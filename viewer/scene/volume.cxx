@@ -35,7 +35,7 @@ std::string point_array_names(vtkDataSet* data)
   for (int i = 0; i < data->GetPointData()->GetNumberOfArrays(); ++i)
   {
     const char* name = data->GetPointData()->GetArrayName(i);
-    names += (names.empty() ? "" : ", ") + std::string(name ? name : "one without a name");
+    names += (names.empty() ? "" : ", ") + std::string(name ? name : "(unnamed)");
   }
   return names;
 }
@@ -47,19 +47,19 @@ Status check_volume(vtkDataSet* data, const std::string& array)
   if (!image || image->GetNumberOfPoints() == 0)
   {
     return Status::invalid_input(
-      image ? "the image has no samples" : "there is no volume (a .vti file)");
+      image ? "the image has no samples" : "a volume (a .vti file) is required");
   }
   vtkDataArray* values = image->GetPointData()->GetArray(array.c_str());
   if (!values)
   {
     const std::string there = point_array_names(image);
     return Status::invalid_input("the volume has no point array '" + array + "'" +
-      (there.empty() ? std::string(" and no other") : "; there are: " + there));
+      (there.empty() ? std::string("; it has no point arrays") : "; available: " + there));
   }
   if (values->GetNumberOfComponents() != 1)
   {
     return Status::invalid_input("the array '" + array + "' has " +
-      std::to_string(values->GetNumberOfComponents()) + " components; a volume needs one");
+      std::to_string(values->GetNumberOfComponents()) + " components; expected 1");
   }
   int size[3];
   image->GetDimensions(size);
@@ -68,7 +68,7 @@ Status check_volume(vtkDataSet* data, const std::string& array)
     if (size[axis] < 2)
     {
       return Status::invalid_input(std::string("the image is one sample thick along ") +
-        "xyz"[axis] + "; a volume has two or more samples in each direction");
+        "xyz"[axis] + "; a volume needs at least two samples in each direction");
     }
   }
   double lower = 1e300;

@@ -235,7 +235,7 @@ Status read_samples(vtkRenderWindow* window, const Rect& tile, Samples& pixels)
   window->GetRGBACharPixelData(0, 0, tile.width - 1, tile.height - 1, 0, pixels);
   return pixels->GetNumberOfTuples() == static_cast<vtkIdType>(tile.width) * tile.height
     ? Status()
-    : Status::failure(StatusCode::internal_error, "the picture could not be read back");
+    : Status::failure(StatusCode::internal_error, "cannot read the picture back from OpenGL");
 }
 
 /// Return the length of a tile without margins; the whole length if it fits into one tile.
@@ -260,8 +260,9 @@ Status check_picture_size(std::int64_t width, std::int64_t height)
   if (width > most_across || height > most_across || width * height > most_pixels)
   {
     return Status::invalid_input("a picture of " + std::to_string(width) + " x " +
-      std::to_string(height) + " pixels is too large: at most " + std::to_string(most_across) +
-      " wide and high, and " + std::to_string(most_pixels / 1000000) + " million in all");
+      std::to_string(height) + " pixels is too large: expected at most " +
+      std::to_string(most_across) + " pixels in width and height and " +
+      std::to_string(most_pixels / 1000000) + " million pixels in total");
   }
   return {};
 }

@@ -283,7 +283,7 @@ TEST(PictureSize, WhatIsTooLargeIsOneSentence)
   EXPECT_TRUE(check_picture_size(32767, 8192).ok());
   EXPECT_TRUE(check_picture_size(16384, 16384).ok());
   EXPECT_EQ(check_picture_size(40000, 10).message,
-    "a picture of 40000 x 10 pixels is too large: at most 32767 wide and high, and 268 million in "
-    "all");
+    "a picture of 40000 x 10 pixels is too large: expected at most 32767 pixels in "
+    "width and height and 268 million pixels in total");
   EXPECT_FALSE(check_picture_size(20000, 20000).ok());
 }

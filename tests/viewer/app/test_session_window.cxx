@@ -275,8 +275,8 @@ TEST_F(SessionWindow, AMissingInputIsSaidAndCanBeLocated)
   ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "work.bindpose")));
   std::filesystem::rename(this->folder / "column.off", this->folder / "moved.off");
   ASSERT_TRUE(this->window.open(text(this->folder / "work.bindpose")));
-  EXPECT_EQ(
-    this->window.note_bar()->sentence(), "column.off is missing; the session is open without it.");
+  EXPECT_EQ(this->window.note_bar()->sentence(),
+    "column.off is missing; the session was opened without it.");
   EXPECT_NE(button_of(this->window.note_bar(), "Locate…"), nullptr);
   EXPECT_EQ(this->window.document()->surface(), nullptr);
   EXPECT_NE(this->window.document()->handle_data(), nullptr);
@@ -331,7 +331,7 @@ TEST_F(SessionWindow, ARebindIsOfferedAndPosingGoesOn)
   EXPECT_EQ(this->window.rebind_bar()->sentence(), "");
   this->window.document()->handle_data()->GetPoints()->SetPoint(0, 0, 0, -0.5);
   ASSERT_TRUE(this->window.document()->commit_handles("move at rest").ok());
-  EXPECT_EQ(this->window.rebind_bar()->sentence(), "Since the bind 1 handle was moved.");
+  EXPECT_EQ(this->window.rebind_bar()->sentence(), "Since the last bind, 1 handle was moved.");
   const double before = top_of(this->window.shown());
   this->pose();
   EXPECT_GT(top_of(this->window.shown()), before + 0.3);
@@ -609,7 +609,7 @@ TEST_F(SessionWindow, WeightsWithoutAMeshAreOneSentence)
 {
   ASSERT_TRUE(write_dmat(this->folder / "w.dmat", Weights(Weights::Constant(3, 2, 0.5))).ok());
   EXPECT_FALSE(this->window.open(text(this->folder / "w.dmat")));
-  EXPECT_EQ(this->window.error(), "w.dmat holds weights: open their mesh and handles first");
+  EXPECT_EQ(this->window.error(), "w.dmat contains weights; open the mesh and the handles first");
 }
 
 TEST_F(SessionWindow, RecentFilesAreListedAndMissingOnesGrayed)

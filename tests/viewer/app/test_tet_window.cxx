@@ -343,7 +343,7 @@ TEST_F(TetWindow, ColorsAreThoseOfTheLegend)
     EXPECT_EQ(this->list("By label")->currentText(), QString("By label"));
   };
   refused("By winding number", "no array 'WindingNumber'");
-  refused("By method", "do not say how they were made");
+  refused("By method", "no field data array 'Method'");
   EXPECT_EQ(this->picture().pixelColor(this->pixel(Vec3(0.66, 0.13, 1.0))), right);
   this->choose("By quality");
   this->choose("Plain");
@@ -382,7 +382,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
   writer->Write();
   EXPECT_FALSE(this->window.open(QString::fromStdString(path)));
   std::remove(path.c_str());
-  EXPECT_NE(this->window.error().indexOf("defects of a surface"), -1);
+  EXPECT_NE(this->window.error().indexOf("defects cannot be opened directly"), -1);
   EXPECT_EQ(seen[8].count, filter->GetReport().number("counts.inward_components", -1))
     << "components, as bindpose info counts them";
   EXPECT_EQ(seen[8].count, 1);

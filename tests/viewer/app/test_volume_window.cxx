@@ -394,7 +394,7 @@ TEST_F(VolumeWindow, WhatIsNoVolumeIsSaidAndTheWorkStays)
     EXPECT_NE(this->window.error().indexOf(words), -1) << this->window.error().toStdString();
     EXPECT_EQ(this->window.error().count('\n'), 0);
   };
-  refused(volume(cone, 41, "Heat"), "no point array 'WindingNumber'; there are: Heat");
+  refused(volume(cone, 41, "Heat"), "no point array 'WindingNumber'; available: Heat");
   refused(volume(cone, 1), "one sample thick along z");
   refused(volume([](const Vec3& p)
             { return p.x() < -1.55 ? std::numeric_limits<double>::quiet_NaN() : 0.0; }),

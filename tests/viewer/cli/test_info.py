@@ -55,7 +55,7 @@ def test_numbers_are_those_of_the_legend(folder):
     run = folder.run("info", "m.off", "--defects", "d.vtp").is_good()
     counts = folder.run("info", "m.off", "--report", "-").is_good().report["counts"]
     assert counts["components"] == 5 and counts["inward_components"] == 3
-    assert f"{counts['self_intersections']} pairs of {counts['crossing_triangles']} crossing triangles" in run.out
+    assert f"{counts['self_intersections']} pairs, {counts['crossing_triangles']} intersecting triangles" in run.out
     cells = bindpose.read(folder / "d.vtp").GetCellData()
     kinds = [cells.GetAbstractArray("DefectName").GetValue(k) for k in range(cells.GetNumberOfTuples())]
     inward = {int(cells.GetArray("InwardComponent").GetTuple1(k)) for k, kind in enumerate(kinds) if kind == "inward component"}

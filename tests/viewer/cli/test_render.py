@@ -39,7 +39,7 @@ def test_tiles_handles_and_volumes(folder):
 def test_labels(folder):
     folder.off("bar.off", shapes.bar())
     folder.run("render", "bar.off", "bar.off", "--labels", "before,after", "--size", "300x200", "-o", "l.png").is_good()
-    folder.run("render", "bar.off", "--labels", "a,b", "-o", "m.png").is_refused("--labels", "2 labels for 1 tile")
+    folder.run("render", "bar.off", "--labels", "a,b", "-o", "m.png").is_refused("--labels", "2 labels, but the picture has only 1 tile")
 
 
 def test_a_scale_factor_and_a_transparent_background(folder):
@@ -109,11 +109,11 @@ def test_isosurfaces_a_cloud_and_context(folder):
 
 
 @pytest.mark.parametrize("file, words, sentence", [
-    ("w.vti", ["--isosurface", "high"], "--isosurface high"),
-    ("w.vti", ["--isosurface", "0.5,"], "--isosurface 0.5,"),
+    ("w.vti", ["--isosurface", "high"], "--isosurface 'high'"),
+    ("w.vti", ["--isosurface", "0.5,"], "--isosurface '0.5,'"),
     ("w.vti", ["--isosurface", "nan"], "level of an isosurface"),
     ("w.vti", ["--isosurface", ",".join(["1"] + [f"0.{k}" for k in range(10, 30)])], "at most 16"),
-    ("w.vti", ["--volume", "--range", "0,1"], "no other array or range"),
+    ("w.vti", ["--volume", "--range", "0,1"], "without a range"),
     ("w.vti", ["--context", "none.off"], "none.off"),
     ("w.vti", ["--context", "w.vti"], "context"),
     ("sphere.off", ["--isosurface", "0.5"], "need a volume"),
@@ -190,27 +190,27 @@ def test_defects_are_counted(tets):
 
 
 @pytest.mark.parametrize("file, words, sentence", [
-    ("tets.vtu", ["--section", "q=1"], "--section q=1"),
-    ("tets.vtu", ["--section", "x="], "--section x="),
-    ("tets.vtu", ["--section", "1,0@0,0,0"], "--section 1,0@0,0,0"),
-    ("tets.vtu", ["--section", "0,0,0@0,0,0"], "plane of a section"),
+    ("tets.vtu", ["--section", "q=1"], "--section 'q=1'"),
+    ("tets.vtu", ["--section", "x="], "--section 'x='"),
+    ("tets.vtu", ["--section", "1,0@0,0,0"], "--section '1,0@0,0,0'"),
+    ("tets.vtu", ["--section", "0,0,0@0,0,0"], "section plane"),
     ("tets.vtu", ["--section", "1.5"], "between 0 and 1"),
-    ("tets.vtu", ["--section", "z=-9"], "leaves no tet"),
+    ("tets.vtu", ["--section", "z=-9"], "removes all tets"),
     ("tets.vtu", ["--shrink", "0"], "shrink"),
     ("tets.vtu", ["--shrink", "1.1"], "shrink"),
     ("tets.vtu", ["--color", "label", "--array", "Label"], "--color label"),
-    ("tets.vtu", ["--color", "label", "--range", "0,1"], "no range"),
+    ("tets.vtu", ["--color", "label", "--range", "0,1"], "cannot have a range"),
     ("tets.vtu", ["--defects"], "--context SURFACE"),
     ("tets.mesh", ["--color", "label"], "no cell array 'Label'"),
-    ("tets.mesh", ["--color", "rung"], "how they were made"),
+    ("tets.mesh", ["--color", "rung"], "no field data array 'Method'"),
     ("tets.mesh", ["--color", "winding-number"], "WindingNumber"),
-    ("sphere.off", ["--color", "quality"], "only tets"),
-    ("sphere.off", ["--shrink", "0.5"], "only tets"),
-    ("sphere.off", ["--section", "x=0"], "only tets and volumes"),
-    ("sphere.off", ["--slice"], "only tets are cut through"),
-    ("tets.vtu", ["--slice", "--section", "z=9"], "goes through no tet"),
-    ("tets.vtu", ["--slice", "--section", "none"], "need a section"),
-    ("tets.vtu", ["--slice", "--shrink", "0.5"], "not both"),
+    ("sphere.off", ["--color", "quality"], "need tets"),
+    ("sphere.off", ["--shrink", "0.5"], "shrinking needs tets"),
+    ("sphere.off", ["--section", "x=0"], "needs tets or a volume"),
+    ("sphere.off", ["--slice"], "a slice needs tets"),
+    ("tets.vtu", ["--slice", "--section", "z=9"], "does not cross any tet"),
+    ("tets.vtu", ["--slice", "--section", "none"], "needs a section"),
+    ("tets.vtu", ["--slice", "--shrink", "0.5"], "cannot be combined with shrunk tets"),
 ])
 def test_what_tets_do_not_have(tets, file, words, sentence):
     tets.run("render", file, "-o", "s.png", *words).is_refused(sentence)
@@ -308,22 +308,22 @@ def test_differences(folder):
 
 @pytest.mark.parametrize("file, words, sentence", [
     ("plain.vtp", ["--color", "handle"], "bindpose weights"),
-    ("w.vtp", ["--color", "handle", "--range", "0,1"], "no range"),
+    ("w.vtp", ["--color", "handle", "--range", "0,1"], "cannot have a range"),
     ("w.vtp", ["--color", "handle", "--array", "Weights"], "--color handle"),
     ("w.vtp", ["--color", "handle", "--extrema"], "point array"),
     ("plain.vtp", ["--extrema"], "Weights"),
-    ("nan.vtp", ["--extrema", "--array", "Heat"], "'Heat' holds one that is not"),
+    ("nan.vtp", ["--extrema", "--array", "Heat"], "'Heat' has a value that is not"),
     ("w.vtp", ["--color", "row-sum"], "weights --keep-raw"),
-    ("raw.vtp", ["--color", "row-sum", "--range", "2,3"], "row sums holds 1"),
+    ("raw.vtp", ["--color", "row-sum", "--range", "2,3"], "row sums must contain 1"),
     ("w.vtp", ["--color", "rotation-cluster"], "deform --rotation-arrays"),
-    ("turned.vtp", ["--color", "rotation-cluster", "--range", "0,1"], "no range"),
+    ("turned.vtp", ["--color", "rotation-cluster", "--range", "0,1"], "cannot have a range"),
     ("turned.vtp", ["--color", "rotation-cluster"], "'RotationCluster' of point 2 is 2e+09"),
     ("w.vtp", ["--color", "rotation"], "deform --rotation-arrays"),
     ("w.vtp", ["--minus", "none.vtp"], "none.vtp"),
-    ("w.vtp", ["--minus", "five.vtp"], "5 points, the dataset has 4"),
+    ("w.vtp", ["--minus", "five.vtp"], "5 points; expected 4"),
     ("w.vtp", ["--minus", "plain.vtp"], "no point array 'Weights'"),
     ("w.vtp", ["--minus", "nan.vtp", "--component", "b"], "no component 'b'"),
-    ("w.vtp", ["--minus", "w.vtp", "--range", "1,2"], "difference holds 0"),
+    ("w.vtp", ["--minus", "w.vtp", "--range", "1,2"], "difference must contain 0"),
     ("w.vtp", ["--minus", "w.vtp", "--color", "handle"], "difference"),
 ])
 def test_what_cannot_be_inspected(folder, file, words, sentence):

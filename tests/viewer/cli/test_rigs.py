@@ -44,14 +44,14 @@ def test_weights_make_a_rig(folder):
     report = folder.run("info", "rig.glb", "--report", "-").is_good().report
     assert [handle["name"] for handle in report["handles"]] == ["p1", "p2", "p3"]
     text = folder.run("info", "rig.glb").is_good().out
-    assert "point  p2" in text and "weights a vertex" in text
+    assert "point  p2" in text and "weights per vertex" in text
 
 
 def test_a_sequence_is_an_animation(bar):
     report = deform(bar, "--report", "-").is_good().report
     assert report["counts"]["frames"] == 3
     assert report["gltf"]["animation"] == "joints" and report["gltf"]["animation_error"] < 1e-6
-    assert "3 frames, 8 a second" in bar.run("info", "out.glb").is_good().out
+    assert "3 frames, 8 per second" in bar.run("info", "out.glb").is_good().out
     # The file contains mesh, handles and pose.
     deform(bar, output="a.vtp").is_good()
     deform(bar, mesh="out.glb", handles="out.glb", pose="out.glb", output="b.vtp").is_good()

@@ -45,7 +45,7 @@ def test_a_strip_has_a_tile_a_frame(frames):
     assert report["picture"]["tiles"] == 5
     report = frames.run("render", "bar.pvd", "--frames", "3", "-o", "three.png", "--report", "-").is_good().report
     assert report["picture"]["tiles"] == 3
-    frames.run("render", "bar.pvd", "bar_0001.vtp", "-o", "x.png").is_refused("drawn alone")
+    frames.run("render", "bar.pvd", "bar_0001.vtp", "-o", "x.png").is_refused("only FILE")
     frames.write("no.pvd", "<VTKFile/>")
     frames.run("render", "no.pvd", "-o", "x.png").is_refused("no.pvd")
     frames.write("gone.pvd", (frames / "bar.pvd").read_text().replace("bar_0002", "gone"))

@@ -29,7 +29,7 @@ def test_each_verb_has_help(folder, verb):
     (["info", "a.off", "--loud"], "unknown option '--loud'"),
     (["deform", "a.off", "--metod", "lbs"], "unknown option '--metod'; did you mean '--method'?"),
     (["deform", "a.off", "--metod=lbs"], "unknown option '--metod'; did you mean '--method'?"),
-    (["info", "a.off", "b.off"], "unexpected argument 'b.off': only FILE is given without an option"),
+    (["info", "a.off", "b.off"], "unexpected argument 'b.off'; expected positional arguments: FILE"),
     (["info", "a.off", "--threads", "many"], "'many' is not valid: expected an integer >= 0"),
     (["info", "a.off", "--threads", "-2"], "'-2' is not valid: expected an integer >= 0"),
     (["info", "a.off", "--report"], "--report"),

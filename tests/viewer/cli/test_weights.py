@@ -69,7 +69,7 @@ def test_tets_are_solved_on_directly(bar):
     bar.run("weights", "bar.vtu", "--handles", "bones.tgf", "-o", "w.dmat").is_good()
     own = bindpose.read(bar / "bar.vtu").GetNumberOfPoints()
     assert (bar / "w.dmat").read_text().splitlines()[0] == f"2 {own}"
-    bar.run("weights", "bar.vtu", "--handles", "bones.tgf", "-o", "w2.vtp").is_refused("holds tets")
+    bar.run("weights", "bar.vtu", "--handles", "bones.tgf", "-o", "w2.vtp").is_refused("contains tets")
     bar.run("weights", "bar.vtu", "--handles", "bones.tgf", "--domain", "surface", "-o", "w2.vtu").is_refused("surface")
 
 

@@ -457,8 +457,8 @@ TEST_F(Editing, WeightsFollowTheirHandlesByName)
     ASSERT_EQ(weights->GetComponent(v, 2), bound->GetComponent(v, 2));
   }
   const QString reason = this->document.rebind_reason();
-  EXPECT_NE(reason.indexOf("1 handle is new"), -1) << reason.toStdString();
-  EXPECT_NE(reason.indexOf("1 handle is gone"), -1) << reason.toStdString();
+  EXPECT_NE(reason.indexOf("1 handle was added"), -1) << reason.toStdString();
+  EXPECT_NE(reason.indexOf("1 handle was removed"), -1) << reason.toStdString();
   test::bind(this->document, 3.0);
   EXPECT_EQ(this->document.rebind_reason(), "");
 }
@@ -470,7 +470,7 @@ TEST_F(Editing, AMovedHandleKeepsItsWeightsAndARebindIsOffered)
   this->document.handle_data()->GetPoints()->SetPoint(0, 0.1, 0.2, -0.7);
   ASSERT_TRUE(this->document.commit_handles("move").ok());
   EXPECT_TRUE(this->document.is_bound());
-  EXPECT_EQ(this->document.rebind_reason(), "Since the bind 1 handle was moved.");
+  EXPECT_EQ(this->document.rebind_reason(), "Since the last bind, 1 handle was moved.");
   this->document.history()->undo();
   EXPECT_EQ(this->document.rebind_reason(), "");
   // A pose or a name does not require a new bind.

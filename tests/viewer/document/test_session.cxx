@@ -130,7 +130,7 @@ TEST(Sessions, ComeBackToTheLastBit)
   after.replace(back.work);
   EXPECT_TRUE(after.is_bound());
   EXPECT_EQ(fingerprint(after), fingerprint(before));
-  EXPECT_EQ(after.rebind_reason(), "Since the bind 1 handle was moved.");
+  EXPECT_EQ(after.rebind_reason(), "Since the last bind, 1 handle was moved.");
   EXPECT_FALSE(after.is_changed(true));
   EXPECT_EQ(after.history()->count(), 0);
 }
@@ -218,7 +218,7 @@ TEST(Sessions, OpenWithoutAMissingInputAndSaySo)
   EXPECT_EQ(back.lost[0].role, "mesh");
   EXPECT_EQ(back.lost[0].path, text(folder / "corner.off"));
   ASSERT_EQ(back.notes.size(), 1);
-  EXPECT_EQ(back.notes[0], "corner.off is missing; the session is open without it.");
+  EXPECT_EQ(back.notes[0], "corner.off is missing; the session was opened without it.");
   // A file that can no longer be read counts as missing.
   folder.write("corner.off", "OFF\n4 4");
   EXPECT_EQ(read(folder / "a.bindpose").notes.size(), 1);
@@ -252,7 +252,7 @@ TEST(Sessions, ABoundSurfaceDoesNotNeedItsInput)
   const Session back = read(folder / "a.bindpose");
   EXPECT_EQ(fingerprint(back.work), fingerprint(session.work));
   ASSERT_EQ(back.notes.size(), 1);
-  EXPECT_THAT(back.notes[0].toStdString(), HasSubstr("own copy"));
+  EXPECT_THAT(back.notes[0].toStdString(), HasSubstr("saved with the session"));
   EXPECT_TRUE(back.lost.empty());
 }
 

@@ -66,11 +66,11 @@ TEST(Picture, NamesWhatThereIsWhenAskedForWhatIsNot)
   PictureOptions options = tiny();
   options.array = "Wieghts";
   EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message,
-    HasSubstr("no array 'Wieghts'; there are: Weights"));
+    HasSubstr("no array 'Wieghts'; available: Weights"));
   options.array = "Weights";
   options.component = "elbow";
   EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message,
-    HasSubstr("no component 'elbow'; there are: hip, knee"));
+    HasSubstr("no component 'elbow'; available: hip, knee"));
   options.component = "2";
   EXPECT_EQ(try_to_draw({ { ball(), nullptr, "" } }, options).code, StatusCode::invalid_input);
   options.array = "";
@@ -160,16 +160,16 @@ TEST(Picture, TetsAreColoredByWhatTheyHave)
   options.color_by = ColorBy::label;
   EXPECT_THAT(refused(options, tile), HasSubstr("no cell array 'Label'"));
   options.color_by = ColorBy::rung;
-  EXPECT_THAT(refused(options, tile), HasSubstr("how they were made"));
+  EXPECT_THAT(refused(options, tile), HasSubstr("no field data array 'Method'"));
   options.color_by = ColorBy::winding_number;
   EXPECT_THAT(refused(options, tile), HasSubstr("no array 'WindingNumber'"));
   options.color_by = ColorBy::quality;
-  EXPECT_THAT(refused(options, { ball(), nullptr, "" }), HasSubstr("only tets"));
+  EXPECT_THAT(refused(options, { ball(), nullptr, "" }), HasSubstr("need tets"));
   const Status drawn = try_to_draw({ tile, { ball(), nullptr, "" } }, options);
   EXPECT_TRUE(drawn.ok()) << drawn.message;
   EXPECT_EQ(drawn.report.text("picture.array"), "quality");
   options.array = "Weights";
-  EXPECT_THAT(refused(options, tile), HasSubstr("not from both"));
+  EXPECT_THAT(refused(options, tile), HasSubstr("cannot be combined"));
 
   vtkNew<vtkIntArray> labels;
   labels->SetName("Label");
@@ -196,12 +196,12 @@ TEST(Picture, SectionsAndSizesThatLeaveNothing)
   const Tile tile{ to_unstructured_grid(box.points, box.tets), nullptr, "" };
   PictureOptions options = tiny();
   options.section_plane = Plane{ Vec3(0, 0, -3), Vec3(0, 0, 1) };
-  EXPECT_THAT(try_to_draw({ tile }, options).message, HasSubstr("leaves no tet"));
+  EXPECT_THAT(try_to_draw({ tile }, options).message, HasSubstr("removes all tets"));
   options.section_plane = Plane{ Vec3(0, 0, 0.5), Vec3(0, 0, 0) };
   EXPECT_THAT(try_to_draw({ tile }, options).message, HasSubstr("plane"));
   options.section_plane = Plane{ Vec3(0, 0, 0.5), Vec3(0, 0, 1) };
   EXPECT_THAT(
-    try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("only tets and volumes"));
+    try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("needs tets or a volume"));
   const Status half = try_to_draw({ tile }, options);
   ASSERT_TRUE(half.ok()) << half.message;
   EXPECT_EQ(half.report.number("picture.tets", -1), box.tets.rows() / 2);
@@ -213,7 +213,7 @@ TEST(Picture, SectionsAndSizesThatLeaveNothing)
   }
   options.shrink = 0.5;
   EXPECT_THAT(
-    try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("only tets shrink"));
+    try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("shrinking needs tets"));
 }
 
 TEST(Picture, FilesAppearWholeOrNotAtAll)

@@ -157,9 +157,9 @@ TEST(Volume, WhatIsNoVolumeIsSaid)
   { return check_volume(data, array).message; };
   EXPECT_TRUE(check_volume(cone(), name).ok());
   EXPECT_EQ(check_volume(cone(), name).report.number("volume.maximum", 0.0), 1.5);
-  EXPECT_THAT(message(nullptr), HasSubstr("no volume"));
+  EXPECT_THAT(message(nullptr), HasSubstr("a volume"));
   EXPECT_THAT(message(vtkNew<vtkImageData>()), HasSubstr("no samples"));
-  EXPECT_THAT(message(cone(), "Heat"), HasSubstr("'Heat'; there are: WindingNumber"));
+  EXPECT_THAT(message(cone(), "Heat"), HasSubstr("'Heat'; available: WindingNumber"));
   EXPECT_THAT(message(field(5, 5, 1, [](const Vec3&) { return 0.0; })),
     HasSubstr("one sample thick along z"));
   const auto holes = field(5, 5, 5,

@@ -1,5 +1,6 @@
-// The surface is sorted by coordinates, so that nothing depends on its storage order, and passed to
-// the kernel of the method. Then the positions of the bones are checked.
+// Create handles by one of two methods (see automatic_handles.h). The surface is sorted by
+// coordinates, so that the result does not depend on its storage order, and passed to the kernel of
+// the method. Then the positions of the bones are checked.
 #include "automatic/automatic_handles.h"
 
 #include "surface/vertex_order.h"
@@ -19,13 +20,13 @@ const char* to_string(AutomaticMethod method)
 
 namespace
 {
-/// Used vertices sorted by coordinates, without duplicates, and triangles sorted by vertices, the
-/// lowest vertex first.
+/// Used vertices sorted by coordinates, without duplicates, and triangles sorted by vertices. Each
+/// triangle begins with its lowest vertex.
 struct SortedSurface
 {
   Points points;
   Triangles triangles;
-  std::vector<Index> original; ///< the lowest id of the equal vertices
+  std::vector<Index> original; ///< #vertices: the lowest original id of the equal vertices
 };
 
 SortedSurface sorted(PointsView points, TrianglesView triangles)

@@ -8,7 +8,7 @@
 namespace bindpose
 {
 
-/// vtkAutomaticHandles exposes the same order.
+/// The method that creates the handles. vtkAutomaticHandles uses the same order.
 enum class AutomaticMethod
 {
   skeleton, ///< bones along the curve skeleton of the shape
@@ -18,6 +18,7 @@ enum class AutomaticMethod
 /// Return "skeleton" or "points".
 const char* to_string(AutomaticMethod method);
 
+/// Options of automatic_handles().
 struct AutomaticHandlesOptions
 {
   AutomaticMethod method = AutomaticMethod::skeleton;
@@ -29,20 +30,20 @@ struct AutomaticHandlesOptions
 /// Create handles of a shape automatically: bones along its curve skeleton (curve_skeleton.h,
 /// skeleton_bones.h), or points spread over it (spread_points.h). The surface may have any defects.
 ///
-/// The same shape gives the same handles for any order of its vertices and triangles, because these
-/// are first sorted by their coordinates.
+/// The same shape gives the same handles for any order of its vertices and triangles, because
+/// vertices and triangles are first sorted by coordinates.
 ///
 /// Report:
 /// - method, counts.handles, handles[].name, handles[].kind
 /// - for method skeleton: the report of curve_skeleton, counts.skeleton_points, counts.joints,
 ///   counts.junctions, counts.cut_cycles, counts.pruned_branches, counts.merged_branches
-/// - counts.joints_outside: joints with a winding number of the closed surface below 0.5; there is
-///   a warning if there are any
-/// - counts.bones_outside: bones that leave the closed surface at one of 15 points between their
-///   ends
+/// - counts.joints_outside: number of joints at which the winding number of the closed surface is
+///   below 0.5, with a warning if it is not 0
+/// - counts.bones_outside: number of bones with at least one of 15 test points between their ends
+///   outside of the closed surface
 /// - for method points: counts.components, counts.served_components, counts.points_inside,
 ///   distance, and handles[].vertex, the input vertex at which each point was chosen
-/// Errors and cost are those of the kernels above.
+/// Errors and cost are those of curve_skeleton(), skeleton_bones() or spread_points().
 Status automatic_handles(PointsView points, TrianglesView triangles,
   const AutomaticHandlesOptions& options, Handles& handles, ExecutionContext& context);
 

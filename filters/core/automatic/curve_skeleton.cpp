@@ -1,6 +1,7 @@
-// The helper contracts the surface (mesher/skeleton_job.cpp) in a frame around the origin. This
-// file computes the closed surface that the helper needs, and checks the result. It also computes
-// the distance of each point of the skeleton from the surface, its component, and the component's
+// Curve skeletons by mean curvature flow (see curve_skeleton.h). The helper process contracts the
+// surface (mesher/skeleton_job.cpp), in coordinates that are centered at the origin. This file
+// computes the closed surface that the helper needs, and checks the result. It also computes the
+// distance of each skeleton point from the surface, the point's component, and the component's
 // centroid.
 #include "automatic/curve_skeleton.h"
 
@@ -35,11 +36,12 @@ Status check_options(const CurveSkeletonOptions& options)
   return check_limits(options.time_limit, options.memory_limit);
 }
 
-/// If a clean surface has more triangles than this per contracted triangle, decimating it takes
-/// longer than a lattice.
+/// If a clean surface has more triangles than this per contracted triangle, decimating the surface
+/// would take longer than making a lattice.
 constexpr Index dense = 10;
 
-/// Compute a closed surface of the volume that the given surface encloses. Hollows are not filled.
+/// Compute a closed surface of the volume that the given surface encloses. Hollows are not filled
+/// here.
 Status close_surface(PointsView points, TrianglesView triangles,
   const CurveSkeletonOptions& options, TriangleMesh& solid, ExecutionContext& context)
 {
@@ -67,7 +69,7 @@ Status close_surface(PointsView points, TrianglesView triangles,
   status.report.set("surface", "lattice");
   ThickSolidOptions thick;
   thick.winding_threshold = options.winding_threshold;
-  // The parts of an unclean surface are one shape. A clean surface keeps its gaps.
+  // The parts of an unclean surface are joined to one shape; the gaps of a clean surface are kept.
   thick.join_near_parts = !clean;
   thick.triangles = (clean ? 4 : 2) * options.triangles;
   const ProgressRange range(context, 0.6, 1.0);
@@ -86,8 +88,8 @@ struct Solid
   Vec3 centroid = Vec3::Zero();
 };
 
-/// Return the centroid of the volume that closed triangles enclose, from cones with their apex at
-/// one of the vertices.
+/// Return the centroid of the volume that closed triangles enclose, as a sum over tetrahedra
+/// between the triangles and one of the vertices.
 Vec3 centroid_of_mass(PointsView points, TrianglesView triangles)
 {
   const Vec3 apex = points.row(triangles(0, 0));
@@ -105,7 +107,7 @@ Vec3 centroid_of_mass(PointsView points, TrianglesView triangles)
   return volume != 0.0 ? Vec3(apex + moment / volume) : apex;
 }
 
-/// Return the components with a positive volume, without hollows.
+/// Return the components that enclose a positive volume; hollows have a negative volume.
 std::vector<Solid> solids_of(const TriangleMesh& surface)
 {
   const Components components =
@@ -133,7 +135,7 @@ std::vector<Solid> solids_of(const TriangleMesh& surface)
   return solids;
 }
 
-/// Return the components of the skeleton, numbered by their first points.
+/// Return the component of each skeleton point. Components are numbered by their first points.
 std::vector<Index> parts_of(const CurveSkeleton& skeleton, Index& count)
 {
   std::vector<std::vector<Index>> next(static_cast<std::size_t>(skeleton.points.rows()));
@@ -170,8 +172,8 @@ std::vector<Index> parts_of(const CurveSkeleton& skeleton, Index& count)
   return part;
 }
 
-/// Compute radii, part_of and centroids. Each part of the skeleton belongs to the solid nearest to
-/// its widest point.
+/// Compute radii, part_of and centroids of the skeleton. Each component of the skeleton belongs to
+/// the solid nearest to the component's widest point.
 void measure(const TriangleMesh& surface, CurveSkeleton& skeleton)
 {
   const double any = std::numeric_limits<double>::infinity();

@@ -1,6 +1,7 @@
-// The skeleton is a graph of points. Cutting, pruning and contracting keep each component
-// connected, and after the cuts it is a tree. Branches are recomputed after each step: a skeleton
-// has some thousand points and a few dozen branches.
+// Simplification of a curve skeleton to bones (see skeleton_bones.h). The skeleton is a graph of
+// points. Cutting, pruning and contracting keep each component connected, and after the cuts each
+// component is a tree. Branches are recomputed after each operation, which is cheap: a skeleton has
+// some thousand points and a few dozen branches.
 #include "automatic/skeleton_bones.h"
 
 #include "base/number_text.h"
@@ -95,8 +96,9 @@ public:
     return best;
   }
 
-  /// If the component has cycles, reduce it to a tree of shortest paths from a held root. @return
-  /// the number of cycles.
+  /// If the component has cycles, choose a root, mark it as held, and reduce the component to a
+  /// tree of shortest paths from the root. A held vertex is always a joint, and it is not moved.
+  /// @return the number of cycles.
   Index cut_cycles(Index part)
   {
     Index vertices = 0;
@@ -182,7 +184,7 @@ public:
           before = at;
           at = on;
         }
-        // Each branch is found from both of its ends.
+        // Each branch is found from both of its ends; keep it once.
         if (branch.path.front() < branch.path.back())
         {
           all.push_back(std::move(branch));
@@ -226,7 +228,7 @@ public:
   /// Contract a branch between junctions to one point in its middle.
   void contract(const Branch& branch)
   {
-    // A root does not move.
+    // A held root does not move.
     const Index a = this->held(branch.path.back()) ? branch.path.back() : branch.path.front();
     const Index b = a == branch.path.front() ? branch.path.back() : branch.path.front();
     const std::set<Index> others = this->next_[b];
@@ -297,15 +299,16 @@ private:
 
   std::vector<std::set<Index>> next_;
   std::vector<char> alive_;
-  std::vector<char> held_; ///< roots, which are joints even with degree 2
+  std::vector<char> held_; ///< 1 for roots, which are joints even if they have two neighbors
   std::vector<Vec3> places_;
   std::vector<double> radii_;
   const CurveSkeleton& skeleton_;
   const std::function<bool(const Vec3&)>& inside_;
 };
 
-/// Return the length of a branch relative to half of the thickness at its start, or infinity if the
-/// branch must be kept. A branch with a value below 1 does not leave the ball there.
+/// Return the length of a branch relative to the radius at its start, or infinity if the branch
+/// must be kept. A branch with a value below 1 is within the ball of this radius.
+/// @param inner set to true if the branch is between two junctions.
 double reach(const Graph& graph, const Branch& branch, bool& inner)
 {
   const Index a = branch.path.front();
@@ -318,7 +321,7 @@ double reach(const Graph& graph, const Branch& branch, bool& inner)
   {
     if (graph.degree(a) < least || graph.degree(b) < least)
     {
-      return infinite; // a root inside a branch
+      return infinite; // one end is a root with only two neighbors
     }
     thickness = std::max(graph.radius(a), graph.radius(b));
   }
@@ -329,8 +332,8 @@ double reach(const Graph& graph, const Branch& branch, bool& inner)
   return thickness > 0.0 ? branch.length / thickness : infinite;
 }
 
-/// Collapse components that are balls: their whole curve is at most `prune` times as long as half
-/// of their thickness.
+/// Collapse components that are balls: the total length of their curve is at most `prune` times
+/// their largest radius.
 void collapse_balls(Graph& graph, Index parts, double prune)
 {
   std::vector<double> length(static_cast<std::size_t>(parts), 0.0);
@@ -410,7 +413,8 @@ void simplify(Graph& graph, const SkeletonBonesOptions& options, SkeletonBones& 
 struct Piece
 {
   std::vector<Index> path;
-  double need = 0.0; ///< a piece with a value above 1 violates a bound and must be split
+  /// The piece must be split if the value is above 1, because it violates a bound.
+  double need = 0.0;
   std::size_t at = 0; ///< index in the path at which the piece would be split
 };
 
@@ -423,7 +427,8 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   const double squared = chord.squaredNorm();
   double length = 0.0;
   std::vector<double> along{ 0.0 };
-  constexpr double slight = 0.25; // fraction of the tolerance
+  // Minimum deviation at which a piece may be split, as a fraction of the tolerance.
+  constexpr double slight = 0.25;
   double farthest = slight * tolerance;
   for (std::size_t i = 1; i < piece.path.size(); ++i)
   {
@@ -469,8 +474,8 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   return piece;
 }
 
-/// Return a branch without the points in the balls of its junctions. Within the thickness, the
-/// curve's turn from limb to limb is not a bend.
+/// Return a branch without the points in the balls of its junctions. There the curve turns from one
+/// limb to another, which is not a bend.
 std::vector<Index> outside_of_junctions(const Graph& graph, const std::vector<Index>& path)
 {
   std::vector<Index> kept{ path.front() };
@@ -569,7 +574,7 @@ public:
           last_bone > first_bone ? last_bone : static_cast<Index>(this->result_.handles.size());
       }
     }
-    for (Index h = 0; h < first_bone; ++h) // points
+    for (Index h = 0; h < first_bone; ++h) // for handles that are points
     {
       this->result_.handles[h].parent =
         this->nearest(this->result_.handles[h].head, first_bone, last_bone);
@@ -582,8 +587,8 @@ public:
   }
 
 private:
-  /// Return the held joint of a component with cycles, else the joint nearest to the centroid, or
-  /// -1 if the component has no bones.
+  /// Return the held root of a component with cycles, else the joint nearest to the centroid, or -1
+  /// if the component has no bones.
   Index root_of(Index part) const
   {
     const auto distance = [&](Index v)
@@ -603,7 +608,7 @@ private:
     return root;
   }
 
-  /// Return the bone nearest to a point, or -1 if the range is empty.
+  /// Return the bone in [begin, end) nearest to a point, or -1 if the range is empty.
   Index nearest(const Vec3& place, Index begin, Index end) const
   {
     Index best = -1;
@@ -631,6 +636,7 @@ private:
 
   /// Create the bones of one component. The bone with the largest volume at the root is the parent
   /// of the other bones there.
+  /// @param carrier parent of the first bone, or -1.
   void grow(Index root, Index carrier)
   {
     std::vector<Index>& first = this->at_[root];
@@ -643,7 +649,7 @@ private:
     const auto trunk = static_cast<Index>(this->result_.handles.size());
     this->result_.roots.push_back(static_cast<Index>(this->joints_.size()));
     this->add_joint(root);
-    std::queue<std::pair<Index, Index>> open; // a joint and the handle whose tail it is
+    std::queue<std::pair<Index, Index>> open; // a joint and the bone whose tail it is
     open.push({ root, trunk });
     while (!open.empty())
     {
@@ -676,7 +682,7 @@ private:
   const std::vector<Piece>& pieces_;
   SkeletonBones& result_;
   std::vector<std::vector<Index>> at_; ///< pieces at each joint
-  std::vector<char> done_; ///< per piece
+  std::vector<char> done_; ///< 1 for each piece that has become a bone
   std::vector<Vec3> joints_;
   Index bones_ = 0;
 };
@@ -743,8 +749,8 @@ Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
   {
     graph.trim(branch);
   }
-  const std::vector<Piece> pieces =
-    split(graph, options.tolerance * diagonal, options.longest_bone * diagonal, options.maximum_bones);
+  const std::vector<Piece> pieces = split(
+    graph, options.tolerance * diagonal, options.longest_bone * diagonal, options.maximum_bones);
   Orientation(graph, pieces, bones).run(parts);
   if (bones.cut_cycles > 0)
   {

@@ -9,60 +9,63 @@
 namespace bindpose
 {
 
+/// Options of skeleton_bones().
 struct SkeletonBonesOptions
 {
-  /// Largest distance of the curve from its bones, in bounding-box diagonals of the shape, 0.001 …
-  /// 1.
+  /// Largest distance of the curve from its bones, in diagonals of the shape's bounding box, 0.001
+  /// … 1.
   double tolerance = 0.03;
-  /// Bones longer than this are split, in bounding-box diagonals, >= 0.01; 0: straight bones are
-  /// not split.
+  /// Longer bones are split, in bounding-box diagonals, >= 0.01; 0: straight bones are not split.
   double longest_bone = 0.0;
-  /// Largest number of bones, >= 0; 0: any number. A component keeps at least one bone.
+  /// Maximum number of bones, >= 0; 0: no limit. A component keeps at least one bone.
   Index maximum_bones = 0;
-  /// A branch shorter than this many times half of the thickness at its start is pruned, 0 … 10.
-  /// Junctions that are nearer to each other than that are merged.
+  /// A branch is pruned if it is shorter than this many radii at its start, 0 … 10. The radius is
+  /// half of the shape's thickness. Junctions that are nearer to each other than that are merged.
   double prune = 1.0;
-  /// Report whether a point is inside the shape; must be thread-safe. If given, bones that leave
-  /// the shape are split where they bend by a quarter of the tolerance, and joints are placed
-  /// inside the shape if possible.
+  /// Callback that reports whether a point is inside the shape; must be thread-safe. If given,
+  /// bones that leave the shape are split if they deviate from the curve by a quarter of the
+  /// tolerance or more. Joints are placed inside the shape if possible.
   std::function<bool(const Vec3&)> inside;
 };
 
+/// The result of skeleton_bones().
 struct SkeletonBones
 {
-  Handles handles; ///< points p1, p2, … (components like balls), then bones b1, b2, …
+  Handles handles; ///< points p1, p2, … (components that are balls), then bones b1, b2, …
   Points joints; ///< #J x 3: ends of bones, without duplicates
   std::vector<Index> roots; ///< joint index of the root of every component with bones
-  Index junctions = 0; ///< joints of three bones or more
+  Index junctions = 0; ///< number of joints of three bones or more
   Index cut_cycles = 0;
   Index pruned_branches = 0;
-  Index merged_branches = 0; ///< branches between junctions that were merged
+  Index merged_branches = 0; ///< number of branches between junctions that were contracted
 };
 
 /// Simplify a curve skeleton to bones. Ends and junctions are joints, and the branches between them
 /// are split where they bend.
 ///
-/// 1. A component with cycles is rooted at the junction nearest to its center of mass (a ring: at
-///    the nearest point). Each cycle is cut at the point farthest from the root along the curve,
-///    because a bone has only one parent.
-/// 2. The branch that is shortest relative to the thickness is pruned or, if it is between two
-///    junctions, contracted to one point. This is repeated until no branch is short. If there are
-///    more branches than maximum_bones, the limbs that are shortest relative to the thickness are
-///    pruned too.
-/// 3. The piece that is farthest from its bone, or longest, is split until tolerance and
-///    longest_bone are satisfied or there are maximum_bones pieces (Douglas and Peucker, 1973, worst
-///    piece first). Points within the ball of a junction are not bends. A bone that leaves the
-///    shape is also split if that can help. Pieces are split only at points inside the shape.
+/// 1. A component with cycles gets a root: the junction nearest to its center of mass, or for a
+///    ring, the nearest point. Each cycle is cut at the point farthest from the root along the
+///    curve, because a bone can have only one parent.
+/// 2. The branch that is shortest relative to the radius is pruned or, if it is between two
+///    junctions, contracted to one point. This is repeated until no branch is shorter than `prune`.
+///    If there are more branches than maximum_bones, the limbs that are shortest relative to the
+///    radius are pruned too.
+/// 3. Branches are divided into pieces, one per bone. The piece that is farthest from its bone, or
+///    longest, is split until tolerance and longest_bone are satisfied or there are maximum_bones
+///    pieces (Douglas and Peucker, 1973, worst piece first). Points within the ball of a junction
+///    are not bends. A bone that leaves the shape is also split if that can help. Pieces are split
+///    only at points inside the shape.
 /// 4. The root of a component without cycles is the joint nearest to the centroid. Bones are
-///    directed away from the root: the parent of a bone is the bone whose tail is its head. If
-///    several bones begin at a root, the one with the largest volume is the parent of the others.
+///    directed away from the root: the parent of a bone is the bone whose tail is the head of this
+///    bone. If several bones begin at a root, the bone with the largest volume is the parent of the
+///    other bones.
 /// 5. The parent of the first bone of every other component, and of every point, is the nearest
 ///    bone of the component with the largest volume. Exactly one bone has no parent. Parents
 ///    precede their children, except for points, which come first.
 ///
-/// @param diagonal  of the shape's bounding box, the unit of the options
-/// invalid_input: an option out of range. There is a warning if cycles are cut, and if maximum_bones
-/// is exceeded. Cost: O(#P x branches).
+/// @param diagonal  diagonal of the shape's bounding box, the unit of the options
+/// @return invalid_input if an option is out of range. There is a warning if cycles are cut, and if
+/// maximum_bones is exceeded. Cost: O(#P x branches).
 Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
   const SkeletonBonesOptions& options, SkeletonBones& bones);
 

@@ -1,7 +1,8 @@
-// For each vertex, the distance to the nearest chosen point of its component is stored. The next
-// point is the vertex with the largest distance. Along edges, a new point only changes vertices
-// that are nearer to it than to all other points. Dijkstra's algorithm from the new point stops at
-// vertices whose distance it does not reduce.
+// Farthest-point sampling of a surface (see spread_points.h). For each vertex, the distance to the
+// nearest chosen point of its component is stored. The next point is the vertex with the largest
+// distance. With distances along edges, a new point only changes the vertices that are nearer to it
+// than to all other points. Dijkstra's algorithm, started at the new point, stops at vertices whose
+// distance it does not reduce.
 #include "automatic/spread_points.h"
 
 #include "base/number_text.h"
@@ -110,7 +111,7 @@ public:
 private:
   void find_components()
   {
-    // Weld all finite vertices, used or not.
+    // Weld equal vertices with finite coordinates, used or not.
     std::vector<char> finite(static_cast<std::size_t>(this->points_.rows()));
     for (Index v = 0; v < this->points_.rows(); ++v)
     {
@@ -172,8 +173,8 @@ private:
     }
   }
 
-  /// Return the component of the next point: first one point for each component that is not tiny,
-  /// then by area. Return null if all are full.
+  /// Return the component of the next point: first each component that is not tiny gets one point,
+  /// then points are assigned by area. Return null if all components are full.
   Component* next_component()
   {
     constexpr double crumb = 0.01;
@@ -198,7 +199,8 @@ private:
     return best;
   }
 
-  /// Return the vertex of a component farthest from its points, or -1 if all vertices are chosen.
+  /// Return the vertex of a component that is farthest from the component's points, or -1 if all
+  /// vertices are chosen.
   Index farthest(const Component& component) const
   {
     Vec3 centroid = Vec3::Zero();
@@ -231,11 +233,14 @@ private:
     return this->winding_.evaluate_at(p) >= this->options_.winding_threshold;
   }
 
-  /// Move a point to the middle of the shape, unless another point is there.
+  /// Move a point to the middle of the shape, unless another point is already there. Return whether
+  /// the point was moved.
+  /// @param depth set to the distance of the moved point from the surface.
   bool move_inside(const SurfaceProbe& probe, Index vertex, const std::vector<Vec3>& taken,
     Vec3& place, double& depth) const
   {
-    constexpr double near = 1e-5; // in bounding-box diagonals
+    // Distance of the tested points from the vertex, in bounding-box diagonals.
+    constexpr double near = 1e-5;
     const Vec3 from = place;
     Vec3 way = -this->normals_.row(vertex).transpose();
     if (!(way.norm() > 0.0))
@@ -246,13 +251,13 @@ private:
     const double step = near * this->diagonal_;
     if (!this->holds(from + step * way))
     {
-      way = -way; // the surface is inside out there
+      way = -way; // the surface is inside out at this vertex
       if (!this->holds(from + step * way))
       {
         return false;
       }
     }
-    // Find the end of the inside.
+    // Find the end of the inside along the ray.
     const Vec3 origin = from + step * way;
     double end = this->diagonal_;
     double last = 0.0;
@@ -311,7 +316,8 @@ private:
     }
   }
 
-  /// Update the distances for a new point. @return false when canceled.
+  /// Update the distances of the component's vertices for a new point.
+  /// @return false if canceled.
   bool update(
     const Component& component, const Vec3& place, std::vector<std::pair<double, Index>> near)
   {

@@ -1,4 +1,7 @@
-// Steps 3 and 4 of embedding_tets.cpp.
+// Connections of atoms by lines between samples, by triangles and by links (see
+// atom_connections.h). These are steps 3 and 4 of the method in embedding_tets.cpp. A line is the
+// segment between two samples that are neighbors along an axis; a line is cut if a triangle crosses
+// it.
 #include "embedding/atom_connections.h"
 
 #include "base/gather.h"
@@ -19,7 +22,7 @@ using Cube = EmbeddingAtoms::Cube;
 using Id = EmbeddingAtoms::Id;
 using Sample = EmbeddingAtoms::Sample;
 
-constexpr Index often = 1 << 15; // items between two checks for cancel
+constexpr Index often = 1 << 15; // number of items between two checks for cancel
 
 Cube moved(Cube cube, int axis, int by)
 {
@@ -104,11 +107,11 @@ private:
       });
   }
 
-  /// Connect atoms along lines that are cut, and measure the length of the lines inside.
+  /// Connect atoms along the cut lines, and measure the length of these lines that is inside.
   Status connect_crossings()
   {
     const auto& list = this->crossings_;
-    // Stretches between two crossings, by the index of the first crossing.
+    // Intervals between two crossings on one line, by the index of the first crossing.
     std::vector<Index> stretches;
     for (std::size_t i = 0; i + 1 < list.size(); ++i)
     {
@@ -137,8 +140,8 @@ private:
         inside_after[stretches[i]] = w[i] >= this->threshold_ ? 1 : 0;
       }
     }
-    // Mark the cut lines at each sample: bits 0 to 2 for lines up along x, y, z, bits 3 to 5 for
-    // lines down.
+    // Mark the cut lines at each sample: bits 0 to 2 for the lines to the next samples along x, y,
+    // z, bits 3 to 5 for the lines to the previous samples.
     for (const LineCrossing& crossing : list)
     {
       const int axis = crossing.axis();
@@ -204,8 +207,8 @@ private:
     }
   }
 
-  /// Add an inside stretch of a line to its atom. Each half of the line counts for the cell of the
-  /// nearer sample.
+  /// Add an interval of a line that is inside to its atom. Each half of the line counts for the
+  /// cell of the nearer sample.
   void measure(Id lower, Id upper, double from, double to, Id atom)
   {
     if (atom < 0)
@@ -229,7 +232,8 @@ private:
   }
 
   /// Connect samples along lines that are not cut, and measure their cells. The inside fraction of
-  /// a cell is that of the cut lines through the sample.
+  /// a cell is the mean over the axes along which lines at the sample are cut; it is 1 if no line
+  /// is cut.
   bool connect_samples()
   {
     for (Id cube = 0; cube < static_cast<Id>(this->atoms_.sampled.size()); ++cube)
@@ -269,7 +273,8 @@ private:
           }
           if (!down_is_cut && position[axis] == 0)
           {
-            // Sampled neighbors make this connection in their own upward direction.
+            // A neighbor that is also a sample is connected when its own lines are processed. Here,
+            // only a neighbor in a cube that is completely inside is connected.
             Sample below = this->atoms_.sample_of(cube, s);
             --below[axis];
             const Id last = this->atoms_.atom_of(below);
@@ -285,7 +290,7 @@ private:
     return true;
   }
 
-  /// Connect cubes inside, which contain nothing that separates.
+  /// Connect neighboring cubes that are completely inside. No triangle separates them.
   void connect_cubes()
   {
     for (Id i = 0; i < static_cast<Id>(this->atoms_.full.size()); ++i)
@@ -299,7 +304,8 @@ private:
         {
           continue;
         }
-        const Id above = this->atoms_.full_cube(moved(cube, half / 8, 1)); // across the half's face
+        // The neighbor at this half's face.
+        const Id above = this->atoms_.full_cube(moved(cube, half / 8, 1));
         if (above >= 0)
         {
           this->result_.within.unite(
@@ -313,7 +319,7 @@ private:
 
   bool connect_triangles()
   {
-    // Triangles around vertices.
+    // Connect the triangles around each vertex.
     const auto& triangles = this->surface_.triangles;
     std::vector<Id> first_at(this->surface_.points.size(), -1);
     struct Side
@@ -338,7 +344,8 @@ private:
           this->result_.within.unite(first, atom);
         }
         first = first >= 0 ? first : atom;
-        // The triangles at an edge within one tet are already connected there by its vertices.
+        // If both ends of an edge are in one tet, the triangles at the edge are already connected
+        // there at its vertices.
         if (this->cover_.tet_of_point[v] != this->cover_.tet_of_point[w])
         {
           sides.push_back({ std::min(v, w), std::max(v, w), static_cast<Id>(f) });
@@ -370,14 +377,14 @@ private:
     return true;
   }
 
-  /// Connect links to the triangles that contain their ends.
+  /// Connect the degenerate triangle of each link to the triangles that contain its ends.
   void connect_links()
   {
     for (const LatticeSurface::End& end : this->surface_.ends)
     {
       const Key tet = this->cover_.tet_of_point[end.point];
       Id held = this->atoms_.atom_of(end.triangle, tet);
-      if (held < 0) // rounding left the triangle in the next tet only
+      if (held < 0) // because of rounding, the triangle has a piece only in a neighboring tet
       {
         held = this->nearest_piece(end.triangle, this->cover_.places[end.point]);
       }
@@ -385,7 +392,7 @@ private:
     }
   }
 
-  /// Return the atom of a triangle's piece whose middle is nearest to a position.
+  /// Return the atom of the triangle's piece whose middle is nearest to a position.
   Id nearest_piece(Id triangle, const Vec3& place) const
   {
     const auto& pieces = this->cover_.pieces;
@@ -405,8 +412,8 @@ private:
   AtomConnections& result_;
   ExecutionContext& context_;
 
-  std::vector<std::uint8_t> cut_; // of the samples: bits of the lines that are cut
-  std::vector<LineCrossing> crossings_; // sorted by line, then along it
+  std::vector<std::uint8_t> cut_; // #samples: bits of the lines that are cut
+  std::vector<LineCrossing> crossings_; // sorted by line, then by the position on the line
 };
 } // namespace
 

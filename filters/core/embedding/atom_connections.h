@@ -13,20 +13,22 @@
 namespace bindpose
 {
 
-/// Connections between atoms, by lines between samples and by triangles.
+/// Connections between atoms, the indivisible pieces of a surface and its inside (see
+/// EmbeddingAtoms). They are found by lines between samples and by triangles.
 struct AtomConnections
 {
   using Id = EmbeddingAtoms::Id;
 
-  DisjointSets<Id> within; ///< atoms of one tet
+  DisjointSets<Id> within; ///< classes of connected atoms within one tet
   std::vector<std::pair<Id, Id>> across; ///< connected atoms of different tets
-  std::vector<float> shares; ///< #atoms: amount of the inside, in sample cells
-  /// An atom at each vertex of the surface; -1: no triangle uses the vertex.
+  /// #atoms: amount of the inside that the atom represents, in cells of the sub-grid.
+  std::vector<float> shares;
+  /// One atom at each vertex of the surface; -1: no triangle uses the vertex.
   std::vector<Id> of_vertex;
 };
 
-/// Find the connections.
-/// Cost: one winding number per stretch of a line between two crossings.
+/// Find the connections of all atoms.
+/// Cost: one winding number per interval between two crossings of a line with triangles.
 Status connect_atoms(const LatticeSurface& surface, const WindingNumber& winding, double threshold,
   const LatticeCover& cover, const EmbeddingAtoms& atoms, AtomConnections& result,
   ExecutionContext& context);

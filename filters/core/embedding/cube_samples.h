@@ -9,27 +9,28 @@
 namespace bindpose
 {
 
-/// A sub-grid of samples in all cubes of a lattice. No sample is on a plane of the lattice, so that
-/// each sample is in exactly one tet.
+/// A sub-grid of sample points in the cubes of a lattice. No sample is on a plane of the lattice,
+/// so that each sample is in exactly one tet. Samples that are inside a surface represent its
+/// volume in the embedding.
 struct CubeSamples
 {
   using Id = std::int32_t;
-  /// Integer coordinates of a sample, over all cubes or within one cube.
+  /// Integer coordinates of a sample in the sub-grid, over all cubes or within one cube.
   using Sample = std::array<Id, 3>;
 
-  static constexpr int along = 6; ///< samples along the side of a cube
+  static constexpr int along = 6; ///< number of samples along the edge of a cube
   static constexpr int of_cube = along * along * along;
   /// Offset of the first sample, in units of the sample distance.
   static constexpr double shift[3] = { 0.62, 0.41, 0.53 };
 
-  /// Return the coordinates in the cube of the sample with this number.
+  /// Return the integer coordinates within its cube of the sample with index s.
   static Sample position_of(int s) { return { s % along, s / along % along, s / (along * along) }; }
   static Sample next_of(Sample s, int axis)
   {
     ++s[axis];
     return s;
   }
-  /// Return the position of a sample, in cubes.
+  /// Return the position of a sample, in units of cubes.
   static Vec3 place_of(const Sample& at)
   {
     return Vec3(at[0] + shift[0], at[1] + shift[1], at[2] + shift[2]) / along;

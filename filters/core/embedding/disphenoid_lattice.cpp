@@ -1,9 +1,11 @@
-// The key of a tet contains its lower cube, the axis across the face (a), the axis along which the
-// edge of the face is offset from the face's center (m), and the side of that offset (s). The edge
-// is parallel to the third axis (n). With the lower center c, the nodes are
+// Keys and geometry of the body-centered cubic lattice (see disphenoid_lattice.h). Each tet belongs
+// to an edge of the face between two cubes. The key of a tet contains its lower cube and three more
+// properties: the normal axis of the face (a), the axis along which the edge is offset from the
+// center of the face (m), and the sign of that offset (s). The edge is parallel to the third axis
+// (n). With the center c of the lower cube, the nodes are
 //   c,   c + a,   c + (a + s m - n) / 2,   c + (a + s m + n) / 2.
-// Let d be the offset of a position from the center of its cube. The tet of the position is the one
-// whose a, m, n sort |d| in descending order. The barycentric coordinates are sums of these |d|.
+// Let d be the offset of a position from the center of its cube. The position is in the tet whose
+// axes a, m, n sort |d| in descending order. The barycentric coordinates are sums of these |d|.
 #include "embedding/disphenoid_lattice.h"
 
 #include <algorithm>
@@ -15,11 +17,12 @@ namespace bindpose
 namespace
 {
 constexpr int cube_bits = 16;
-constexpr int node_bits = 17; // nodes are in units of half cubes
+constexpr int node_bits = 17; // nodes have integer coordinates in units of half cubes
 constexpr int tet_bits = 4;
 constexpr double margin = 2.0;
 
-/// The axes across (a), of the offset (m) and along the edge (n), and the side.
+/// The axes of a tet: normal of the face (a), offset of the edge (m), direction of the edge (n);
+/// and the sign of the offset.
 struct Frame
 {
   int a, m, n;
@@ -33,12 +36,12 @@ struct Frame
   {
     return 4 * a + 2 * (m == (a + 1) % 3 ? 0 : 1) + (positive ? 1 : 0);
   }
-  /// Report whether the volume of (c, c + a, lower end of the edge, upper end of the edge) is
-  /// positive.
+  /// Report whether the tet (c, c + a, lower end of the edge, upper end of the edge) has a positive
+  /// volume.
   bool even() const { return (this->m == (this->a + 1) % 3) == (this->side > 0); }
 };
 
-/// Return the axes sorted by |d|, largest first. Equal ones keep their order.
+/// Return the axes sorted by |d|, largest first. Axes with equal |d| keep their order.
 std::array<int, 3> sorted_axes(const Vec3& d)
 {
   std::array<int, 3> axes{ 0, 1, 2 };
@@ -70,9 +73,9 @@ DisphenoidLattice::DisphenoidLattice(const Box& box, double spacing)
   int exponent = 0;
   const double mantissa = std::frexp(spacing, &exponent);
   this->spacing_ = std::ldexp(std::ceil(mantissa * digits) / digits, exponent);
-  // The origin is offset from the box's planes by a different fraction of a cube per axis. Surfaces
-  // that are aligned with the axes, or pass through the middle, are therefore in no plane of the
-  // lattice.
+  // The origin is offset from the box by a different fraction of a cube along each axis. Therefore,
+  // surfaces that are parallel to the axes or pass through the middle of the box are in no plane of
+  // the lattice.
   constexpr double fraction[3] = { 21.0, 13.0, 35.0 };
   const double unit = this->spacing_ / 64.0;
   for (int k = 0; k < 3; ++k)
@@ -162,7 +165,7 @@ int DisphenoidLattice::half_of(const Vec3& place)
 void DisphenoidLattice::cut(
   const Polygon& polygon, int direction, double lower, double upper, Polygon& part)
 {
-  // Clip by two half spaces, one after the other (Sutherland and Hodgman).
+  // Clip by the two planes, one after the other (Sutherland and Hodgman).
   Polygon below;
   for (const bool first : { true, false })
   {

@@ -11,14 +11,15 @@
 namespace bindpose
 {
 
-/// The body-centered cubic lattice. It is unbounded and not stored: its elements are computed from
-/// keys. Its nodes are the corners and centers of cubes of side `spacing`. Around the face between
-/// two cubes are four equal tets (each has both centers and one edge of the face), with dihedral
-/// angles of 60 and 90 degrees. Their facets are in the planes where the sum or the difference of
-/// two coordinates, in cubes, is an integer.
+/// The body-centered cubic lattice, divided into tets (disphenoids). The lattice is unbounded and
+/// not stored: its elements are computed from keys. Its nodes are the corners and centers of cubes
+/// of edge length `spacing`. Around the common face of two cubes are four congruent tets, with
+/// dihedral angles of 60 and 90 degrees. Each of them has the centers of both cubes and the ends of
+/// one edge of the face as corners. All facets are in planes where the sum or the difference of two
+/// coordinates, in units of cubes, is an integer.
 ///
-/// A "place" is a position relative to the origin, in units of cubes. Cubes range from (0, 0, 0) to
-/// (65535, 65535, 65535).
+/// A "place" is a position relative to the origin, in units of cubes. Cubes have the integer
+/// coordinates (0, 0, 0) to (65535, 65535, 65535).
 class DisphenoidLattice
 {
 public:
@@ -26,11 +27,12 @@ public:
   using Cube = std::array<std::int32_t, 3>;
 
   DisphenoidLattice() = default;
-  /// Make a lattice with at least two free cubes around the box. The spacing is rounded up to 8
-  /// binary digits and the origin to a 64th of the spacing. Coordinates of nodes are therefore
+  /// Make a lattice with at least two cubes of margin around the box. The spacing is rounded up to
+  /// 8 binary digits and the origin to a 64th of the spacing. Coordinates of nodes are therefore
   /// exact if the spacing is at least least_spacing().
   DisphenoidLattice(const Box& box, double spacing);
-  /// Return the smallest spacing for which nodes are exact, for coordinates of this size.
+  /// Return the smallest spacing for which node coordinates are exact, if no coordinate of the box
+  /// is larger than this.
   static double least_spacing(double largest_coordinate);
 
   double spacing() const { return this->spacing_; }
@@ -48,7 +50,7 @@ public:
   static Cube cube_of(Key cube_key);
 
   /// The tet that contains a position, and the position's barycentric coordinates, all >= 0, in the
-  /// order of corners(). Positions on a facet, edge or node belong to one of the adjacent tets,
+  /// order of corners(). A position on a facet, edge or node belongs to one of the adjacent tets,
   /// always the same one.
   struct Location
   {
@@ -61,20 +63,20 @@ public:
   static std::array<Key, 4> corners(Key tet);
   Vec3 node_point(Key node) const;
 
-  /// Every tet consists of two halves, one in each of two neighboring cubes; a cube contains 24
-  /// halves. Half 2k + 1 of a cube is in the tet with number k at its upper face, half 2k in the
-  /// tet with number k at its lower face.
+  /// The face between two cubes divides each tet into two halves, one in each cube. A cube contains
+  /// 24 halves. Half 2k + 1 of a cube belongs to tet k of its own upper faces; half 2k belongs to
+  /// tet k of the lower neighbor's upper faces (see number_of).
   static constexpr int halves = 24;
   static Key tet_of_half(const Cube& cube, int half);
-  /// Return the number of a tet, 0 … 11, among the tets around the upper faces of its lower cube.
-  /// Its halves are 2n + 1 of that cube and 2n of the upper one.
+  /// Return the number n of a tet, 0 … 11, among the tets around the three upper faces of its lower
+  /// cube. Its halves are 2n + 1 of the lower cube and 2n of the upper cube.
   static int number_of(Key tet) { return static_cast<int>(tet & 15U); }
-  /// Return the half of its cube that contains a position.
+  /// Return the number of the half that contains a position, within the position's cube.
   static int half_of(const Vec3& place);
 
-  /// Cut a triangle by the lattice's planes, and call piece(middle, lower, upper) for each piece,
-  /// with a position in the piece and its bounds. A segment is passed as three positions, two of
-  /// them equal. Pieces thinner than 1e-9 cubes are skipped.
+  /// Cut a triangle by the planes of all facets, and call piece(middle, lower, upper) for each
+  /// piece, with a position in the piece and its bounding box. A segment is passed as three
+  /// positions, two of them equal. Pieces thinner than 1e-9 cubes are skipped.
   template <typename Piece>
   static void for_pieces(const std::array<Vec3, 3>& places, const Piece& piece)
   {
@@ -89,7 +91,8 @@ public:
 private:
   struct Polygon
   {
-    static constexpr int most = 24; ///< 3, one more for each of 12 planes, and some for rounding
+    /// 3 corners, one more for each of 12 planes, and some for rounding.
+    static constexpr int most = 24;
     std::array<Vec3, most> places;
     int count = 0;
     void add(const Vec3& place)
@@ -107,7 +110,7 @@ private:
     const double y = place[(direction / 2 + 1) % 3];
     return direction % 2 ? x - y : x + y;
   }
-  /// Cut out the part between the planes `lower` and `upper`.
+  /// Clip the polygon to the region between the planes `lower` and `upper`.
   static void cut(const Polygon& polygon, int direction, double lower, double upper, Polygon& part);
 
   template <typename Piece>

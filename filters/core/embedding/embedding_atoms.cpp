@@ -1,3 +1,4 @@
+// Numbering of the atoms and their positions (see embedding_atoms.h).
 #include "embedding/embedding_atoms.h"
 
 #include "base/parallel_sort.h"
@@ -15,7 +16,7 @@ using Id = EmbeddingAtoms::Id;
 
 constexpr Index most_sampled_cubes = 1000000;
 
-/// Return the index of a key in a sorted list (of its first element >= key).
+/// Return the index of a key in a sorted list, or of the first larger key.
 Id place_in(const std::vector<Key>& sorted, Key key)
 {
   return static_cast<Id>(std::lower_bound(sorted.begin(), sorted.end(), key) - sorted.begin());
@@ -140,7 +141,8 @@ Vec3 EmbeddingAtoms::place_of(Id atom) const
   const auto& corners = this->nodes[this->tet_of(atom)];
   const auto& lattice = this->cover_.lattice;
   const Cube cube = DisphenoidLattice::cube_of(this->full[(atom - this->first_full) / halves]);
-  // The middle of the segment from the midpoint of the face's edge to the center of the cube.
+  // The middle of the segment from the midpoint of the tet's edge in the face to the center of the
+  // cube.
   const Vec3 edge = 0.5 * (lattice.node_point(corners[2]) + lattice.node_point(corners[3]));
   return 0.5 * (lattice.place_of(edge) + Vec3(cube[0] + 0.5, cube[1] + 0.5, cube[2] + 0.5));
 }

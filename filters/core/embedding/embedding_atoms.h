@@ -16,9 +16,9 @@
 namespace bindpose
 {
 
-/// The atoms of a surface and its inside; each atom is in one tet of the lattice. They are numbered
-/// in this order: samples of the cubes at the surface, halves of the cubes inside, pieces of
-/// triangles.
+/// The atoms of a surface and its inside: indivisible pieces of material, each in one tet of the
+/// lattice. An atom is a sample point in a cube at the surface, a half of a tet in a cube that is
+/// completely inside, or a piece of a triangle. Atoms are numbered in this order.
 class EmbeddingAtoms
 {
 public:
@@ -26,7 +26,7 @@ public:
   using Cube = DisphenoidLattice::Cube;
   using Id = LatticeCover::Id;
   using Sample = CubeSamples::Sample;
-  static constexpr int halves = DisphenoidLattice::halves; ///< per cube
+  static constexpr int halves = DisphenoidLattice::halves; ///< number of halves of tets per cube
 
   /// The cover must outlive the atoms.
   explicit EmbeddingAtoms(const LatticeCover& cover) : cover_(cover) {}
@@ -37,7 +37,7 @@ public:
   Status find_inside(const WindingNumber& winding, double threshold, ExecutionContext& context);
 
   Id count() const { return this->first_piece + static_cast<Id>(this->piece_tets_.size()); }
-  /// Return the coordinates over all cubes of sample s in cube `sampled[sampled_cube]`.
+  /// Return the integer coordinates, over all cubes, of sample s in cube `sampled[sampled_cube]`.
   Sample sample_of(Id sampled_cube, int s) const
   {
     const Cube cube = DisphenoidLattice::cube_of(this->sampled[sampled_cube]);
@@ -48,8 +48,8 @@ public:
     }
     return at;
   }
-  /// Return the atom of a sample; -1: it is outside of all cubes. In a sampled cube the atom may be
-  /// outside; see is_inside().
+  /// Return the atom that contains a sample; -1: the sample is in none of the cubes. In a cube at
+  /// the surface, the sample itself is the atom, and it may be outside; see is_inside().
   Id atom_of(const Sample& at) const
   {
     const Cube cube{ at[0] / CubeSamples::along, at[1] / CubeSamples::along,
@@ -66,7 +66,7 @@ public:
       ? found->second * CubeSamples::of_cube + s
       : this->first_full + (-1 - found->second) * halves + this->half_of_sample_[s];
   }
-  /// Report whether an atom is inside. This is true for all atoms except samples outside; it is
+  /// Report whether an atom is inside. All atoms are, except for samples that are outside. Return
   /// false for -1.
   bool is_inside(Id atom) const
   {
@@ -86,7 +86,7 @@ public:
     return this->half_tets_[(atom / CubeSamples::of_cube) * halves +
       this->half_of_sample_[atom % CubeSamples::of_cube]];
   }
-  /// Return the atom of a triangle in a tet; -1: rounding left no piece there.
+  /// Return the atom of a triangle's piece in a tet; -1: no such piece, because of rounding.
   Id atom_of(Id triangle, Key tet) const
   {
     const auto begin = this->cover_.pieces.begin() + this->cover_.first_piece[triangle];
@@ -97,22 +97,23 @@ public:
       ? -1
       : this->first_piece + static_cast<Id>(at - this->cover_.pieces.begin());
   }
-  /// Return the index of a tet in `tets`; -1: it is not there.
+  /// Return the index of a tet in `tets`; -1: the tet is unused.
   Id place_of_tet(Key tet) const;
-  /// Return a position in the atom, in cubes.
+  /// Return a position in the atom, in units of cubes.
   Vec3 place_of(Id atom) const;
-  /// Return the index of a cube in `full`; -1: the cube is not inside as a whole.
+  /// Return the index of a cube in `full`; -1: the cube is not completely inside.
   Id full_cube(const Cube& cube) const
   {
     const auto found = this->cube_id_.find(DisphenoidLattice::cube_key(cube));
     return found != this->cube_id_.end() && found->second < 0 ? -1 - found->second : -1;
   }
 
-  std::vector<Key> sampled, full; ///< keys of the cubes at the surface, and of those inside, sorted
-  std::vector<Key> tets; ///< sorted
-  std::vector<std::array<Key, 4>> nodes; ///< #tets: keys of the nodes
+  /// Keys of the cubes at the surface, and of the cubes that are completely inside, sorted.
+  std::vector<Key> sampled, full;
+  std::vector<Key> tets; ///< keys of the tets that contain atoms, sorted
+  std::vector<std::array<Key, 4>> nodes; ///< #tets: keys of the tet's nodes
   std::array<int, halves> samples_of_half{};
-  Id first_full = 0; ///< first atom of the cubes in `full`
+  Id first_full = 0; ///< first atom in the cubes of `full`
   Id first_piece = 0;
 
 private:

@@ -1,4 +1,6 @@
-// Steps 5 and 6 of embedding_tets.cpp.
+// Tets with duplicated nodes, made from connected atoms (see embedding_parts.h). These are steps 5
+// to 7 of the method in embedding_tets.cpp. A part is a set of connected atoms in one tet. A copy
+// of a node is a class of corners of such parts, found by union-find.
 #include "embedding/embedding_parts.h"
 
 #include "base/gather.h"
@@ -19,7 +21,7 @@ namespace
 using Key = EmbeddingAtoms::Key;
 using Id = EmbeddingAtoms::Id;
 
-constexpr Index often = 1 << 15; // items between two checks for cancel
+constexpr Index often = 1 << 15; // number of items between two checks for cancel
 
 class Parts
 {
@@ -38,7 +40,7 @@ public:
   }
 
 private:
-  // ---- Parts, copies of nodes ----
+  // ---- Parts and copies of nodes ----
 
   bool find_parts()
   {
@@ -69,8 +71,8 @@ private:
     return true;
   }
 
-  /// Join the atoms of a convex piece of material: they are one part at every node that two of
-  /// their tets have in common.
+  /// Join the atoms of a convex piece of material, because they are connected. At every node that
+  /// two of their tets have in common, their corners get the same copy of the node.
   template <typename AtomAt>
   void join_convex(Index count, const AtomAt& atom_at)
   {
@@ -141,9 +143,10 @@ private:
 
   // ---- Probes ----
 
-  using Corner = std::pair<Key, Id>; ///< a node and the index 4 * part + corner of a corner at it
+  /// A node, and the index 4 * part + corner of a corner at this node.
+  using Corner = std::pair<Key, Id>;
 
-  /// Find copies of one node that are connected, and append pairs of corners to unite.
+  /// Find copies of one node that are connected by a probe, and append pairs of corners to unite.
   void probe_node(const Corner* begin, const Corner* end, const std::vector<Id>& roots,
     std::vector<std::pair<Id, Id>>& joined) const
   {
@@ -205,9 +208,11 @@ private:
     {
       return false;
     }
-    constexpr std::size_t most_copies = 12; // more copies indicate a soup, not a slice
+    // Nodes with more copies are skipped: they indicate a triangle soup, not a slice.
+    constexpr std::size_t most_copies = 12;
     std::vector<Id> copies;
-    std::vector<std::pair<Index, Index>> several; // ranges of corners of nodes with copies
+    // For each node with several copies, the range of its corners.
+    std::vector<std::pair<Index, Index>> several;
     for (std::size_t begin = 0; begin < corners.size();)
     {
       std::size_t end = begin;
@@ -247,7 +252,7 @@ private:
 
   bool write(EmbeddingTets& result)
   {
-    // Parts with the same tet and the same copies of its nodes are one tet.
+    // Parts in the same tet with the same copies of its nodes become one tet.
     struct Copy
     {
       Id tet;
@@ -272,7 +277,7 @@ private:
     {
       return false;
     }
-    std::vector<std::pair<Key, Id>> vertices; // node, copy
+    std::vector<std::pair<Key, Id>> vertices; // a node, and the root corner of its copy
     std::vector<Index> tet_of_part(copies.size());
     std::vector<std::size_t> first_of_tet;
     for (std::size_t i = 0; i < copies.size(); ++i)
@@ -323,9 +328,10 @@ private:
         this->atoms_.samples_of_half[number] + this->atoms_.samples_of_half[number + 1];
       result.inside_fractions[t] = std::min(1.0, result.inside_fractions[t] / samples);
     }
-    // Tets contain 10 to 28 samples, depending on their position in the sub-grid. This is correct
-    // for whole tets, but plates aligned with the sub-grid would become too thick or too thin. The
-    // volume of the samples has no such bias.
+    // A tet contains 10 to 28 samples, depending on its position in the sub-grid. Relative to these
+    // numbers, whole tets have the correct fraction, but plates aligned with the sub-grid would
+    // become too thick or too thin. The total number of inside samples has no such bias, so the
+    // fractions of cut tets are scaled to match it.
     constexpr double samples_of_tet = CubeSamples::of_cube / 12.0;
     const double whole = (result.inside_fractions.array() >= 1.0).count();
     const double cut = result.inside_fractions.sum() - whole;
@@ -343,7 +349,7 @@ private:
 
   void bind(const std::vector<Index>& tet_of_part, EmbeddingTets& result)
   {
-    // For points that no triangle uses: the copy of the tet with the most material.
+    // Points that no triangle uses are bound to the copy with the largest fraction inside.
     std::vector<Index> fullest(this->atoms_.tets.size(), -1);
     for (std::size_t p = 0; p < tet_of_part.size(); ++p)
     {
@@ -392,12 +398,12 @@ private:
   const MaterialProbes& probes_;
   ExecutionContext& context_;
 
-  std::vector<Id> part_of_; // #atoms: part of the atom
-  std::vector<Id> part_tets_; // #parts: index in atoms_.tets
+  std::vector<Id> part_of_; // #atoms: the part that contains the atom; -1: outside
+  std::vector<Id> part_tets_; // #parts: index of the part's tet in atoms_.tets
   std::vector<double> part_shares_;
   std::vector<Index> first_of_part_; // #parts + 1: offsets into of_part_
   std::vector<Id> of_part_;
-  DisjointSets<Id> corners_; // over 4 * part + corner
+  DisjointSets<Id> corners_; // classes over 4 * part + corner; each class is one copy of a node
   std::vector<std::pair<Key, Id>> at_node_;
 };
 } // namespace

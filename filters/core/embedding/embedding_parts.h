@@ -12,7 +12,7 @@
 namespace bindpose
 {
 
-/// Make tets from connected atoms, and bind the points of the surface to them. Fills mesh,
+/// Make tets from connected atoms, and bind the points of the surface to the tets. This sets mesh,
 /// inside_fractions, binding, lattice_tets and duplicated_nodes of an empty result.
 /// @return false if canceled.
 bool make_embedding(PointsView points, const LatticeSurface& surface, const LatticeCover& cover,

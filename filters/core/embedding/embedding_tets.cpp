@@ -1,27 +1,30 @@
-// The material is the surface and the region that it encloses. It is divided into atoms, each in
-// one lattice tet: a piece of a triangle, or a sample of the inside. Two atoms are connected if the
-// straight segment between them stays in the material. They are then one part at the nodes that
-// their tets have in common. The reason is that the tets around a node fill a convex body (a
-// rhombic dodecahedron), which the segment does not leave.
+// The method of embed_surface(). The material is the surface and the region that it encloses. It is
+// divided into atoms, each in one lattice tet: a piece of a triangle, or a sample of the inside.
+// Two atoms are connected if the straight segment between them is completely in the material. They
+// then belong to the same copy of each node that their tets have in common, because the tets around
+// a node fill a convex body (a rhombic dodecahedron), which contains the whole segment.
 //
 // 1. Choose the lattice's spacing; find the tets and cubes that triangles pass through, and the
-//    cubes that are inside as a whole (lattice_cover.h).
+//    cubes that are completely inside (lattice_cover.h).
 // 2. Sample the other cubes at the surface on a sub-grid (cube_samples.h, embedding_atoms.h).
 // 3. Cut lines between neighboring samples where triangles cross them. The winding number at the
-//    middle of a stretch between two crossings decides whether it is inside. An inside stretch
-//    connects the atoms at its ends. Therefore a wall is never missed, however thin the gap behind
-//    it. Connections thinner than the sample distance are found by the triangles around them
-//    (line_crossings.h, atom_connections.h).
+//    middle of the interval between two crossings determines whether the interval is inside. An
+//    inside interval connects the atoms at its ends. Therefore a wall is never missed, however thin
+//    the gap behind it. Connections thinner than the sample distance are found by the triangles
+//    around them (line_crossings.h, atom_connections.h).
 // 4. Connect triangles by shared vertices, and by shared edges in the tets that the edge passes
-//    through. Within the tets around a node a triangle is one piece, because it is convex.
-// 5. Connected atoms in one tet form its parts. A union-find over (part, corner of its tet) finds
-//    the copies of nodes; parts with the same four copies are one tet (embedding_parts.h).
-// 6. If the tets around a node contain only a thin slice of material, it may contain no line
-//    between samples. So before the last step, nodes with several copies are tested again. Straight
-//    probes run from one copy's atoms to the nearest atoms of another copy, against all triangles
-//    around the node (material_probes.h).
+//    through. Within the tets around a node, all pieces of one triangle are connected, because a
+//    triangle is convex.
+// 5. The connected atoms in one tet form its parts. A union-find over (part, corner of its tet)
+//    finds the copies of nodes (embedding_parts.h).
+// 6. If the tets around a node contain only a thin slice of material, no line between samples may
+//    be in the slice. Therefore, nodes with several copies are tested again. Straight probes run
+//    from the atoms of one copy to the nearest atoms of another copy, and are tested against all
+//    triangles around the node (material_probes.h).
+// 7. Parts of a tet with the same four copies of nodes become one tet.
 //
-// Every union keeps the smaller id, so the result depends neither on the order nor on threads.
+// Every union keeps the smaller id, so the result does not depend on the order or the number of
+// threads.
 #include "embedding/embedding_tets.h"
 
 #include "embedding/atom_connections.h"
@@ -153,7 +156,7 @@ Status embed_surface(PointsView points, TrianglesView triangles, const WindingNu
     return status;
   }
   const Box box = bounding_box(points, triangles);
-  constexpr double largest_size = 1e100; // its cube is a finite volume
+  constexpr double largest_size = 1e100; // the cube of this length is still a finite double
   if (!(box.size().maxCoeff() <= largest_size))
   {
     return Status::invalid_input("the surface is larger than 1e100, too large for volumes");

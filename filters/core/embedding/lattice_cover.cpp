@@ -1,8 +1,8 @@
-// Triangles are cut by the lattice's planes. The inside can end only in the cubes that they pass
-// through. Other cubes are inside or outside as a whole. They are found by flooding from cube to
-// cube, starting at the surface. This finds all of them, because a region without triangles whose
-// winding number reaches the threshold has triangles at its border (winding numbers are harmonic
-// there).
+// Find the tets and cubes that a surface passes through or encloses (see lattice_cover.h).
+// Triangles are cut by the planes of the lattice. Cubes without triangles are completely inside or
+// outside. They are found by flooding from cube to cube, starting at the surface. This finds all
+// inside cubes, because winding numbers are harmonic: a region without triangles whose winding
+// number reaches the threshold has triangles at its border.
 #include "embedding/lattice_cover.h"
 
 #include "base/gather.h"
@@ -21,13 +21,14 @@ using Key = LatticeCover::Key;
 using Cube = LatticeCover::Cube;
 using Id = LatticeCover::Id;
 
-// Accepted numbers of tets, as fractions of the wanted number.
+// Accepted numbers of tets, as fractions of the target number.
 constexpr double fewest_tets = 2.0 / 3.0;
 constexpr double most_tets = 1.5;
 constexpr double most_pieces = 2e8;
-constexpr double most_pieces_of_choice = 1e6; // in addition to two per triangle
+// Maximum number of pieces if the resolution is chosen, in addition to two per triangle.
+constexpr double most_pieces_of_choice = 1e6;
 
-/// Return the cube across one of six sides.
+/// Return the neighboring cube at one of the six faces of a cube.
 Cube neighbor_of(Key cube_key, int side)
 {
   Cube cube = DisphenoidLattice::cube_of(cube_key);
@@ -35,7 +36,8 @@ Cube neighbor_of(Key cube_key, int side)
   return cube;
 }
 
-/// Measures of a surface, in units of the longest side of its box.
+/// Size, area and number of triangles of a surface, in units of the longest side of its bounding
+/// box.
 struct Measures
 {
   double longest = 0.0;
@@ -57,21 +59,23 @@ struct Measures
     this->volume = std::min(std::abs(this->volume), size.prod());
     this->triangles = static_cast<double>(surface.triangles.size());
   }
-  /// Estimate the number of tets for this many cubes along the longest side, from the mean number
-  /// of lattice tets in a volume and the mean number of additional tets that a surface passes
-  /// through.
+  /// Estimate the number of tets from the number of cubes along the longest side. The estimate uses
+  /// the mean number of lattice tets per volume and the mean number of additional tets per surface
+  /// area.
   double tets(double cubes) const
   {
     const double most = 12.0 * std::pow(cubes + 2.0, 3);
     return std::min(
       most, 12.0 * this->volume * cubes * cubes * cubes + 6.0 * this->area * cubes * cubes);
   }
-  /// Estimate the number of pieces of triangles and of crossings with the lines between samples.
+  /// Estimate the number of pieces of triangles plus the number of crossings of triangles with the
+  /// lines between samples.
   double pieces(double cubes) const
   {
     return this->triangles + 4.0 * this->perimeter * cubes + 65.0 * this->area * cubes * cubes;
   }
-  /// Return the largest number of cubes for which count(cubes) is below a bound.
+  /// Return the largest number of cubes along the longest side for which count(cubes) is below a
+  /// bound.
   template <typename Count>
   static double most_cubes_along(double bound, const Count& count)
   {
@@ -321,7 +325,8 @@ Status LatticeCover::find_cubes(ExecutionContext& context)
       return too_many_cubes();
     }
   }
-  // At openings of the surface the inside ends in cubes without triangles.
+  // At openings of the surface the inside ends without triangles. The cubes on both sides of this
+  // border count as cut.
   std::vector<Key> open;
   for (const Key key : outside)
   {
@@ -413,8 +418,8 @@ Status LatticeCover::choose(Index resolution, Index wanted, ExecutionContext& co
     {
       return status;
     }
-    // The number of tets is modeled as a power of the resolution, with an exponent between that of
-    // a thread and that of a solid.
+    // The number of tets is modeled as a power of the resolution; the exponent is between 0.8
+    // (threads) and 3.2 (solids).
     double power = tets < wanted_tets ? 2.5 : 2.0;
     if (last_cubes > 0.0 && last_cubes != cubes)
     {

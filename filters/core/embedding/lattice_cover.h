@@ -14,8 +14,8 @@
 namespace bindpose
 {
 
-/// A surface after welding equal points, otherwise unchanged. Each link adds one triangle without
-/// area and two points at its ends.
+/// A surface after welding equal points, otherwise unchanged. Each link (see PartLink) adds one
+/// degenerate triangle and the two points at its ends.
 struct LatticeSurface
 {
   using Id = std::int32_t;
@@ -23,11 +23,11 @@ struct LatticeSurface
   /// One end of a link.
   struct End
   {
-    Id point, link; ///< the link's triangle
+    Id point, link; ///< the point at this end, and the degenerate triangle of the link
     Id triangle; ///< triangle of the surface that contains the end
   };
 
-  std::vector<Id> of_point; ///< #V: id in `points`; -1 for a point that no triangle uses
+  std::vector<Id> of_point; ///< #V: index in `points`; -1 for a point that no triangle uses
   std::vector<Vec3> points;
   std::vector<std::array<Id, 3>> triangles;
   std::vector<End> ends; ///< ends of the links
@@ -37,7 +37,8 @@ struct LatticeSurface
     ExecutionContext& context);
 };
 
-/// The tets and cubes of a lattice that a surface passes through, and the cubes that it encloses.
+/// The cover of a surface: the tets and cubes of a lattice that the surface passes through, and the
+/// cubes that are completely inside.
 class LatticeCover
 {
 public:
@@ -55,11 +56,11 @@ public:
   enum class Kind : std::uint8_t
   {
     outside,
-    inside, ///< contains no triangle, and its winding number is at least the threshold
-    cut ///< contains triangles, or the inside ends in it
+    inside, ///< contains no triangle, and the winding number is at least the threshold
+    cut ///< contains triangles, or is at an opening of the surface, where the inside ends
   };
   static constexpr Index most_cubes = 4000000;
-  static constexpr Index largest_resolution = 1000; ///< cubes along the longest side
+  static constexpr Index largest_resolution = 1000; ///< number of cubes along the longest side
 
   /// All arguments must outlive the cover.
   LatticeCover(
@@ -70,9 +71,9 @@ public:
 
   /// Choose the spacing and build the cover.
   /// @param resolution number of cubes along the longest side of the box; 0: chosen to give about
-  /// `tets` tets, but at most 1000, and fewer if triangles would be cut into millions of pieces.
+  /// `tets` tets, but at most 1000, and less if triangles would be cut into millions of pieces.
   /// @return invalid_input if the lattice would have more than most_cubes cubes. Cost: 1 us per
-  /// piece.
+  /// piece of a triangle.
   Status choose(Index resolution, Index tets, ExecutionContext& context);
   Status build(double spacing, ExecutionContext& context);
 
@@ -95,11 +96,11 @@ public:
   static Status too_many_cubes();
 
   DisphenoidLattice lattice;
-  std::vector<Vec3> places; ///< positions of the vertices, in cubes
+  std::vector<Vec3> places; ///< #points: positions of the surface's points, in units of cubes
   std::vector<Key> tet_of_point;
   std::vector<Piece> pieces; ///< sorted by triangle, then by tet
-  std::vector<Index> first_piece; ///< #F + 1
-  std::unordered_map<Key, Kind> kinds; ///< of the cubes that are not outside
+  std::vector<Index> first_piece; ///< #F + 1: offsets into `pieces`
+  std::unordered_map<Key, Kind> kinds; ///< kinds of all cubes that are not outside
 
 private:
   bool find_pieces(ExecutionContext& context);
@@ -112,7 +113,7 @@ private:
   const WindingNumber& winding_;
   double threshold_;
   Box box_;
-  Cube first_cube_{}, last_cube_{}; ///< range of cubes that meet the box
+  Cube first_cube_{}, last_cube_{}; ///< range of cubes that overlap the box
 };
 
 } // namespace bindpose

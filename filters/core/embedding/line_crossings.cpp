@@ -1,5 +1,6 @@
-// The triangle is projected along the axis and processed row by row. For every line between its
-// borders, the exact signs of three areas decide whether the line crosses it.
+// Crossings of a triangle with the lines between samples (see line_crossings.h). The triangle is
+// projected along the axis and processed row by row. For every line in the projection's range, the
+// exact signs of three areas determine whether the line crosses the triangle.
 #include "embedding/line_crossings.h"
 
 #include "base/exact.h"
@@ -45,7 +46,7 @@ void add_line_crossings(
     corner[0][u], corner[0][v], corner[1][u], corner[1][v], corner[2][u], corner[2][v]);
   if (turn == 0)
   {
-    return; // parallel to the axis: its neighbors are crossed instead
+    return; // parallel to the axis: the lines cross its neighbors instead
   }
   const auto range = [&](int k) {
     return std::minmax({ corner[0][k], corner[1][k], corner[2][k] });

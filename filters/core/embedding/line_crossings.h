@@ -10,18 +10,19 @@
 namespace bindpose
 {
 
-/// The intersection of a triangle with the line from a sample to the next one along an axis.
+/// The intersection of a triangle with a line, the segment from a sample to the next one along an
+/// axis.
 struct LineCrossing
 {
   using Key = LatticeCover::Key;
   using Id = LatticeCover::Id;
   using Sample = CubeSamples::Sample;
 
-  /// Crossings that are closer than this fraction of the sample distance count as one.
+  /// Crossings of a line whose distance is below this fraction of the sample distance count as one.
   static constexpr double touching = 1e-9;
 
-  Key line; ///< axis and sample
-  double at; ///< 0 … 1 along the line
+  Key line; ///< encodes the axis and the first sample of the line
+  double at; ///< position on the line, 0 … 1
   Id triangle;
 
   int axis() const { return static_cast<int>(this->line >> 60); }
@@ -31,13 +32,13 @@ struct LineCrossing
     return { static_cast<Id>(this->line & mask), static_cast<Id>(this->line >> 20 & mask),
       static_cast<Id>(this->line >> 40 & mask) };
   }
-  /// Return a position on the line, in cubes.
+  /// Return a position on the line, in units of cubes.
   Vec3 place(double along_line) const;
 };
 
-/// Append all crossings of a triangle (corners in cubes) with the lines along an axis. A line
-/// through the border of two triangles crosses both. A triangle that is parallel to the axis has no
-/// crossings.
+/// Append all crossings of a triangle (corners in units of cubes) with the lines along an axis. If
+/// a line passes through the common edge of two triangles, it crosses both. A triangle that is
+/// parallel to the axis has no crossings.
 void add_line_crossings(
   LatticeCover::Id triangle, std::array<Vec3, 3> corner, int axis, std::vector<LineCrossing>& list);
 

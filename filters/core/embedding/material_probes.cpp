@@ -1,5 +1,6 @@
-// Triangles that cross a probe cut it into pieces. The probe stays inside if the winding number at
-// the middle of every piece reaches the threshold.
+// Tests of straight segments through the material (see material_probes.h). Triangles that cross a
+// segment divide it into intervals. The segment is in the material if the winding number at the
+// middle of every interval reaches the threshold.
 #include "embedding/material_probes.h"
 
 #include "base/disjoint_sets.h"
@@ -16,7 +17,7 @@ namespace bindpose
 namespace
 {
 /// Intersect the segment from a to b with a triangle; `at` is the fraction of the segment. Hits
-/// just outside of the triangle count too, because they only cut the segment once more.
+/// slightly outside of the triangle count too, because an additional cut is harmless.
 bool meets(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t, double& at)
 {
   const Vec3 u = t[1] - t[0];

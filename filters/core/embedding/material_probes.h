@@ -10,8 +10,9 @@
 namespace bindpose
 {
 
-/// Straight probes through the material (a surface and its inside). They find connections that the
-/// lines between samples miss, for example in a thin slice of material in a few tets.
+/// Straight segments (probes) through the material, which is a surface and its inside. They find
+/// connections that the lines between samples miss, for example in a thin slice of material in a
+/// few tets.
 class MaterialProbes
 {
 public:
@@ -23,24 +24,26 @@ public:
   {
   }
 
+  /// The atoms of one copy of a lattice node.
   struct Side
   {
-    Id root; ///< identifies the side
-    std::vector<Vec3> places; ///< positions in its material, in cubes
+    Id root; ///< identifies the copy (root of its union-find class)
+    std::vector<Vec3> places; ///< positions in the atoms, in units of cubes
   };
-  /// Append the pairs of roots of sides that a probe connects.
+  /// Append pairs of roots for copies that are connected by a probe.
+  /// @param sides all copies of one node.
   /// @param triangles all triangles nearby; duplicates are allowed.
-  /// Cost: up to 12 probes per pair of sides; each takes one winding number per piece into which
-  /// triangles cut it.
+  /// Cost: up to 12 probes per pair of copies; each probe takes one winding number per interval
+  /// between its crossings with triangles.
   void connect(std::vector<Side> sides, std::vector<Id> triangles,
     std::vector<std::pair<Id, Id>>& joined) const;
 
 private:
-  /// Report whether the segment from a to b, which only these triangles can cross, stays in the
-  /// material.
+  /// Report whether the segment from a to b is completely in the material. `triangles` contains all
+  /// triangles that can cross the segment.
   bool stays_inside(const Vec3& a, const Vec3& b, const std::vector<Id>& triangles,
     std::vector<double>& cuts) const;
-  /// Report whether one of the shortest segments between two sets of positions stays in the
+  /// Report whether one of the shortest segments between two sets of positions is completely in the
   /// material.
   bool connects(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
     const std::vector<Id>& triangles, std::vector<double>& cuts) const;

@@ -1,6 +1,7 @@
-// The program's lines are read from a pipe. The pipe is polled, so that cancel and time limit are
-// checked every 20 ms. The group is killed before the leader is reaped: until then its number
-// cannot be given to another process.
+// Run a program in a process group (see child_process.h). The lines that the program prints are
+// read from a pipe. The pipe is polled, so that cancel and time limits are checked every 20 ms. The
+// group is killed before its leader is reaped, because until then the system cannot assign the
+// group's id to another process.
 #include "helper/child_process.h"
 
 #include "base/number_text.h"
@@ -28,7 +29,7 @@ namespace bindpose
 
 namespace
 {
-/// File actions for standard input, output and error, and for the working folder.
+/// File actions of posix_spawn for standard input, output and error, and for the working folder.
 class SpawnActions
 {
 public:
@@ -60,8 +61,8 @@ private:
   posix_spawn_file_actions_t actions_{};
 };
 
-/// A separate process group and default signal handling. Signals that the application blocks or
-/// ignores must reach the program.
+/// Attributes of posix_spawn: a separate process group and default signal handling, so that signals
+/// that the application blocks or ignores are delivered to the program.
 class SpawnAttributes
 {
 public:
@@ -90,7 +91,7 @@ private:
   posix_spawnattr_t attributes_{};
 };
 
-/// The process and its group. The destructor kills and reaps them.
+/// The process and its group. The destructor kills the group and reaps the process.
 class Child
 {
 public:
@@ -99,7 +100,9 @@ public:
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Start the process. @return an error number, 0 for success.
+  /// Start the process.
+  /// @param lines file descriptor to which it prints its lines.
+  /// @return an error number, 0 for success.
   int start(int lines)
   {
     const SpawnActions actions(this->request_, lines);
@@ -130,7 +133,7 @@ public:
       info.si_pid == this->id_;
   }
 
-  /// Return the processor time of the child without that of its own children, or 0 if it is not
+  /// Return the processor time of the child, without the child's own children, or 0 if it is not
   /// available.
   double processor_seconds() const
   {
@@ -141,8 +144,8 @@ public:
     return told ? static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec) : 0.0;
   }
 
-  /// Kill the remaining processes of the group and reap the child. @return its status as from
-  /// waitpid.
+  /// Kill the remaining processes of the group and reap the child.
+  /// @return its status as defined by waitpid().
   int finish()
   {
     int status = 0;
@@ -161,8 +164,8 @@ public:
 private:
   void set_limits() const
   {
-    // Limits are set from this process, so that they apply to programs without an option for them.
-    // Memory that the program has allocated in the first microseconds counts too.
+    // This process sets the limits of the child, so that programs without an option for limits are
+    // limited, too. Memory that the program has allocated in its first microseconds counts too.
     const rlimit none{ 0, 0 };
     ::prlimit(this->id_, RLIMIT_CORE, &none, nullptr);
     if (this->request_.memory_limit > 0)
@@ -191,7 +194,8 @@ class Lines
 public:
   explicit Lines(const std::function<void(const std::string&)>& take) : take_(take) {}
 
-  /// Read from the pipe. @return false at its end.
+  /// Read from the pipe.
+  /// @return false at the end of the output.
   bool read(int pipe)
   {
     char block[4096];
@@ -210,7 +214,7 @@ public:
     constexpr std::size_t longest = 65536;
     if (this->pending_.size() > longest)
     {
-      this->pending_.clear(); // output without line ends
+      this->pending_.clear(); // discard output without line ends
     }
     return true;
   }
@@ -317,7 +321,7 @@ Status run_child(const ChildRequest& request,
   for (;;)
   {
     pollfd wait{ open ? lines_read.get() : -1, POLLIN, 0 };
-    const int patience = open ? 20 : 1; // ms between checks of cancel and time
+    const int patience = open ? 20 : 1; // milliseconds between two checks of cancel and time limits
     const int ready = ::poll(&wait, 1, patience);
     if (open && ready > 0)
     {
@@ -328,8 +332,9 @@ Status run_child(const ChildRequest& request,
     {
       return Status::canceled();
     }
-    // The pipe is first read to its end, because the last line may explain the failure. A
-    // grandchild may keep the pipe open, so the end of the child counts when no output is ready.
+    // Read the pipe to its end before handling the end of the child, because the last line may
+    // explain the failure. A grandchild may keep the pipe open; therefore, if no output is ready,
+    // the end of the child is sufficient.
     if ((!open || ready == 0) && child.ended())
     {
       judge(child.finish(), end);

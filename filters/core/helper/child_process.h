@@ -11,56 +11,61 @@
 namespace bindpose
 {
 
-/// A program that is run in a separate process.
+/// A request to run a program in a separate process.
 struct ChildRequest
 {
-  std::string name; ///< name in messages
+  std::string name; ///< name of the program in messages
   std::string path; ///< path of the executable
   std::vector<std::string> arguments;
-  std::string folder; ///< working folder; empty: that of this process
-  int input = -1; ///< file descriptor of its standard input, -1: no input
-  int output = -1; ///< file descriptor of its standard output, -1: lines, like standard error
+  std::string folder; ///< working folder; empty: working folder of this process
+  int input = -1; ///< file descriptor for its standard input, -1: no input
+  /// File descriptor for its standard output. -1: its lines are passed to take_line, like those of
+  /// standard error.
+  int output = -1;
   double time_limit = 120.0; ///< the program is killed after this many seconds
-  /// The program is killed after this many seconds of its own processor time, 0: no limit. Other
-  /// processes on the machine do not count.
+  /// The program is killed after using this many seconds of processor time, 0: no limit. Processor
+  /// time does not depend on the load of the machine.
   double processor_limit = 0.0;
   Index memory_limit = 0; ///< largest address space in MiB, 0: no limit
-  /// Called with the process group when the program runs, and with 0 when the group has ended.
+  /// Called with the id of the process group when the program has started, and with 0 when the
+  /// group has ended.
   std::function<void(int group)> started;
 };
 
-/// Outcome of a program.
+/// The way in which a program ended.
 struct ChildEnd
 {
   /// "was ended by signal 11 (Segmentation fault)" or "ended with code 7"; empty for code 0.
   std::string failure;
   bool by_signal = false;
-  bool at_limit = false; ///< it was stopped at one of its time limits
+  bool at_limit = false; ///< whether it was stopped at one of its time limits
   double seconds = 0.0;
 };
 
-/// Run a program to its end. It leads a separate process group, which is always killed before the
-/// function returns, so that no process that it started remains. It writes no core file.
-/// `take_line` is called on this thread with each printed line, without the line end.
+/// Run a program and wait for its end. The program leads a separate process group, which is always
+/// killed before the function returns, so that no process that it started remains. The program
+/// writes no core file. `take_line` is called in the current thread for each printed line, without
+/// the line end. Return
 /// - ok: the program ended; see `end`;
-/// - unavailable: it could not be started;
+/// - unavailable: the program could not be started;
 /// - canceled: the context was canceled (the group is killed within 20 ms);
-/// - internal_error: it was stopped at a time limit, or no pipe could be created.
+/// - internal_error: the program was stopped at a time limit, or no pipe could be created.
 Status run_child(const ChildRequest& request,
   const std::function<void(const std::string&)>& take_line, ChildEnd& end,
   ExecutionContext& context);
 
-/// Return invalid_input for a time limit (seconds) that is not positive or a memory limit (MiB)
+/// Return invalid_input if the time limit (seconds) is not positive or the memory limit (MiB) is
 /// below 0.
 Status check_limits(double time_limit, Index memory_limit);
 
-/// Return " under a memory limit of 500 MiB", or an empty string without a limit.
+/// Return a phrase for messages, for example " under a memory limit of 500 MiB"; empty without a
+/// limit.
 std::string memory_words(Index memory_limit);
 
 /// Report whether a path is an executable file.
 bool executable_file(const std::string& path);
 
-/// Return the path of a program in one of the folders of PATH, or an empty string if there is none.
+/// Return the path of a program in one of the folders of PATH, or an empty string if not found.
 std::string find_on_path(const std::string& program);
 
 /// A file descriptor that is closed by the destructor.

@@ -1,5 +1,6 @@
-// The record: 8 bytes magic, five 64-bit counts, the arrays in this order in the machine's byte
-// order, and the magic again, so that a truncated file is detected.
+// The binary format of MesherData (see mesher_format.h): 8 bytes magic, five 64-bit array lengths,
+// the arrays in the order of the struct and in the machine's byte order, and the magic again, so
+// that a truncated file is detected.
 #include "helper/mesher_format.h"
 
 #include <array>
@@ -103,7 +104,7 @@ bool read_mesher_data(int file, MesherData& data)
   std::size_t expected = 2 * magic.size() + sizeof(counts);
   for (std::size_t k = 0; k < counts.size(); ++k)
   {
-    // The product must not overflow before the comparison.
+    // Divide instead of multiplying, because the product could overflow.
     if (counts[k] < 0 || static_cast<std::size_t>(counts[k]) > bytes.size() / sizes[k])
     {
       return false;

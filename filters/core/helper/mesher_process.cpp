@@ -1,7 +1,8 @@
-// The helper reads its job from standard input and writes the result to standard output. Both are
-// anonymous files, so that no pipe can block and no file must be removed. Standard error contains
-// lines: "progress FRACTION", "report KEY NUMBER", "error TEXT". Any other line was printed by a
-// library before a failure and is stored for the message.
+// Exchange of data with bindpose-mesher (see mesher_process.h). The helper reads its job from
+// standard input and writes the result to standard output. Both are anonymous files, so that no
+// pipe can block and no file must be removed. On standard error, the helper prints lines of these
+// forms: "progress FRACTION", "report KEY NUMBER", "error TEXT". Any other line was printed by a
+// library before a failure and is stored for the error message.
 #include "helper/mesher_process.h"
 
 #include "helper/child_process.h"
@@ -25,7 +26,7 @@ constexpr const char* missing_helper =
   "the helper executable bindpose-mesher is missing; the packages libcgal-dev and libtet1.5-dev "
   "are needed to build it";
 
-/// Create a file without a name, closed on exec, with a descriptor other than 0, 1 and 2.
+/// Create an anonymous file that is closed on exec, with a descriptor other than 0, 1 and 2.
 int anonymous_file(const char* name)
 {
   const int file = ::memfd_create(name, MFD_CLOEXEC);
@@ -44,7 +45,7 @@ std::string folder_of(const std::string& path)
   return slash == std::string::npos ? "." : path.substr(0, slash);
 }
 
-/// Parses the lines of the helper.
+/// Parses the lines that the helper prints.
 class Lines
 {
 public:
@@ -119,7 +120,7 @@ std::string find_mesher()
   {
     folders.push_back(folder_of(std::string(self, static_cast<std::size_t>(length))));
   }
-  // The library that contains this function: a plugin's folder, lib/libX.so, or
+  // Find the library that contains this function. It is in a plugin's folder, or is lib/libX.so or
   // lib/ARCHITECTURE/libX.so.
   Dl_info info{};
   if (::dladdr(reinterpret_cast<void*>(&find_mesher), &info) && info.dli_fname)
@@ -170,8 +171,8 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
   ChildRequest child;
   child.path = path;
   child.arguments = request.arguments;
-  // The helper is notified when this process dies. The parent's id lets the helper detect that this
-  // process died before it requested the notification.
+  // The helper requests a notification for the case that this process dies. From the parent's id,
+  // the helper detects whether this process died before the request.
   child.arguments.insert(child.arguments.end(), { "--parent", std::to_string(::getpid()) });
   child.input = input_file.get();
   child.output = output_file.get();
@@ -181,7 +182,7 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
     (request.arguments.empty() ? std::string() : " " + request.arguments.front());
   if (request.memory_limit > 0)
   {
-    // The helper sets this limit itself, so that it can report when it exceeds the limit.
+    // The helper sets the memory limit itself, so that it can report that the limit was exceeded.
     child.arguments.insert(
       child.arguments.end(), { "--memory", std::to_string(request.memory_limit) });
   }

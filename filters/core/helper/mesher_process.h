@@ -13,33 +13,34 @@ namespace bindpose
 /// One job for the helper executable bindpose-mesher.
 struct MesherRequest
 {
-  /// The job and its options, as on a command line: {"refine"}, {"tetgen", "--switches", "pY"}.
+  /// The name of the job and its options, as on a command line: {"refine"}, {"tetgen",
+  /// "--switches", "pY"}.
   std::vector<std::string> arguments;
   double time_limit = 120.0; ///< the helper is killed after this many seconds
   Index memory_limit = 0; ///< largest address space of the helper in MiB, 0: no limit
-  /// The helper is killed after this many seconds of processor time, 0: no limit.
+  /// The helper is killed after using this many seconds of processor time, 0: no limit.
   double processor_limit = 0.0;
 };
 
-/// Result of a job.
+/// The result of a job.
 struct MesherAnswer
 {
   MesherData data;
-  Report report; ///< numbers that the helper reported, with the helper's keys
+  Report report; ///< values that the helper reported, with the helper's keys
   double seconds = 0.0;
-  bool at_limit = false; ///< it was stopped at one of its time limits
+  bool at_limit = false; ///< whether the helper was stopped at one of its time limits
 };
 
-/// Return the path of bindpose-mesher, or an empty string if there is none. If the environment
-/// variable BINDPOSE_MESHER is set, only this path is used. Otherwise the folders are, in this
-/// order: that of the running executable, that of the library, the bin folder next to the library's
-/// folder, and the build tree.
+/// Return the path of bindpose-mesher, or an empty string if it is not found. If the environment
+/// variable BINDPOSE_MESHER is set, only this path is used. Otherwise the searched folders are, in
+/// this order: the folder of the running executable, the folder of the library, the bin folder next
+/// to the library's folder, and the build tree.
 std::string find_mesher();
 
-/// Run one job in a separate process and wait for it. CGAL and TetGen may crash, hang or use all
-/// memory on bad input. This function converts these failures to a status:
-/// - unavailable: there is no helper; the message contains the packages that are needed to build
-///   it;
+/// Run one job in a separate process and wait for its end. CGAL and TetGen may crash, hang or use
+/// all memory if the input is bad. This function converts these failures to a status:
+/// - unavailable: the helper is not found; the message contains the packages that are needed to
+///   build it;
 /// - canceled: the context was canceled (the helper is killed within 20 ms);
 /// - internal_error: the helper crashed, ended with an error, ran out of time or memory, or wrote
 ///   an invalid mesh; the message contains the reason.

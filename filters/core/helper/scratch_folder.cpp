@@ -1,7 +1,8 @@
-// The guard is a shell that reads process groups from a socket, line by line, until the socket
-// closes. This happens when the object is destroyed or when this process dies for any reason. The
-// guard then kills the last group that it has read (no group after an empty line) and removes the
-// folder. It leads a separate process group, so that a Ctrl-C in the terminal does not reach it.
+// A temporary folder with a guard process (see scratch_folder.h). The guard is a shell that reads
+// ids of process groups from a socket, line by line, until the socket closes. The socket closes
+// when the object is destroyed or when this process dies for any reason. The guard then kills the
+// last group that it has read (an empty line means no group) and removes the folder. The guard
+// leads a separate process group, so that a Ctrl-C in the terminal does not end it.
 #include "helper/scratch_folder.h"
 
 #include <cerrno>
@@ -71,7 +72,7 @@ void ScratchFolder::guard_group(int group)
   if (this->line_ >= 0)
   {
     const std::string line = group > 0 ? std::to_string(group) + "\n" : "\n";
-    // Without a guard the send fails; the flag prevents a signal in that case.
+    // If the guard has ended, sending fails; the flag MSG_NOSIGNAL then prevents a signal.
     static_cast<void>(::send(this->line_, line.data(), line.size(), MSG_NOSIGNAL));
   }
 }

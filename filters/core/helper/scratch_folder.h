@@ -6,9 +6,10 @@
 namespace bindpose
 {
 
-/// A temporary folder, in the system's folder for temporary files (TMPDIR, else /tmp), for a
-/// program that can exchange data only through files. The destructor removes it with all its
-/// contents. If this process dies or is killed, a small shell process removes it.
+/// A temporary folder in the system's folder for temporary files (TMPDIR, else /tmp). It is used
+/// for programs that exchange data only through files. The destructor removes the folder with all
+/// its contents. If this process dies or is killed, a small shell process, the guard, removes the
+/// folder.
 class ScratchFolder
 {
 public:
@@ -18,12 +19,12 @@ public:
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
 
-  /// Return the path, which is empty if the folder could not be created: see error().
+  /// Return the path, or an empty string if the folder could not be created; see error().
   const std::string& path() const { return this->path_; }
   const std::string& error() const { return this->error_; }
 
-  /// Set the process group that works in the folder and must be killed if this process dies; 0:
-  /// none. See ChildRequest::started.
+  /// Set the process group that uses the folder. The guard kills this group if this process dies;
+  /// 0: no group. See ChildRequest::started.
   void guard_group(int group);
 
 private:
@@ -31,8 +32,8 @@ private:
 
   std::string path_;
   std::string error_;
-  int guard_ = -1; ///< process id
-  int line_ = -1; ///< file descriptor; its closing signals the end of this process to the guard
+  int guard_ = -1; ///< process id of the guard; -1: no guard
+  int line_ = -1; ///< file descriptor of the socket to the guard; it closes when this process ends
 };
 
 } // namespace bindpose

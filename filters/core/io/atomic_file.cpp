@@ -1,5 +1,7 @@
-// The temporary file "STEM.part-PID-N.EXTENSION" is in the same folder, so that the final rename is
-// atomic. Writers that select a format by the extension write it like the target.
+// Atomic writing by renaming a temporary file (see atomic_file.h). The temporary file
+// "STEM.part-PID-N.EXTENSION" is in the target's folder, so that the final rename is atomic.
+// Because of its extension, writers that select a format by the extension write the target's
+// format.
 #include "io/atomic_file.h"
 
 #include "io/text_scanner.h"
@@ -20,8 +22,8 @@ namespace bindpose
 
 namespace
 {
-/// Temporary files that exist now. The process owns the files, so it owns their list: this is the
-/// one state shared between instances.
+/// Paths of all temporary files of the process that exist now, for discard_all(). This list is the
+/// only state that the objects of the class share.
 struct Registry
 {
   std::mutex mutex;
@@ -39,7 +41,7 @@ Status cannot_write(const std::string& path, const std::string& reason)
   return Status::invalid_input("cannot write " + path + ": " + reason);
 }
 
-/// Wait until a file or a folder is on the disk. Return false, with errno, if that fails.
+/// Wait until a file or a folder is on the disk. If that fails, return false and set errno.
 bool sync_path(const std::string& path)
 {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -153,8 +155,8 @@ Status AtomicFile::commit_synced()
   Status status = this->commit();
   if (status.ok())
   {
-    // The folder contains the name. If the file system cannot sync folders, nothing more can be
-    // done.
+    // Sync the folder, because it stores the name of the file. Failure is ignored, because some
+    // file systems cannot sync folders.
     const std::size_t name = target.find_last_of('/');
     sync_path(name == std::string::npos ? "." : target.substr(0, name + 1));
   }

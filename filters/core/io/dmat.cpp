@@ -1,4 +1,5 @@
-// DMAT: a line "columns rows" and the values, column by column, as text or as raw doubles.
+// Reader and writer of DMAT files (see dmat.h). A file contains a line "columns rows" and the
+// values, column by column, as text or as raw doubles.
 #include "io/dmat.h"
 
 #include "io/text_scanner.h"
@@ -12,7 +13,8 @@ namespace bindpose
 namespace
 {
 constexpr Index largest_count = Index(1) << 40;
-/// An empty matrix needs no bytes for any number of rows or columns, but loops over them must end.
+/// Largest number of rows or columns of an empty matrix. Its values occupy no bytes of the file, so
+/// without a limit a loop over rows or columns could be endless.
 constexpr Index largest_empty = Index(1) << 20;
 
 Status read_size(TextScanner& scanner, Index& columns, Index& rows)

@@ -1,5 +1,6 @@
-// tinygltf parses the file. It reads buffers through a callback and reads no images. Its output is
-// not trusted: every index, count and offset is checked before a number is read from a buffer.
+// Reader of skinned meshes in glTF files (see gltf_skin.h). tinygltf parses the file. It reads
+// buffers through a callback and reads no images. Its output is not trusted: every index, count and
+// offset is checked before a value is read from a buffer.
 #include "io/gltf_skin.h"
 
 #include "base/memory.h"
@@ -20,13 +21,13 @@ namespace bindpose
 
 namespace
 {
-constexpr Index deepest = 100; // levels of nested brackets
+constexpr Index deepest = 100; // maximum nesting of brackets in the JSON text
 constexpr Index most_frames = 100000;
 constexpr double frames_per_second = 24.0; // used if keys are not evenly spaced
 
 using Transforms = std::vector<Eigen::Affine3d>;
 
-/// An error in the file. The sentence is appended to the path.
+/// Exception for an error in the file. The message is the file's path followed by this sentence.
 struct Broken : std::exception
 {
   explicit Broken(std::string text) : sentence(std::move(text)) {}
@@ -150,7 +151,7 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
   }
   for (const std::string& extension : model.extensionsRequired)
   {
-    // All other extensions change the meaning of the numbers of a mesh or a node.
+    // All other extensions can change the geometry of a mesh or a node.
     if (extension.compare(0, 14, "KHR_materials_") != 0 &&
       extension.compare(0, 12, "KHR_texture_") != 0)
     {
@@ -220,7 +221,7 @@ std::size_t component_size(int type)
   }
 }
 
-/// Return the largest value of the type, which is the divisor of normalized values.
+/// Return the divisor of normalized integers: the largest value of the component type.
 double unit_of(int type)
 {
   switch (type)
@@ -250,7 +251,9 @@ public:
     this->bytes_ = std::max(this->bytes_, file_size);
   }
 
-  /// Read all numbers of an accessor, one element per row. type: a constant of tinygltf.
+  /// Read all values of an accessor, one element per row.
+  /// @param type number of components, as a constant of tinygltf.
+  /// @param what name of the values in error messages.
   Numbers read(int id, int type, const char* what) const
   {
     const tinygltf::Accessor& accessor = at(this->model_.accessors, id, "accessor");
@@ -260,8 +263,8 @@ public:
     }
     const int columns = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
     const std::size_t size = component_size(accessor.componentType);
-    // A sparse accessor needs no bytes for zeros, but no valid one has more elements than the file
-    // has bytes.
+    // A sparse accessor stores no bytes for zeros. As a sanity check, the number of its elements
+    // must not exceed the number of bytes in the file.
     if (accessor.count == 0 || accessor.count > this->bytes_)
     {
       throw Broken(std::string(what) + " count " + std::to_string(accessor.count) +
@@ -303,7 +306,7 @@ public:
     return numbers;
   }
 
-  /// Read the same and check that all numbers are finite.
+  /// Read an accessor and check that all values are finite.
   Numbers read_finite(int id, int type, const char* what) const
   {
     Numbers numbers = this->read(id, type, what);
@@ -314,7 +317,7 @@ public:
     return numbers;
   }
 
-  /// Read the same and check that the numbers are integers.
+  /// Read an accessor and check that its values are unsigned integers.
   Numbers read_ids(int id, int type, const char* what) const
   {
     const int component = at(this->model_.accessors, id, "accessor").componentType;
@@ -513,7 +516,8 @@ bool take(const tinygltf::Value& value, Vec3& to)
   return to.allFinite();
 }
 
-/// Read the extras that Bindpose writes. Return nothing for other or damaged extras.
+/// Read the extras that Bindpose writes for a handle. Return nothing if they are missing or
+/// invalid.
 std::optional<GltfNote> read_note(const tinygltf::Value& extras, std::size_t joints)
 {
   if (!extras.IsObject() || !extras.Has("bindpose") || !extras.Get("bindpose").IsObject())
@@ -554,7 +558,7 @@ std::optional<GltfNote> read_note(const tinygltf::Value& extras, std::size_t joi
 
 struct SkinNodes
 {
-  std::vector<int> nodes; ///< nodes of the joints
+  std::vector<int> nodes; ///< node of each joint
   std::vector<int> joint_of_node;
 };
 
@@ -627,7 +631,8 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
 
 // ---- Meshes ------------------------------------------------------------------------------------
 
-/// Data collected from all primitives.
+/// Mesh data collected from all primitives. The first four members contain one matrix per
+/// primitive.
 struct Parts
 {
   std::vector<Numbers> points;
@@ -642,9 +647,10 @@ struct Parts
   Index meshes = 0;
   bool more_attributes = false; ///< further sets of texture coordinates or colors
   Index unweighted = 0;
-  /// First vertex of each set of accessors: primitives with different materials share them.
+  /// The first vertex of each combination of accessors. Primitives with different materials can
+  /// share their vertices.
   std::map<std::map<std::string, int>, Index> shared;
-  /// (joint, weight) per vertex.
+  /// For each vertex, pairs of joint and weight.
   std::vector<std::vector<std::pair<Index, double>>> influences;
 };
 
@@ -668,7 +674,7 @@ void add_triangles(const std::vector<Index>& corners, int mode, Index offset, Pa
   }
 }
 
-/// Read an attribute with one row per vertex. Return no rows if it is missing.
+/// Read an attribute with one row per vertex. Return a matrix without rows if it is missing.
 Numbers read_attribute(const Accessors& accessors, const tinygltf::Primitive& primitive,
   const char* name, int type, Index vertices, bool ids = false)
 {
@@ -732,7 +738,7 @@ void read_influences(const Accessors& accessors, const tinygltf::Primitive& prim
         const double weight = weights(v, k);
         if (weight == 0.0)
         {
-          continue; // the joint id does not matter
+          continue; // skip unused entries, whose joint id may be invalid
         }
         if (weight < 0.0 || ids(v, k) >= static_cast<double>(joints))
         {
@@ -814,7 +820,7 @@ void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
   add_triangles(corners, mode, offset, parts);
 }
 
-/// Concatenate the parts. Do nothing unless every part has rows.
+/// Concatenate the matrices of all primitives. Do nothing if a primitive lacks the attribute.
 template <typename Matrix>
 void join(const std::vector<Numbers>& parts, Index rows, double unit, Matrix& all)
 {
@@ -846,8 +852,8 @@ void join(const std::vector<Numbers>& parts, Index rows, double unit, Matrix& al
   }
 }
 
-/// Set the weights with rows that sum to one. Then remove the joint "rest" that write_gltf_skin()
-/// adds.
+/// Set the weights, with rows that sum to one. Then remove the joint "rest", which
+/// write_gltf_skin() adds.
 void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
 {
   const auto joints = static_cast<Index>(skin.joints.size());
@@ -879,7 +885,8 @@ void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
     skin.joints.pop_back();
     joint_nodes.nodes.pop_back();
     skin.weights.conservativeResize(Eigen::NoChange, joints - 1);
-    for (GltfJoint& joint : skin.joints) // write_gltf_skin() puts no joint below it
+    // Files of other programs may have joints below the joint "rest".
+    for (GltfJoint& joint : skin.joints)
     {
       joint.parent = joint.parent < joints - 1 ? joint.parent : -1;
     }
@@ -900,7 +907,8 @@ struct Track
   } property;
   std::string interpolation;
   std::vector<double> times;
-  Numbers values; ///< cubic: three rows per key: in-tangent, value, out-tangent
+  /// One row per key; for cubic interpolation three rows per key: in-tangent, value, out-tangent.
+  Numbers values;
 
   bool cubic() const { return this->interpolation == "CUBICSPLINE"; }
   Eigen::VectorXd value(std::size_t key) const
@@ -960,11 +968,11 @@ std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& a
   }
   else
   {
-    return {}; // animates weights of morph targets
+    return {}; // animates weights of morph targets, which are not read
   }
   if (track.node < 0)
   {
-    return {}; // belongs to an extension
+    return {}; // the channel belongs to an extension
   }
   at(model.nodes, track.node, "node");
   const tinygltf::AnimationSampler& sampler = at(animation.samplers, channel.sampler, "sampler");
@@ -989,6 +997,7 @@ std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& a
 }
 
 /// Return the times of the frames: the keys if they are evenly spaced, else 24 per second.
+/// @param rate set to the number of frames per second.
 std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
 {
   std::set<double> keys;
@@ -1008,7 +1017,7 @@ std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
   }
   if (even)
   {
-    // Times are floats: a rate that is nearly an integer was an integer.
+    // Times are stored as floats, so a rate close to an integer is rounded.
     rate = 1.0 / step;
     rate = std::abs(rate - std::round(rate)) < 1e-4 * rate ? std::round(rate) : rate;
     return { keys.begin(), keys.end() };
@@ -1026,7 +1035,7 @@ std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
   return times;
 }
 
-/// Return the name of the animation that was read, or nothing if no animation moves a joint.
+/// Read the first animation that moves a joint. Return its name, or nothing if there is none.
 std::optional<std::string> read_animation(const tinygltf::Model& model, const Accessors& accessors,
   Nodes nodes, const SkinNodes& skin_nodes, GltfSkin& skin)
 {
@@ -1072,7 +1081,7 @@ std::optional<std::string> read_animation(const tinygltf::Model& model, const Ac
     for (const Track& track : tracks)
     {
       Placement& placement = nodes.placements[track.node];
-      placement.has_matrix = false; // glTF does not animate nodes with a matrix
+      placement.has_matrix = false; // glTF does not allow animated nodes with a matrix
       const Eigen::VectorXd value = track.at(time);
       switch (track.property)
       {
@@ -1102,14 +1111,14 @@ std::optional<std::string> read_animation(const tinygltf::Model& model, const Ac
   return name;
 }
 
-// ---- What is not read --------------------------------------------------------------------------
+// ---- Content that is not read ------------------------------------------------------------------
 
 std::string counted(std::size_t count, const char* one, const char* many)
 {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-/// Return the parts of the file that `skin` does not contain, one phrase per type.
+/// Return the content of the file that `skin` does not contain, one phrase per type.
 std::vector<std::string> find_losses(const tinygltf::Model& model, const Parts& parts,
   const GltfSkin& skin, const std::optional<std::string>& animation, Index other_meshes)
 {
@@ -1174,7 +1183,7 @@ std::string listed(const std::vector<std::string>& phrases)
   return text;
 }
 
-// ---- All ---------------------------------------------------------------------------------------
+// ---- The whole file ----------------------------------------------------------------------------
 
 /// Return the skin of the first mesh that has one, or -1 if no mesh has one.
 int first_skin(const tinygltf::Model& model)
@@ -1219,7 +1228,8 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
     const tinygltf::Mesh& mesh = at(model.meshes, node.mesh, "mesh");
     if (which >= 0 && !seen.insert(node.mesh).second)
     {
-      continue; // the joints place the mesh, so it would be duplicated
+      // The joints determine the mesh's position, so a second node would duplicate the mesh.
+      continue;
     }
     if (!global[n].matrix().allFinite())
     {
@@ -1228,7 +1238,7 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
     const Eigen::Affine3d place = which >= 0 ? Eigen::Affine3d::Identity() : global[n];
     if (which < 0)
     {
-      parts.shared.clear(); // at another position it is another mesh
+      parts.shared.clear(); // a mesh at another position needs its own vertices
     }
     for (const tinygltf::Primitive& primitive : mesh.primitives)
     {

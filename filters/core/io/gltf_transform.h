@@ -6,7 +6,7 @@
 namespace bindpose
 {
 
-/// The map x -> translation + rotation * (scale .* x) of a glTF node.
+/// The transform x -> translation + rotation * (scale .* x) of a glTF node.
 struct Trs
 {
   Vec3 translation = Vec3::Zero();
@@ -16,9 +16,9 @@ struct Trs
   Eigen::Affine3d affine() const;
 };
 
-/// Return the translation, the rotation of the polar decomposition M = R P and the diagonal of P.
-/// The result equals the map if the map has no shear in its own axes. If the map mirrors, the
-/// scales are negative.
+/// Approximate an affine map by the translation, the rotation of the polar decomposition M = R P of
+/// its linear part, and the diagonal of P. The result is exact if P is diagonal, so that the map
+/// has no shear relative to its own axes. If the map mirrors, the scales are negative.
 Trs nearest_trs(const Eigen::Affine3d& map);
 
 } // namespace bindpose

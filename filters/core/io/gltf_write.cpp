@@ -1,7 +1,8 @@
-// This file fills a tinygltf model. The weights are packed into sets of four, the numbers become
-// accessors of one buffer, the joints become nodes and the frames an animation. Floats, dropped
-// weights and nodes with translation, rotation and scale change a pose. The change is measured by
-// moving the vertices both as the file does and exactly.
+// Writer of skinned meshes as glTF files (see gltf_skin.h). This file fills a tinygltf model:
+// weights are packed into sets of four, arrays become accessors of one buffer, joints become nodes,
+// and frames become an animation. Rounding to floats, dropped weights, and nodes that contain only
+// translation, rotation and scale change the pose. This error is measured by moving the vertices
+// both according to the file and exactly.
 #include "io/gltf_skin.h"
 
 #include "io/gltf_transform.h"
@@ -19,24 +20,25 @@ namespace bindpose
 
 namespace
 {
-constexpr std::size_t largest_file = 0xf0000000; // a .glb stores its size in 32 bits
-constexpr float smallest_weight = 0x1p-24F; // next to 1 a float represents no smaller weight
-constexpr double exact_row = 1e-6; // tolerance of a row's sum
+constexpr std::size_t largest_file = 0xf0000000; // in bytes; a .glb file stores its size in 32 bits
+// Smaller weights have no effect next to a float of value 1.
+constexpr float smallest_weight = 0x1p-24F;
+constexpr double exact_row = 1e-6; // tolerance of the row sums of weights
 
 using Transforms = std::vector<Eigen::Affine3d>;
 
 // ---- Weights -----------------------------------------------------------------------------------
 
-/// The weights as stored in the file: `per_row` per vertex, the largest first.
+/// The weights as stored in the file: `per_row` weights per vertex, the largest first.
 struct PackedWeights
 {
-  Index per_row = 0; // a multiple of 4
+  Index per_row = 0; // number of stored weights per vertex, a multiple of 4
   std::vector<std::uint16_t> joints;
   std::vector<float> weights;
-  bool rest_joint = false; // additional joint after all others
+  bool rest_joint = false; // whether there is an additional joint "rest" after all others
   Index dropped = 0;
   double dropped_share = 0.0;
-  Index negative_rows = 0; // with a negative weight or a sum above one
+  Index negative_rows = 0; // number of rows with a negative weight or a sum above one
 };
 
 struct Influence
@@ -45,8 +47,8 @@ struct Influence
   Index joint;
 };
 
-/// Return the influences that are kept of a row. All are at least 0 and sum to one, including that
-/// of the joint "rest".
+/// Return the influences of one row that are kept. They are at least 0 and sum to one, including
+/// the influence of the joint "rest".
 std::vector<Influence> influences_of(
   const GltfSkin& skin, Index v, Index most, PackedWeights& packed)
 {
@@ -65,8 +67,8 @@ std::vector<Influence> influences_of(
     }
   }
   packed.negative_rows += changed || lacks < -exact_row;
-  // Negative weights and weights above one cancel in the sum, but not after the negative ones are
-  // removed.
+  // If the weights sum to less than one, the joint "rest" gets the missing weight. The sum includes
+  // negative weights, which are removed.
   if (lacks > exact_row)
   {
     row.push_back({ lacks, joints });
@@ -122,7 +124,7 @@ PackedWeights pack(const GltfSkin& skin, Index most)
     {
       const Influence& influence = rows[v][k];
       packed.joints[at + k] = static_cast<std::uint16_t>(influence.joint);
-      // The largest weight absorbs the rounding errors of the row sum.
+      // The largest weight is computed from the others, so that the rounded row sums to one.
       packed.weights[at + k] = k == 0 ? 1.0F - sum : static_cast<float>(influence.weight);
       sum += packed.weights[at + k];
       packed.rest_joint =
@@ -132,9 +134,9 @@ PackedWeights pack(const GltfSkin& skin, Index most)
   return packed;
 }
 
-// ---- Where vertices go -------------------------------------------------------------------------
+// ---- Positions of vertices ---------------------------------------------------------------------
 
-/// Return the maps from rest to pose of all joints, and the identity as the last one.
+/// Return the rest-to-pose maps of all joints, followed by the identity for the joint "rest".
 Transforms maps_of(const GltfSkin& skin, const Transforms& posed)
 {
   Transforms maps;
@@ -169,7 +171,10 @@ Vec3 moved(const Transforms& maps, const Vec3& p, const PackedWeights& packed, I
   return result;
 }
 
-/// Return the largest distance between a vertex as the file moves it and its correct position.
+/// Return the largest distance between the position of a vertex according to the file and its
+/// correct position.
+/// @param wanted, held exact and stored joint-to-scene maps.
+/// @param points correct positions; if empty, computed from `wanted`.
 double largest_error(const GltfSkin& skin, const PackedWeights& packed, const Transforms& wanted,
   const Transforms& held, const Points& points)
 {
@@ -187,10 +192,10 @@ double largest_error(const GltfSkin& skin, const PackedWeights& packed, const Tr
   return largest;
 }
 
-/// Return the joints, each after its parent. The result is shorter if the parents are cyclic.
+/// Return the joint ids, each after its parent. Joints in a cycle are missing.
 std::vector<Index> parents_first(const std::vector<GltfJoint>& joints)
 {
-  // children[0]: joints without a parent.
+  // children[j + 1] are the children of joint j; children[0] are the joints without a parent.
   std::vector<std::vector<Index>> children(joints.size() + 1);
   for (std::size_t j = 0; j < joints.size(); ++j)
   {
@@ -205,8 +210,8 @@ std::vector<Index> parents_first(const std::vector<GltfJoint>& joints)
   return order;
 }
 
-/// Return local maps that put the joints at `wanted`, as far as nodes can represent it. `held` is
-/// set to the resulting joint-to-scene maps.
+/// Return local transforms that move the joints to `wanted`, as far as nodes can represent these
+/// maps. `held` is set to the joint-to-scene maps that result.
 std::vector<Trs> local_maps(const GltfSkin& skin, const Transforms& wanted, Transforms& held)
 {
   std::vector<Trs> locals(skin.joints.size());
@@ -216,7 +221,7 @@ std::vector<Trs> local_maps(const GltfSkin& skin, const Transforms& wanted, Tran
     const Index parent = skin.joints[j].parent;
     const Eigen::Affine3d above = parent < 0 ? Eigen::Affine3d::Identity() : held[parent];
     Eigen::Affine3d local = above.inverse() * wanted[j];
-    // The parent is singular, so no local map can correct the joint.
+    // If the parent's map is singular, no local transform can correct the joint.
     if (!local.matrix().allFinite())
     {
       local = wanted[j];
@@ -267,7 +272,7 @@ public:
     return static_cast<int>(this->model.accessors.size()) - 1;
   }
 
-  /// Add the rows of a matrix as floats, with their smallest and largest values.
+  /// Add the rows of a matrix as floats, with the minimum and maximum of each column.
   template <typename Matrix>
   int add_rows(const Matrix& rows, int type, int target = TINYGLTF_TARGET_ARRAY_BUFFER)
   {
@@ -303,7 +308,7 @@ std::vector<double> to_vector(const Vec3& v)
   return { v[0], v[1], v[2] };
 }
 
-/// Return the components in glTF's order, x y z w.
+/// Return the components in glTF's order: x, y, z, w.
 std::vector<double> to_vector(const Eigen::Quaterniond& q)
 {
   return { q.x(), q.y(), q.z(), q.w() };
@@ -357,7 +362,7 @@ void add_mesh(Builder& builder, const GltfSkin& skin, const PackedWeights& packe
   if (skin.normals.rows() > 0)
   {
     Points normals = skin.normals;
-    for (Index v = 0; v < normals.rows(); ++v) // glTF requires unit length
+    for (Index v = 0; v < normals.rows(); ++v) // glTF requires unit normals
     {
       const Vec3 n = normals.row(v).transpose().stableNormalized();
       normals.row(v) = (n.squaredNorm() > 0.5 ? n : Vec3(Vec3::UnitZ())).transpose();
@@ -412,7 +417,8 @@ void add_mesh(Builder& builder, const GltfSkin& skin, const PackedWeights& packe
   builder.model.meshes.push_back(mesh);
 }
 
-/// Node 0 is the mesh, node 1 is above all joints, and node 2 + j is joint j.
+/// Node 0 is the mesh, node 1 is the parent of all joints without a parent, and node 2 + j is joint
+/// j.
 constexpr int first_joint = 2;
 
 void add_nodes(Builder& builder, const GltfSkin& skin, const std::vector<Trs>& locals, bool rests)
@@ -464,7 +470,7 @@ void add_nodes(Builder& builder, const GltfSkin& skin, const std::vector<Trs>& l
     }
     model.nodes[parent < 0 ? 1 : first_joint + parent].children.push_back(id);
     bound.joints.push_back(id);
-    for (int k = 0; k < 16; ++k) // column by column, as in Eigen
+    for (int k = 0; k < 16; ++k) // column by column, which is also Eigen's storage order
     {
       inverse_binds.push_back(static_cast<float>(inverse.data()[k]));
     }
@@ -497,8 +503,8 @@ void add_channel(tinygltf::Animation& animation, int times, int values, int node
   animation.channels.push_back(channel);
 }
 
-/// Add three tracks per joint. Of the two quaternions of a rotation, the one nearer to the previous
-/// key is used, because programs interpolate between keys.
+/// Add three animation tracks per joint. A rotation has two quaternions; the one nearer to the
+/// previous key is used, because programs interpolate between keys.
 void animate_joints(Builder& builder, const GltfSkin& skin, std::vector<std::vector<Trs>>& frames)
 {
   const int times = add_times(builder, skin);
@@ -531,8 +537,8 @@ void animate_joints(Builder& builder, const GltfSkin& skin, std::vector<std::vec
   builder.model.animations.push_back(animation);
 }
 
-/// Add one morph target per frame. Its weight is one at the time of the frame and zero at the other
-/// frames.
+/// Add one morph target per frame. The weight of a target is one at the time of its frame and zero
+/// at the other frames.
 void animate_shapes(Builder& builder, const GltfSkin& skin)
 {
   tinygltf::Mesh& mesh = builder.model.meshes[0];
@@ -665,7 +671,7 @@ Status write_model(const std::string& path, const tinygltf::Model& model, bool b
   {
     throw;
   }
-  catch (const std::exception&) // thrown by nlohmann-json, which writes only UTF-8
+  catch (const std::exception&) // thrown by nlohmann-json if a name is not UTF-8
   {
     return Status::invalid_input("a name is not UTF-8");
   }

@@ -1,5 +1,6 @@
-// MEDIT: keywords, each followed by a count and as many lines of numbers. The last number of a line
-// is a reference, which is not used. An unknown keyword is skipped up to the next keyword.
+// Reader and writer of MEDIT files (see medit.h). A file consists of keywords; each is followed by
+// a count and as many lines of numbers. The last number of a line is a reference number, which is
+// not used. An unknown keyword and its numbers are skipped up to the next keyword.
 #include "io/medit.h"
 
 #include "io/text_scanner.h"
@@ -119,7 +120,7 @@ Status read_sections(TextScanner& scanner, std::size_t bytes, MeditMesh& mesh)
     {
       status = read_elements(scanner, bytes, mesh.tets);
     }
-    // Other words are unknown keywords or their numbers.
+    // Any other word is an unknown keyword or one of its numbers, and is skipped.
   }
   return status;
 }

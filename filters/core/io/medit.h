@@ -8,7 +8,7 @@
 namespace bindpose
 {
 
-/// The content of a MEDIT file that is read: tets, triangles or both, over the same vertices.
+/// The supported content of a MEDIT file: tets, triangles or both, with common vertices.
 struct MeditMesh
 {
   Points points;
@@ -16,13 +16,14 @@ struct MeditMesh
   Tets tets;
 };
 
-/// Read an ASCII MEDIT file (INRIA's .mesh): Vertices (2D vertices get z = 0), Triangles,
-/// Tetrahedra. Other sections and all references are skipped. Ids are those of the file minus one.
-/// invalid_input, with file and line, for: a wrong header, a truncated file, words that are not
-/// numbers, coordinates that are not finite, vertex ids out of range.
+/// Read an ASCII MEDIT file (INRIA's .mesh format): Vertices (2D vertices get z = 0), Triangles,
+/// Tetrahedra. Other sections and all reference numbers are skipped. Ids in the file begin at 1, in
+/// the result at 0.
+/// @return invalid_input, naming file and line, if the header is wrong, the file is truncated, a
+/// word is not a number, a coordinate is not finite, or a vertex id is out of range.
 Status read_medit(const std::string& path, MeditMesh& mesh);
 
-/// Write version 2, dimension 3. Coordinates can be read back as the same doubles.
+/// Write a MEDIT file of version 2, dimension 3. Reading the file returns the same doubles.
 Status write_medit(
   const std::string& path, PointsView points, TrianglesView triangles, TetsView tets);
 

@@ -1,5 +1,6 @@
-// OBJ: "v x y z" and "f a b c …", ids from 1, each corner "a", "a/t", "a//n" or "a/t/n". Lines "l a
-// b …" are used only if there is no face.
+// Reader and writer of OBJ files (see obj.h). Vertices are lines "v x y z", faces are lines "f a b
+// c …". Vertex ids begin at 1, and each corner has the form "a", "a/t", "a//n" or "a/t/n".
+// Polylines "l a b …" are used only if there is no face.
 #include "io/obj.h"
 
 #include "io/text_scanner.h"
@@ -24,7 +25,7 @@ Status read_vertex(TextScanner& scanner, std::vector<Vec3>& points)
   return {};
 }
 
-/// Read a face with three corners or more, or a line with two vertices or more. Skip shorter ones.
+/// Read the vertex ids of a face or a polyline. Skip entries with less than `fewest` vertices.
 Status read_entry(TextScanner& scanner, Index vertices, const std::string& what, std::size_t fewest,
   std::vector<Index>& corners, std::vector<Index>& offsets, Index& skipped)
 {

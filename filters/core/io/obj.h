@@ -7,14 +7,14 @@ namespace bindpose
 {
 
 /// Read vertices and faces of a Wavefront OBJ file as doubles. Texture coordinates, normals,
-/// materials, groups and points are skipped, so that faces share vertices even if the normals of
+/// materials, groups and points are skipped. Faces therefore share vertices even if the normals at
 /// their corners differ. Lines are read only if the file has no face. Negative ids count back from
 /// the last vertex.
-/// invalid_input, with file and line, for: a file without vertices, or with neither faces nor
-/// lines; words that are not numbers; coordinates that are not finite; vertex ids out of range.
+/// @return invalid_input, naming file and line, if the file has no vertices, or neither faces nor
+/// lines, a word is not a number, a coordinate is not finite, or a vertex id is out of range.
 Status read_obj(const std::string& path, PolygonMesh& mesh);
 
-/// Write vertices and faces. Coordinates can be read back as the same doubles.
+/// Write vertices and faces. Reading the file returns the same doubles.
 Status write_obj(const std::string& path, const PolygonMesh& mesh);
 
 } // namespace bindpose

@@ -1,4 +1,5 @@
-// OFF: the word OFF, three counts, then one line per vertex and one line per face.
+// Reader and writer of OFF files (see off.h): the word OFF, three counts, then one line per vertex
+// and one line per face.
 #include "io/off.h"
 
 #include "io/text_scanner.h"
@@ -8,11 +9,12 @@ namespace bindpose
 
 namespace
 {
-/// A larger count means an invalid file. The limit also keeps ids far from overflow.
+/// Maximum count of vertices or faces. A larger count means an invalid file; the limit also
+/// prevents integer overflow of ids.
 constexpr Index largest_count = Index(1) << 40;
 
-/// Accept OFF with any of the prefixes ST, C, N. Their numbers follow the coordinates and are
-/// skipped.
+/// Accept the word OFF with any of the prefixes ST, C, N. The additional values of these variants
+/// follow the coordinates and are skipped.
 Status read_header(TextScanner& scanner)
 {
   std::string_view word;
@@ -52,13 +54,14 @@ Status read_counts(TextScanner& scanner, Index& vertices, Index& faces)
   {
     status = scanner.read_index("the number of faces", largest_count, faces);
   }
-  scanner.rest_of_line(); // the number of edges, which is not used and may be missing
+  scanner.rest_of_line(); // skip the number of edges, which may be missing
   return status;
 }
 
 Status read_vertices(TextScanner& scanner, std::size_t bytes, Index count, Points& points)
 {
-  // A vertex needs at least three digits and three blanks. A wrong count must not use all memory.
+  // A vertex needs at least three digits and three blanks. Because of this check, a wrong count
+  // cannot allocate all memory.
   if (static_cast<std::size_t>(count) > bytes / 6 + 1)
   {
     return scanner.error(
@@ -113,7 +116,7 @@ Status read_off(const std::string& path, PolygonMesh& mesh)
       status = scanner.read_index("a vertex id of a face", vertices, vertex);
       mesh.corners.push_back(vertex);
     }
-    scanner.rest_of_line(); // a color
+    scanner.rest_of_line(); // skip a color
     if (corners < 3)
     {
       mesh.corners.resize(begin);

@@ -1,6 +1,6 @@
-// PLY: a text header that lists elements and their properties, followed by the elements' values, as
-// text or as raw numbers. All values are parsed; only x, y, z and the lists of vertex ids are
-// stored.
+// Reader and writer of PLY files (see ply.h). A text header lists elements and their properties.
+// The values of the elements follow, as text or as raw numbers. All values are parsed, but only x,
+// y, z and the lists of vertex ids are stored.
 #include "io/ply.h"
 
 #include "io/text_scanner.h"
@@ -154,7 +154,7 @@ Status read_header(TextScanner& scanner, Header& header)
   return scanner.error("the header has no end");
 }
 
-/// Reads one number after the other, in any encoding.
+/// Reads one value after the other, in any of the three encodings.
 class Values
 {
 public:
@@ -231,7 +231,7 @@ private:
   Encoding encoding_;
 };
 
-/// Destination of a property's values.
+/// The use of a property's values.
 enum class Role
 {
   skipped,

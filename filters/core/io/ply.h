@@ -6,11 +6,11 @@
 namespace bindpose
 {
 
-/// Read vertices and faces of a PLY file: ASCII, binary little-endian or big-endian, coordinates of
-/// any number type. Other elements and properties are skipped.
-/// invalid_input, with the file and, for text, the line, for: a wrong header, no vertices or faces,
-/// a truncated file, words that are not numbers, coordinates that are not finite, vertex ids out of
-/// range.
+/// Read vertices and faces of a PLY file: ASCII, binary little-endian or big-endian, with
+/// coordinates of any number type. Other elements and properties are skipped.
+/// @return invalid_input, naming the file and, for text, the line, if the header is wrong, there
+/// are no vertices or faces, the file is truncated, a word is not a number, a coordinate is not
+/// finite, or a vertex id is out of range.
 Status read_ply(const std::string& path, PolygonMesh& mesh);
 
 /// Write binary little-endian PLY with double coordinates.

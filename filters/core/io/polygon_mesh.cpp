@@ -1,3 +1,4 @@
+// Conversion between polygons and triangles (see polygon_mesh.h).
 #include "io/polygon_mesh.h"
 
 namespace bindpose

@@ -6,17 +6,19 @@
 namespace bindpose
 {
 
-/// A surface as it is stored in files: polygon f has the corners [offsets[f], offsets[f + 1]).
+/// A polygon mesh as it is stored in files. The corners of polygon f are corners[offsets[f]] …
+/// corners[offsets[f + 1] - 1].
 struct PolygonMesh
 {
   Points points;
   std::vector<Index> offsets{ 0 };
   std::vector<Index> corners; ///< vertex ids
-  /// Polylines: line l has the vertices line_corners[line_offsets[l], line_offsets[l + 1]). They
-  /// are read only from OBJ files without a face, which contain curves.
+  /// Polylines, stored like polygons: the vertices of line l begin at
+  /// line_corners[line_offsets[l]]. They are read only from OBJ files without a face, which contain
+  /// curves.
   std::vector<Index> line_offsets{ 0 };
   std::vector<Index> line_corners;
-  /// Number of faces in the file with fewer than three corners, which are skipped.
+  /// Number of entries in the file with too few vertices, which are skipped.
   Index skipped = 0;
 
   Index polygon_count() const { return static_cast<Index>(this->offsets.size()) - 1; }
@@ -25,9 +27,10 @@ struct PolygonMesh
 };
 
 /// Triangulate each polygon as a fan from its first corner. This is correct for convex polygons.
-/// For winding numbers, which are sums over the triangles, it is always correct.
+/// Winding numbers are correct for any planar polygon, because they are sums over the triangles.
 Triangles fan_triangles(const PolygonMesh& mesh);
 
+/// Convert triangles to polygons.
 PolygonMesh to_polygons(PointsView points, TrianglesView triangles);
 
 } // namespace bindpose

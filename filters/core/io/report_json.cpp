@@ -1,3 +1,4 @@
+// Serialization of reports (see report_json.h).
 #include "io/report_json.h"
 
 #include <nlohmann/json.hpp>
@@ -21,7 +22,8 @@ bool has_json_form(const T& value)
   return true;
 }
 
-/// Return the object that the dots before the last part of the key address.
+/// Return the JSON object for the part of the key before the last dot, creating objects as needed.
+/// @param last set to the rest of the key.
 Json& object_of(Json& root, const std::string& key, std::string& last)
 {
   Json* at = &root;
@@ -57,7 +59,8 @@ std::string to_json(const Report& report, int indent)
         }
         else
         {
-          // A list: of values ("h[]", "h") or a column of a list of objects ("h[].x").
+          // The value is a list: a list of values ("h[]", "h"), or one property of a list of
+          // objects ("h[].x").
           const bool column = brackets != std::string::npos && brackets + 2 < name.size();
           std::string last;
           Json& object = object_of(root, name.substr(0, brackets), last);

@@ -6,9 +6,10 @@
 namespace bindpose
 {
 
-/// Return the report as a JSON object. "a.b" becomes {"a": {"b": …}}. The columns "h[].x", "h[].y"
-/// become the list h of objects {"x": …, "y": …}. A bare "h[]" becomes the list of its values.
-/// Numbers that are not finite are omitted, because JSON cannot represent them.
+/// Return the report as a JSON object. The key "a.b" becomes {"a": {"b": …}}. The keys "h[].x" and
+/// "h[].y" become the list h of objects {"x": …, "y": …}. The key "h[]" becomes the list of its
+/// values. JSON cannot represent numbers that are not finite: they are omitted, or null in a list
+/// of values.
 std::string to_json(const Report& report, int indent = 2);
 
 } // namespace bindpose

@@ -1,6 +1,7 @@
-// STL is a triangle soup. Binary: 80 bytes, a count, 50 bytes per triangle. Text: the words "vertex
-// x y z" between other words. A binary file may begin with "solid" as well, so the format is
-// determined from the file size.
+// Reader and writer of STL files, which contain a triangle soup (see stl.h). A binary file contains
+// 80 bytes, a count, and 50 bytes per triangle. A text file contains the words "vertex x y z"
+// between other words. A binary file may begin with "solid" as well, so the format is determined
+// from the file size.
 #include "io/stl.h"
 
 #include "io/text_scanner.h"
@@ -17,7 +18,8 @@ namespace
 constexpr std::size_t header_size = 84;
 constexpr std::size_t triangle_size = 50;
 
-/// Maps equal coordinates to the same vertex id, in order of first appearance.
+/// Assigns vertex ids: points with equal coordinates get the same id. Ids are in the order of first
+/// appearance.
 class Welder
 {
 public:
@@ -50,7 +52,8 @@ private:
       return hash ^ (hash >> 32);
     }
   };
-  std::unordered_map<Key, Index, Hash> ids_; // only for lookups, never iterated
+  // Only for lookups; never iterated, because its order is not deterministic.
+  std::unordered_map<Key, Index, Hash> ids_;
   std::vector<Vec3> points_;
 };
 
@@ -94,7 +97,7 @@ Status read_text(
     ended = word == "endsolid";
     if (ended)
     {
-      scanner.rest_of_line(); // the name of the solid, which may be any word
+      scanner.rest_of_line(); // skip the name of the solid, which may be any word
     }
     if (word != "vertex")
     {

@@ -6,13 +6,15 @@
 namespace bindpose
 {
 
-/// Read an STL file, ASCII or binary. Vertices with equal coordinates are merged, so that a closed
-/// surface is closed. Normals and attributes are skipped.
-/// invalid_input, with the file and, for text, the line, for: neither format, no triangle, a
-/// truncated file, words that are not numbers, coordinates that are not finite.
+/// Read an STL file, ASCII or binary. Vertices with equal coordinates are merged, because STL
+/// repeats the corners of every triangle. Normals and attributes are skipped.
+/// @return invalid_input, naming the file and, for text, the line, if the file has neither format,
+/// there is no triangle, the file is truncated, a word is not a number, or a coordinate is not
+/// finite.
 Status read_stl(const std::string& path, PolygonMesh& mesh);
 
-/// Write binary STL: floats, polygons triangulated as fans, normals of the triangles.
+/// Write binary STL: coordinates as floats, polygons triangulated as fans, normals of the
+/// triangles.
 Status write_stl(const std::string& path, const PolygonMesh& mesh);
 
 } // namespace bindpose

@@ -1,5 +1,5 @@
-// Text files are read word by word. Numbers are parsed by std::from_chars, which is fast and uses
-// the decimal point in every locale.
+// Text files are read word by word (see text_scanner.h). Numbers are parsed by std::from_chars,
+// which is fast and expects a decimal point in every locale.
 #include "io/text_scanner.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr bool is_blank(char c)
   return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n');
 }
 
-/// Return the index of the first blank (or, with blank = false, of the first other character), or
+/// Return the index of the first blank if `blank` is true, else of the first other character, or
 /// text.size() if there is none. This is several times as fast as find_first_of() with a list of
 /// blanks.
 template <bool blank>
@@ -144,8 +144,8 @@ bool parse_number(std::string_view text, double& value)
   }
   if (result.ec == std::errc::result_out_of_range)
   {
-    // The number is nearer to 0 than any double (1e-400), or too large. A number without exponent
-    // whose first nonzero digit follows the decimal point cannot be too large.
+    // The absolute value is too small for a double (1e-400) or too large. A number without exponent
+    // whose first nonzero digit follows the decimal point is too small.
     const std::size_t exponent = text.find_first_of("eE");
     const bool tiny = exponent == std::string_view::npos
       ? text.find_first_of("123456789") > text.find('.')

@@ -9,18 +9,19 @@
 namespace bindpose
 {
 
-/// Read the whole file. Return invalid_input if it is missing, a directory, unreadable or empty.
+/// Read a whole file. Return invalid_input if the file is missing, a directory, unreadable or
+/// empty.
 Status read_file(const std::string& path, std::string& content);
 
-/// Write the whole file. Return invalid_input with the system's reason if that fails.
+/// Write a whole file. If that fails, return invalid_input with the system's reason.
 Status write_file(const std::string& path, std::string_view content);
 
-/// Parse a text that consists of one number, in any locale. Return false for any other text. "nan"
-/// and "inf" are accepted; a caller that requires finite numbers must check.
+/// Parse a text that consists of one number, independent of the locale. Return false for any other
+/// text. "nan" and "inf" are accepted, so callers that require finite numbers must check.
 bool parse_number(std::string_view text, double& value);
 bool parse_index(std::string_view text, Index& value);
 
-/// Append the shortest text that can be read back as the same double.
+/// Append the shortest text from which parse_number() returns the same double.
 void append_number(std::string& text, double value);
 void append_index(std::string& text, Index value);
 
@@ -35,23 +36,25 @@ public:
 
   /// Advance to the next line with a word. Return false at the end of the text.
   bool next_line();
-  /// Get the next word of this line. Return false at its end.
+  /// Get the next word of the current line. Return false at the end of the line.
   bool next_word(std::string_view& word);
-  /// Get the next word of this or a later line. Return false at the end of the text.
+  /// Get the next word of the current line or of a later line. Return false at the end of the text.
   bool next_word_of_text(std::string_view& word);
-  /// Return the unread part of this line, without surrounding blanks and without its comment.
+  /// Return the unread rest of the current line, without surrounding blanks and without its
+  /// comment.
   std::string_view rest_of_line();
 
-  /// Read the next word of the text, which must be an index in [0, limit) or a finite number. The
-  /// status contains the expected item ("a vertex id") and the word that was found.
+  /// Read the next word of the text, which must be an index in [0, limit) or a finite number.
+  /// Otherwise the status contains `what`, the expected item ("a vertex id"), and the word that was
+  /// found.
   Status read_index(const char* what, Index limit, Index& value);
   Status read_number(const char* what, double& value);
 
-  /// Return the number of bytes read so far, for reading binary data after a text header.
+  /// Return the number of bytes up to the next line, for reading binary data after a text header.
   std::size_t position() const { return this->next_; }
   /// Return the number of the current line, from 1.
   Index line() const { return this->line_number_; }
-  /// Return invalid_input with the message "PATH, line N: sentence".
+  /// Return invalid_input with the message "PATH, line N: SENTENCE".
   Status error(const std::string& sentence) const;
 
 private:

@@ -1,4 +1,5 @@
-// TGF: nodes, a line with a single #, edges. Ids are any integers; edges refer to nodes by id.
+// Reader and writer of TGF files (see tgf.h): nodes, a line with a single #, edges. Ids are
+// arbitrary integers; edges refer to nodes by id.
 #include "io/tgf.h"
 
 #include "io/text_scanner.h"
@@ -100,7 +101,7 @@ Status read_tgf(const std::string& path, Tgf& graph)
   {
     return status;
   }
-  TextScanner scanner(path, text, 0); // # separates nodes and edges, so there are no comments
+  TextScanner scanner(path, text, 0); // no comment character, because # separates nodes and edges
   Ids ids;
   bool in_edges = false;
   while (status.ok() && scanner.next_line())
@@ -111,7 +112,7 @@ Status read_tgf(const std::string& path, Tgf& graph)
     {
       if (in_edges)
       {
-        break; // libigl ignores the lines after a second #
+        break; // ignore the lines after a second #, as libigl does
       }
       in_edges = true;
       continue;

@@ -8,7 +8,7 @@
 namespace bindpose
 {
 
-/// A skeleton as stored in a TGF file: nodes in space and edges between them.
+/// The content of a TGF file, a skeleton: nodes in space and edges between them.
 struct Tgf
 {
   struct Node
@@ -30,11 +30,13 @@ struct Tgf
 };
 
 /// Read Jacobson's Trivial Graph Format: lines "id x y z [text]", a line "#", lines "from to
-/// [is_bone is_pseudo is_cage]" (an edge without flags is a bone).
-/// invalid_input, with file and line, for: no node, words that are not numbers, coordinates that
-/// are not finite, a duplicate id, an edge to an unknown node or to its own node.
+/// [is_bone is_pseudo is_cage]". An edge without flags is a bone.
+/// @return invalid_input, naming file and line, if there is no node, a word is not a number, a
+/// coordinate is not finite, an id occurs twice, or an edge refers to an unknown node or connects a
+/// node with itself.
 Status read_tgf(const std::string& path, Tgf& graph);
 
+/// Write a skeleton in this format.
 Status write_tgf(const std::string& path, const Tgf& graph);
 
 } // namespace bindpose

@@ -1,7 +1,7 @@
 #ifndef bindpose_io_tiny_gltf_h
 #define bindpose_io_tiny_gltf_h
 
-// Configuration of tinygltf: no file access except through callbacks, and no images.
+// Configuration of the library tinygltf: no file access except through callbacks, and no images.
 #define TINYGLTF_NO_FS
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE

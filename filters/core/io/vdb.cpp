@@ -1,11 +1,12 @@
-// The samples are divided in parallel into the 8 x 8 x 8 blocks that are the leaf nodes of a VDB
-// tree. A block of one value becomes a tile, any other block a leaf. The blocks are inserted into
-// the tree sequentially, and pruning merges equal tiles into larger ones. OpenVDB's archive code
-// then writes the tree through a stream buffer of this file. The buffer reports progress, checks
-// for cancel and reports a full disk, which OpenVDB's file class ignores.
+// Writer of OpenVDB files (see vdb.h). The samples are divided in parallel into blocks that have
+// the size of the leaf nodes of a VDB tree, 8 x 8 x 8. A block with a constant value becomes a
+// tile, any other block a leaf. The blocks are inserted into the tree sequentially, and pruning
+// merges equal tiles into larger ones. OpenVDB's archive code then writes the tree through a stream
+// buffer that is defined in this file. The buffer reports progress, checks for cancel and reports a
+// full disk, which OpenVDB's file class ignores.
 //
-// A voxel is in the narrow band if the other side of the threshold occurs in the box of (2 N + 1)^3
-// voxels around it. This is computed axis by axis.
+// A voxel is in the narrow band if both sides of the threshold occur in the box of (2 N + 1)^3
+// voxels around it, where N is the band width. This is computed one axis after the other.
 //
 // This is the only file that includes OpenVDB.
 #include "io/vdb.h"
@@ -14,7 +15,7 @@
 #include "base/parallel.h"
 #include "io/atomic_file.h"
 
-#define IMATH_HALF_NO_LOOKUP_TABLE // without this, a table of Imath would have to be linked
+#define IMATH_HALF_NO_LOOKUP_TABLE // avoids linking a table of the library Imath
 #include <openvdb/io/Archive.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Prune.h>
@@ -61,9 +62,10 @@ namespace
 {
 using Leaf = openvdb::FloatTree::LeafNodeType;
 constexpr Index leaf_size = Leaf::DIM;
-/// OpenVDB's indices have 32 bits. This limit leaves room for the outer nodes, which reach farther.
+/// Limit of indices. OpenVDB's indices have 32 bits; the limit leaves room for the outer nodes,
+/// which extend beyond the samples.
 constexpr Index largest_index = Index(1) << 30;
-/// This exceeds every memory, but fits an Index.
+/// Maximum number of samples: more than any memory can store, but within the range of Index.
 constexpr double most_samples = 1e15;
 
 Status check(const SampleGrid& grid, const VdbOptions& options)
@@ -140,7 +142,7 @@ public:
     {
       this->lower_[axis] = grid.extent[2 * axis];
       this->upper_[axis] = grid.extent[2 * axis + 1];
-      // Rounds down, also for negative indices.
+      // Rounds down to a multiple of 8, also for negative indices.
       this->first_[axis] = this->lower_[axis] & ~(leaf_size - 1);
       this->count_[axis] = (this->upper_[axis] - this->first_[axis]) / leaf_size + 1;
       this->size_[axis] = grid.size(axis);
@@ -156,7 +158,8 @@ public:
       static_cast<int>(this->first_[1] + y * leaf_size),
       static_cast<int>(this->first_[2] + z * leaf_size));
   }
-  /// Call visit(offset in the leaf, id of the sample) for the block's voxels in the extent.
+  /// Call visit(offset in the leaf, id of the sample) for those voxels of the block that are in the
+  /// extent.
   template <typename Visit>
   void for_each_sample(const openvdb::Coord& origin, const Visit& visit) const
   {
@@ -176,7 +179,7 @@ public:
         for (Index i = begin[0]; i < end[0]; ++i)
         {
           const Index offset = ((i - origin[0]) * leaf_size + (j - origin[1])) * leaf_size +
-            (k - origin[2]); // in a leaf z is fastest
+            (k - origin[2]); // in a leaf, z varies fastest
           visit(static_cast<openvdb::Index>(offset), row + (i - this->lower_[0]));
         }
       }
@@ -190,20 +193,23 @@ private:
   Index size_[3];
 };
 
-// ---- the band -----------------------------------------------------------------------------------
+// ---- The narrow band ----------------------------------------------------------------------------
 using Sides = std::vector<unsigned char>;
 constexpr unsigned char below = 1;
 constexpr unsigned char above = 2;
 
-/// Set every entry of a line to the sides that occur within `width` of it. `outside` contains the
-/// sides beyond the line's ends. `found` is memory for the result.
+/// Set every entry of a line to the union of the sides (below, above) that occur within `width`
+/// entries.
+/// @param outside the sides beyond the ends of the line.
+/// @param found memory for the result.
 void spread_along_line(
   unsigned char* line, Index stride, Index size, Index width, unsigned char outside, Sides& found)
 {
   found.assign(static_cast<std::size_t>(size), 0);
   for (const unsigned char side : { below, above })
   {
-    Index last = outside & side ? -1 : -width - 1; // the nearest entry so far
+    // Index of the nearest entry with this side so far.
+    Index last = outside & side ? -1 : -width - 1;
     for (Index i = 0; i < size; ++i)
     {
       last = line[i * stride] & side ? i : last;
@@ -222,9 +228,9 @@ void spread_along_line(
   }
 }
 
-/// Find the sides of the threshold that occur within `width` voxels along each axis, for every
-/// sample.
-/// @return false when canceled.
+/// For every sample, find the sides of the threshold that occur within `width` voxels along each
+/// axis.
+/// @return false if canceled.
 template <typename Value>
 bool find_sides(const SampleGrid& grid, const Value* values, const VdbOptions& options,
   ExecutionContext& context, Sides& sides)
@@ -238,7 +244,7 @@ bool find_sides(const SampleGrid& grid, const Value* values, const VdbOptions& o
   const Index nz = grid.size(2);
   sides.resize(static_cast<std::size_t>(grid.count()));
   unsigned char* const data = sides.data();
-  // Process one layer of constant z at a time, then one of constant y.
+  // Spread along x and y within layers of constant z, then along z within layers of constant y.
   bool going = false;
   {
     const ProgressRange range(context, 0.0, 0.6);
@@ -274,14 +280,14 @@ bool find_sides(const SampleGrid& grid, const Value* values, const VdbOptions& o
       });
 }
 
-// ---- the tree -----------------------------------------------------------------------------------
+// ---- The tree -----------------------------------------------------------------------------------
 struct Voxel
 {
   float value = 0.0f;
   bool active = false;
 };
 
-/// Converts a value of the image to a voxel of the grid.
+/// Converts a sample to a voxel of the grid.
 class Classifier
 {
 public:
@@ -319,15 +325,16 @@ private:
   float mirror_;
 };
 
-/// A leaf, or the voxel that all voxels of the block equal.
+/// A leaf, or a tile: the common value of all voxels of the block.
 struct Block
 {
   std::unique_ptr<Leaf> leaf;
   Voxel tile;
 };
 
-/// Build the tree. @return false when canceled. `not_finite` is the first sample that is not a
-/// finite float, or -1.
+/// Build the tree.
+/// @param not_finite set to the first sample that is not a finite float, or -1.
+/// @return false if canceled.
 template <typename Value>
 bool make_tree(const SampleGrid& grid, const Value* values, const Sides& sides,
   const VdbOptions& options, ExecutionContext& context, openvdb::FloatTree& tree, Index& not_finite)
@@ -400,7 +407,7 @@ bool make_tree(const SampleGrid& grid, const Value* values, const Sides& sides,
 
 openvdb::math::Transform::Ptr make_transform(const SampleGrid& grid, const VdbOptions& options)
 {
-  openvdb::Mat4R matrix = openvdb::Mat4R::identity(); // acts on rows: x' = x M
+  openvdb::Mat4R matrix = openvdb::Mat4R::identity(); // OpenVDB multiplies row vectors: x' = x M
   for (int axis = 0; axis < 3; ++axis)
   {
     for (int k = 0; k < 3; ++k)
@@ -408,15 +415,15 @@ openvdb::math::Transform::Ptr make_transform(const SampleGrid& grid, const VdbOp
       matrix(axis, k) = options.direction(k, axis) * grid.spacing[axis];
     }
   }
-  // OpenVDB selects the simplest type of map for this matrix. The origin is added afterward: with
-  // the origin in the matrix, OpenVDB would compute the spacing as a rounded difference of two
-  // points.
+  // OpenVDB selects the simplest map type for this matrix. The origin is added afterward. If the
+  // matrix contained the origin, OpenVDB would compute the spacing as the difference of two points,
+  // with rounding errors.
   auto transform = openvdb::math::Transform::createLinearTransform(matrix);
   transform->postTranslate(openvdb::Vec3d(grid.origin.data()));
   return transform;
 }
 
-// ---- the file -----------------------------------------------------------------------------------
+// ---- The file -----------------------------------------------------------------------------------
 /// A file buffer that reports progress and rejects writes after a cancel.
 class WatchedFile : public std::filebuf
 {
@@ -444,17 +451,18 @@ private:
   double bytes_ = 0.0;
 };
 
-/// Writes the same bytes as io::File, to a stream of the caller.
+/// Writes the same bytes as openvdb::io::File, but to a stream.
 class StreamArchive : public openvdb::io::Archive
 {
 public:
   void write_grid(std::ostream& stream, const openvdb::GridBase::Ptr& grid) const
   {
-    this->write(stream, openvdb::GridCPtrVec{ grid }, true); // with offsets, as seekable files have
+    // True: with offsets, like files that support seeking.
+    this->write(stream, openvdb::GridCPtrVec{ grid }, true);
   }
 };
 
-/// FNV-1a with 64-bit words instead of bytes.
+/// The hash FNV-1a, on 64-bit words instead of bytes.
 class Hash
 {
 public:
@@ -466,7 +474,8 @@ public:
       std::uint64_t word = 0;
       std::memcpy(&word, bytes + at, std::min<std::streamsize>(sizeof(word), size - at));
       this->state_ = (this->state_ ^ word) * 0x100000001b3ull;
-      this->state_ ^= this->state_ >> 32; // multiplication never moves a bit downwards
+      // Also propagate high bits to low bits, which multiplication does not do.
+      this->state_ ^= this->state_ >> 32;
     }
   }
   std::uint64_t value() const { return this->state_; }
@@ -475,8 +484,8 @@ private:
   std::uint64_t state_;
 };
 
-/// Return "xxxxxxxx-xxxx-8xxx-8xxx-xxxxxxxxxxxx": a UUID of version 8, whose digits are free (RFC
-/// 9562).
+/// Return "xxxxxxxx-xxxx-8xxx-8xxx-xxxxxxxxxxxx": a UUID of version 8, for which any digits x are
+/// valid (RFC 9562).
 std::string uuid_of(std::uint64_t first, std::uint64_t second)
 {
   char digits[33];
@@ -489,8 +498,8 @@ std::string uuid_of(std::uint64_t first, std::uint64_t second)
     text.substr(16, 4) + "-" + text.substr(20);
 }
 
-/// Replace the random tag in the file's header by one computed from the rest of the file. Programs
-/// use the tag to detect changes of a file.
+/// Replace the random UUID in the file's header by a UUID that is computed from the rest of the
+/// file. Programs use the UUID to detect changes of a file.
 /// @return false if the file cannot be read or written.
 bool settle_tag(const std::string& path, const std::string& tag, ExecutionContext& context)
 {
@@ -509,7 +518,7 @@ bool settle_tag(const std::string& path, const std::string& tag, ExecutionContex
       char* const found = std::search(chunk.data(), end, tag.begin(), tag.end());
       if (found == end)
       {
-        return size > 0; // this version stores no such tag, so there is nothing to replace
+        return size > 0; // this version of OpenVDB stores no UUID
       }
       at = found - chunk.data();
       std::fill_n(found, tag.size(), '0');
@@ -579,13 +588,13 @@ Status write_any(const std::string& path, const SampleGrid& samples, const Value
   Status status = check(samples, options);
   if (status.ok())
   {
-    status = AtomicFile::check(path, options.overwrite); // check before the work
+    status = AtomicFile::check(path, options.overwrite); // check before the computation
   }
   if (!status.ok())
   {
     return status;
   }
-  openvdb::initialize(); // may be called again and from any thread
+  openvdb::initialize(); // may be called repeatedly and from any thread
   Sides sides;
   if (options.band == VdbBand::narrow && !find_sides(samples, values, options, context, sides))
   {

@@ -1,14 +1,16 @@
-// Marching squares with two rows of alpha in memory. A frame of alpha 0 surrounds the image. Each
-// line between an inside pixel and an outside neighbor gets one vertex. Each cell between four
-// pixels links the vertices on its sides, with the inside on the left. Every vertex then has one
+// Outlines of images by marching squares and simplification (see image_outline.h). Only two rows of
+// alpha are in memory. A frame of alpha 0 surrounds the image. Each line between an inside pixel
+// and an outside neighbor gets one vertex. A cell is the square between the centers of four pixels.
+// Each cell links the vertices on its edges, with the inside on the left. Every vertex then has one
 // successor, and following the successors gives the loops.
 //
 // Simplification removes only vertices whose removal cannot make loops cross or touch. A vertex v
 // between its neighbors p and n can be removed if the triangle p v n contains no other vertex. The
-// first passes try every second vertex at a quarter of the tolerance. Straight lines halve at every
-// pass, and each chain of contour points is tested only about log(length) times. Then each vertex
-// in turn searches ahead. It takes the farthest vertex to which a straight line stays within the
-// tolerance, even if nearer ones fail, as they do on stairs of pixels.
+// first passes try every second vertex at a quarter of the tolerance. On straight lines, every pass
+// halves the number of vertices, so each chain of contour points is tested only about log(length)
+// times. After these passes, each vertex in turn searches ahead. It is connected to the farthest
+// vertex for which the straight line is within the tolerance, even if nearer vertices fail, as they
+// do on staircases of pixels.
 #include "planar/image_outline.h"
 
 #include <algorithm>
@@ -22,7 +24,7 @@ namespace
 constexpr Index none = -1;
 constexpr Index longest_contour = Index(1) << 25;
 
-/// The contour as a linked list.
+/// The contour: points, and for each point its successor in a linked list.
 struct Contour
 {
   std::vector<Vec2> points;
@@ -88,13 +90,13 @@ private:
     }
   }
 
-  /// Return the position of the threshold between a and b. It is never at an end, so that no two
-  /// vertices coincide.
+  /// Return the position of the threshold between the values a and b, as a fraction. It is never 0
+  /// or 1, so that no two vertices coincide.
   double crossing(float a, float b) const
   {
     constexpr double margin = 0x1p-10;
     const double t =
-      // Exactly one of a and b is inside.
+      // The denominator is nonzero, because exactly one of a and b is inside.
       (double(this->threshold_) - double(a)) / (double(b) - double(a));
     return std::clamp(t, margin, 1.0 - margin);
   }
@@ -143,9 +145,9 @@ private:
     }
   }
 
-  /// Link the vertices on the sides of a cell. Corners are counter-clockwise from the lower left;
-  /// side k is between corners k and k + 1. The link of each run of inside corners starts at the
-  /// side after the run and ends at the side where a run begins.
+  /// Link the vertices on the edges of a cell. Corners are counter-clockwise from the lower left;
+  /// edge k is between corners k and k + 1. Each run of consecutive inside corners gets a link. It
+  /// starts at the edge after the run and ends at the edge where a run begins.
   void link_cell(const std::array<bool, 4>& in, const std::array<Index, 4>& sides,
     const std::array<float, 4>& values, Contour& contour) const
   {
@@ -180,11 +182,11 @@ private:
   float threshold_;
   AlphaLine lower_;
   AlphaLine upper_;
-  std::vector<Index> bottom_; // vertices on the bottom sides of the row of cells, by column
+  std::vector<Index> bottom_; // vertices on the bottom edges of the row of cells, by column
   std::vector<Index> top_;
 };
 
-/// Vertices in the order of their loops; loop l is [starts[l], starts[l + 1]).
+/// Vertices in the order of their loops. Loop l has the indices starts[l] … starts[l + 1] - 1.
 struct Loops
 {
   std::vector<Vec2> points;
@@ -224,7 +226,7 @@ double squared_distance(const Vec2& p, const Vec2& a, const Vec2& b)
   return (p - a - t * along).squaredNorm();
 }
 
-/// Vertices sorted into the square cells of a grid.
+/// Vertices sorted into the square cells of a grid, to find vertices near a triangle.
 class VertexGrid
 {
 public:
@@ -256,8 +258,8 @@ public:
     }
   }
 
-  /// Report whether visit(id) is true for a vertex near the triangle. In each row of cells that the
-  /// triangle meets, the cells from its leftmost to its rightmost point are visited.
+  /// Report whether visit(id) is true for a vertex near the triangle. In each row of cells that
+  /// overlaps the triangle, the cells from its leftmost to its rightmost point are visited.
   template <typename Visit>
   bool any(const std::array<Vec2, 3>& corners, const Visit& visit) const
   {
@@ -274,7 +276,7 @@ public:
         const Vec2& a = corners[k];
         const Vec2& b = corners[(k + 1) % 3];
         const double rise = b.y() - a.y();
-        // The part of the side within the strip of this row.
+        // The part of the triangle's edge that is within this row of cells.
         double from = 0.0;
         double to = 1.0;
         if (rise != 0.0)
@@ -312,7 +314,7 @@ public:
   }
 
 private:
-  static constexpr Index side = 8; // pixels
+  static constexpr Index side = 8; // edge length of a cell in pixels
   static constexpr double slack = 1e-6;
 
   Index index(double x, Index count) const
@@ -413,7 +415,7 @@ private:
           fewer = true;
           this->remove(l, p, n, 1);
           this->alive_[v] = 0;
-          v = n > v ? n : v; // the neighbor is not removed in this pass
+          v = n > v ? n : v; // skip the next vertex in this pass
         }
       }
     }
@@ -434,11 +436,11 @@ private:
     return fewer;
   }
 
-  /// Remove vertices after p one by one, then restore those after the last one to which the line
-  /// from p was within the tolerance.
+  /// Remove vertices after p one by one as long as the search may succeed. Then restore the
+  /// vertices after the last one for which the line from p was within the tolerance.
   bool leap_from(std::size_t loop, Index p, double tolerance)
   {
-    constexpr std::size_t farthest = 256; // vertices
+    constexpr std::size_t farthest = 256; // maximum number of vertices that are removed at a time
     constexpr double hopeless = 3.0; // multiple of the tolerance at which the search ends
     std::vector<Index>& gone = this->gone_;
     gone.clear();
@@ -475,8 +477,8 @@ private:
     this->previous_[n] = p;
   }
 
-  /// Return the largest distance of the contour's points between p and n from their line. The
-  /// search ends when the limit is exceeded.
+  /// Return the largest distance of the contour points between p and n from the segment between p
+  /// and n. The search ends when the limit is exceeded.
   double deviation(std::size_t loop, Index p, Index n, double limit) const
   {
     const std::vector<Vec2>& points = this->loops_.points;
@@ -489,13 +491,14 @@ private:
     return std::sqrt(largest);
   }
 
-  /// Return the contour's next point, whether removed or not.
+  /// Return the next point of the original contour, whether removed or not.
   Index after(std::size_t loop, Index v) const
   {
     return v + 1 < this->loops_.starts[loop + 1] ? v + 1 : this->loops_.starts[loop];
   }
 
-  /// Report whether another vertex is in the closed triangle, or within rounding of it.
+  /// Report whether another remaining vertex is in the closed triangle, with a tolerance for
+  /// rounding.
   bool holds_vertex(Index p, Index v, Index n) const
   {
     const std::vector<Vec2>& points = this->loops_.points;
@@ -524,14 +527,14 @@ private:
       });
   }
 
-  static constexpr Index fewest = 4; // so that a single pixel's diamond is kept
+  static constexpr Index fewest = 4; // so that the diamond around a single pixel is kept
 
   const Loops& loops_;
   VertexGrid grid_;
   std::vector<char> alive_;
-  std::vector<Index> next_; // next and previous remaining vertex
-  std::vector<Index> previous_;
-  std::vector<Index> left_; // remaining vertices per loop
+  std::vector<Index> next_; // next remaining vertex in the loop
+  std::vector<Index> previous_; // previous remaining vertex in the loop
+  std::vector<Index> left_; // number of remaining vertices per loop
   std::vector<Index> gone_;
 };
 } // namespace

@@ -9,22 +9,25 @@
 namespace bindpose
 {
 
-/// Fills one row of an image's alpha, #columns values in [0, 1]. Row 0 is at y = 0. Rows are
-/// requested once each, in order. A value that is not finite counts as 0.
+/// Callback that writes one row of an image's alpha to `values`, #columns values in [0, 1]. Row 0
+/// is at y = 0. The callback is called once per row, in ascending order. A value that is not finite
+/// counts as 0.
 using AlphaRow = std::function<void(Index row, float* values)>;
 
+/// Options of image_outline().
 struct ImageOutlineOptions
 {
   double threshold = 0.5; ///< a pixel is inside if its alpha is at least this, in (0, 1]
-  /// Largest distance between the simplified outline and the contour, 0 … 1 pixels. 0 keeps every
-  /// point.
+  /// Maximum distance between the simplified outline and the contour, 0 … 1 pixels. 0 keeps every
+  /// contour point.
   double simplify = 0.5;
 };
 
-/// Closed curves: counter-clockwise around the inside, clockwise around holes.
+/// The result of image_outline(): closed curves, counter-clockwise around the inside and clockwise
+/// around holes.
 struct ImageOutline
 {
-  /// #V x 2, in pixels: the center of pixel (column, row) is at these coordinates.
+  /// #V x 2, in pixels: the center of pixel (column, row) has the coordinates (column, row).
   PlanePoints points;
   Segments segments; ///< #V x 2; each vertex is the start of one segment and the end of another
 };
@@ -34,10 +37,11 @@ struct ImageOutline
 /// - **Contour**: vertices are between the centers of neighboring pixels, where the interpolated
 ///   alpha crosses the threshold. Alpha is 0 outside of the image, so the outline of an opaque
 ///   image is half a pixel outside of its outer pixel centers. If two inside pixels touch only at a
-///   corner, the saddle of the bilinear interpolation decides whether they are connected.
-/// - **Simplification**: a vertex is removed if all contour points between its neighbors are within
-///   the tolerance of the line between the neighbors, and if the triangle of the three contains no
-///   other vertex. Loops therefore never cross or touch themselves or each other, and none is lost.
+///   corner, the saddle point of the bilinear interpolation decides whether they are connected.
+/// - **Simplification**: a vertex is removed under two conditions. All contour points between its
+///   neighbors must be within the tolerance of the line between the neighbors, and the triangle of
+///   the three must contain no other vertex. Loops therefore never cross or touch themselves or
+///   each other, and no loop is removed.
 ///
 /// Report: counts.pixels, counts.inside_pixels, counts.contour_points, counts.outline_points,
 /// counts.loops. Return invalid_input if there are no pixels or no inside pixels, if the threshold

@@ -1,12 +1,15 @@
-// 1. Collect the vertices of segments and handles, merging equal ones. If they are far from the
-//    origin, move them toward it. Scale them by a power of two to about 1. Neither step rounds.
-// 2. The helper splits curves and bones where they meet, and triangulates their convex hull.
-// 3. Keep the triangles whose mean winding number reaches the threshold. Around closed curves it is
-//    constant on each triangle. If curves almost touch, closer than refinement can handle, repeat
-//    steps 1 to 3 on a grid of 1e-12 of the size, which merges nearer points.
-// 4. The helper refines the kept triangles. Curves and bones in them, and the outline, remain
-//    edges.
-// 5. Number the vertices, those of the input first.
+// Triangulation of the inside of plane curves (see planar_shape.h), in five steps:
+// 1. Collect the vertices of segments and handles, merging equal ones. If the vertices are far from
+//    the origin, move them toward it. Scale them by a power of two to a size of about 1. Neither
+//    operation rounds.
+// 2. The helper process splits curves and bones where they intersect, and triangulates their convex
+//    hull.
+// 3. Keep the triangles whose mean winding number reaches the threshold. For closed curves it is
+//    constant on each triangle. If curves are closer to each other than refinement can handle,
+//    repeat steps 1 to 3 on a grid of 1e-12 of the size, which merges nearer points.
+// 4. The helper refines the kept triangles. Curves and bones in these triangles, and the outline,
+//    remain edges.
+// 5. Number the vertices, with the vertices of the input first.
 #include "planar/planar_shape.h"
 
 #include "base/number_text.h"
@@ -70,14 +73,15 @@ Status check_options(const PlanarShapeOptions& options)
   return check_limits(options.time_limit, options.memory_limit);
 }
 
-/// The vertices in use; equal ones are merged.
+/// The vertices in use, where equal vertices are merged.
 class Gathered
 {
 public:
   Index add(const Vec2& p, const Vec2& place, Index original)
   {
     const auto [entry, fresh] =
-      this->ids_.emplace(std::make_pair(p.x() + 0.0, p.y() + 0.0), this->count()); // no -0
+      // Adding 0 turns -0 into 0.
+      this->ids_.emplace(std::make_pair(p.x() + 0.0, p.y() + 0.0), this->count());
     if (fresh)
     {
       this->points.push_back(p);
@@ -89,7 +93,8 @@ public:
   Index count() const { return static_cast<Index>(this->points.size()); }
 
   std::vector<Vec2> points; ///< scaled
-  std::vector<Index> originals; ///< lowest input id; -1 for a handle's point
+  /// Lowest input id of the equal vertices; -1 for the point of a handle.
+  std::vector<Index> originals;
   std::vector<Vec2> places; ///< input positions
 
 private:
@@ -147,11 +152,11 @@ private:
   int exponent_ = 0;
   Vec2 shift_ = Vec2::Zero(); ///< input point that is mapped to the scaled origin
   double rounding_ = 0.0; ///< 8 units in the last place of the coordinates, scaled
-  double diagonal_ = 0.0; ///< of the box of the curves, scaled
+  double diagonal_ = 0.0; ///< of the curves' bounding box, scaled
   PlanePoints curve_points_; ///< scaled
   double finest_ = 0.0; ///< smallest height of a kept triangle, scaled
   double finest_allowed_ = 0.0; ///< smallest height that refinement can handle, scaled
-  double grid_ = 0.0; ///< scaled; 0: none
+  double grid_ = 0.0; ///< grid size, scaled; 0: no grid
   CurveWindingNumber winding_;
   MesherData data_;
   Index crossings_ = 0;
@@ -170,7 +175,7 @@ Status Builder::scale()
     lower = lower.cwiseMin(p);
     upper = upper.cwiseMax(p);
   }
-  const Vec2 half = 0.5 * upper - 0.5 * lower; // without overflow
+  const Vec2 half = 0.5 * upper - 0.5 * lower; // halved first, so that it cannot overflow
   if (half.maxCoeff() <= 0.0)
   {
     return Status::invalid_input("all points of the curves coincide");
@@ -184,21 +189,21 @@ Status Builder::scale()
   {
     return Status::invalid_input("the curves lie too far from the origin for their size");
   }
-  // Differences of numbers that are within a factor of two are exact (Sterbenz).
+  // The shift must not round. Differences of numbers within a factor of two are exact (Sterbenz).
   for (int k = 0; k < 2; ++k)
   {
     const double size = 2.0 * half[k];
     this->shift_[k] = lower[k] > size ? lower[k] : upper[k] < -size ? upper[k] : 0.0;
   }
   this->rounding_ = 0x1p-49 * farthest;
-  // A fraction of the size below any intended detail, or the limit that rounding sets for details.
+  // A fraction of the size that is below any intended detail, or the limit due to rounding.
   int exponent = 0;
   std::frexp(std::max(0x1p-40 * this->diagonal_, this->rounding_), &exponent);
   this->finest_allowed_ = std::ldexp(1.0, exponent);
   return {};
 }
 
-/// Scale a point; if there is a grid, round it to the grid.
+/// Scale a point, and round it to the grid if there is one.
 Vec2 Builder::scaled(const Vec2& p) const
 {
   const Vec2 moved = p - this->shift_;
@@ -220,7 +225,7 @@ void Builder::gather()
   const std::set<Index> used(
     this->segments_.data(), this->segments_.data() + this->segments_.size());
   std::map<Index, Index> gathered;
-  for (const Index v : used) // ascending: the lowest id represents equal points
+  for (const Index v : used) // in ascending order, so that the lowest id represents equal points
   {
     gathered[v] = add(this->points_.row(v).transpose(), v);
   }
@@ -285,8 +290,8 @@ Status Builder::arrange()
   return {};
 }
 
-/// Return the mean winding number by a rule of degree 5 with 7 points (Radon): the center, and two
-/// points toward each corner.
+/// Return the mean winding number of a triangle, by a quadrature rule of degree 5 with 7 points
+/// (Radon): the center, and two points toward each corner.
 double Builder::mean_winding(Index triangle) const
 {
   const Vec2 a = this->point(this->data_.triangles(triangle, 0));
@@ -302,7 +307,7 @@ double Builder::mean_winding(Index triangle) const
   for (const double sign : { -1.0, 1.0 })
   {
     const double weight = (155.0 + sign * root) / 1200.0;
-    // Fraction of the way from the center to the corner.
+    // Distance of the points from the center, as a fraction of the distance to the corner.
     const double way = (1.0 - sign * root) / 7.0;
     for (const Vec2& corner : { a, b, c })
     {
@@ -393,7 +398,7 @@ Status Builder::keep()
 Status Builder::fill()
 {
   const Phase phase(this->context_, "fill", 0.5, 1.0);
-  constexpr double always = 20.6; // degrees, see fill_plane()
+  constexpr double always = 20.6; // angle in degrees that can always be reached, see fill_plane()
   std::vector<double> angles{ this->options_.min_angle };
   for (const double weaker : { always, 0.0 })
   {
@@ -406,8 +411,8 @@ Status Builder::fill()
   Status status;
   for (std::size_t k = 0; k < angles.size(); ++k)
   {
-    // The helper may crash or hang on gaps at the limit of double precision. Half of the time is
-    // kept for weaker angles.
+    // The helper may crash or hang on gaps at the limit of double precision. Therefore half of the
+    // remaining time is kept for an attempt with a smaller angle.
     const double seconds = this->options_.time_limit - this->context_.elapsed_seconds();
     status = this->try_fill(angles[k], k + 1 < angles.size() ? 0.5 * seconds : seconds, answer);
     if (status.code != StatusCode::internal_error)
@@ -436,8 +441,10 @@ Status Builder::fill()
 
 Status Builder::try_fill(double angle, double seconds, MesherAnswer& answer)
 {
-  constexpr double part = 0.8; // the rest is for reading and writing
-  constexpr double fine = 0x1p-10; // triangles with the requested angles do not need to be smaller
+  // Fraction of the time for refinement; the rest is for reading and writing.
+  constexpr double part = 0.8;
+  // Smallest useful size of triangles, as a fraction of the finest detail.
+  constexpr double fine = 0x1p-10;
   const double edge = this->options_.edge * this->diagonal_;
   const double detail = edge > 0.0 ? std::min(edge, this->finest_) : this->finest_;
   const double floor = std::max(fine * detail, this->rounding_);
@@ -447,8 +454,9 @@ Status Builder::try_fill(double angle, double seconds, MesherAnswer& answer)
     seconds, answer);
 }
 
-/// Report whether all triangles stay positive in input coordinates, where new points are rounded.
-/// If `exact`, the points of the input return to their positions before they were rounded to the
+/// Report whether all triangles keep a positive area in input coordinates, to which new points are
+/// rounded.
+/// @param exact use the exact input coordinates of input points instead of their positions on the
 /// grid.
 bool Builder::fits(bool exact) const
 {
@@ -489,7 +497,7 @@ Status Builder::number(PlanarShape& shape)
   shape.points.resize(count, 2);
   shape.original_vertices.assign(static_cast<std::size_t>(count), none);
   Index at = 0;
-  // Vertices of the input come first, ascending.
+  // Vertices of the input come first, in ascending order.
   for (Index v = 0; v < static_cast<Index>(ids.size()); ++v)
   {
     if (ids[v] == none)

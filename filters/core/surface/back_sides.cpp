@@ -1,3 +1,4 @@
+// Search for doubled triangles (see back_sides.h).
 #include "surface/back_sides.h"
 
 #include "surface/oriented_patches.h"
@@ -12,10 +13,10 @@ namespace bindpose
 
 namespace
 {
-/// Largest sum of the area vectors of a closed patch, relative to its area.
+/// Largest norm of the sum of the area vectors of a closed patch, relative to the patch's area.
 constexpr double most_open = 0.25;
 
-/// All copies of one triangle. Their orientations cancel.
+/// All copies of one triangle, half of them with each orientation.
 struct Copies
 {
   Index forward = -1; ///< first copy with the orientation of the sorted corners
@@ -23,7 +24,7 @@ struct Copies
   std::vector<Index> all;
 };
 
-/// Triangles whose copies cancel, sorted by their corners.
+/// One entry per triangle whose copies cancel, sorted by corners.
 struct CancelingTriangles
 {
   std::vector<Copies> copies;
@@ -36,7 +37,7 @@ CancelingTriangles find_canceling(TrianglesView triangles)
   {
     std::array<Index, 3> key;
     Index triangle;
-    bool forward; ///< oriented like the key
+    bool forward; ///< whether the triangle has the orientation of the key
   };
   std::vector<Item> items;
   for (Index t = 0; t < triangles.rows(); ++t)

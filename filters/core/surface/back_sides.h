@@ -8,16 +8,17 @@
 namespace bindpose
 {
 
-/// Find triangles that are the back sides of others. Models for viewing from both sides often
-/// contain every triangle twice, with opposite orientations. Their winding number is 0 everywhere,
-/// even inside.
+/// Find triangles that are the back sides of other triangles. Models for viewing from both sides
+/// often contain every triangle twice, with opposite orientations. Their winding number is 0
+/// everywhere, even inside.
 ///
-/// The function examines patches of triangles whose copies cancel, connected by edges that two of
-/// them use. A patch is closed if the sum of its area vectors is at most a quarter of its area. In
-/// a closed patch, all copies but one are backs; the copy that faces outwards is kept. Flat
-/// patches, like leaves, enclose nothing and are not changed. O(n log n).
-/// @param triangles of a surface whose equal points are welded
-/// @return triangle ids, ascending
+/// The function examines triangles whose copies have canceling orientations, in patches that are
+/// connected by edges with exactly two such triangles. A patch is closed if the norm of the sum of
+/// its area vectors is at most a quarter of its area. In a closed patch, one copy of each triangle
+/// is kept, namely a copy that faces outward; all other copies are back sides. Flat patches, like
+/// leaves, enclose nothing and are not changed. Cost: O(n log n).
+/// @param triangles triangles of a surface whose equal points are welded
+/// @return the ids of the back sides, ascending
 std::vector<Index> back_sides(PointsView points, TrianglesView triangles);
 
 } // namespace bindpose

@@ -1,3 +1,4 @@
+// Traversal of patches with consistent orientation (see oriented_patches.h).
 #include "surface/oriented_patches.h"
 
 #include "base/triangle_sides.h"
@@ -45,7 +46,7 @@ std::vector<Neighbors> neighbors_of(TrianglesView triangles)
 std::vector<OrientedPatch> oriented_patches(TrianglesView triangles)
 {
   const std::vector<Neighbors> neighbors = neighbors_of(triangles);
-  std::vector<signed char> turned(neighbors.size(), -1); // -1: not yet in a patch
+  std::vector<signed char> turned(neighbors.size(), -1); // -1: the triangle is not yet in a patch
   std::vector<OrientedPatch> patches;
   for (Index start = 0; start < triangles.rows(); ++start)
   {

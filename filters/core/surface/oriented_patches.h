@@ -8,18 +8,19 @@
 namespace bindpose
 {
 
-/// Triangles connected by edges that two of them use.
+/// A maximal set of triangles that are connected by edges with exactly two triangles.
 struct OrientedPatch
 {
-  std::vector<Index> triangles; ///< each except the first is a neighbor of an earlier one
-  /// Per triangle: 1 if its orientation, carried across the edges, is opposite to the first
-  /// triangle's.
+  /// Triangle ids; each triangle except the first has an earlier neighbor.
+  std::vector<Index> triangles;
+  /// One flag per triangle: 1 if its orientation is opposite to that of the first triangle.
+  /// Orientations are compared by going from neighbor to neighbor.
   std::vector<signed char> turned;
   bool orientable = true; ///< false: one-sided, like a Moebius strip; `turned` is then not unique
 };
 
-/// Return the patches of a surface, ascending by their smallest triangle, which is their first.
-/// Every triangle is in exactly one patch. O(n log n).
+/// Return the patches of a surface. They are sorted by their smallest triangle id, which is the
+/// first in each patch. Every triangle is in exactly one patch. Cost: O(n log n).
 std::vector<OrientedPatch> oriented_patches(TrianglesView triangles);
 
 } // namespace bindpose

@@ -1,6 +1,7 @@
-// Boxes that contain triangles of only one group are labeled with that group. A search for the
-// nearest triangle outside a group skips the group's own boxes. The best distance that a group has
-// found so far bounds the search of its next triangle.
+// Links between nearest parts (see part_links.h), by searches in a tree of boxes. A group is a set
+// of linked parts. Boxes that contain triangles of only one group are labeled with that group. A
+// search for the nearest triangle outside a group skips the group's own boxes. The smallest
+// distance found so far bounds the search for the next triangle of the group.
 #include "surface/part_links.h"
 
 #include "base/disjoint_sets.h"
@@ -46,7 +47,8 @@ std::array<double, 2> nearest_on_segments(
   return { s, t };
 }
 
-/// Find the point where an edge of triangle a meets triangle b.
+/// Find the first point where an edge of triangle a intersects triangle b. Return false if there is
+/// none.
 bool edge_meets(const Corners& a, const Corners& b, Vec3& place)
 {
   for (int k = 0; k < 3; ++k)
@@ -101,8 +103,8 @@ private:
     return { this->points_.row(this->triangles_(f, 0)), this->points_.row(this->triangles_(f, 1)),
       this->points_.row(this->triangles_(f, 2)) };
   }
-  /// Label every box with the label of its triangles, or `several` if the labels differ. Triangles
-  /// of no part have the label `none`.
+  /// Label every box of the tree: with the common label of its triangles, with `several` if their
+  /// labels differ, or with `none` if none of its triangles belongs to a part.
   void label_boxes(const std::vector<Index>& label_of_part)
   {
     const auto& nodes = this->tree_.nodes();
@@ -128,8 +130,8 @@ private:
     return a == none || a == b ? b : b == none ? a : several;
   }
 
-  /// Call at_triangle(g) for triangles in boxes that contain other labels and are at most `limit`
-  /// away. at_triangle() may lower `limit`. Nearer boxes are visited first.
+  /// Call at_triangle(g) for the triangles in all leaf boxes whose label is different and whose
+  /// distance is at most `limit`. at_triangle() may lower `limit`. Nearer boxes are visited first.
   template <typename AtTriangle>
   void visit_others(const Box& box, Index label, const double& limit, const AtTriangle& at_triangle)
   {
@@ -175,7 +177,7 @@ private:
     }
   }
 
-  /// Return the nearest pair of a triangle of the group and one of another group.
+  /// Return the nearest pair of a triangle of the group and a triangle of another group.
   Pair nearest_to(const std::vector<Index>& members, Index group)
   {
     Pair best;
@@ -211,7 +213,8 @@ private:
   bool link_nearest(std::vector<PartLink>& links)
   {
     const auto parts = static_cast<Index>(this->held_.size());
-    std::vector<char> held = this->held_; // whether a group is held, stored at its smallest part
+    // For each group, 1 if it contains a held part; indexed by the group's smallest part.
+    std::vector<char> held = this->held_;
     for (bool again = true; again;)
     {
       again = false;
@@ -223,7 +226,7 @@ private:
       std::vector<std::vector<Index>> members(this->held_.size());
       for (Index i = 0; i < this->triangles_.rows(); ++i)
       {
-        // In the order of the tree, so that consecutive triangles are near each other.
+        // Use the order of the tree, so that consecutive triangles are near each other.
         const Index f = this->tree_.order()[i];
         const Index group = this->parts_[f] < 0 ? -1 : this->group_of_part_[this->parts_[f]];
         if (group >= 0 && !held[group])
@@ -338,8 +341,8 @@ private:
     return true;
   }
 
-  /// Call at_place for the corners of a triangle and points on it, at distances of about the
-  /// spacing or less.
+  /// Call at_place() for a grid of points on a triangle, including its corners. Neighboring points
+  /// are at most about `spacing` apart.
   template <typename AtPlace>
   void for_samples(Index f, const AtPlace& at_place) const
   {
@@ -362,7 +365,7 @@ private:
     }
   }
 
-  static constexpr Index none = -2; ///< label of a box without triangles of a part
+  static constexpr Index none = -2; ///< label of a box whose triangles belong to no part
 
   PointsView points_;
   TrianglesView triangles_;

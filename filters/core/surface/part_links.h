@@ -10,38 +10,41 @@
 namespace bindpose
 {
 
-/// A straight line that connects two points of a surface.
+/// A link: a straight line that connects points on two triangles of a surface.
 struct PartLink
 {
   std::array<Index, 2> triangles{ -1, -1 };
-  /// Points on the triangles; may be equal.
+  /// The points on the two triangles; they may be equal.
   std::array<Vec3, 2> places{ Vec3::Zero(), Vec3::Zero() };
 };
 
+/// Options of link_parts().
 struct PartLinkOptions
 {
-  double touching = 0.0; ///< parts at most this far apart touch, >= 0
-  double spacing = 0.0; ///< approximate distance between neighboring links where parts touch, > 0
+  double touching = 0.0; ///< parts touch if their distance is at most this, >= 0
+  /// Approximate distance between neighboring links where two parts touch, > 0.
+  double spacing = 0.0;
 };
 
-/// Compute links that connect every loose part of a surface, directly or through other parts, to a
-/// held part.
+/// Compute links that connect every loose part of a surface to a held part, directly or through
+/// other parts. In this file, a part is held if the caller marks it (for example because it has a
+/// handle); all other parts are loose.
 ///
-/// A loose part is linked to the nearest part, at the nearest points of the two. Linked parts
-/// continue as one group until the group is held (the minimum spanning forest, by the rounds of O.
-/// Borůvka, 1926). A loose part is also linked to every part that it touches, held or not: a seat,
-/// for example, is linked to each of the legs below it.
+/// Each loose part is linked to the nearest part, at the nearest points of the two. Linked parts
+/// form a group, which is linked in the same way until it contains a held part (a minimum spanning
+/// forest by the rounds of O. Borůvka, 1926). A loose part is also linked to every part that it
+/// touches, held or loose: a seat, for example, is linked to each of the legs below it.
 ///
-/// The links are the same for any number of threads. Cost: O(log #parts) rounds, each with a search
-/// of about 5 us per triangle of a loose part.
+/// The links are the same for any number of threads. Cost: O(log #parts) rounds; each round takes
+/// about 5 us per triangle of a loose part.
 /// @param parts #F: part of each triangle, 0 … #parts - 1; triangles with -1 are ignored
-/// @param held #parts: not 0 for held parts. invalid_input if no part is held.
+/// @param held #parts: nonzero for held parts. Return invalid_input if no part is held.
 Status link_parts(PointsView points, TrianglesView triangles, const std::vector<Index>& parts,
   const std::vector<char>& held, const PartLinkOptions& options, std::vector<PartLink>& links,
   ExecutionContext& context);
 
 /// Return the distance of two triangles, 0 if they intersect.
-/// @param places the nearest points, the first on a
+/// @param places set to the nearest points, the first one on triangle a
 double nearest_places(
   const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, std::array<Vec3, 2>& places);
 

@@ -1,5 +1,6 @@
-// The repaired surface contains the maps between its ids and those of the input. Edges are examined
-// with the input's orientation, because repair may have turned triangles.
+// List defects in terms of the input's ids (see surface_defects.h). The repaired surface contains
+// the maps between its ids and the input's ids. Edges are examined with the input's orientation,
+// because repair may have flipped triangles.
 #include "surface/surface_defects.h"
 
 #include <algorithm>
@@ -41,7 +42,8 @@ public:
   }
 
 private:
-  /// Return the vertex of the repaired surface, or -1 if none of its triangles uses the vertex.
+  /// Return the vertex of the repaired surface for an input vertex, or -1 if no repaired triangle
+  /// uses it.
   Index welded(Index input_vertex) const
   {
     return this->id_[this->repaired_.lowest_equal[input_vertex]];
@@ -118,7 +120,7 @@ private:
 
   void degenerate()
   {
-    Index next = 0; // index into the kept triangles, ascending
+    Index next = 0; // index into `kept`, which is ascending
     const auto& kept = this->repaired_.original_triangles;
     for (Index t = 0; t < this->triangles_.rows(); ++t)
     {

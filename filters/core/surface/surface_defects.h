@@ -8,23 +8,23 @@
 namespace bindpose
 {
 
-/// Types of defects of a surface, ordered by the element at which they occur: a vertex, an edge, a
-/// triangle. The array `Defect` uses the same order.
+/// Types of defects of a surface, sorted by the kind of element at which they occur: first
+/// vertices, then edges, then triangles. The array `Defect` of the filter uses the same order.
 enum class Defect
 {
-  duplicate_vertex, ///< equal to a vertex of lower id
+  duplicate_vertex, ///< has the coordinates of a vertex of lower id
   unreferenced_vertex,
   boundary_edge, ///< used by one triangle
   nonmanifold_edge, ///< used by three triangles or more
-  misoriented_edge, ///< used by two triangles with the same direction
-  degenerate_triangle, ///< no area
+  misoriented_edge, ///< used by two triangles in the same direction
+  degenerate_triangle, ///< has area zero
   duplicate_triangle, ///< has the vertices of a triangle of lower id
-  self_intersection, ///< meets another triangle beyond their shared vertices and edges
+  self_intersection, ///< intersects another triangle outside of their shared vertices and edges
   inward_component ///< triangle of a closed component that is inside out
 };
 constexpr int defect_kinds = 9;
 
-/// Return "duplicate vertex", ….
+/// Return the name, for example "duplicate vertex".
 const char* to_string(Defect defect);
 
 /// One occurrence of a defect.
@@ -32,15 +32,16 @@ struct DefectPlace
 {
   Defect defect;
   std::vector<Index> vertices; ///< 1, 2 or 3 vertex ids of the input
-  Index triangle = -1; ///< input id, if the defect is a triangle
-  Index crossed = -1; ///< self_intersection: the triangle of lowest id that it meets
-  Index component = -1; ///< from 0; -1 if the defect belongs to no component
-  Index inward = -1; ///< inward_component: the number of that component, from 0
+  Index triangle = -1; ///< id in the input, if the defect is a triangle
+  Index crossed = -1; ///< self_intersection: the lowest id of the triangles that it intersects
+  Index component = -1; ///< component number, from 0; -1 if the defect belongs to no component
+  Index inward = -1; ///< inward_component: number of the inside-out component, from 0
 };
 
-/// List every defect that `repaired.found` counts, sorted by type, then by id. Edges connect the
-/// lowest ids of welded vertices. `points` and `triangles` are the surface that was repaired. O(n
-/// log n). A triangle that crosses several others is listed once.
+/// List every defect that is counted in `repaired.found`, sorted by type, then by id. Edges are
+/// given by the lowest ids of the welded vertices. A triangle that intersects several others is
+/// listed once. Cost: O(n log n).
+/// @param points, triangles the surface from which `repaired` was computed.
 std::vector<DefectPlace> list_defects(
   PointsView points, TrianglesView triangles, const RepairedSurface& repaired);
 

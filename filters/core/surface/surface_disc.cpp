@@ -1,9 +1,10 @@
-// Vertices are processed in Dijkstra's order. The distance of a vertex c is the smaller of two
-// values: along an edge, and through a triangle a b c whose vertices a and b have distances. In the
-// triangle's plane the source is at the intersection of circles around a and b, on the other side
-// of ab. If the straight line from the source to c crosses ab, its length is the distance through
-// the triangle. (M. Novotni and R. Klein, "Computing geodesic distances on triangular meshes",
-// 2002.)
+// Approximate geodesic distances around a point (see surface_disc.h). Vertices are processed in the
+// order of Dijkstra's algorithm. The distance of a vertex c is the minimum of two values: along an
+// edge, and through a triangle a b c whose vertices a and b have distances. In the triangle's plane
+// the source is at the intersection of circles around a and b, on the side of ab that does not
+// contain c. If the straight line from the source to c crosses ab, its length is the distance
+// through the triangle. (M. Novotni and R. Klein, "Computing geodesic distances on triangular
+// meshes", 2002.)
 #include "surface/surface_disc.h"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ double SurfaceDisc::carried(Index a, Index b, Index c) const
   {
     return along_edge;
   }
-  // Coordinates: a at 0, b at (length, 0), c above, the source below.
+  // Coordinates in the triangle's plane: a is at 0, b at (length, 0), c above, the source below.
   const Vec3 u = (pb - pa) / length;
   const double cx = u.dot(pc - pa);
   const double cy = (pc - pa - cx * u).norm();
@@ -70,7 +71,7 @@ double SurfaceDisc::carried(Index a, Index b, Index c) const
   const double sy2 = da * da - sx * sx;
   if (sy2 < 0.0 || cy == 0.0)
   {
-    // The circles do not intersect, because of rounding or a path around a corner.
+    // If the circles do not intersect, because of rounding or a path around a corner, use the edge.
     return along_edge;
   }
   const double sy = std::sqrt(sy2);
@@ -136,8 +137,8 @@ std::vector<SurfaceDisc::Found> SurfaceDisc::within(
       }
     }
   }
-  // A path through an obtuse triangle can be slightly shorter than a path that was accepted before
-  // it.
+  // Sort, because a path through an obtuse triangle can be slightly shorter than a path that was
+  // found earlier.
   std::sort(found.begin(), found.end(),
     [](const Found& a, const Found& b)
     { return a.second != b.second ? a.second < b.second : a.first < b.first; });

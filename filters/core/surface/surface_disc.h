@@ -9,31 +9,32 @@
 namespace bindpose
 {
 
-/// Finds the vertices of a surface within a distance of a point on it, measured along the surface.
-/// Points and triangles must outlive this object. O(n) to build; a disc costs O(k log k) for its k
-/// vertices. Not thread-safe, because the object stores the distances.
+/// Finds the vertices of a surface within a geodesic distance of a point on the surface. Points and
+/// triangles must outlive this object. Cost: O(n) to build; O(k log k) for a disc of k vertices.
+/// Not thread-safe, because the object stores the distances.
 class SurfaceDisc
 {
 public:
   SurfaceDisc(PointsView points, TrianglesView triangles);
 
-  /// A vertex and its distance.
+  /// A vertex and its geodesic distance.
   using Found = std::pair<Index, double>;
-  /// Find the vertices within `radius` of `place`, a point on triangle `triangle`. Distances
-  /// propagate from triangle to triangle as from a point source that is unfolded into each
-  /// triangle's plane. They are exact if the surface is flat around the point, and never less than
-  /// the straight distance. They do not cross tears of the surface. @return sorted by distance
+  /// Find the vertices within `radius` of `place`, a point on triangle `triangle`. Distances are
+  /// propagated from triangle to triangle, as if the surface were unfolded into the plane of each
+  /// triangle. They are exact if the surface is flat around the point, and never less than the
+  /// straight distance. They do not propagate across gaps of the surface.
+  /// @return vertices and distances, sorted by distance
   std::vector<Found> within(const Vec3& place, Index triangle, double radius) const;
 
 private:
-  /// Return the distance of c from those of a and b.
+  /// Return the distance of c, computed from the distances of a and b in the triangle a b c.
   double carried(Index a, Index b, Index c) const;
 
   PointsView points_;
   TrianglesView triangles_;
-  std::vector<Index> first_; // offset of each vertex in around_
-  std::vector<Index> around_; // triangles at a vertex
-  mutable std::vector<double> distance_; // infinity, except while within() runs
+  std::vector<Index> first_; // #V + 1: offset of each vertex in around_
+  std::vector<Index> around_; // triangles around each vertex
+  mutable std::vector<double> distance_; // #V; infinity, except while within() runs
   mutable std::vector<char> done_;
 };
 

@@ -1,6 +1,7 @@
-// A ray is a segment that ends beyond the surface's box. The test for intersection is exact, so a
-// ray cannot pass between adjacent triangles. The position of the intersection is computed in
-// doubles.
+// Intersections of rays with a surface (see surface_probe.h). A ray is represented by a segment
+// that ends outside the surface's bounding box. The intersection test is exact, so a ray cannot
+// pass between adjacent triangles. The position of the intersection is computed in double
+// precision.
 #include "surface/surface_probe.h"
 
 #include "surface/triangle_predicates.h"
@@ -13,7 +14,7 @@ namespace bindpose
 {
 namespace
 {
-constexpr double same_place = 1e-9; // in segment lengths
+constexpr double same_place = 1e-9; // tolerance for equal hits, in segment lengths
 } // namespace
 
 SurfaceProbe::SurfaceProbe(PointsView points, TrianglesView triangles)
@@ -44,13 +45,13 @@ std::vector<SurfaceProbe::Hit> SurfaceProbe::hits(const Vec3& origin, const Vec3
     {
       all.push_back({ std::max(distance, 0.0), f, slope < 0.0 });
     }
-    return false; // continue with the next triangle
+    return false; // false: continue with the next triangle
   };
   this->tree_.segment_meets(origin, end, take);
   std::sort(all.begin(), all.end(),
     [](const Hit& a, const Hit& b)
     { return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle; });
-  // At a shared edge or vertex, several triangles give one crossing.
+  // At a shared edge or vertex, several triangles report the same intersection.
   std::vector<Hit> once;
   for (const Hit& hit : all)
   {
@@ -88,7 +89,7 @@ bool SurfaceProbe::first_inside(const Vec3& origin, const Vec3& direction, LineS
       first = i;
     }
     depth += all[i].enters ? 1 : -1;
-    // At the edge of a silhouette, entry and exit coincide and give no thickness.
+    // At a silhouette edge, entry and exit coincide and enclose no interval.
     if (depth == 0 && all[i].distance - all[first].distance > small)
     {
       set(all[first], all[i]);

@@ -8,43 +8,44 @@
 namespace bindpose
 {
 
-/// The points at which a line enters and leaves the shape.
+/// The first interval of a line inside a shape: the points at which the line enters and leaves.
 struct LineSpan
 {
   Vec3 entry = Vec3::Zero();
-  Vec3 exit = Vec3::Zero(); ///< equal to entry if the line meets the surface only once
+  Vec3 exit = Vec3::Zero(); ///< equal to entry if the line intersects the surface only once
   Index triangle = -1; ///< triangle at the entry
 
   Vec3 middle() const { return 0.5 * (this->entry + this->exit); }
 };
 
-/// Answers queries of interactive tools: the surface point under the cursor, the thickness of the
-/// shape there, the nearest surface point. Points and triangles must outlive this object. O(n log
-/// n) to build, O(log n + hits) per query. Thread-safe.
+/// Answers the queries of interactive tools: the surface point under the cursor, the thickness of
+/// the shape there, the nearest surface point. Points and triangles must outlive this object. Cost:
+/// O(n log n) to build, O(log n + hits) per query. Thread-safe.
 class SurfaceProbe
 {
 public:
   SurfaceProbe(PointsView points, TrianglesView triangles);
 
-  /// One intersection of a ray and the surface. An intersection on an edge that triangles share
-  /// counts once. Triangles parallel to the ray do not count.
+  /// One intersection of a ray and the surface. An intersection on an edge that several triangles
+  /// share counts once. Triangles parallel to the ray do not count.
   struct Hit
   {
-    double distance = 0.0; ///< in lengths of the direction vector
+    double distance = 0.0; ///< in multiples of the direction vector's length
     Index triangle = -1;
-    bool enters = true; ///< the direction is opposite to the triangle's normal
+    bool enters = true; ///< whether the direction is opposite to the triangle's normal
   };
+  /// Return all intersections of a ray with the surface, sorted by distance.
   std::vector<Hit> hits(const Vec3& origin, const Vec3& direction) const;
 
   /// Find the first interval of a ray inside the surface, by winding number. It extends from the
-  /// first hit to the hit at which exits and entries are equal in number. (The roles are exchanged
-  /// if the surface is inside out.) Overlapping or nested parts therefore give one interval, and a
-  /// cavity ends it. If the numbers never become equal, because the surface is open there, the
-  /// interval is between the first two hits, or consists of the only hit. Return false if the ray
-  /// meets nothing.
+  /// first hit to the first later hit up to which exits and entries are equal in number. (Exits and
+  /// entries are exchanged if the surface is inside out.) Overlapping or nested parts therefore
+  /// give one interval, and a cavity ends the interval. If the numbers never become equal, because
+  /// the surface is open there, the interval is between the first two hits, or consists of the only
+  /// hit. Return false if the ray hits nothing.
   bool first_inside(const Vec3& origin, const Vec3& direction, LineSpan& span) const;
 
-  /// Find the point on the surface nearest to p. Return false for a surface without triangles.
+  /// Find the point on the surface nearest to p. Return false if the surface has no triangles.
   bool nearest(const Vec3& p, Vec3& place) const;
 
 private:

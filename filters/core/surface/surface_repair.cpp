@@ -1,12 +1,13 @@
-// The steps are: weld vertices, remove degenerate triangles, count defects, orient.
+// Diagnosis and repair of a surface (see surface_repair.h): weld vertices, remove degenerate
+// triangles, count defects, orient.
 //
-// Orientation has two steps. The first step works within patches of triangles connected by edges
-// that two triangles use. A traversal of these edges assigns a parity to every triangle, and the
-// parity with the smaller area is turned. The second step works on whole shells: components, or
-// patches that are closed by themselves (solids that touch in an edge or a vertex). A closed shell
-// with negative volume that is in no other shell is inside out. It is turned together with
-// everything inside it. A cavity (an inner shell oriented opposite to the outer one) therefore
-// remains a cavity.
+// Orientation is repaired in two stages. The first stage works on patches, which are sets of
+// triangles connected by edges with exactly two triangles. A traversal of these edges divides the
+// triangles of a patch into two classes of opposite orientation, and the class with the smaller
+// area is flipped. The second stage works on whole shells: components, or patches that are closed
+// by themselves (solids that touch in an edge or a vertex). A closed shell with negative volume
+// that is in no other shell is inside out. It is flipped together with everything inside it. A
+// cavity (an inner shell oriented opposite to the outer one) therefore remains a cavity.
 #include "surface/surface_repair.h"
 
 #include "base/disjoint_sets.h"
@@ -86,8 +87,8 @@ double area(const Points& points, const Triangles& triangles, Index t)
   return 0.5 * (b - a).cross(c - a).norm();
 }
 
-/// Turn the smaller part of every patch whose triangles disagree. @return the number of turned
-/// triangles.
+/// In every patch with inconsistent orientations, flip the triangles of the minority by area.
+/// @return the number of flipped triangles.
 Index agree_within_patches(const Points& points, Triangles& triangles)
 {
   Index turned = 0;
@@ -123,8 +124,7 @@ struct Shell
   bool closed = true;
 };
 
-/// Return the patch of each triangle, #F. A patch is a set of triangles connected by edges that two
-/// triangles use. Its id is one of its triangles.
+/// Return the patch of each triangle, #F. The id of a patch is one of its triangle ids.
 std::vector<Index> patches_of(const std::vector<TriangleSide>& sides, Index triangle_count)
 {
   DisjointSets<Index> sets(static_cast<std::size_t>(triangle_count));
@@ -144,15 +144,18 @@ std::vector<Index> patches_of(const std::vector<TriangleSide>& sides, Index tria
   return patch;
 }
 
-/// Compute the shell of each triangle, #F. The first shells are the components, for triangles that
-/// are not in a closed patch. They are followed by the closed patches, so that solids that touch in
-/// edges or vertices have one shell each. @return the shells.
+/// Compute the shell of each triangle, #F. The first shells are the components; they contain the
+/// triangles that are not in a closed patch. The closed patches follow, so that solids that touch
+/// in edges or vertices have one shell each.
+/// @param shell_of set to the index of each triangle's shell.
+/// @return the shells.
 std::vector<Shell> told_apart(
   const Triangles& triangles, const Components& components, std::vector<Index>& shell_of)
 {
   const std::vector<TriangleSide> sides = sides_by_edge(triangles);
   const std::vector<Index> patch = patches_of(sides, triangles.rows());
-  // For every group, test whether the directions cancel at every edge.
+  // For every group (patch or shell), test whether the directions of its triangles cancel at every
+  // edge.
   const auto close = [&](const auto& group_of, std::vector<char>& closed)
   {
     std::vector<std::pair<Index, int>> directions;
@@ -248,9 +251,9 @@ double winding_of_shell(
   return half_angles / two_pi;
 }
 
-/// Return the centers of some of a shell's triangles. The shell is inside another shell if most of
-/// the centers are. Several centers are needed because winding numbers are between integers where
-/// shells touch.
+/// Return test points of a shell: the centers of some of its triangles. The shell is inside another
+/// shell if most of these points are inside. Several points are needed because winding numbers are
+/// not integers where shells touch.
 std::vector<Vec3> looks_of(const Points& points, const Triangles& triangles, const Shell& shell)
 {
   constexpr std::size_t looks = 5;
@@ -264,8 +267,9 @@ std::vector<Vec3> looks_of(const Points& points, const Triangles& triangles, con
   return centers;
 }
 
-/// Compute the winding numbers of one closed shell at some points: by direct sums if the product of
-/// the counts is small, else by crossings. Return false when canceled.
+/// Compute the winding numbers of one closed shell at some points: by direct sums if the number of
+/// points times the number of triangles is small, else by counting crossings. Return false if
+/// canceled.
 bool winding_numbers(const Points& points, const Triangles& triangles, const Shell& shell,
   const std::vector<Vec3>& places, ExecutionContext& context, Eigen::VectorXd& numbers)
 {
@@ -279,7 +283,7 @@ bool winding_numbers(const Points& points, const Triangles& triangles, const She
     }
     return !context.canceled();
   }
-  // Copy the shell with separate vertices, because it may be a small part of the surface.
+  // Copy the shell with its own vertices, because it may be a small part of the surface.
   std::vector<Index> vertices;
   for (const Index t : shell.triangles)
   {
@@ -321,18 +325,19 @@ bool winding_numbers(const Points& points, const Triangles& triangles, const She
   return status.ok();
 }
 
-/// Finds the boxes inside a given box. The boxes are stored in a balanced median tree of their
+/// Finds the shells whose boxes are inside a given box. The boxes are stored in a k-d tree of their
 /// lower corners.
 class BoxFinder
 {
 public:
-  /// `boxes` must outlive this object; `some` contains ids of boxes.
+  /// The argument `boxes` must outlive this object; `some` contains the indices of the shells to
+  /// search.
   BoxFinder(const std::vector<Shell>& boxes, std::vector<Index> some)
     : boxes_(boxes), ids_(std::move(some))
   {
     this->sort(0, this->ids_.size(), 0);
   }
-  /// Call found(id) for the boxes inside the given box, in no particular order.
+  /// Call found(id) for each shell whose box is inside the given box, in no particular order.
   template <typename Found>
   void find(const Box& box, const Found& found) const
   {
@@ -389,21 +394,21 @@ private:
 };
 
 /// Shells that are inside out (closed, with negative volume, in no other closed shell), and the
-/// shells to turn.
+/// shells to flip.
 struct InwardShells
 {
   std::vector<Index> roots; ///< shells that are inside out
   std::vector<Index> turn; ///< the roots and the closed shells inside them
 };
 
-/// Find the shells that are inside out. Return false when canceled.
+/// Find the shells that are inside out. Return false if canceled.
 bool inward_shells(const Points& points, const Triangles& triangles,
   const std::vector<Shell>& shells, ExecutionContext& context, InwardShells& result)
 {
   std::vector<Index> order;
   for (std::size_t s = 0; s < shells.size(); ++s)
   {
-    // Shells with almost no volume (a sheet and its turned copy) are not inside out.
+    // Shells with almost no volume (for example a sheet and its flipped copy) are not inside out.
     constexpr double rounding = 1e-12;
     const double size = shells[s].box.diagonal();
     if (shells[s].closed && std::abs(shells[s].volume) > rounding * size * size * size)
@@ -424,7 +429,8 @@ bool inward_shells(const Points& points, const Triangles& triangles,
     rank[order[i]] = static_cast<Index>(i);
   }
   const BoxFinder finder(shells, order);
-  // Each shell that is in no other shell finds all later shells inside it in one call.
+  // Process shells by descending volume. For each shell that is in no other shell, find all smaller
+  // shells inside it.
   std::vector<Index> container(shells.size(), -1);
   std::vector<char> turned(shells.size(), 0);
   for (const Index s : order)

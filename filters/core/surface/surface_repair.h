@@ -10,66 +10,69 @@
 namespace bindpose
 {
 
-/// Counts of the defects of a surface. Edges, components and crossings are those of the surface
-/// after equal vertices are welded and triangles without area are removed. Otherwise, in files that
-/// repeat the corners of every triangle (STL), all edges would be boundary edges.
+/// Numbers of the defects of a surface. Edges, components and crossings are counted after equal
+/// vertices are welded and triangles with area zero are removed. Otherwise, all edges would be
+/// boundary edges in files that repeat the corners of every triangle (STL).
 struct SurfaceDiagnosis
 {
   Index vertices = 0; ///< number of input vertices
   Index triangles = 0; ///< number of input triangles
-  Index duplicate_vertices = 0; ///< equal to a vertex of lower id; counts used vertices only
+  Index duplicate_vertices = 0; ///< used vertices with the coordinates of a vertex of lower id
   Index unreferenced_vertices = 0;
-  Index degenerate_triangles = 0; ///< three collinear points (exact test)
+  Index degenerate_triangles = 0; ///< triangles with three collinear points (exact test)
   Index duplicate_triangles = 0; ///< same vertices as a triangle of lower id, in any order
   Index boundary_edges = 0; ///< used by one triangle
   Index nonmanifold_edges = 0; ///< used by three triangles or more
-  Index misoriented_edges = 0; ///< used by two triangles with the same direction
-  Index components = 0; ///< connected by vertices
-  Index inward_components = 0; ///< closed, not inside another component, of negative volume
-  /// Pairs of triangles that meet beyond their shared vertices and edges.
+  Index misoriented_edges = 0; ///< used by two triangles in the same direction
+  Index components = 0; ///< sets of triangles that are connected by vertices
+  Index inward_components = 0; ///< closed, of negative volume, and not inside another component
+  /// Pairs of triangles that intersect outside of their shared vertices and edges.
   Index self_intersections = 0;
-  Index crossing_triangles = 0; ///< triangles of these pairs
-  bool closed = false; ///< the directions cancel at every edge, so winding numbers are integers
-  bool flat = false; ///< all points are coplanar (exact test)
+  Index crossing_triangles = 0; ///< number of triangles in these pairs
+  /// True if opposite directions cancel at every edge. Winding numbers are then integers.
+  bool closed = false;
+  bool flat = false; ///< true if all points are coplanar (exact test)
 };
 
-/// Add the documented keys: counts.vertices, counts.triangles, counts.boundary_edges, ….
+/// Add the numbers to a report: counts.vertices, counts.triangles, counts.boundary_edges, ….
 void add_to_report(const SurfaceDiagnosis& diagnosis, Report& report);
 
+/// Options of repair_surface().
 struct RepairOptions
 {
-  /// Turn triangles so that neighbors agree (the part of a patch with the smaller area is turned).
-  /// Then turn closed components that are inside out, with everything inside them. If false, the
-  /// orientation does not change.
+  /// Flip triangles so that neighbors have consistent orientations (in each patch, the part with
+  /// the smaller area is flipped). Then flip closed components that are inside out, together with
+  /// everything inside them. If false, no triangle is flipped.
   bool orient = true;
-  /// Round vertices to a grid of about this fraction of the bounding-box diagonal (a power of two)
-  /// before welding. 0: only equal vertices are welded. 2^-20 welds nearly coincident vertices.
+  /// Before welding, round vertices to a grid whose spacing is about this fraction of the
+  /// bounding-box diagonal (rounded to a power of two). 2^-20 welds nearly coincident vertices. 0:
+  /// weld only equal vertices.
   double snap = 0.0;
-  /// Find crossing triangles (the only step that is not linear; 0.3 s at 100k triangles).
+  /// Find crossing triangles (the slowest operation; 0.3 s at 100k triangles).
   bool count_self_intersections = true;
 };
 
-/// A surface without equal vertices, unused vertices and triangles without area. It still contains
-/// duplicate and crossing triangles, because these contribute to the winding number.
+/// A surface without equal vertices, unused vertices and triangles of area zero. Duplicate and
+/// crossing triangles are kept, because they contribute to the winding number.
 struct RepairedSurface
 {
   Points points;
   Triangles triangles;
   std::vector<Index> original_vertices; ///< #V: the lowest input id of the welded vertices
   std::vector<Index> original_triangles; ///< #F: input ids
-  /// #input V: the lowest input id welded with the vertex, usually its own.
+  /// #input V: the lowest id of the input vertices welded with this one, usually its own id.
   std::vector<Index> lowest_equal;
-  /// Triangles of closed components that are inside out, ascending, each with the number of its
-  /// component, from 0 to found.inward_components - 1.
+  /// Triangles of closed components that are inside out, ascending. The second index is the number
+  /// of the component, from 0 to found.inward_components - 1.
   std::vector<std::pair<Index, Index>> inward_triangles;
-  SurfaceDiagnosis found; ///< defects of the input, before any triangle was turned
-  Index turned_triangles = 0; ///< turned to agree with their neighbors
-  Index turned_components = 0; ///< closed components that were inside out
+  SurfaceDiagnosis found; ///< defects of the input, before any triangle was flipped
+  Index turned_triangles = 0; ///< number of triangles flipped to agree with their neighbors
+  Index turned_components = 0; ///< number of closed components that were inside out
   std::vector<std::pair<Index, Index>> crossings; ///< pairs of triangles of this surface
-  bool closed = false; ///< found.closed after triangles were turned
+  bool closed = false; ///< value of found.closed after triangles were flipped
 
-  /// Report whether TetGen accepts the surface: it is not flat, has no crossings and no duplicates,
-  /// and is closed, also after degenerate triangles were removed.
+  /// Report whether the surface is valid input for TetGen: it is not flat, has no crossings and no
+  /// duplicates, and is closed after degenerate triangles were removed.
   bool clean() const
   {
     return this->closed && this->found.self_intersections == 0 &&
@@ -77,9 +80,9 @@ struct RepairedSurface
   }
 };
 
-/// Diagnose and clean up a surface. Return invalid_input for ids out of range and coordinates that
-/// are not finite, with the first such id or coordinate. Vertices are never added, and they are
-/// moved only by snap. O(n log n).
+/// Diagnose and clean up a surface. Return invalid_input if an id is out of range or a coordinate
+/// is not finite, naming the first such id or coordinate. Vertices are never added, and they are
+/// moved only by the option `snap`. Cost: O(n log n).
 Status repair_surface(PointsView points, TrianglesView triangles, const RepairOptions& options,
   RepairedSurface& repaired, ExecutionContext& context);
 

@@ -1,6 +1,7 @@
-// The intersection of two triangles is convex. If it is more than their shared vertices and edges,
-// it contains a point on an edge of one triangle that is not shared. Tests of edges against
-// triangles are therefore sufficient. Each test uses a few exact orientation signs.
+// Exact tests on triangles (see triangle_predicates.h). The intersection of two triangles is
+// convex. If it is more than their shared vertices and edges, it contains a point on an edge that
+// is not shared. It is therefore sufficient to test edges against triangles. Each test uses a few
+// exact orientation signs.
 #include "surface/triangle_predicates.h"
 
 #include "base/exact.h"
@@ -12,7 +13,7 @@ namespace bindpose
 
 namespace
 {
-/// Add sign * det(a, b, c), exactly.
+/// Add sign * det(a, b, c) to an expansion, exactly.
 template <int Products>
 void add_determinant(
   ExactSum<Products>& sum, double sign, const Vec3& a, const Vec3& b, const Vec3& c)
@@ -29,7 +30,7 @@ void add_determinant(
   }
 }
 
-/// Report whether doubles represent the difference of two points exactly.
+/// Report whether the differences of the coordinates of two points are exact in double precision.
 bool is_exact(const Vec3& a, const Vec3& b)
 {
   bool exact = true;
@@ -49,7 +50,8 @@ int orientation_in_plane(const Vec3& a, const Vec3& b, const Vec3& c, int axis)
   return orientation_2d(a[u], a[v], b[u], b[v], c[u], c[v]);
 }
 
-/// Return an axis along which the projected triangle has an area, or -1 if the triangle has none.
+/// Return an axis along which the projection of the triangle has an area, or -1 if the triangle has
+/// none.
 int projection_axis(const Vec3& a, const Vec3& b, const Vec3& c)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -70,7 +72,7 @@ bool segments_meet_in_plane(const Vec3& p, const Vec3& q, const Vec3& r, const V
   const int q_side = orientation_in_plane(r, s, q, axis);
   if (r_side == 0 && s_side == 0)
   {
-    // All four points are collinear: test whether the boxes of the segments meet.
+    // All four points are collinear: test whether the bounding boxes of the segments overlap.
     const Vec3 lower = p.cwiseMin(q).cwiseMax(r.cwiseMin(s));
     const Vec3 upper = p.cwiseMax(q).cwiseMin(r.cwiseMax(s));
     return (lower.array() <= upper.array()).all();
@@ -92,7 +94,7 @@ bool segment_meets_triangle_in_plane(
     segments_meet_in_plane(p, q, c, a, axis);
 }
 
-/// Test a triangle whose projection along the given axis has an area.
+/// Test a segment and a triangle, projected along an axis for which the triangle has an area.
 bool segment_meets_triangle(
   const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c, int axis)
 {
@@ -131,8 +133,8 @@ int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
   {
     return determinant < 0.0 ? 1 : -1;
   }
-  // Coordinates with few digits, as in CAD, have exact differences, which need a fourth of the
-  // products.
+  // Coordinates with few digits, as in CAD, have exact differences. The determinant then needs only
+  // a fourth of the products.
   if (is_exact(a, d) && is_exact(b, d) && is_exact(c, d))
   {
     ExactSum<12> of_differences;
@@ -192,7 +194,7 @@ bool triangles_cross(PointsView points, TrianglesView triangles, Index f, Index 
   }
   if (shared == 2)
   {
-    // Test whether the triangles are folded onto each other.
+    // Test whether two triangles with a common edge overlap in one plane.
     return orientation_3d(a[0], a[1], a[2], b[2]) == 0 &&
       orientation_in_plane(a[0], a[1], a[2], a_axis) ==
       orientation_in_plane(a[0], a[1], b[2], a_axis);
@@ -225,8 +227,8 @@ Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b)
 
 Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
 {
-  // For flat triangles the regions below are unreliable because of rounding, so only the edges are
-  // tested.
+  // For almost flat triangles, the region tests below are unreliable because of rounding, so only
+  // the edges are tested.
   constexpr double flat = 1e-10;
   if ((b - a).cross(c - a).squaredNorm() <=
     flat * flat * (b - a).squaredNorm() * (c - a).squaredNorm())
@@ -238,7 +240,8 @@ Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
     }
     return closest;
   }
-  // Test the regions around the triangle (Ericson, Real-Time Collision Detection, 5.1.5).
+  // Determine the region around the triangle that contains p (Ericson, Real-Time Collision
+  // Detection, 5.1.5).
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0.0 && d2 <= 0.0)

@@ -6,20 +6,20 @@
 namespace bindpose
 {
 
-/// Return the sign of the volume of a, b, c, d (tet_volume's). The result is exact except for
-/// underflow.
+/// Return the sign of the volume of the tet a, b, c, d, with the sign convention of tet_volume().
+/// The result is exact unless an underflow occurs.
 int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// Report whether a, b and c are collinear. The test is exact.
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Report whether triangles of a mesh meet beyond the vertices and edges that they share by id:
-/// they cross, touch, or overlap in one plane. The test is exact. It is false for a triangle with
-/// itself or a duplicate, and if one of them has no area.
+/// Report whether two triangles of a mesh intersect outside of the vertices and edges that they
+/// share by id: they cross, touch, or overlap in one plane. The test is exact. Return false for a
+/// triangle and itself, for duplicates, and if one of them has area zero.
 bool triangles_cross(PointsView points, TrianglesView triangles, Index f, Index g);
 
-/// Report whether the segment pq and the triangle abc have a common point. The test is exact. It is
-/// false for a triangle without area.
+/// Report whether the segment pq and the triangle abc have a common point. The test is exact.
+/// Return false for a triangle of area zero.
 bool segment_meets_triangle(
   const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
 

@@ -1,3 +1,4 @@
+// Angles of triangles (see triangle_shape.h).
 #include "surface/triangle_shape.h"
 
 #include <algorithm>

@@ -6,10 +6,10 @@
 namespace bindpose
 {
 
-/// Return the smallest angle between two sides of a triangle, degrees.
+/// Return the smallest angle of a triangle, in degrees.
 double smallest_corner(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Count the triangles with a corner of less than `angle` degrees: needles and caps.
+/// Count the badly shaped triangles, with an angle of less than `angle` degrees: needles and caps.
 Index count_needles(PointsView points, TrianglesView triangles, double angle);
 
 } // namespace bindpose

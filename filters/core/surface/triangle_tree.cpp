@@ -1,5 +1,7 @@
-// The tree is built from the top and split at the median along the longest side. Equal centers are
-// ordered by triangle id, so that the tree and all results are the same on every machine.
+// Construction and traversal of the tree (see triangle_tree.h). The tree is built from the root.
+// Each node is split at the median along the longest side of the bounding box of its triangles'
+// centers. Equal centers are ordered by triangle id, so that the tree and all results are the same
+// on every machine.
 #include "surface/triangle_tree.h"
 
 #include "base/parallel.h"
@@ -104,7 +106,7 @@ double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
 {
   double best = limit * limit;
   bool found = false;
-  // Nodes are halved at the median, so no tree is deeper.
+  // Each child contains half of the triangles of its parent, so the tree is never deeper than this.
   std::array<Index, 128> stack;
   std::size_t top = 0;
   if (!this->nodes_.empty())
@@ -149,8 +151,8 @@ double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
   return found ? std::sqrt(best) : std::numeric_limits<double>::infinity();
 }
 
-/// Visit the tree from the root. Nodes for which `enter` returns false are skipped. The visit ends
-/// when `at_leaf` returns false.
+/// Visit the tree from the root. Subtrees for which `enter` returns false are skipped. The visit
+/// ends when `at_leaf` returns false.
 template <typename Enter, typename AtLeaf>
 void TriangleTree::visit(const Enter& enter, const AtLeaf& at_leaf) const
 {
@@ -187,7 +189,7 @@ bool TriangleTree::segment_meets(
   box.add(a);
   box.add(b);
   const Vec3 along = b - a;
-  // Slab test: for each axis, the interval of the segment between the planes of a box.
+  // Slab test: for each axis, find the interval of the segment between the two planes of a box.
   const auto passes = [&](const Box& node)
   {
     if (!boxes_meet(node, box))
@@ -229,7 +231,7 @@ void TriangleTree::pairs_of_leaf(Index leaf, const std::function<bool(Index, Ind
 {
   const Node& own = this->nodes_[this->leaves_[leaf]];
   std::array<bool, leaf_size> finished{};
-  Index left = own.end - own.begin; // triangles that are not finished
+  Index left = own.end - own.begin; // number of triangles of this leaf whose search continues
   this->visit([&](const Node& node)
     { return node.end > own.begin && boxes_meet(node.box, own.box); },
     [&](const Node& node)
@@ -264,7 +266,7 @@ bool crossing_pairs(PointsView points, TrianglesView triangles,
       auto& mine = of_block[static_cast<std::size_t>(begin / block)];
       for (Index leaf = begin; leaf < end; ++leaf)
       {
-        std::map<Index, Index> crossed; // number of crossings per triangle
+        std::map<Index, Index> crossed; // number of listed pairs per triangle
         Index looked = 0;
         tree.pairs_of_leaf(leaf,
           [&](Index f, Index g)

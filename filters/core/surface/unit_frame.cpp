@@ -1,3 +1,4 @@
+// Scaling to a standard size (see unit_frame.h).
 #include "surface/unit_frame.h"
 
 #include <cmath>

@@ -6,15 +6,17 @@
 namespace bindpose
 {
 
-/// Transforms a surface so that its box is centered at the origin and has a diagonal from 1 to 2.
-/// This is for programs with absolute tolerances, or that lose digits far from the origin. The
-/// scale is a power of two, so that it causes no rounding.
+/// Transforms a surface so that its bounding box is centered at the origin and has a diagonal from
+/// 1 to 2. This is used for programs that have absolute tolerances or lose digits far from the
+/// origin. The scale is a power of two, so that scaling causes no rounding.
 class UnitFrame
 {
 public:
   /// The box must have a diagonal above 0 and below 1e100.
   explicit UnitFrame(const Box& box);
+  /// Transform points into the frame.
   Points into(PointsView points) const;
+  /// Transform points of the frame back to the original coordinates.
   Points back(PointsView points) const;
   double length_into(double length) const { return length * this->scale_; }
 
@@ -23,8 +25,8 @@ private:
   double scale_ = 1.0;
 };
 
-/// Return invalid_input unless the surface has triangles, is finite, its ids are in range, and its
-/// box has a diagonal above 0 and below 1e100.
+/// Return invalid_input unless the surface has triangles, its coordinates are finite, its ids are
+/// in range, and the diagonal of its bounding box is above 0 and below 1e100.
 Status check_frame(PointsView points, TrianglesView triangles);
 
 } // namespace bindpose

@@ -1,3 +1,4 @@
+// Sorting and welding of vertices by exact coordinates (see vertex_order.h).
 #include "surface/vertex_order.h"
 
 #include <algorithm>
@@ -8,8 +9,8 @@ namespace bindpose
 
 namespace
 {
-/// Return a value below, equal to or above 0 if a is before b, has the same coordinates, or is
-/// after b.
+/// Compare vertices by coordinates. Return a value below 0 if a is before b, 0 if they are equal,
+/// and a value above 0 if a is after b.
 int compare(const PointsView& points, Index a, Index b)
 {
   for (int k = 0; k < 3; ++k)

@@ -11,11 +11,12 @@ namespace bindpose
 /// Report whether two vertices have the same coordinates.
 bool same_place(const PointsView& points, Index a, Index b);
 
-/// Return the used vertices sorted by their coordinates, x first. Equal vertices are sorted by id.
+/// Return the used vertices sorted lexicographically by coordinates. Equal vertices are sorted by
+/// id.
 std::vector<Index> order_by_place(const PointsView& points, const std::vector<char>& used);
 
-/// Return the lowest used id with the same coordinates for every vertex. An unused vertex gets its
-/// own id.
+/// For every vertex, return the lowest id of the used vertices with the same coordinates. An unused
+/// vertex gets its own id.
 std::vector<Index> lowest_at_place(const PointsView& points, const std::vector<char>& used);
 
 } // namespace bindpose

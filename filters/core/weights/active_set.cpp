@@ -1,6 +1,7 @@
-// The factor is exact while the set of held vertices does not change, and a good preconditioner
-// while few vertices change. If projected_newton() does not settle with a factor, the next factor
-// is computed for the vertices that are held by then.
+// The active-set method of BoxQp (see active_set.h). A vertex is held while its weight is
+// constrained to a bound. The factor is exact while the set of held vertices does not change, and a
+// good preconditioner while few vertices change. If projected_newton() does not converge with a
+// factor, the next factor is computed for the vertices that are held at that time.
 #include "weights/active_set.h"
 
 #include "base/stopwatch.h"
@@ -15,7 +16,9 @@ namespace
 {
 using Eigen::VectorXd;
 
-/// @param inverse called only if round-off keeps the first bound of the certificate too large.
+/// Compute the certificate of a column's weights w.
+/// @param inverse A^-1, called only if round-off makes the first bound of the certificate too
+/// large.
 Certificate certify_column(const SplitForm& matrices, const BoxQpColumn& column,
   const ColumnProblem& problem, double tolerance, const InverseForm& inverse, const VectorXd& w)
 {
@@ -33,9 +36,10 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
 {
   const Stopwatch watch;
   constexpr int most_factorizations = 10;
-  constexpr int sure = 2; // factorizations that are exempt from the test for stalling
-  constexpr double nearer = 0.5; // a later factorization must reduce the least move by this factor
-  constexpr int rounds = 6; // per factorization
+  constexpr int sure = 2; // number of factorizations that are exempt from the test for stalling
+  // A later factorization must reduce the smallest move by this factor.
+  constexpr double nearer = 0.5;
+  constexpr int rounds = 6; // maximum number of Newton rounds per factorization
   const double tolerance = options.tolerance;
   const double enough = settled_newton_move(tolerance);
   const ColumnProblem problem(matrices, column);
@@ -85,7 +89,8 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
       rounds, enough, context, x);
     solution.iterations += 1;
   }
-  // At the end of the budget, a certified iterate is a valid result even if it has not settled.
+  // If the iterations are used up, a certified iterate is a valid result even if the weights still
+  // move.
   if (!solution.status.ok() && certified() && solution.iterations >= options.maximum_iterations)
   {
     solution.status = Status();

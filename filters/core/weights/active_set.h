@@ -8,14 +8,15 @@
 namespace bindpose
 {
 
-/// Solve one column without ordered pairs, from a good guess of its active bounds. A projected
-/// Newton method solves its systems with a factor of A without the vertices that were held at a
-/// bound when the factor was computed. One to three factorizations are usual, each with 5 to 20
+/// Solve one column of bounded weights without ordered pairs, starting from a good guess of the
+/// vertices whose weight is at a bound. The method is a projected Newton method. Its systems are
+/// solved with a factor of A, the block of the free vertices in the quadratic form, where the
+/// vertices at a bound are decoupled. One to three factorizations are usual, each with 5 to 20
 /// solves.
 ///
 /// Hintermueller, Ito and Kunisch 2003, The primal-dual active set strategy as a semismooth Newton
 /// method; Bertsekas 1982.
-/// @param inverse called rarely.
+/// @param inverse A^-1 for the certificate, called rarely.
 /// @return not_converged, with the last iterate, if the guess was not good enough.
 BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
   const BoxQpColumn& column, const ColumnStart& start, const InverseForm& inverse,

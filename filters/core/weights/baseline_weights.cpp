@@ -1,12 +1,13 @@
-// Distances are straight-line distances from vertices to the handles' own geometry: points,
-// segments of bones, labeled vertices of regions. The unknowns are the vertices that are not fixed.
-// The systems are
+// The methods of baseline_weights.h. Distances are straight-line distances from vertices to the
+// geometry of the handles: points, segments of bones, labeled vertices of regions. The unknowns are
+// the weights of the vertices that are not fixed. The systems are
 //   smoothed harmonic   (M + length^4 Q) w = M h, where K h = 0 and Q = K M^-1 K is the biharmonic
 //                       form; w is h for length 0 and approaches the biharmonic weights for a large
 //                       length
 //   bone heat           (K + M H) w_j = M H p_j, where H = heat / d^2 if the nearest handle is
-//                       visible, and p_j is its fraction among equally near handles
-// with M the true masses of the mesh scaled to diagonal 1, so that units do not matter.
+//                       visible, and p_j is the fraction of handle j among equally near handles
+// where K is the cotangent stiffness and M the mass matrix of the mesh scaled to diagonal 1, so
+// that the result does not depend on units.
 #include "weights/baseline_weights.h"
 
 #include "base/parallel.h"
@@ -31,7 +32,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Nearest points on the handles, and distances to them.
+/// Compute the nearest points on the handles and the distances to them.
 class HandleDistances
 {
 public:
@@ -47,7 +48,7 @@ public:
       {
         continue;
       }
-      // The region's vertices, as triangles without area.
+      // The vertices of the region, as degenerate triangles.
       std::vector<Index> members;
       for (std::size_t i = 0; i < constraints.vertices.size(); ++i)
       {
@@ -131,7 +132,7 @@ Status inverse_distances(
         {
           d[j] = distances.from(j, p);
         }
-        // Distances relative to the nearest one, so that no power overflows.
+        // Divide by the smallest distance, so that the powers do not overflow.
         const double least = d.minCoeff();
         for (Index j = 0; j < m; ++j)
         {
@@ -185,12 +186,12 @@ Status smoothed_harmonic(const WeightsProblem& problem, const WeightsOptions& op
 }
 
 /// Triangles that hide handles from vertices: the boundary of a volume, or a surface itself. For a
-/// flat shape, vertical walls through the edges of its outline.
+/// flat shape, they are vertical walls through the edges of its outline.
 struct Walls
 {
   Points points;
   Triangles triangles;
-  /// The domain's vertices that each triangle belongs to.
+  /// For each triangle, the vertices of the domain at its corners.
   std::vector<std::array<Index, 3>> vertices;
 };
 
@@ -233,7 +234,7 @@ Walls walls_of(const WeightsProblem& problem)
   return walls;
 }
 
-/// Compute H for every vertex, and the fractions p of the handles nearest to it.
+/// Compute H for every vertex, and the fractions p of the handles nearest to the vertex.
 Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext& context,
   VectorXd& h, MatrixXd& p, Index& heated)
 {
@@ -267,7 +268,7 @@ Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext
             continue;
           }
           const Vec3 to = distances.nearest(static_cast<std::size_t>(j), at);
-          // Shorten the segment at both ends: the vertex, or a handle on the surface, touches a
+          // Shorten the segment at both ends, because a vertex or a handle on the surface touches a
           // wall.
           constexpr double short_of = 1e-3;
           const Vec3 from = at + short_of * (to - at);

@@ -1,7 +1,8 @@
-// The triangles around a vertex on a bone form groups. Two triangles are in one group if they share
-// an edge at the vertex that is on no bone. The first group keeps the vertex, every other group
-// gets a copy. The copy belongs to the side of the bone that its group touches. A group that
-// touches both sides of one bone surrounds the tip of the bone.
+// This file duplicates the vertices along bones (see bone_cut.h). The triangles around a vertex on
+// a bone form groups. Two triangles are in one group if they share an edge that ends at the vertex
+// and is on no bone. The first group keeps the vertex; every other group gets a copy. The copy
+// belongs to the side of the bone that its group touches. A group that touches both sides of one
+// bone surrounds the tip of the bone.
 #include "weights/bone_cut.h"
 
 #include <algorithm>
@@ -25,10 +26,11 @@ EdgeKey key_of(Index a, Index b)
   return { std::min(a, b), std::max(a, b) };
 }
 
-/// The first bone that runs along each edge; -1: none.
+/// The first bone along each mesh edge; -1: no bone.
 using BoneEdges = std::map<EdgeKey, Index>;
 
-/// Return the mesh's vertices on the bone, from head to tail.
+/// Return the mesh's vertices on the bone, from head to tail; empty if they do not include both
+/// ends.
 std::vector<Index> vertices_along(PointsView points, const Handle& bone, double tolerance)
 {
   const Eigen::Vector2d head = bone.head.head<2>();
@@ -58,7 +60,7 @@ std::vector<Index> vertices_along(PointsView points, const Handle& bone, double 
   return vertices;
 }
 
-/// Return twice the area of the triangle (head, tail, p): positive left of the bone.
+/// Return twice the signed area of the triangle (head, tail, p), positive if p is left of the bone.
 double left_of(const Handle& bone, const Eigen::RowVector3d& p)
 {
   const Vec3 along = bone.tail - bone.head;
@@ -70,7 +72,8 @@ std::vector<std::vector<Index>> groups_around(
   Index vertex, const std::vector<Index>& around, TrianglesView triangles, const BoneEdges& bones)
 {
   std::vector<std::size_t> group(around.size());
-  std::map<Index, std::size_t> first_at; // first triangle at the edge from `vertex` to this vertex
+  // Key: other end of an edge at `vertex`; value: first triangle at that edge.
+  std::map<Index, std::size_t> first_at;
   for (std::size_t i = 0; i < around.size(); ++i)
   {
     group[i] = i;
@@ -110,7 +113,7 @@ std::vector<std::vector<Index>> groups_around(
   return groups;
 }
 
-/// Return the side (see BoneCut) of a vertex's group of triangles.
+/// Return the side of a bone (see BoneCut::side) on which a group of triangles around a vertex is.
 Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
   TrianglesView triangles, const Handles& handles, const std::vector<Index>& curves,
   const BoneEdges& bones)
@@ -136,7 +139,7 @@ Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
   {
     if (sides[i] != sides[i - 1] && (sides[i] - 1) / 2 == (sides[i - 1] - 1) / 2)
     {
-      return 0; // a tip
+      return 0; // the group surrounds a tip
     }
   }
   return sides.empty() ? 0 : sides.front();
@@ -198,7 +201,7 @@ Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles
     return Status::invalid_input("there is no bone to cut along");
   }
 
-  std::map<Index, std::vector<Index>> around; // triangles at the vertices of bones, ascending
+  std::map<Index, std::vector<Index>> around; // triangles around each vertex on a bone, ascending
   for (const auto& [edge, bone] : cut)
   {
     around[edge.first];

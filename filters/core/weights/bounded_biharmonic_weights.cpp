@@ -1,3 +1,4 @@
+// Bounded biharmonic weights: the general solve of weight_solve.h without constraints on extrema.
 #include "weights/bounded_biharmonic_weights.h"
 
 #include "weights/weight_solve.h"

@@ -1,10 +1,11 @@
-// Q's free block is analyzed and factored once. The factor is in single precision if conjugate
-// gradients reach the limit of double precision with it (biharmonic energies of meshes usually,
-// triharmonic energies rarely), else in double precision. Then the starts of all columns are
-// computed together (splitting_start.cpp), and each column is solved from its start
-// (active_set.cpp), in a workspace that the next column reuses. Columns without a start, and
-// columns whose start does not lead to the minimizer, are solved by the interior-point method
-// (interior_point.cpp).
+// The solver of the quadratic programs of all columns (see box_qp.h). A, the block of free vertices
+// in Q, is analyzed and factored once. The factor is in single precision if conjugate gradients
+// reach the limit of double precision with it, else in double precision. (Single precision usually
+// suffices for biharmonic energies of meshes, rarely for triharmonic ones.) Then the starts of all
+// columns are computed together (splitting_start.cpp). Each column is solved from its start
+// (active_set.cpp), in a workspace that the next column reuses. The interior-point method
+// (interior_point.cpp) solves columns without a start, and columns whose start does not lead to the
+// minimizer.
 #include "weights/box_qp.h"
 
 #include "base/memory.h"
@@ -30,12 +31,12 @@ namespace
 {
 using Eigen::VectorXd;
 
-/// Relative residuals of systems in A: the goal of the refinement, and the largest that is
-/// accepted.
+/// Relative residuals of linear systems in A: the target of the refinement, and the largest
+/// acceptable residual.
 constexpr double wanted_accuracy = 1e-14;
 constexpr double good_accuracy = 1e-12;
 
-/// Scope in which a context has at most this number of threads; 0: no limit.
+/// Limit the number of threads of a context while this object exists; 0: no limit.
 class FewerThreads
 {
 public:
@@ -62,18 +63,19 @@ struct BoxQp::Impl : SplitForm
   using SplitForm::SplitForm;
 
   BoxQpOptions options;
-  mutable SparseSolver solver; // double precision; all other solvers share its analysis
-  FloatCholesky single; // the same analysis; not analyzed if single precision is unavailable
+  mutable SparseSolver solver; // double precision; its analysis is shared by all other solvers
+  FloatCholesky single; // has the same analysis; not analyzed if single precision is unavailable
   FloatCholesky single_of_a; // A's factor, if single precision is accurate enough
   bool in_single = false;
   mutable bool in_double = false; // whether `solver` contains A's factor
-  VectorXd inverse_diagonal; // of A
+  VectorXd inverse_diagonal; // 1 / diagonal of A
   double memory_estimate = 0.0;
-  int most_threads = 0; // largest number of threads that the memory allows; 0: no limit
+  int most_threads = 0; // maximum number of threads that the memory allows; 0: no limit
   mutable std::mutex solver_mutex;
   mutable PerThread<BoxQpWorkspace> of_threads;
 
-  /// Estimate the memory of the factors, with one workspace per thread and at least one.
+  /// Estimate the memory of the factors and set the number of threads: one workspace per thread, at
+  /// least one. Return an error if the memory does not suffice for one workspace.
   /// @param in_single_precision whether A is factored in single precision.
   Status plan_memory(const std::vector<BoxQpColumn>& columns, int threads, bool in_single_precision)
   {
@@ -82,10 +84,10 @@ struct BoxQp::Impl : SplitForm
     const auto count = static_cast<double>(columns.size());
     const auto vertices = static_cast<double>(this->q.rows());
     const double in_double_precision = this->solver.factor_bytes();
-    // Per column: given values, minimizer without bounds, start, solution.
+    // Memory per column: given values, minimizer without bounds, start, solution.
     const double once = (in_single_precision ? this->single.factor_bytes() : in_double_precision) +
       5.0 * sizeof(double) * vertices * std::max(count, 1.0);
-    // Per workspace: the matrix, about 40 vectors and the factors.
+    // Memory per workspace: the matrix, about 40 vectors and the factors.
     const double each = columns.empty()
       ? 0.0
       : static_cast<double>(this->lower.nonZeros()) * (sizeof(double) + sizeof(int)) +
@@ -177,7 +179,7 @@ struct BoxQp::Impl : SplitForm
     }
     return status.code == StatusCode::canceled ? status : Status();
   }
-  /// Compute A^-1 r over all vertices.
+  /// Multiply A^-1 with the free entries of r (#V). The result (#V) is 0 at fixed vertices.
   VectorXd inverse(const VectorXd& r) const
   {
     return this->whole(this->inverse_of_a(this->free_rows(r)),
@@ -194,8 +196,8 @@ struct BoxQp::Impl : SplitForm
   }
 };
 
-/// Solve all columns: first from starts at the active bounds, then the remaining ones by the
-/// interior-point method.
+/// Solve all columns: first those with a start by the active-set method, then the remaining columns
+/// by the interior-point method.
 class BoxQp::Impl::ColumnsSolve
 {
 public:
@@ -209,7 +211,7 @@ public:
   void run()
   {
     constexpr double at_bounds = 0.7; // fraction of the time, for progress
-    std::vector<std::size_t> left; // columns for the interior-point method
+    std::vector<std::size_t> left; // indices of the columns for the interior-point method
     {
       const ProgressRange range(this->context_, 0.0, at_bounds);
       std::vector<std::size_t> all(this->columns_.size());
@@ -232,7 +234,7 @@ public:
         if (this->solutions_[j].status.code == StatusCode::not_converged &&
           this->solutions_[j].iterations < this->qp_.options.maximum_iterations)
         {
-          // Until the interior-point method solves it.
+          // The status is canceled until the interior-point method solves this column.
           this->solutions_[j].status = Status::canceled();
           left.push_back(j);
         }
@@ -259,17 +261,18 @@ public:
 private:
   static constexpr double start_share = 0.3; // fraction of the time for starts, for progress
 
-  /// Report whether a column can have a start: it has no start of its own, no ordered pairs, and
-  /// finite bounds.
+  /// Report whether a start can be computed for the column: the caller gives no start, there are no
+  /// ordered pairs, and the bounds are finite.
   bool may_start(const BoxQpColumn& column) const
   {
     return this->qp_.single.analyzed() && column.pairs.empty() && column.start.size() == 0 &&
       column.bounds.lower.allFinite() && column.bounds.upper.allFinite();
   }
 
-  /// Find starts for some columns.
+  /// Compute starts for the requested columns.
   /// @param asked indices of the columns.
-  /// @return #columns; empty starts for columns that were not requested or cannot have one.
+  /// @param barriers compute starts for the interior-point method (see splitting_start).
+  /// @return #columns; a start is empty if its column was not requested or cannot have a start.
   std::vector<ColumnStart> find_starts(const std::vector<std::size_t>& asked, bool barriers)
   {
     const Stopwatch watch;
@@ -304,6 +307,8 @@ private:
     return starts;
   }
 
+  /// Solve the chosen columns in parallel and add their counts and times to those of earlier
+  /// attempts.
   /// @param solve (column, workspace) -> solution; called on any thread.
   template <class Solve>
   void solve_each(const std::vector<std::size_t>& chosen, const Solve& solve)

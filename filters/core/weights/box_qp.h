@@ -10,6 +10,7 @@
 namespace bindpose
 {
 
+/// Options of BoxQp, the solver of the quadratic programs of bounded weights.
 struct BoxQpOptions
 {
   /// Upper limit of the relative duality gap and of the natural residual. 1e-6 by default; 1e-9 is
@@ -21,83 +22,84 @@ struct BoxQpOptions
   SparseSolver::Options solver;
 };
 
-/// One column to solve; all columns share Q and the fixed vertices.
+/// One column of the weights to solve for. All columns share Q and the fixed vertices.
 struct BoxQpColumn
 {
   Eigen::VectorXd fixed_values; ///< values at the fixed vertices, in their order
   /// Vertices that only this column fixes, in addition to the fixed vertices, and their values.
   std::vector<Index> pinned;
   Eigen::VectorXd pinned_values;
-  /// Bounds of all other vertices, [0, 1] by default. lower < upper (if they are equal, pin the
-  /// vertex). Both are finite or both are infinite.
+  /// Bounds of all other vertices, [0, 1] by default. lower < upper is required; a vertex with
+  /// equal bounds must be pinned instead. Both bounds of a vertex are finite or both are infinite.
   Bounds bounds;
-  /// Pairs of vertices whose values must stay ordered, optionally by a minimum difference. The
-  /// pairs must have no cycle, and Q must have an entry for every pair. Pairs without a free vertex
-  /// are ignored.
+  /// Pairs of vertices whose values must be in a given order, optionally with a minimum difference.
+  /// The pairs must have no cycle, and Q must have an entry for every pair. Pairs in which both
+  /// values are given are ignored.
   std::vector<OrderedPair> pairs;
   Eigen::VectorXd start; ///< #V, initial guess; empty: the minimizer without bounds
-  double energy = 0.0; ///< estimate of the minimum; 0: the minimum without bounds
+  double energy = 0.0; ///< estimate of the minimum energy; 0: use the minimum without bounds
 };
 
+/// The solution of one column.
 struct BoxQpSolution
 {
   Status status; ///< ok, not_converged or canceled; internal_error if a factorization fails
   Eigen::VectorXd w; ///< #V; bounds and pairs are satisfied exactly
   Certificate certificate;
-  Eigen::VectorXd multipliers; ///< multipliers of column.pairs, >= 0
+  Eigen::VectorXd multipliers; ///< Lagrange multipliers of column.pairs, >= 0
   int iterations = 0;
   int factorizations = 0;
   double factor_seconds = 0.0;
-  double solve_seconds = 0.0; ///< everything but factorizations
+  double solve_seconds = 0.0; ///< time of everything except factorizations
 };
 
 /// Solve min 1/2 w' Q w subject to l <= w <= u (0 and 1 by default) and given values at the fixed
-/// vertices, for many columns. One symbolic analysis serves all columns. A splitting method guesses
-/// the solutions and the active bounds of all columns together. From there an active-set method
-/// solves each column. A primal-dual interior-point method solves the columns with ordered pairs
-/// and those that the active-set method does not solve.
-///
-/// The only convergence criterion is the certificate (see Certificate). If the certificate is not
-/// reached within maximum_iterations, the status is not_converged, with the best iterate and its
-/// numbers.
+/// vertices, for many columns w. One symbolic analysis serves all columns. A splitting method
+/// guesses the solutions and the active bounds of all columns together. An active-set method then
+/// solves each column, starting from its guess. A primal-dual interior-point method solves the
+/// columns with ordered pairs and the columns that the active-set method does not solve.
+/// The only convergence criterion is the optimality certificate (see Certificate). If the
+/// certificate does not reach the tolerance within maximum_iterations, the status is not_converged,
+/// and the result is the best iterate with its certificate.
 ///
 /// Cost per column with CHOLMOD and eight columns, in units of F, the time of one factorization of
 /// Q in double precision:
 /// - 3 to 6 F on lattices of real shapes with 9k to 11k vertices;
-/// - three to five times that with the interior-point method;
+/// - three to five times as much with the interior-point method;
 /// - 12 to 13 F with ordered pairs, on a box of 5k vertices;
 /// - 10 to 25 F with Eigen's solver.
 ///
-/// Memory: one factor of Q in single precision, and another one per thread with a third more for
-/// its workspace (63k vertices: 1.4 GB in total with one thread). With ordered pairs, or if single
-/// precision fails, each thread also stores a factor in double precision.
+/// Memory: one factor of Q in single precision, and one more per thread, with a third more for the
+/// thread's workspace (63k vertices: 1.4 GB in total with one thread). With ordered pairs, or if
+/// single precision fails, each thread also stores a factor in double precision.
 ///
 /// Hintermueller, Ito and Kunisch 2003; Mehrotra 1992; Gondzio 1996; Jacobson et al. 2011 and 2012
 /// for the problems.
 class BoxQp
 {
 public:
-  /// @param q symmetric positive semi-definite, #V x #V, definite on the vertices left free.
+  /// @param q symmetric positive semi-definite, #V x #V, positive definite on the free vertices.
   /// @param fixed ids of the fixed vertices, each once.
   BoxQp(const SparseMatrix& q, std::vector<Index> fixed, const BoxQpOptions& options);
   ~BoxQp();
   BoxQp(const BoxQp&) = delete;
   BoxQp& operator=(const BoxQp&) = delete;
 
-  /// Analyze and factor Q once. This must succeed before any other call. Phase "analyze". Return
-  /// internal_error, before anything is factored, if the memory is insufficient for these columns.
+  /// Analyze and factor Q once. This call must succeed before any other call. It reports progress
+  /// as phase "analyze". Return internal_error, before any factorization, if the memory is
+  /// insufficient for these columns.
   /// @param columns the columns that solve_all() will receive. If the memory does not suffice for
   /// one factor per thread, solve_all() uses fewer threads.
   Status prepare(ExecutionContext& context, const std::vector<BoxQpColumn>& columns = {});
 
   /// Return the minimizers without bounds (#V x m) for m columns of fixed values (#fixed x m).
   Eigen::MatrixXd unconstrained(const Eigen::MatrixXd& fixed_values) const;
-  /// Return the inverse of Q's free block times m columns (#free x m); NaN if the memory is
-  /// insufficient.
+  /// Return the inverse of Q's block of free vertices times m columns (#free x m); NaN if the
+  /// memory is insufficient.
   Eigen::MatrixXd inverse(const Eigen::MatrixXd& rhs) const;
 
-  /// Like unconstrained(), for columns with pinned vertices. The certificate is that of a problem
-  /// without bounds:
+  /// Solve like unconstrained(), for columns with pinned vertices. The certificate is that of a
+  /// problem without bounds, where g is the gradient and A is Q's block of free vertices:
   ///   gap = 1/2 g' A^-1 g = E(w) - min E exactly,   residual = max |g / diag Q|.
   std::vector<BoxQpSolution> solve_unbounded(
     const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const;
@@ -105,18 +107,18 @@ public:
   /// Solve one column.
   BoxQpSolution solve(const BoxQpColumn& column, ExecutionContext& context) const;
 
-  /// Solve all columns on the context's threads. The bits of the result do not depend on the number
-  /// of threads. After a cancel, columns that were not reached have the status canceled.
+  /// Solve all columns on the context's threads. The result is bitwise the same for any number of
+  /// threads. After a cancel, columns that were not solved have the status canceled.
   std::vector<BoxQpSolution> solve_all(
     const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const;
 
   Index free_count() const;
   Index analyses() const;
   Index factorizations() const;
-  /// Return the largest memory of the process in bytes, as estimated by prepare() after the
+  /// Return the estimate of the process's peak memory in bytes, which prepare() makes after the
   /// analysis.
   double memory_estimate() const;
-  /// Return the solver that has analyzed the pattern of Q's free block.
+  /// Return the solver that has analyzed the pattern of Q's block of free vertices.
   const SparseSolver& solver() const;
 
 private:
@@ -124,7 +126,7 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-/// Return the status of the first column without a result; ok if all columns have one.
+/// Return the status of the first column that has no usable result; ok if all columns have one.
 Status worst_of(const std::vector<BoxQpSolution>& solutions);
 
 } // namespace bindpose

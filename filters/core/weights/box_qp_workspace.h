@@ -10,26 +10,27 @@
 namespace bindpose
 {
 
-/// The memory for solving one column, reused for the next.
+/// The memory for solving one column (see BoxQp), reused for the next column.
 struct BoxQpWorkspace
 {
   SparseSolver solver; ///< has analyzed the pattern of `lower`
-  FloatCholesky single; ///< has analyzed it too, if single precision is available
+  FloatCholesky single; ///< has analyzed the pattern of `lower`, if single precision is available
   SparseMatrix matrix; ///< has the pattern of `lower`
 };
 
-/// r -> A^-1 r over all vertices (see certify).
+/// The map r -> A^-1 r for vectors over all vertices (see certify).
 using InverseForm = std::function<Eigen::VectorXd(const Eigen::VectorXd& r)>;
 
-/// Return the largest change of a weight that counts as converged. The gap is quadratic in the
-/// error of the weights, so a certified iterate can be a thousand tolerances away from the
-/// minimizer.
+/// Return the largest change of a weight in one iteration that counts as converged. The certificate
+/// alone is not enough: the gap is quadratic in the error of the weights, so a certified iterate
+/// can be a thousand tolerances away from the minimizer.
 inline double settled_move(double tolerance)
 {
   return std::max(tolerance, std::min(5.0 * tolerance, 1.5e-6));
 }
 
-/// Return the largest last move of a projected Newton method that counts as converged.
+/// Return the largest change of a weight in the last round of a projected Newton method that counts
+/// as converged.
 inline double settled_newton_move(double tolerance)
 {
   return 0.1 * settled_move(tolerance);

@@ -1,3 +1,4 @@
+// Fill a cage of faces with tets, or a flat cage of edges with triangles (see cage_domain.h).
 #include "weights/cage_domain.h"
 
 #include "planar/planar_shape.h"
@@ -10,9 +11,9 @@ namespace bindpose
 
 namespace
 {
-/// Orient the edges of a cage, which have no given direction. The edges are followed from end to
-/// end, and each is turned so that it begins where the previous one ends. Then all are reversed if
-/// they enclose a negative area.
+/// Orient the edges of a cage, whose given directions are arbitrary. The edges are followed from
+/// end to end, and each edge is reversed if necessary, so that it begins where the previous one
+/// ends. Then all edges are reversed if they enclose a negative area.
 void run_around(PlanePointsView points, Segments& edges)
 {
   std::vector<std::vector<Index>> at(static_cast<std::size_t>(points.rows()));
@@ -54,7 +55,7 @@ void run_around(PlanePointsView points, Segments& edges)
   }
 }
 
-/// Fill the region that the cage's faces enclose with tets.
+/// Fill the region that is enclosed by the cage's faces with tets.
 Status fill_faces(const std::vector<CageElement>& faces, PointsView points, const Handles& handles,
   const CageOptions& cage, CageDomain& result, ExecutionContext& context)
 {
@@ -89,7 +90,8 @@ Status fill_faces(const std::vector<CageElement>& faces, PointsView points, cons
   return status;
 }
 
-/// Fill the region that the cage's edges enclose in the plane of a flat shape with triangles.
+/// Fill the region that is enclosed by the cage's edges, in the plane of a flat shape, with
+/// triangles.
 Status fill_edges(const std::vector<CageElement>& edges, PointsView points, TrianglesView triangles,
   const Handles& handles, const CageOptions& cage, CageDomain& result, ExecutionContext& context)
 {
@@ -99,7 +101,8 @@ Status fill_edges(const std::vector<CageElement>& edges, PointsView points, Tria
   {
     return Status::invalid_input(needs);
   }
-  // In this order: heads of all handles, tails of all handles (bones), points of the shape.
+  // The rows are, in this order: heads of all handles, tails of all handles (bones), points of the
+  // shape.
   const auto handle_count = static_cast<Index>(handles.size());
   const Index shape_points = points.rows() <= cage.most_points ? points.rows() : 0;
   Points places(2 * handle_count + points.rows(), 3);
@@ -157,11 +160,12 @@ Status fill_edges(const std::vector<CageElement>& edges, PointsView points, Tria
   }
   if (status.report.number("counts.outside_handles", 0.0) > 0.0)
   {
-    // Drop the last warning. The transfer reports points outside, the weights problem handles
-    // outside.
+    // Drop the last warning, because other functions report the same facts: the transfer reports
+    // points outside, and the weights problem reports handles outside.
     status.warnings.pop_back();
   }
-  // Keep only these two numbers: the weights problem counts vertices and triangles again.
+  // Keep only the angle and the area, because the weights problem counts vertices and triangles
+  // again.
   Report report;
   report.set("cage.min_angle", status.report.number("min_angle", 0.0));
   report.set("cage.area", status.report.number("area", 0.0));
@@ -169,7 +173,8 @@ Status fill_edges(const std::vector<CageElement>& edges, PointsView points, Tria
   Domain& domain = result.domain;
   domain.points = (shape.points * axes.transpose()).rowwise() + origin.transpose();
   domain.triangles = shape.triangles;
-  // Given points keep their exact coordinates, so that later searches find them exactly.
+  // Copy the exact coordinates of the handles and of the shape's points, so that later searches
+  // find these vertices.
   for (Index i = 0; i < static_cast<Index>(shape.handle_vertices.size()); ++i)
   {
     if (shape.handle_vertices[static_cast<std::size_t>(i)] >= 0)

@@ -8,15 +8,16 @@
 namespace bindpose
 {
 
-/// Options of fill_cage().
+/// Options of fill_cage(), which makes the domain of the weights from a cage among the handles.
 struct CageOptions
 {
-  double winding_threshold = 0.5; ///< > 0
-  HandlePlaces places; ///< handle geometry that becomes part of the tets
-  Index most_points = 20000; ///< the points of a larger surface do not become vertices
+  /// Points with at least this winding number are inside the cage, > 0.
+  double winding_threshold = 0.5;
+  HandlePlaces places; ///< handle geometry that becomes part of the tets, such as bones
+  Index most_points = 20000; ///< if the surface has more points, they do not become vertices
 };
 
-/// The inside of a cage.
+/// The result of fill_cage().
 struct CageDomain
 {
   Domain domain;
@@ -24,11 +25,11 @@ struct CageDomain
   TriangleMesh plane_cage; ///< for a cage of edges
 };
 
-/// Fill the closed cage among the handles. A cage of faces is filled with tets (tetrahedralize), a
-/// cage of edges in the plane of a flat shape with triangles (planar_shape). The surface's points
-/// become vertices.
+/// Fill the closed cage that is formed by cage vertices among the handles. A cage of faces is
+/// filled with tets (tetrahedralize); a cage of edges in the plane of a flat shape is filled with
+/// triangles (planar_shape). The points of the surface become vertices.
 ///
-/// Report: for a cage of faces the report of tetrahedralize(); for a cage of edges cage.area and
+/// Report: for a cage of faces, the report of tetrahedralize(); for a cage of edges, cage.area and
 /// cage.min_angle (degrees). Return an error if the handles have no closed cage, if a cage of edges
 /// is not flat, or if tetrahedralize() or planar_shape() fails.
 Status fill_cage(PointsView points, TrianglesView triangles, const Handles& handles,

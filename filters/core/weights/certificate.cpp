@@ -1,3 +1,4 @@
+// Evaluate the two bounds of the optimality gap and the natural residual (see certificate.h).
 #include "weights/certificate.h"
 
 #include <algorithm>
@@ -11,10 +12,11 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   const std::vector<OrderedPair>& pairs, const Eigen::VectorXd& multipliers,
   const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& inverse)
 {
-  // Q is symmetric. The product with its transpose follows the stored columns, which is faster.
+  // Q is symmetric. The product with its transpose is faster, because it reads each stored column
+  // once.
   Eigen::VectorXd g = problem.q.transpose() * w;
   Certificate certificate;
-  // A constant column has no energy; its computed energy is round-off.
+  // A constant column has energy zero. A computed energy at the level of round-off counts as zero.
   certificate.energy = 0.5 * w.dot(g);
   const double noise = 1e-14 * 0.5 * w.cwiseAbs2().dot(problem.q.diagonal());
   certificate.energy = certificate.energy > noise ? certificate.energy : 0.0;
@@ -45,7 +47,8 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
     ++free_count;
     const double share = g[v] == 0.0 ? 0.0 : std::max(g[v] * (w[v] - l), -g[v] * (u - w[v]));
     gap += share;
-    // If a Newton step of this vertex alone stays within the bounds, its gradient is part of r.
+    // If a Newton step of this vertex alone stays within the bounds, the vertex belongs to the set
+    // R.
     if (inverse && w[v] - g[v] / diagonal > l && w[v] - g[v] / diagonal < u)
     {
       r[v] = g[v];

@@ -1,6 +1,7 @@
-// Unknowns are the classes of a union-find over (copy, vertex). A class must satisfy the
-// requirements of all its members in every column: their bounds are intersected, and two members
-// with different given values are a contradiction.
+// This file converts vertices and terms to the unknowns and columns of the solver (see
+// column_groups.h). Unknowns are the classes of a union-find over (copy, vertex). A class must
+// satisfy the requirements of all its members in every column: their bounds are intersected, and
+// two members with different given values are a contradiction.
 #include "weights/column_groups.h"
 
 #include "base/disjoint_sets.h"
@@ -100,7 +101,7 @@ private:
         this->members_[this->unknown(v, k)].push_back(k * this->n_ + v);
       }
     }
-    // Components of unknowns.
+    // Find the connected components of the unknowns.
     const Index parts = this->problem_.constraints.components.count;
     DisjointSets<Index> joined(static_cast<std::size_t>(copies * parts));
     this->part_.assign(static_cast<std::size_t>(this->group_.count), -1);
@@ -152,7 +153,8 @@ private:
 
   const std::string& handle_name(Index handle) const { return this->problem_.handles[handle].name; }
 
-  /// Return the handle that a vertex with a given row is on, or that its component follows.
+  /// Return the handle that determines the given row of a vertex: the handle on the vertex, or the
+  /// handle that the vertex's component follows.
   Index owner(Index vertex) const
   {
     Index best = 0;
@@ -176,7 +178,7 @@ private:
     Index fixed_count = 0;
     for (Index u = 0; u < count; ++u)
     {
-      Index from = -1; // the member that gave the value
+      Index from = -1; // the member whose value was used first, or -1
       for (const Index member : this->members_[u])
       {
         const Index v = member % this->n_;
@@ -217,7 +219,7 @@ private:
         given[u] = value;
         from = member;
       }
-      // An exclusion applies only if the terms give no value.
+      // Set the excluded weight to 0 if no term gives a value.
       for (const Index member : this->members_[u])
       {
         const Index at =
@@ -307,8 +309,8 @@ private:
       std::to_string(w) + ", and a rigid set or the mirror makes them equal");
   }
 
-  /// If all given values in a component are equal and within all bounds, the column has this
-  /// constant value in the whole component.
+  /// Set the column's constant in each component whose given values are all equal and within all
+  /// bounds; the whole component then has this value.
   void find_constants(const BoxQpColumn& column)
   {
     const std::vector<double>& given = this->given_.back();
@@ -321,7 +323,7 @@ private:
       {
         constant[part] = std::isinf(constant[part]) || constant[part] == given[u]
           ? given[u]
-          : std::nan(""); // several values
+          : std::nan(""); // the values differ
       }
     }
     for (Index u = 0; u < this->group_.count; ++u)
@@ -381,13 +383,14 @@ private:
   ColumnGroup& group_;
   const Index n_;
   std::vector<std::vector<Index>> members_; // members of every unknown, copy * #V + vertex
-  std::vector<Index> part_; // component of every unknown; -1: none
+  std::vector<Index> part_; // component of every unknown; -1: in no component
   Index part_count_ = 0;
-  std::vector<Index> row_of_; // row of every vertex in problem.fixed_values; -1: not fixed
+  // Index of every vertex in the rows of problem.fixed_values; -1: not fixed.
+  std::vector<Index> row_of_;
   std::vector<char> is_fixed_; // 1 for fixed unknowns
-  // Per column:
-  std::vector<std::vector<double>> given_; // values of unknowns; NaN: solved for
-  std::vector<std::vector<double>> constant_; // constant of every component; NaN: none
+  // One entry per column:
+  std::vector<std::vector<double>> given_; // given values of the unknowns; NaN: solved for
+  std::vector<std::vector<double>> constant_; // constant of every component; NaN: not constant
 };
 } // namespace
 
@@ -441,7 +444,7 @@ std::vector<BoxQpColumn> plain_columns(const WeightsProblem& problem)
   }
   const WeightTerms none;
   const Exclusions nothing;
-  GroupMaker(problem, none, nothing, false, group).make(false); // nothing can contradict
+  GroupMaker(problem, none, nothing, false, group).make(false); // make() cannot fail without terms
   return std::move(group.columns);
 }
 

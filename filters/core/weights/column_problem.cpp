@@ -1,3 +1,4 @@
+// Extract the problem of one column from the quadratic form (see column_problem.h).
 #include "weights/column_problem.h"
 
 #include <algorithm>

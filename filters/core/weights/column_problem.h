@@ -9,24 +9,26 @@
 namespace bindpose
 {
 
-/// The problem of one column over the free vertices: min 1/2 x'Ax + c'x, l <= x <= u, with x given
-/// at pinned vertices.
+/// The problem of one column over the n free vertices: min 1/2 x'Ax + c'x subject to l <= x <= u,
+/// where x is given at pinned vertices.
 struct ColumnProblem
 {
   ColumnProblem(const SplitForm& matrices, const BoxQpColumn& column);
 
-  Eigen::VectorXd c; ///< free
-  Eigen::VectorXd lower, upper; ///< free: l and u
-  std::vector<char> pinned; ///< free
+  Eigen::VectorXd c; ///< n
+  Eigen::VectorXd lower, upper; ///< n: l and u
+  std::vector<char> pinned; ///< n: 1 for pinned vertices
   Eigen::VectorXd given; ///< #V: fixed and pinned values, 0 elsewhere
   std::vector<char> free_here; ///< #V: 1 for vertices that this column solves for
 
-  /// Return the nearest x within the bounds; pinned entries have their given values.
+  /// Restrict a vector to the free vertices and clamp it to the bounds; pinned entries get their
+  /// given values.
   /// @param all #V.
-  /// @return free.
+  /// @return n.
   Eigen::VectorXd nearest(const SplitForm& matrices, const Eigen::VectorXd& all) const;
-  /// @param x free.
-  /// @return #V: x within the bounds, and the given values.
+  /// Extend a vector from the free vertices to all vertices; x is clamped to the bounds.
+  /// @param x n.
+  /// @return #V: x, and the given values.
   Eigen::VectorXd whole(const SplitForm& matrices, const Eigen::VectorXd& x) const;
 };
 

@@ -1,24 +1,27 @@
-// Let s = w - l and t = u - w be slacks, z, r >= 0 the multipliers of the bounds and y those of the
-// row sums. The optimality conditions are, for every column j over the free vertices,
+// An interior-point method for columns that are coupled by row sums (see coupled_qp.h).
+// Let s = w - l and t = u - w be slacks, z, r >= 0 the multipliers of the bounds and y the
+// multipliers of the row sums. The optimality conditions are, for every column j over the free
+// vertices,
 //   A w_j + c_j - z_j + r_j + y = 0,   sum_j w_j = 1,   s z = 0,   t r = 0.
 // Newton's step eliminates s, t, z, r. With H_j = A + diag(z_j / s_j + r_j / t_j), the remaining
 // system is
 //   H_j dw_j + dy = b_j,   sum_j dw_j = p,   so that   S dy = sum_j H_j^-1 b_j - p
 // with S = sum_j H_j^-1. Every H_j is factored; S is not formed. S has the form of an additive
 // Schwarz preconditioner. Where k columns are free, S is about k times the inverse of A. Therefore
-// A, weighted by 1 / k, preconditions conjugate gradients for S. One step takes one solve with
-// every H_j and one product with A.
+// A, weighted by 1 / k, preconditions conjugate gradients for S. One step of conjugate gradients
+// takes one solve with every H_j and one product with A.
 //
-// Upper bounds that follow from the other columns' lower bounds and the sum (w <= 1 if all weights
-// are >= 0) are omitted, because their multipliers would not be unique.
+// Some upper bounds follow from the lower bounds of the other columns and the sum; for example,
+// w <= 1 if all weights are >= 0. They are omitted, because their multipliers would not be unique.
 //
 // The certificate is computed for the projection of the iterate to rows that sum to one within the
 // bounds. For any such rows w and q_j = Q w_j,
 //   gap = sum over vertices of q . w - min { q . x : x sums to one, l <= x <= u }
-// bounds E(w) - min E from above, however w was computed. The minimum over x is found by raising
-// the entries of x to their upper bounds in the order of ascending q. The q of the entry that is
-// raised only in part is the multiplier -y. The second bound of certificate.h, which is less
-// sensitive to round-off, holds for q + y too. The residual is that of the projection:
+// bounds E(w) - min E from above, independent of the method that computed w. The minimum over x is
+// found by raising the entries of x to their upper bounds in the order of ascending q. The
+// multiplier -y is the q of the entry that is raised only in part. The second bound of
+// certificate.h, which is less sensitive to round-off, holds for q + y too. The residual is that of
+// the projection:
 //   max |w - project(w - q / diag Q)|.
 #include "weights/coupled_qp.h"
 
@@ -54,8 +57,8 @@ struct Row
   }
 };
 
-/// Project the values to the nearest ones within the bounds that have the right sum: all are
-/// shifted by the same amount, then clipped.
+/// Project the values to the nearest values within the bounds that have the required sum: add the
+/// same shift to all values, then clip them.
 void project(Row& row)
 {
   const std::size_t count = row.value.size();
@@ -68,7 +71,7 @@ void project(Row& row)
   }
   const auto clipped = [&](std::size_t k, double shift)
   { return std::clamp(row.value[k] + shift, row.lower[k], row.upper[k]); };
-  // Bisection finds the clipped entries; the rest is exact.
+  // Bisection finds the clipped entries. The other entries are then computed without iteration.
   for (int step = 0; step < 60 && least < most; ++step)
   {
     const double shift = 0.5 * (least + most);
@@ -97,8 +100,8 @@ void project(Row& row)
   }
 }
 
-/// Compute min gradient . x over the feasible rows, by raising the entries with the least gradients
-/// first.
+/// Minimize gradient . x over all rows x within the bounds that have the required sum: raise the
+/// entries in the order of ascending gradients.
 /// @return the gradient of the entry that is raised only in part.
 double fill_up(const Row& row, std::vector<std::size_t>& order, std::vector<double>& x)
 {
@@ -160,22 +163,22 @@ private:
   const BoxQp& prepared_;
   const BoxQpOptions& options_;
   ExecutionContext& context_;
-  const Index n_; // free vertices
-  const Index m_; // columns
+  const Index n_; // number of free vertices
+  const Index m_; // number of columns
 
   MatrixXd given_; // #V x m: fixed and pinned values, 0 elsewhere
   MatrixXd solved_; // n x m: 1 where a weight is solved for
   MatrixXd lower_, upper_; // n x m
-  MatrixXd capped_; // n x m: 1 if the upper bound counts
+  MatrixXd capped_; // n x m: 1 if the upper bound is not implied by the row sum
   VectorXd sum_; // n: required sum of a row's solved weights
-  std::vector<char> coupled_; // n: rows with weights to solve for
-  MatrixXd c_; // linear terms
+  std::vector<char> coupled_; // n: 1 for rows with at least two weights to solve for
+  MatrixXd c_; // n x m: linear terms
   MatrixXd x_, s_, t_, z_, r_;
   VectorXd y_;
   MatrixXd rd_, rs_, rt_; // residuals
   VectorXd rp_;
-  MatrixXd d_; // term that is added to A's diagonal
-  VectorXd share_, least_d_; // of the preconditioner
+  MatrixXd d_; // n x m: terms added to A's diagonal
+  VectorXd share_, least_d_; // factors of the preconditioner
   std::vector<SparseSolver> solvers_;
   CoupledSolution result_, best_;
   double factor_seconds_ = 0.0;
@@ -305,7 +308,8 @@ void CoupledQp::set_start(const MatrixXd& start)
   {
     energy += 0.5 * this->x_.col(j).dot(gradient.col(j));
   }
-  // Measured: with a tenth or a hundredth of the energy, the iterations increase by half.
+  // Measured: if mu is computed from a tenth or a hundredth of the energy, the number of iterations
+  // increases by half.
   constexpr double least = 1e-2;
   constexpr double of_energy = 1.0;
   const double mu = of_energy * std::abs(energy) / std::max(1.0, this->solved_.sum());
@@ -369,8 +373,8 @@ Status CoupledQp::factor()
       return status;
     }
   }
-  // The preconditioner needs, per vertex, the effective number of free columns and the least d of
-  // all columns.
+  // The preconditioner needs, per vertex, the effective number of free columns and the smallest d
+  // of all columns.
   const VectorXd diagonal = this->matrices_.a.diagonal();
   this->share_ = VectorXd::Zero(this->n_);
   this->least_d_ = VectorXd::Zero(this->n_);
@@ -393,7 +397,7 @@ Status CoupledQp::factor()
   return whole && !this->context_.canceled() ? Status() : Status::canceled();
 }
 
-/// Apply H_j^-1 to every column; 0 for weights that are not solved for.
+/// Multiply each column j by H_j^-1. The result is 0 for weights that are not solved for.
 MatrixXd CoupledQp::solve_columns(const MatrixXd& rhs)
 {
   MatrixXd result(this->n_, this->m_);
@@ -410,7 +414,7 @@ MatrixXd CoupledQp::solve_columns(const MatrixXd& rhs)
   return result;
 }
 
-/// Compute S y.
+/// Compute S y, the sum of H_j^-1 y over all columns j.
 VectorXd CoupledQp::sums_of_inverse(const VectorXd& y)
 {
   const MatrixXd parts = this->solve_columns(y.replicate(1, this->m_));
@@ -459,7 +463,8 @@ void CoupledQp::find_multipliers(const VectorXd& rhs, double accuracy, VectorXd&
   }
 }
 
-/// Compute the step that changes the products s z by target_s and t r by target_t, to first order.
+/// Compute the Newton step that changes the products s z by target_s and t r by target_t, to first
+/// order.
 CoupledQp::Direction CoupledQp::solve(
   const MatrixXd& target_s, const MatrixXd& target_t, double accuracy, const VectorXd& guess)
 {
@@ -694,7 +699,7 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     this->z_ += dual * d.z;
     this->r_ += dual * d.r;
     this->y_ += dual * d.y;
-    // The slacks must stay positive. Those without an upper bound are unused and set to one.
+    // The slacks must stay positive. Slacks of omitted upper bounds are unused and set to one.
     this->s_ = this->s_.array().max(1e-300).matrix();
     this->t_ = (this->capped_.array() == 1.0).select(this->t_.array(), 1.0).matrix();
     this->result_.iterations += 1;

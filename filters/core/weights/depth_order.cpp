@@ -1,5 +1,5 @@
-// Depth is measured from the first handle's layer. If all layers are equal, nothing is added to it,
-// so the depth is constant to the last bit.
+// Depth is measured relative to the first handle's layer (see depth_order.h). If all layers are
+// equal, the relative depth is zero, so the depth is constant to the last bit.
 #include "weights/depth_order.h"
 
 #include "base/parallel.h"

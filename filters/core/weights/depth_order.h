@@ -7,24 +7,26 @@
 namespace bindpose
 {
 
+/// Options of depth_order().
 struct DepthOrderOptions
 {
-  /// Difference in `front` between the first and the last handle of the list if all layers are
-  /// equal, in layers, >= 0. Handles later in the list are in front. Does not affect `depth`.
+  /// The difference in `front`, in layers, between the first and the last handle of the list if all
+  /// layers are equal, >= 0. It draws handles later in the list in front. Does not affect `depth`.
   double tie = 1e-3;
 };
 
+/// The result of depth_order().
 struct DepthOrder
 {
-  Eigen::VectorXd depth; ///< #V: sum_j w_j d_j; exactly the common layer if all layers are equal
+  Eigen::VectorXd depth; ///< #V: sum_j w_j d_j; if all layers are equal, exactly this layer
   Eigen::VectorXd front; ///< #V: depth with ties broken; larger values are in front
 };
 
-/// Compute which part of a planar shape is in front where a pose makes parts overlap. Each handle
-/// has a layer (any real number), and its weights extend the layer over the shape. Parts that are
-/// near but not connected get the depth of their own handles. Rows that do not sum to one are
-/// divided by their sum, so that no layer is pulled toward zero. A row of zeros gets the depth 0.
-/// Report: least_depth, largest_depth.
+/// Compute which part of a planar shape is drawn in front where a pose makes parts overlap. Each
+/// handle has a layer (any real number), and the weights interpolate the layers over the shape. Two
+/// parts that are near each other but not connected get the depths of their own handles. Rows that
+/// do not sum to one are divided by their sum, so that their depth is not biased toward zero. A row
+/// of zeros gets the depth 0. Report: least_depth, largest_depth.
 /// @param weights #V x #handles, finite
 /// @param layers one per handle, finite
 Status depth_order(WeightsView weights, const Eigen::VectorXd& layers,

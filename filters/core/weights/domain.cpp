@@ -1,3 +1,4 @@
+// Checks, components and adjacency of the mesh on which weights are solved (see domain.h).
 #include "weights/domain.h"
 
 #include <Eigen/Eigenvalues>

@@ -8,18 +8,19 @@
 namespace bindpose
 {
 
-/// The mesh on which weights are solved: tets or a triangle surface (planar shapes are flat
-/// surfaces).
+/// The mesh on which weights are solved: tets or a triangle surface. A planar shape is a flat
+/// surface.
 struct Domain
 {
   Points points;
   Tets tets;
   Triangles triangles; ///< used when there are no tets
-  /// #T: fraction of each tet that is material, > 0, for a lattice that contains a surface; empty:
-  /// all 1. Energies are integrated over the material.
+  /// #T: fraction of each tet that is inside the surface, > 0, for a lattice that contains a
+  /// surface; empty: 1 for all tets. Energies are integrated over this fraction.
   Eigen::VectorXd shares;
-  /// For a lattice: the surface's points in it, and for each point a corner of its tet. Distances
-  /// of components from handles are measured from these points; if empty, from the vertices.
+  /// For a lattice: the points of the surface that it contains, and for each point one corner of
+  /// its tet (-1: in no tet). Distances of components from handles are measured from these points;
+  /// if there are no points, from the vertices.
   Points held_points;
   std::vector<Index> held_corners;
 
@@ -36,15 +37,15 @@ struct Domain
   }
 };
 
-/// Return the tets as a domain; every tet is all material.
+/// Return the tets as a domain in which every tet is completely inside.
 Domain volume_of(const TetMesh& mesh);
 
-/// Check a domain. Return invalid_input if it has no element, if ids are out of range, if
+/// Check a domain. Return invalid_input if the domain has no element, if ids are out of range, if
 /// coordinates are not finite, if the volume of a tet is not positive (naming the first such tet
-/// and their number), or if a surface has no area.
+/// and the number of such tets), or if a surface has no area.
 Status check_domain(const Domain& domain);
 
-/// Return "tet" or "triangle".
+/// Return "tet" or "triangle", the type of the domain's elements.
 const char* element_name(const Domain& domain);
 
 /// Return for each element 1 if it has an area or a volume, else 0.
@@ -56,7 +57,7 @@ Triangles measurable_triangles(const Domain& domain);
 /// Return the connected components of the elements that have an area or a volume.
 Components connected_components(const Domain& domain);
 
-/// Return the mean length of an element's edges, the local edge length.
+/// Return the mean edge length of an element; it is used as local mesh size.
 double mean_edge_length(const Domain& domain, Index element);
 
 /// Report whether all points are in a plane, within 1e-9 of the diagonal, and return its normal.

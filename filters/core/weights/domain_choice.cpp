@@ -1,3 +1,5 @@
+// Heuristics of the domain "automatic" (surface_weights.h): conforming tets or an embedding
+// lattice.
 #include "weights/domain_choice.h"
 
 #include "base/number_text.h"
@@ -12,17 +14,17 @@ namespace bindpose
 
 namespace
 {
-/// Above this number of triangles, a lattice of about 30,000 tets is the coarser and cheaper
-/// domain.
+/// Maximum number of triangles for conforming tets. For a larger surface, a lattice of about 30,000
+/// tets is coarser and therefore cheaper.
 constexpr Index most_triangles = 20000;
-/// Triangles with an angle below this force tets that are shaped no better.
+/// A triangle with an angle below this makes its tets at least as badly shaped.
 constexpr double bad_angle = 2.0; // degrees
-/// Largest fractions of badly shaped triangles and tets. On real furniture models, the conforming
-/// solves that failed exceeded them.
+/// Maximum fractions of badly shaped triangles and of badly shaped tets. On real furniture models,
+/// all conforming tets whose solves failed exceeded these fractions.
 constexpr double most_bad_triangles = 0.02;
 constexpr double most_bad_tets = 0.03;
-/// Approximate number of vertices of a lattice, and the cost of solving it at two resolutions
-/// relative to one solve.
+/// Approximate number of vertices of a lattice, and the time of solving on two lattices (the guard)
+/// divided by the time of one solve.
 constexpr Index lattice_vertices = 9000;
 constexpr double both_resolutions = 1.3;
 
@@ -65,7 +67,7 @@ std::string reason_against_tets(const TetMesh& tets, Index handle_count)
   }
   const double in_tets = predicted_seconds(tets.points.rows(), handle_count);
   const double in_lattice = both_resolutions * predicted_seconds(lattice_vertices, handle_count);
-  // Conforming tets preserve the surface, which justifies up to this factor in time.
+  // Conforming tets may take up to this factor more time, because they preserve the surface.
   constexpr double worth = 2.0;
   return in_tets > worth * in_lattice ? std::to_string(count) + " tets would take about " +
       short_number(in_tets, 2) + " s, a lattice " + short_number(in_lattice, 2) + " s"

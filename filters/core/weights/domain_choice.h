@@ -8,14 +8,15 @@
 namespace bindpose
 {
 
-/// Predict from the surface alone, before any tet is made, whether weights in conforming tets of
-/// its inside will be well conditioned and cheap.
-/// @return empty if they will: the surface is closed and clean, and has few, well-shaped triangles.
-/// Otherwise the reason, for the report.
+/// Predict whether solving weights in conforming tets of the inside will be well conditioned and
+/// cheap. The prediction uses only the surface, before any tet is made.
+/// @return empty if the prediction is positive: the surface is closed and clean, and has few,
+/// well-shaped triangles. Otherwise the reason against the volume, for the report.
 std::string reason_against_volume(const RepairedSurface& surface);
 
 /// Make the same prediction from the tets, before any weight is solved. The dihedral angles of the
-/// tets bound the conditioning; the numbers of tets and handles determine time and memory.
+/// tets bound the conditioning; the number of vertices and the number of handles determine the
+/// time.
 std::string reason_against_tets(const TetMesh& tets, Index handle_count);
 
 /// Return the predicted time in seconds, on one thread, for bounded weights in a mesh. One

@@ -1,11 +1,12 @@
-// Copies of a tet have the same position, so they are found by their common center. The correct
-// copy for a point is the one that is connected with the nearest point of the surface, because the
-// segment from a point inside to its nearest surface point crosses no surface. A breadth-first
-// search over tets with common vertices starts at the tet that contains this surface point and ends
-// at the first copy.
+// The transfer of weights from a lattice to its surface (see embedded_surface.h). Copies of a tet
+// have the same position, so they are found by their common center. The correct copy for a point is
+// the copy that is connected with the nearest point of the surface, because the segment from a
+// point inside to its nearest surface point crosses no surface. A breadth-first search over tets
+// with common vertices starts at the tet that contains this surface point and ends at the first
+// copy.
 //
 // On a tet with values w_i and gradients g_i at its corners x_i, the value at p is
-//   sum l_i (w_i + g_i.(p - x_i) / 2).
+//   sum l_i (w_i + g_i.(p - x_i) / 2), where l_i are the barycentric coordinates of p.
 // It is continuous, and exact for quadratic functions if the gradients are exact.
 #include "weights/embedded_surface.h"
 
@@ -26,8 +27,8 @@ namespace
 {
 constexpr double least_share = 0.03;
 
-/// Return the gradients of the columns at the vertices, #V x 3 #columns (x of all columns, then y,
-/// then z). A vertex gets the mean over its tets, weighted by volume of material.
+/// Return the gradients of the columns at the vertices, #V x (3 #columns): x of all columns, then
+/// y, then z. The gradient at a vertex is the mean over its tets, weighted by their volume inside.
 Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
 {
   const Index n = domain.points.rows();
@@ -133,7 +134,8 @@ EmbeddedSurface::Place EmbeddedSurface::center_of(Index tet) const
   Place place;
   for (int k = 0; k < 3; ++k)
   {
-    // Nodes are at halves of cubes, so means of four nodes are at eighths.
+    // Lattice nodes are at multiples of half a cube, so means of four nodes are at multiples of an
+    // eighth.
     place[k] = static_cast<Index>(std::llround(2.0 * sum[k] / this->spacing_));
   }
   return place;
@@ -199,7 +201,7 @@ Status EmbeddedSurface::interpolate(
   const Domain& domain = mesh.domain;
   const Index m = values.cols();
   const Eigen::MatrixXd gradients = corner_gradients(domain, values);
-  // The elements that each tet of the lattice was split into.
+  // The elements into which handle insertion split each tet of the lattice.
   std::vector<Index> first, parts;
   group_by_key(
     this->lattice_.tets.rows(), domain.tets.rows(), [&](Index e) { return mesh.parent_element[e]; },
@@ -259,7 +261,7 @@ Status EmbeddedSurface::interpolate(
   return whole ? Status() : Status::canceled();
 }
 
-/// Return the surface's point at a position; -1: none.
+/// Return the id of the surface's point at a position; -1: no point there.
 Index EmbeddedSurface::point_at(const Vec3& place) const
 {
   const SimplexLocation at = this->surface_.locate(place);
@@ -347,7 +349,7 @@ Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handle
   {
     return status;
   }
-  // Points on handles get the values of the handles, whose vertices may be at a small distance.
+  // Points on handles get the values of the handle's vertex, which may be a small distance away.
   std::vector<Index> fixed;
   for (std::size_t j = 0; j < mesh.handles.size(); ++j)
   {

@@ -13,27 +13,31 @@
 namespace bindpose
 {
 
-/// A surface in the tets of its embedding. It transfers weights from the coarse tets to the
-/// surface. Several tets may have the same position (parts that are near but not connected).
+/// A surface in the tets of its embedding, a lattice that contains the surface. This class
+/// transfers weights from the coarse tets to the surface. Several tets, called copies, may have the
+/// same position, because the lattice keeps parts separate that are near each other but not
+/// connected.
 class EmbeddedSurface
 {
 public:
-  /// Keeps references: all arguments must outlive this object.
+  /// The constructor keeps references: all arguments must outlive this object.
   /// @param surface locator of the points and triangles; shared by the lattices of all resolutions.
   /// @param lattice,binding a lattice that contains the points (embed_surface).
   EmbeddedSurface(PointsView points, TrianglesView triangles, const SimplexLocator& surface,
     const TetMesh& lattice, const PointBinding& binding);
 
-  /// Return the lattice's tets, with the surface's points and the fractions of material. Fractions
-  /// are at least 0.03, because even a tet that is almost empty connects its corners.
+  /// Return the lattice's tets as a domain, with the surface's points and the fraction of each tet
+  /// that is inside. Fractions are raised to at least 0.03, because even a tet that is almost empty
+  /// connects its corners.
   Domain domain(const Eigen::VectorXd& inside_fractions) const;
 
-  /// Return the tet that contains a point, or the nearest one. If the tet has copies, return the
-  /// copy that is connected with the surface's nearest point. Thread-safe.
+  /// Return the tet that contains a point, or the nearest tet. If the tet has copies, return the
+  /// copy that is connected with the surface point nearest to the given point. Thread-safe.
   Index tet_of(const Vec3& place) const;
 
   /// Whether transferred values are smoothed along the surface. Interpolated values are good enough
-  /// for comparisons but not for display, because their second derivatives jump between tets.
+  /// for comparing lattices but not for display, because their second derivatives are discontinuous
+  /// between tets.
   enum class Smoothness
   {
     as_interpolated,
@@ -41,10 +45,10 @@ public:
   };
 
   /// Compute values at the surface's points (#V x #columns) from values at the vertices of the
-  /// lattice with handles. Linear interpolation would make every tet visible. Therefore each corner
-  /// adds half of its gradient's extrapolation, and the sum is clamped to the column's range.
-  /// Smoothed values are smoothed along the surface over 0.3 of the lattice's spacing
-  /// (smooth_on_surface), except at points on handles.
+  /// lattice in which the handles were inserted. Linear interpolation would make every tet visible.
+  /// Therefore each corner also contributes its gradient times half of the distance to the point,
+  /// and the sum is clamped to the column's range. Smoothed values are smoothed along the surface
+  /// over 0.3 times the lattice spacing (smooth_on_surface), except at points on handles.
   Status carry(const HandleInsertion& mesh, const Handles& handles, WeightsView values,
     Smoothness smoothness, ExecutionContext& context, Weights& result) const;
 
@@ -68,10 +72,10 @@ private:
   const PointBinding& binding_;
   SimplexLocator tets_;
   const SimplexLocator& surface_;
-  double spacing_ = 0.0; ///< side of a lattice cube, the longest edge of a tet
-  /// All tets at each center that several tets share.
+  double spacing_ = 0.0; ///< edge length of a lattice cube, which is the longest edge of a tet
+  /// The copies at each center that at least two tets have in common.
   std::unordered_map<Place, std::vector<Index>, PlaceHash> copies_;
-  std::vector<Index> first_corner_, corners_at_; ///< for each vertex: 4 * tet + corner
+  std::vector<Index> first_corner_, corners_at_; ///< corners grouped by vertex, as 4 * tet + corner
 };
 
 } // namespace bindpose

@@ -1,5 +1,6 @@
-// The persistence of minima is computed by union-find over vertices sorted by value. Maxima are the
-// minima of the negated function.
+// Find extrema of weights and their persistence (see extrema.h). The persistence of minima is
+// computed by union-find over vertices sorted by value. Maxima are the minima of the negated
+// function.
 #include "weights/extrema.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace bindpose
 
 namespace
 {
-/// Find the minima of sign * values.
+/// Find the minima of sign * values and their persistence.
 void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::vector<char>& exempt,
   double sign, double range, std::vector<Extremum>& found)
 {
@@ -36,7 +37,7 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
   std::sort(order.begin(), order.end(), before);
   std::vector<Index> rank(static_cast<std::size_t>(count), -1);
   std::vector<Index> parent(static_cast<std::size_t>(count));
-  // For each root: the minimum of its part.
+  // The minimum of each part, indexed by the part's root.
   std::vector<Index> birth(static_cast<std::size_t>(count));
   std::iota(parent.begin(), parent.end(), Index(0));
   std::iota(birth.begin(), birth.end(), Index(0));
@@ -73,8 +74,9 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
       {
         continue;
       }
-      // Part a keeps the elder minimum: one on a handle, or else the lower one. The minimum of b
-      // ends here. If b is just the vertex v itself, v joins its first part and is no minimum.
+      // The merged part keeps one of the two minima: the minimum on a handle, or else the lower
+      // one. Let this be part a; the minimum of part b ends here. If part b consists of the vertex
+      // v alone, v joins its first part and is no minimum.
       const bool handle_a = exempt[birth[a]] != 0;
       const bool handle_b = exempt[birth[b]] != 0;
       if (handle_a != handle_b ? handle_b : rank[birth[b]] < rank[birth[a]])

@@ -1,9 +1,10 @@
-// Upward flooding begins with the listed minima, then always takes the lowest vertex that is a
-// neighbor of a taken one. So each vertex except those minima comes after a neighbor. If the values
-// have another minimum, its basin is taken when its pass is reached. Downward flooding from the
-// maxima does the same for maxima, but may create new minima on the slopes of the maxima that it
-// cuts off. Therefore both alternate until neither changes anything. Each flood only moves vertices
-// within the plateaus that the flood before it created, and these shrink.
+// Orders of vertices with prescribed extrema, by flooding (see extrema_order.h). Upward flooding
+// begins with the listed minima and then repeatedly takes the lowest vertex that is a neighbor of a
+// vertex already taken. So each vertex except the listed minima comes after one of its neighbors.
+// If the values have another minimum, its basin is taken when its pass is reached. Downward
+// flooding from the maxima does the same for maxima, but may create new minima on the slopes of the
+// maxima that it cuts off. Therefore both alternate until neither changes the order. Each flood
+// only moves vertices within the plateaus that the previous flood created, and these shrink.
 #include "weights/extrema_order.h"
 
 #include "weights/ordered_pairs.h"
@@ -16,7 +17,8 @@ namespace bindpose
 
 namespace
 {
-/// Report whether every vertex that is not listed has a higher (above) or lower neighbor.
+/// Report whether every vertex that is not listed has a higher neighbor (if `above`) or a lower
+/// neighbor.
 bool has_neighbors(const VertexGraph& graph, const ExtremaList& list,
   const std::vector<Index>& rank, const std::vector<Index>& order, bool above)
 {
@@ -31,8 +33,8 @@ bool has_neighbors(const VertexGraph& graph, const ExtremaList& list,
     });
 }
 
-/// Compute the order in which a flood from one kind of extrema takes the vertices. Extrema of the
-/// other kind come last.
+/// Compute the order in which a flood from the minima (from = -1) or maxima (from = 1) takes the
+/// vertices. Extrema of the opposite kind come last.
 void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vector<Index>& rank,
   std::vector<Index>& order)
 {
@@ -41,7 +43,7 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
   {
     std::reverse(order.begin(), order.end());
   }
-  // The queue contains positions in `order`; the lowest is taken first.
+  // The queue contains positions in `order`; the smallest position is taken first.
   std::vector<Index> place(rank.size(), -1);
   std::priority_queue<Index, std::vector<Index>, std::greater<>> open;
   std::vector<Index> last;
@@ -63,7 +65,7 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
   }
   std::vector<Index> taken;
   taken.reserve(order.size());
-  // Take all listed extrema first: no neighbor of one may come before it.
+  // Take all listed extrema first, because none of their neighbors may come before them.
   for (std::size_t listed = open.size(); listed > 0; --listed)
   {
     taken.push_back(order[open.top()]);

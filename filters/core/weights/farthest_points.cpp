@@ -1,5 +1,5 @@
-// The squared distance to the nearest chosen point is kept for each vertex. Each new point is the
-// vertex with the largest distance.
+// Farthest-point sampling (see farthest_points.h). The squared distance to the nearest chosen point
+// is stored for each vertex. Each new point is the vertex with the largest distance.
 #include "weights/farthest_points.h"
 
 #include <limits>

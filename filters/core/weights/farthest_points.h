@@ -7,10 +7,11 @@
 namespace bindpose
 {
 
-/// Spread count points over a surface's vertices. The first is the vertex farthest from the
-/// centroid of the used vertices. Each next one is the vertex farthest (in space, not along the
-/// surface) from all earlier ones. Ties are broken by the smaller vertex id, so the result is
-/// unique. Only vertices of triangles are chosen, and no position is chosen twice.
+/// Choose `count` vertices that are spread over a surface (farthest-point sampling). The first one
+/// is the vertex farthest from the centroid of the used vertices. Each next one is the vertex
+/// farthest (in space, not along the surface) from all earlier ones. Of equally far vertices, the
+/// smallest id is chosen, so the result is unique. Only vertices of triangles are chosen, and no
+/// two chosen vertices have the same position.
 ///
 /// Cost: count passes over the vertices. After T. Gonzalez, "Clustering to minimize the maximum
 /// intercluster distance", 1985: the largest distance to a chosen point is at most twice the

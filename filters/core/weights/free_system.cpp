@@ -1,3 +1,4 @@
+// A factored linear system with Dirichlet values (see free_system.h).
 #include "weights/free_system.h"
 
 namespace bindpose

@@ -1,3 +1,4 @@
+// Assign vertices and boundary values to handles (see handle_constraints.h).
 #include "weights/handle_constraints.h"
 
 #include "base/disjoint_sets.h"
@@ -14,7 +15,7 @@ namespace bindpose
 
 namespace
 {
-/// Return the distance from p to a handle's segment (or point).
+/// Return the distance from p to a bone's segment or to a handle's point.
 double handle_distance(const Handle& handle, const Vec3& p)
 {
   return nearest_in_triangle(p, handle.head, handle.tail, handle.tail).distance;
@@ -39,7 +40,7 @@ void find_components(const Domain& domain, HandleConstraints& result)
       result.roles[v] = VertexRole::solved;
     }
   }
-  // A vertex of flat elements follows a neighbor that is solved for, or else another follower.
+  // A follower copies a neighbor that is solved for, or else another follower.
   result.leader.assign(static_cast<std::size_t>(vertex_count), -1);
   for (bool again = true; again;)
   {
@@ -126,7 +127,7 @@ void tether_components(const Domain& domain, const Handles& handles,
       double distance = 1e300;
       if (result.counts[i] == 0)
       {
-        continue; // the handle was skipped: it moves nothing
+        continue; // the handle was skipped: it has no weights
       }
       if (handles[i].kind == HandleKind::region)
       {
@@ -146,8 +147,8 @@ void tether_components(const Domain& domain, const Handles& handles,
       }
     }
   }
-  // A component of a lattice that contains no point of the surface moves nothing. It follows the
-  // first handle that has vertices.
+  // A lattice component that contains no point of the surface does not affect the result. It
+  // follows the first handle that has vertices.
   const auto first =
     std::find_if(result.counts.begin(), result.counts.end(), [](Index owned) { return owned > 0; });
   for (Index c = 0; c < count; ++c)
@@ -200,8 +201,8 @@ std::string advice_about(const Handle& handle, const Box& box)
 
 /// Give every handle a vertex of its own. A handle that shares all of its vertices (a point on a
 /// bone) would have a weight of one nowhere. It gets the first shared vertex whose other owners all
-/// have vertices of their own. If there is no such vertex and the handle is optional, its vertices
-/// pass to their other owners.
+/// have vertices of their own. If there is no such vertex and the handle is optional, the handle is
+/// removed from the owners of its vertices.
 Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
   std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
 {
@@ -279,7 +280,7 @@ void warn_of_shared_vertices(const Handles& handles,
   const std::map<std::pair<Index, Index>, Index>& shared, double tolerance,
   HandleConstraints& result)
 {
-  constexpr Index most = 3; // pairs that the warning names
+  constexpr Index most = 3; // largest number of pairs that the warning names
   std::string first;
   std::string list;
   Index pairs = 0;

@@ -6,27 +6,29 @@
 namespace bindpose
 {
 
-/// The source of a vertex's weights.
+/// The source of a vertex's weights, one role per vertex.
 enum class VertexRole : unsigned char
 {
   solved, ///< result of the minimization
-  handle, ///< the vertex is on a handle: its row is given
-  tethered, ///< in a component without handles: the weights of the nearest handle
-  follower, ///< only in elements without area: the weights of a neighbor
+  handle, ///< on a handle: the handle determines the row
+  tethered, ///< in a component without handles: copies the weights of the nearest handle
+  follower, ///< only in elements without area: copies the weights of a neighbor
   unreferenced ///< in no element: a row of zeros
 };
 
+/// The Dirichlet conditions of all weights, computed from the handles by constrain_handles().
 struct HandleConstraints
 {
   std::vector<VertexRole> roles; ///< #V
   std::vector<Index> vertices; ///< b, ascending: the vertices on handles and cages
   Weights values; ///< bc, #b x #handles: rows sum to one
   std::vector<Index> counts; ///< number of constrained vertices per handle
-  /// Connected by elements of positive measure; -1 for followers and unreferenced.
+  /// Components connected by elements of positive measure; -1 for followers and unreferenced
+  /// vertices.
   Components components;
-  /// Handle that each component follows; -1 if the component has handles.
+  /// Handle whose weights each component copies; -1 if the component has handles.
   std::vector<Index> tether;
-  /// #V: vertex whose weights a follower copies; -1 for all other vertices.
+  /// #V: vertex whose weights a follower copies; -1 for vertices that are no followers.
   std::vector<Index> leader;
   std::vector<std::string> warnings;
 };
@@ -34,19 +36,20 @@ struct HandleConstraints
 /// Find the fixed vertices and their rows (the discrete boundary conditions) from the positions of
 /// the handles.
 ///
-/// A vertex on an edge or face of a cage gets weights that are linear along it.
+/// A vertex on an edge or face of a cage gets weights that are linear along the edge or face.
 ///
 /// A vertex on several handles gets equal weights (a joint of two bones: 1/2, 1/2). If the handles
-/// do not touch, a warning names them. If a handle shares all of its vertices, one of them is
-/// assigned to that handle alone, so that every column contains a one. A component without any
-/// handle follows the handle nearest to it, with a warning. A handle that needs no vertex (see
-/// Ownership) is skipped if it has none: its column is zero, and one warning names all such
-/// handles.
+/// do not touch, a warning names them. If a handle shares all of its vertices with other handles,
+/// one of them is assigned to that handle alone, so that every column contains a one. A component
+/// without any handle follows the handle nearest to it, with a warning. A handle whose vertices are
+/// optional (see Ownership) is skipped if it has none: its column is zero, and one warning names
+/// all skipped handles.
 ///
-/// @param region_ids label of every original vertex, or empty if there are no regions.
-/// @param joined label of every vertex, or empty: components with a common label > 0 count as one.
-/// @return invalid_input in the cases of check_regions() and, naming the handle, if a required
-/// handle constrains no vertex or cannot have one of its own.
+/// @param region_ids region label of every original vertex, or empty if there are no regions.
+/// @param joined label of every vertex, or empty. Components that contain the same label > 0 count
+/// as one component.
+/// @return invalid_input in the cases of check_regions(), and, naming the handle, if a required
+/// handle constrains no vertex or cannot have a vertex of its own.
 Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
   const std::vector<Index>& region_ids, HandleConstraints& result,
   const std::vector<Index>& joined = {});

@@ -1,4 +1,5 @@
-// Every edit copies the list, changes the copy and checks it. A failed edit has no effect.
+// Edits of a handle list (see handle_edits.h). Every edit copies the list, changes the copy and
+// checks it. A failed edit has no effect.
 #include "weights/handle_edits.h"
 
 #include <algorithm>
@@ -125,7 +126,7 @@ bool is_separator(char c)
   return c == '.' || c == '_' || c == '-' || c == ' ';
 }
 
-/// Return R for L, r for l and vice versa; 0 for any other character.
+/// Return the opposite side's letter: R for L, r for l and vice versa; 0 for any other character.
 char other_side(char c)
 {
   return c == 'L' ? 'R' : c == 'R' ? 'L' : c == 'l' ? 'r' : c == 'r' ? 'l' : '\0';

@@ -11,26 +11,26 @@
 namespace bindpose
 {
 
-/// Handles after an edit, and the origin of each handle, so that other per-handle data can be
-/// remapped.
+/// Handles after an edit, and the original index of each handle, so that other per-handle data can
+/// be reordered.
 struct EditedHandles
 {
   Handles handles;
   std::vector<Index> source; ///< index before the edit; -1: new handle
-  std::vector<Index> model; ///< index of the handle that was copied, else the source; -1: none
+  std::vector<Index> model; ///< index of the handle that was copied, else the source; -1: neither
 };
 
 // Every edit below takes handles that pass check_handles(), or an empty list, and returns such
-// handles. On invalid_input, with one sentence that names the handle, `after` equals the handles
-// before the edit. The names of all other handles do not change. `before` and `after.handles` must
-// not be the same object.
+// handles. On invalid_input, the message is one sentence that names the handle, and `after` equals
+// the handles before the edit. Names of handles that are not edited do not change. `before` and
+// `after.handles` must not be the same object.
 
 /// Return the wanted name, with a suffix .001, .002, … if another handle has it. If the wanted name
 /// is empty, return the first free name of the form p1, b1, c1 or r1, by kind.
 std::string free_name(const Handles& handles, const std::string& wanted, HandleKind kind);
 
 /// Append a handle; its name becomes free_name(). Its cage elements may refer to the new handle by
-/// its future index, the size of the list before the edit.
+/// its future index, which is the size of the list before the edit.
 Status add_handle(const Handles& before, Handle handle, EditedHandles& after);
 
 /// Remove handles. Children of a removed handle are attached to their nearest remaining ancestor.
@@ -54,39 +54,41 @@ struct HandleEnd
   Index handle = -1;
   bool tail = false;
 };
-/// Return all ends of bones at the same position as `end` (exactly, or within 1e-9 of the handles'
-/// extent), `end` first. If the handle is not a bone, return `end` alone.
+/// Return the ends of all bones at the same position as `end` (equal, or within 1e-9 of the
+/// handles' extent), with `end` first. If the handle is not a bone, return `end` alone.
 std::vector<HandleEnd> joint_of(const Handles& handles, const HandleEnd& end);
 
-/// Move each end to its new position, together with all ends of its joint.
+/// Move each end to its new position, together with all bone ends of its joint.
 Status move_ends(const Handles& before, const std::vector<HandleEnd>& ends,
   const std::vector<Vec3>& places, EditedHandles& after);
 
-/// Return the name of the handle on the other side, by Blender's conventions. A side is
+/// Return the name of the mirrored handle, by Blender's conventions. The name contains a side, left
+/// or right, in one of these forms:
 /// - L or R, l or r, at the end after '.', '_', '-' or a blank, or at the beginning before one of
-///   these;
+///   these characters;
 /// - left or right at the end or the beginning, in lower case, in capitals or capitalized.
-/// A numeric suffix such as .001 does not change. A name without a side is returned unchanged.
+/// The result contains the opposite side. A numeric suffix such as .001 does not change. A name
+/// without a side is returned unchanged.
 std::string mirrored_name(const std::string& name);
 
-/// Copy handles to the other side of the plane through `place` with the given `normal` (of any
-/// nonzero length). The copy of a handle is named by mirrored_name(). If a handle of the same kind
-/// has that name already, it is moved to the mirrored position instead. If it is itself in the
-/// list, both handles stay where they are.
+/// Mirror handles at the plane through `place` with the given `normal` (of any nonzero length). The
+/// copy of a handle is named by mirrored_name(). If a handle of the same kind has that name
+/// already, it is moved to the mirrored position and no copy is made. If that handle is itself to
+/// be mirrored, neither of the two is moved.
 ///
-/// Three sorts of handles are not copied: handles that are their own mirror images, handles whose
-/// mirror image exists already, and regions, which need labels on the mesh.
+/// Three kinds of handles are not copied: handles that are their own mirror images, handles whose
+/// mirror image exists already, and regions, because regions need labels on the mesh.
 ///
-/// The parent of a copy is the mirror image of its handle's parent, or that parent itself if it has
-/// no image. Edges and faces of cages are copied if all of their corners have images. The
+/// The parent of a copy is the mirror image of the original's parent, or that parent itself if it
+/// has no image. Edges and faces of cages are copied if all of their corners have images. The
 /// orientation of copied faces is reversed, so that their outer sides stay outside.
-/// @param which  handles to mirror; empty: all
+/// @param which  indices of the handles to mirror; empty: all
 Status mirror_handles(const Handles& before, const std::vector<Index>& which, const Vec3& place,
   const Vec3& normal, EditedHandles& after);
 
 /// Move points, cage vertices and both ends of bones to the nearest point of a surface. Regions do
 /// not move.
-/// @param which  handles to move; empty: all
+/// @param which  indices of the handles to move; empty: all
 Status snap_to_surface(const Handles& before, const std::vector<Index>& which,
   const SurfaceProbe& surface, EditedHandles& after);
 

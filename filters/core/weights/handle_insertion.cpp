@@ -1,10 +1,11 @@
-// A sample in the interior of a tet, of a face or of an edge is one case. Let S be the corners that
-// span the open face that contains the sample. Every element that has all of S is replaced by one
-// child for each s of S, with s replaced by the new vertex. Children keep the orientation of their
-// parent and fill it exactly.
+// This file splits elements so that samples of handles become vertices (see handle_insertion.h). A
+// sample in the interior of a tet, of a face or of an edge is one case. Let S be the corners of the
+// smallest simplex that contains the sample. Every element that has all corners in S is replaced by
+// one child for each corner s in S, with s replaced by the new vertex. Children keep the
+// orientation of their parent and fill it exactly.
 //
 // A later sample is located by descending from the original element through its children, so the
-// search tree is built once.
+// search tree is built only once.
 #include "weights/handle_insertion.h"
 
 #include "base/line_pieces.h"
@@ -25,11 +26,12 @@ namespace
 struct Element
 {
   std::array<Index, 4> ids{ -1, -1, -1, -1 };
-  Index root = -1; // original element
+  Index root = -1; // index of the original element that contains this one
   std::vector<Index> children; // empty: the element is part of the mesh
 };
 
-/// A point of a handle that must become a vertex. Elements of cages are numbered -1, -2, …
+/// A point of a handle that must become a vertex. If the point is on an edge or face of a cage,
+/// `handle` is -1, -2, … for the first, second, … such element.
 struct Sample
 {
   Vec3 place = Vec3::Zero();
@@ -104,7 +106,7 @@ private:
   std::unique_ptr<SimplexLocator> locator_;
   std::vector<Vec3> points_;
   std::vector<Element> elements_;
-  // Elements of every vertex, including elements that were split.
+  // Elements at every vertex, including elements that were split.
   std::vector<std::vector<Index>> incident_;
   std::vector<PlacedElement> cage_;
   HandlePlacement on_cage_; // placement of all samples on elements of the cage
@@ -152,7 +154,8 @@ SimplexLocation Inserter::root(const Vec3& p) const
   return at;
 }
 
-/// Report whether an original vertex is a corner of the element that contains its position.
+/// Report whether the original vertex v is a corner of the element that root() returns for its
+/// position. Copies of a vertex in overlapping elements are not.
 bool Inserter::is_held(Index v) const
 {
   if (!this->options_.element_of)
@@ -163,8 +166,8 @@ bool Inserter::is_held(Index v) const
   return std::find(ids, ids + this->corners_, v) != ids + this->corners_;
 }
 
-/// Return the element of the current mesh that contains p, or the nearest one. `place` is the
-/// element's point nearest to p.
+/// Return the element of the current mesh that contains p, or the nearest element.
+/// @param place set to the point of the original element nearest to p.
 SimplexLocation Inserter::locate(const Vec3& p, Vec3& place) const
 {
   SimplexLocation at = this->root(p);
@@ -199,7 +202,7 @@ void Inserter::add_bone_samples(
   const Vec3 head = this->handles_[handle].head;
   const Vec3 axis = this->handles_[handle].tail - head;
   const double length = axis.norm();
-  // Vertices that are already on the bone, in the order along it.
+  // Positions of vertices that are already on the bone, as fractions of its length.
   std::vector<double> stops{ 0.0, 1.0 };
   const double on = 1e-7 * this->diagonal_;
   for (std::size_t v = 0; v < this->points_.size(); ++v)
@@ -216,7 +219,7 @@ void Inserter::add_bone_samples(
     stops.push_back(std::clamp(t, 0.0, 1.0));
   }
   std::sort(stops.begin(), stops.end());
-  // A bone needs a vertex between its ends, which it may share with other bones.
+  // A bone without a vertex between its ends gets at least one sample there.
   const bool bare = std::none_of(stops.begin(), stops.end(),
     [&](double t) { return t * length > on && (1.0 - t) * length > on; });
   for (std::size_t i = 0; i + 1 < stops.size(); ++i)
@@ -305,7 +308,7 @@ void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sa
     for (Index k = samples.chosen; k < samples.points.rows(); ++k)
     {
       const Vec3 place = samples.points.row(k);
-      // A vertex on the element within this distance is enough.
+      // No new sample is needed if the element has a vertex within this distance.
       const double near = 0.75 * length(place);
       if (std::any_of(on_vertices.begin() + static_cast<std::ptrdiff_t>(first), on_vertices.end(),
             [&](const Sample& other) { return (other.place - place).norm() <= near; }))
@@ -480,13 +483,14 @@ void Inserter::finish()
     }
   }
   domain.held_points = this->domain_.held_points;
-  domain.held_corners = this->domain_.held_corners; // original vertices keep their ids
+  // Valid, because original vertices keep their ids.
+  domain.held_corners = this->domain_.held_corners;
   Index* out = this->corners_ == 4 ? domain.tets.data() : domain.triangles.data();
   for (const Index e : alive)
   {
     out = std::copy_n(this->elements_[e].ids.begin(), this->corners_, out);
   }
-  constexpr Index most = 4; // handles that the warning names
+  constexpr Index most = 4; // largest number of handles that the warning names
   Index count_outside = 0;
   std::string outside;
   for (std::size_t i = 0; i < this->handles_.size(); ++i)
@@ -520,11 +524,11 @@ void Inserter::finish()
 Status Inserter::run(ExecutionContext& context)
 {
   this->copy_mesh();
-  // Positions that the user chose come before samples that may move along a bone.
+  // Insert positions that the user chose before samples whose position along a bone is arbitrary.
   std::vector<Sample> samples;
   std::vector<Sample> ends;
   std::vector<Sample> between;
-  std::vector<Sample> earlier; // samples that have a vertex
+  std::vector<Sample> earlier; // samples that have become vertices
   for (std::size_t i = 0; i < this->handles_.size(); ++i)
   {
     const Handle& handle = this->handles_[i];
@@ -551,7 +555,8 @@ Status Inserter::run(ExecutionContext& context)
   this->add_cage_samples(earlier, between);
   samples.insert(samples.end(), ends.begin(), ends.end());
   samples.insert(samples.end(), between.begin(), between.end());
-  // A handle exactly on a vertex gets it before another handle nearby can snap to it.
+  // Samples that are exactly at a vertex come first, so that no sample of another handle nearby can
+  // snap to that vertex.
   std::stable_partition(samples.begin(), samples.end(),
     [&](const Sample& sample)
     {

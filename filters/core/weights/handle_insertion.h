@@ -11,17 +11,19 @@
 namespace bindpose
 {
 
+/// Options of insert_handles(), which makes handles vertices of the mesh.
 struct HandleInsertionOptions
 {
-  /// A handle's sample moves to an existing vertex, edge or face if the barycentric coordinates
-  /// that become zero are below this, range (0, 0.25). Smaller: handles stay closer to their given
-  /// positions. Larger: better shaped elements. No sample moves by more than 3 * snap edge lengths.
+  /// Snapping range as a barycentric coordinate, range (0, 0.25). A sample (a point of a handle)
+  /// moves to an existing vertex, edge or face if this sets only coordinates below `snap` to zero.
+  /// Smaller values keep handles closer to their specified positions; larger values give better
+  /// shaped elements. No sample moves by more than 3 * snap edge lengths.
   double snap = 0.1;
-  /// Do not change the mesh; constrain the corners of the simplex that contains a sample.
+  /// Do not change the mesh; instead, constrain the corners of the element that contains a sample.
   bool keep_mesh = false;
-  /// Distance between a bone's samples in local edge lengths, range (0, 1].
+  /// Distance between the samples of a bone, in local edge lengths, range (0, 1].
   double spacing = 1.0;
-  /// Return the element that contains a point where elements overlap and the mesh alone is
+  /// Return the element that contains a point where elements overlap, so that the position alone is
   /// ambiguous (the copies of an embedding). If empty, the first element found is used.
   std::function<Index(const Vec3&)> element_of;
 };
@@ -30,7 +32,7 @@ struct HandleInsertionOptions
 struct HandlePlacement
 {
   std::vector<Index> vertices; ///< ascending; empty for regions
-  double outside = 0.0; ///< distance from the mesh of the farthest sample outside of it
+  double outside = 0.0; ///< largest distance from the mesh of a sample outside of it
   double snap = 0.0; ///< largest distance that a sample moved within the mesh
 };
 
@@ -42,14 +44,15 @@ struct InsertedVertex
   std::array<double, 4> barycentric{ 0.0, 0.0, 0.0, 0.0 };
 };
 
-/// A vertex on a cage's edge or face, between cage vertices.
+/// A vertex on an edge or face of a cage, between the cage vertices at its corners.
 struct CageVertex
 {
   Index vertex = -1;
   CageElement element{ -1, -1, -1 };
-  std::array<double, 3> shares{ 0.0, 0.0, 0.0 }; ///< weights of the element's corners, sum 1
+  std::array<double, 3> shares{ 0.0, 0.0, 0.0 }; ///< weights of the element's corners, with sum 1
 };
 
+/// The mesh with handles as vertices.
 struct HandleInsertion
 {
   /// Original vertices come first, with their ids, then the inserted ones. Elements that were not
@@ -58,24 +61,25 @@ struct HandleInsertion
   std::vector<HandlePlacement> handles; ///< one per handle
   std::vector<CageVertex> cage; ///< mesh vertices on the cage
   std::vector<InsertedVertex> inserted;
-  std::vector<Index> parent_element; ///< #elements: the original element that contains it
-  double largest_snap = 0.0; ///< in local edge lengths
+  std::vector<Index> parent_element; ///< #elements: the original element that contains each element
+  /// Largest distance that a sample moved within the mesh, in local edge lengths.
+  double largest_snap = 0.0;
   std::vector<std::string> warnings;
 };
 
-/// Extend labels to inserted vertices: the common label of all corners around the vertex if they
-/// agree, else 0.
+/// Extend labels to inserted vertices: an inserted vertex gets the label of the corners of its
+/// original element if they all have the same label, else 0.
 std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<Index>& labels);
 
-/// Make handles vertices of the mesh. Without this, a weight of one at a point inside a simplex
-/// would force all corners of the simplex to one.
+/// Make handles vertices of the mesh. Without this, a weight of one at a point inside an element
+/// would require a weight of one at all corners of the element.
 ///
-/// Points, cage vertices and samples of bones are located in the mesh. The samples of a bone are
-/// spaced by the local edge length between the vertices that are already on the bone. A sample
-/// outside of the mesh is moved to the nearest element, with a warning that names handles and
-/// distances. Each sample then splits the elements around it. The union of the mesh, its volume or
-/// area and all orientations do not change. Two different handles never share a vertex unless they
-/// coincide, even if that makes small elements.
+/// Samples are points, cage vertices, and points along bones. The samples of a bone are spaced by
+/// the local edge length between the vertices that are already on the bone. A sample outside of the
+/// mesh is moved to the nearest element, with a warning that names handles and distances. Each
+/// sample then splits the elements that contain it. The union of the mesh, its volume or area and
+/// all orientations do not change. Two different handles share a vertex only if they coincide, even
+/// if separate vertices make small elements.
 ///
 /// Edges and faces of cages are sampled like bones, but their samples outside of the mesh are
 /// dropped.

@@ -1,3 +1,4 @@
+// Checks of handles and their names in messages (see handles.h).
 #include "weights/handles.h"
 
 #include <algorithm>
@@ -128,8 +129,8 @@ Status check_handles(const Handles& handles)
     {
       const Handle& a = handles[i];
       const Handle& b = handles[j];
-      // Only handles of the same kind can coincide: a bone may begin at a point. The position of a
-      // region is given by its label.
+      // Only handles of the same kind can coincide, because a bone may begin at a point handle.
+      // Regions are identified by their labels, not by their positions.
       if (a.kind != b.kind || a.kind == HandleKind::region || a.kind == HandleKind::cage_element)
       {
         continue;

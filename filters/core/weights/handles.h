@@ -10,10 +10,11 @@
 namespace bindpose
 {
 
-/// The integer values are stored in the cell array HandleKind.
+/// The type of a handle. The integer values are stored in the cell array HandleKind.
 enum class HandleKind : int
 {
-  /// Edge or face of a cage: has no column; weights are linear between its corners.
+  /// An edge or face of a cage. It has no column of its own, because weights are linear between its
+  /// corners.
   cage_element = -1,
   point = 0,
   bone = 1,
@@ -22,15 +23,19 @@ enum class HandleKind : int
 };
 
 /// Whether a bind assigns vertices to the handle. A handle without vertices has zero weights, and
-/// its children follow it. The integer values are stored in the cell array Ownership.
+/// its children in the hierarchy move with it. The integer values are stored in the cell array
+/// Ownership.
 enum class Ownership : int
 {
-  required = 0, ///< the bind is refused if all vertices on the handle belong to other handles
-  optional = 1, ///< skipped with a warning in that case: joints of a rig that was read from a file
-  none = 2 ///< always skipped: joints of a file's rig that move nothing (control bones)
+  required = 0, ///< the bind fails if all vertices on the handle belong to other handles
+  /// The handle is skipped with a warning if all its vertices belong to other handles. Used for
+  /// joints of a rig that was read from a file.
+  optional = 1,
+  /// The handle is always skipped. Used for joints of such a rig that move nothing (control bones).
+  none = 2
 };
 
-/// Handles at the corners of a cage's edge or face. The third index of an edge is -1.
+/// The handles at the corners of an edge or face of a cage. The third index of an edge is -1.
 using CageElement = std::array<Index, 3>;
 
 /// One handle: one cell of the handle dataset. Except for cage elements, each handle is one column
@@ -39,7 +44,7 @@ struct Handle
 {
   std::string name;
   HandleKind kind = HandleKind::point;
-  /// Position of a point or cage vertex, head of a bone, pivot of a region.
+  /// Position of a point or cage vertex, head of a bone, rotation center (pivot) of a region.
   Vec3 head = Vec3::Zero();
   /// Tail of a bone. Equal to head for all other kinds.
   Vec3 tail = Vec3::Zero();
@@ -48,7 +53,8 @@ struct Handle
   /// Label of a region in the mesh's point array RegionId (> 0; 0 means that a vertex is in no
   /// region).
   Index region_id = 0;
-  /// The cage elements that begin at this cage vertex. Weights are linear along them.
+  /// The edges and faces of the cage whose first corner is this cage vertex. Weights are linear
+  /// along them.
   std::vector<CageElement> cage;
   Ownership ownership = Ownership::required;
 };
@@ -58,7 +64,7 @@ using Handles = std::vector<Handle>;
 /// Return "point", "bone", "cage_vertex", "region" or "cage_element".
 const char* to_string(HandleKind kind);
 
-/// Return the quoted names of the listed handles, for a sentence: 'a', 'b'.
+/// Return the quoted names of the listed handles for use in a sentence: 'a', 'b'.
 std::string quoted_names(const Handles& handles, const std::vector<Index>& list);
 /// Like quoted_names(), but abbreviate a long list: 'a', 'b', 'c' and 12 more.
 std::string first_names(const Handles& handles, const std::vector<Index>& list);
@@ -74,9 +80,9 @@ std::string first_names(const Handles& handles, const std::vector<Index>& list);
 /// - the corners of a cage element are not two or three different cage vertices.
 Status check_handles(const Handles& handles);
 
-/// Check the regions among the handles. Return invalid_input if the number of labels is neither
-/// zero nor the number of vertices. Return invalid_input, naming the region, if a region has no
-/// label, if the mesh has no labels, or if no vertex has the region's label.
+/// Check the regions among the handles. Return invalid_input if region_ids is neither empty nor of
+/// length `vertices`. Return invalid_input, naming the region, if a region has no label, if the
+/// mesh has no labels, or if no vertex has the region's label.
 /// @param region_ids label of every vertex, or empty.
 Status check_regions(const Handles& handles, const std::vector<Index>& region_ids, Index vertices);
 

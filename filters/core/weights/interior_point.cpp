@@ -1,28 +1,32 @@
-// Primal-dual interior point with a slack for every inequality.
+// A primal-dual interior-point method for one column, with a slack for every inequality.
 //
-// Over the free vertices x:  min 1/2 x'Ax + c'x  subject to  Bx + h = s >= 0, where the rows of B
-// are x >= l, x <= u and the ordered pairs. With multipliers z >= 0 the optimality conditions are
+// The problem over the free vertices x is
+//   min 1/2 x'Ax + c'x  subject to  Bx + h = s >= 0,
+// where the rows of B are x >= l, x <= u and the ordered pairs. With multipliers z >= 0 the
+// optimality conditions are
 //   Ax + c - B'z = 0,   Bx + h - s = 0,   s z = 0.
 // Newton's step for s z = target eliminates s and z and requires one factorization of
 //   A + B' diag(z/s) B.
-// Its pattern is that of A: bounds change only the diagonal, and pairs are edges of the mesh, which
-// the pattern of A includes. So one ordering and one symbolic analysis serve all iterations.
+// This matrix has the pattern of A: bounds change only its diagonal, and pairs are edges of the
+// mesh, which the pattern of A includes. So one ordering and one symbolic analysis serve all
+// iterations.
 //
 // If available, the factorization is in single precision. It is the preconditioner of one or two
 // steps of conjugate gradients in double precision (float_cholesky.cpp). Matrices for which that is
 // not accurate enough are factored in double precision. This always happens with ordered pairs,
 // because their multipliers span too many orders of magnitude.
 //
-// Slacks are separate variables (s = x only in the limit). An iterate may therefore violate the
-// bounds for a while, which saves about a third of the iterations compared with s = x. Each
-// factorization is used for a predictor, Mehrotra's corrector and a few of Gondzio's centrality
-// correctors. Primal and dual steps differ without pairs and are equal with pairs (measured to be
-// best in both cases).
+// Slacks are separate variables: Bx + h = s holds only in the limit. An iterate may therefore
+// violate the bounds temporarily. Compared with slacks that are computed from x, this saves about a
+// third of the iterations. Each factorization is used for a predictor, Mehrotra's corrector and a
+// few of Gondzio's centrality correctors. Primal and dual step lengths differ without pairs and are
+// equal with pairs (measured to be best in both cases).
 //
-// The end of the path converges slowly: a tiny weight that is not at a bound approaches its value
-// like the square root of mu. So once the weights hardly move, a projected Newton method is tried,
-// which solves with the last factor (projected_newton.cpp). If it does not settle, the path
-// continues from the unchanged iterate.
+// Near the minimum the central path converges slowly: a tiny weight that is not at a bound
+// approaches its value like the square root of mu, the mean of the products s z. So once the
+// weights change little, a projected Newton method is tried, which solves with the last factor
+// (projected_newton.cpp). If it does not converge, the interior-point method continues from the
+// unchanged iterate.
 //
 // The result is never the interior iterate but its projection to the bounds (and to the order of
 // the pairs). The certificate is computed for that projection.
@@ -45,18 +49,19 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// An ordered pair as a row of B: free indices of the ends, -1 for an end with a given value.
+/// An ordered pair as a row of B, with the free indices of its two vertices; -1 for a vertex with a
+/// given value.
 struct PairRow
 {
   Index low = -1;
   Index high = -1;
-  double offset = 0.0; // contribution of the given ends and of OrderedPair::least
-  int position = -1; // position in `lower` of the entry (low, high)
-  Index pair = 0; // index in the column's list
+  double offset = 0.0; // contribution of given values and of OrderedPair::least
+  int position = -1; // index of the entry (low, high) in the values of SplitForm::lower
+  Index pair = 0; // index of the pair in the column's list
 };
 
-/// The solve of one column. Vectors over constraints contain x >= l for all bounded unknowns, then
-/// x <= u, then the pairs.
+/// The solve of one column. Vectors over constraints contain an entry of x >= l for each bounded
+/// unknown, then an entry of x <= u for each, then one entry for each pair.
 class InteriorPoint
 {
 public:
@@ -77,8 +82,8 @@ private:
   void set_start(bool central);
   void balance_start();
   void raise_slacks(double least);
-  VectorXd apply(const VectorXd& x) const; // B x
-  VectorXd apply_transposed(const VectorXd& y) const; // B' y
+  VectorXd apply(const VectorXd& x) const; // Compute B x.
+  VectorXd apply_transposed(const VectorXd& y) const; // Compute B' y.
   Status factor(const VectorXd& d);
   struct Direction
   {
@@ -105,21 +110,21 @@ private:
   ExecutionContext& context_;
 
   const ColumnProblem problem_;
-  std::vector<Index> unpinned_; // free indices
+  std::vector<Index> unpinned_; // free indices of vertices that are not pinned
   std::vector<Index> bounded_; // the indices of unpinned_ that have bounds
   std::vector<PairRow> rows_;
   std::vector<OrderedPair> upwards_; // the column's pairs, sorted by upward_pairs()
-  VectorXd h_; // offsets of the constraints
+  VectorXd h_; // constant terms of the constraints
   VectorXd x_, s_, z_;
-  VectorXd rd_, rp_; // residuals of the first two conditions
+  VectorXd rd_, rp_; // residuals of the first two optimality conditions
   VectorXd quotient_; // z / s
-  // The terms of the bounds on A's diagonal, and the factors of the pairs.
+  // Terms that the bounds add to A's diagonal, and the weights z / s of the pairs.
   VectorXd extra_, of_pairs_;
-  VectorXd inverse_diagonal_; // 1 / diagonal of A with the terms of bounds and pairs
-  double shift_ = 0.0; // largest shift that single precision has needed
+  VectorXd inverse_diagonal_; // 1 / diagonal of the factored matrix
+  double shift_ = 0.0; // largest diagonal shift that a factorization in single precision has needed
   bool in_single_ = false; // whether the last factorization is in single precision
   bool single_is_enough_;
-  Status failure_; // of a factorization within solve()
+  Status failure_; // status of a factorization that failed within solve()
   double mu_ = 0.0;
   BoxQpSolution best_;
   BoxQpSolution result_;
@@ -278,8 +283,9 @@ Status InteriorPoint::factor(const VectorXd& d)
     {
       this->inverse_diagonal_[i] = 1.0 / values[matrices.diagonal[i]];
     }
-    // If a pivot fails in single precision, a shift of the diagonal helps, and conjugate gradients
-    // correct for it. The next iteration starts with the same shift.
+    // If factorization fails in single precision because a matrix pivot is not positive, a shift of
+    // the diagonal makes it succeed, and conjugate gradients correct the effect of the shift. The
+    // next iteration starts with the same shift.
     constexpr double least_shift = 1e-6;
     constexpr double largest_shift = 1e-3;
     do
@@ -307,8 +313,8 @@ Status InteriorPoint::factor_double()
   double* values = matrix.valuePtr();
   Status status = this->workspace_.solver.factor(matrix);
   this->result_.factorizations += 1;
-  // Round-off can make a pivot fail that is positive in exact arithmetic. A relative shift of the
-  // diagonal makes the step slightly shorter, but the solution stays correct.
+  // Because of round-off, a matrix pivot can be negative that is positive in exact arithmetic. A
+  // relative shift of the diagonal makes the step slightly shorter, but the solution stays correct.
   for (double shift = 1e-14; !status.ok() && status.code == StatusCode::invalid_input &&
        shift < 1e-6 && !this->context_.canceled();
        shift *= 100.0)
@@ -354,7 +360,7 @@ MatrixXd InteriorPoint::multiply(const MatrixXd& x) const
   return y;
 }
 
-/// Solve with the factor in single precision; one or two steps of refinement are usual.
+/// Solve with the factor in single precision. One or two refinement iterations are usual.
 /// @return false if the accuracy was not reached.
 bool InteriorPoint::solve_refined(const VectorXd& rhs, double accuracy, VectorXd& x)
 {
@@ -366,8 +372,8 @@ bool InteriorPoint::solve_refined(const VectorXd& rhs, double accuracy, VectorXd
   return reached <= accuracy;
 }
 
-/// Compute the step that changes the products s z by `target`, to first order.
-/// @param accuracy of the solution of the linear system, in single precision.
+/// Compute the Newton step that changes the products s z by `target`, to first order.
+/// @param accuracy relative accuracy of the linear solve, if the factor is in single precision.
 InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target, double accuracy)
 {
   const VectorXd per_s = target.cwiseQuotient(this->s_);
@@ -383,7 +389,7 @@ InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target, double acc
   Direction d;
   if (this->in_single_ && !this->solve_refined(rhs, accuracy, d.x) && !this->context_.canceled())
   {
-    // This column uses double precision from here on.
+    // Single precision is not accurate enough. Use double precision for the rest of this column.
     const Stopwatch watch;
     this->in_single_ = false;
     this->single_is_enough_ = false;
@@ -426,7 +432,7 @@ InteriorPoint::Direction InteriorPoint::find_direction()
 {
   const double count = static_cast<double>(this->s_.size());
   const VectorXd products = this->s_.cwiseProduct(this->z_);
-  // A smaller tolerance saves no iteration (measured).
+  // A smaller value saves no iteration (measured).
   constexpr double predictor_accuracy = 1e-2;
   const double step_accuracy = this->rows_.empty() ? 1e-3 : 1e-5;
   Direction d = this->solve(-products, predictor_accuracy);
@@ -472,7 +478,8 @@ InteriorPoint::Direction InteriorPoint::find_direction()
   return d;
 }
 
-/// @param central use the start that was computed for all columns, if there is one.
+/// Set the initial x, s and z.
+/// @param central use the start that was computed for all columns together, if there is one.
 void InteriorPoint::set_start(bool central)
 {
   const auto& matrices = this->matrices_;
@@ -492,10 +499,10 @@ void InteriorPoint::set_start(bool central)
   const double energy_within = 0.5 * within.dot(matrices.q.transpose() * within);
   if (!(energy > 1e-9 * energy_within))
   {
-    energy = energy_within; // only its own bounds or pins keep the column from being constant
+    energy = energy_within; // the column would be constant without its own bounds or pins
   }
-  // Both constants were measured on boxes and on real shapes: compared with mu = E / n, they halve
-  // the iterations.
+  // `least` and the factor 10 below were measured on boxes and on real shapes. They halve the
+  // number of iterations compared with mu = E / n.
   constexpr double least = 1e-2;
   this->s_ = this->apply(this->x_) + this->h_;
   this->raise_slacks(least);
@@ -503,9 +510,9 @@ void InteriorPoint::set_start(bool central)
   this->z_ = mu * this->s_.cwiseInverse();
 }
 
-/// Correct a common start that is far from the central path. If a column had not settled after all
-/// splitting steps, its multipliers are too small, and all steps from there are short. Larger
-/// multipliers and slacks halve the number of iterations.
+/// Correct a start that is far from the central path. If a column had not converged after all
+/// splitting steps (splitting_start.h), its multipliers are too small, and the following step
+/// lengths are short. Larger multipliers and slacks halve the number of iterations.
 void InteriorPoint::balance_start()
 {
   const double gap = this->result_.certificate.relative_gap;
@@ -521,7 +528,8 @@ void InteriorPoint::balance_start()
   }
 }
 
-/// @param least smallest slack afterward, times the distance of the bounds if that is below 1.
+/// Raise all slacks to a minimum.
+/// @param least the minimum, times the distance between the bounds if that is below 1.
 void InteriorPoint::raise_slacks(double least)
 {
   VectorXd floor = VectorXd::Constant(this->h_.size(), least);
@@ -535,7 +543,8 @@ void InteriorPoint::raise_slacks(double least)
   this->s_ = this->s_.cwiseMax(floor);
 }
 
-/// Move values that violate the order of the pairs. Given values do not change.
+/// Change values as little as necessary to satisfy the order of the pairs. Given values do not
+/// change.
 void InteriorPoint::order_pairs(VectorXd& w) const
 {
   if (this->upwards_.empty())
@@ -550,6 +559,7 @@ void InteriorPoint::order_pairs(VectorXd& w) const
   order_values(this->upwards_, this->problem_.free_here, highest, w);
 }
 
+/// Project the iterate and compute its certificate.
 /// @param second_bound compute the second bound in any case (see Certificate).
 void InteriorPoint::certify_iterate(bool second_bound)
 {
@@ -567,8 +577,8 @@ void InteriorPoint::certify_iterate(bool second_bound)
   const bool bounds_everywhere = this->bounded_.size() == this->unpinned_.size();
   certificate = certify(problem, this->result_.w, this->column_.pairs, this->result_.multipliers,
     second_bound || !bounds_everywhere ? this->inverse_ : InverseForm());
-  // If the iterate is close enough and only the first bound is too large, the cause is round-off.
-  // The second bound decides then.
+  // If the iterate is near the optimum and only the first bound is too large, the cause is
+  // round-off, and the second bound is needed.
   const double tolerance = this->options_.tolerance;
   if (!second_bound && bounds_everywhere && certificate.relative_gap > tolerance &&
     certificate.kkt_residual <= tolerance &&
@@ -580,9 +590,9 @@ void InteriorPoint::certify_iterate(bool second_bound)
 }
 
 /// Continue from the iterate with a projected Newton method. The iterate itself does not change.
-/// @param enough largest move that counts as settled.
-/// @return the move of the last round. If it is at most `enough`, result_ contains the new point
-/// and its certificate.
+/// @param enough largest change of a weight in one round that counts as converged.
+/// @return the largest change in the last round. If it is at most `enough`, result_ contains the
+/// new point and its certificate.
 double InteriorPoint::finish(double enough)
 {
   constexpr int rounds = 6;
@@ -627,22 +637,23 @@ BoxQpSolution InteriorPoint::run()
     this->best_ = this->result_;
     this->balance_start();
   }
-  // After certification, a few more iterations let the weights settle. The status does not depend
-  // on that.
+  // After certification, a few more iterations let the weights converge. They do not affect the
+  // status.
   constexpr int most_settling = 6;
   const double settled = settled_move(tolerance);
   int settling = 0;
-  // Largest move at which the projected Newton method is tried. It converges many times faster than
-  // the path and requires only solves with the current factor. At larger moves it fails too often
-  // (measured). A certified iterate is tried once in any case.
+  // The projected Newton method is tried if no weight changed by more than `near` in the last
+  // iteration. It converges many times faster than the central path and requires only solves with
+  // the current factor. For larger changes it fails too often (measured). It is also tried once for
+  // the first certified iterate.
   double near = 4e-5;
   int tries = 0;
   // 5 to 15 iterations are usual. If the form is very ill-conditioned (triharmonic energies of fine
-  // meshes), all steps from the common start can be too short. Then restart without it, and switch
-  // to double precision if that does not help.
+  // meshes), all step lengths from the common start can be too short. Then the solve is restarted
+  // without the start, and later switches to double precision if it still has not converged.
   constexpr int begin_anew_after = 25;
   constexpr int double_after = 60;
-  // With ordered pairs, inexact steps stall near the end.
+  // With ordered pairs, inexact solves stall near the end.
   constexpr int most_stalled = 3;
   int stalled = 0;
   double moved = this->h_.size() == 0 ? 0.0 : 1.0;
@@ -715,7 +726,8 @@ BoxQpSolution InteriorPoint::run()
         moved = 0.0;
       }
       this->result_ = iterate;
-      // The closer the last try was to success, the sooner the next one is worth its solves.
+      // If the last attempt nearly converged, make the next attempt soon; otherwise wait until the
+      // changes are smaller.
       near = moved * std::clamp(enough / left, 0.2, 0.8);
       ++tries;
     }
@@ -744,7 +756,8 @@ BoxQpSolution interior_point(const SplitForm& matrices, const BoxQpOptions& opti
       .run();
   };
   BoxQpSolution solution = run(true);
-  // With ordered pairs, a solve that fails in single precision is repeated in double precision.
+  // With ordered pairs, a column that fails in single precision is solved again in double
+  // precision.
   if (!column.pairs.empty() && workspace.single.analyzed() && !solution.status.ok() &&
     solution.status.code != StatusCode::canceled)
   {

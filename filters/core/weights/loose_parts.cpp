@@ -1,3 +1,4 @@
+// Links for surface components that no handle controls (see loose_parts.h).
 #include "weights/loose_parts.h"
 
 #include <algorithm>
@@ -7,10 +8,11 @@ namespace bindpose
 
 namespace
 {
-constexpr double touching = 1.0 / 500.0; ///< of the surface's diagonal
+/// Maximum distance of touching components, as a fraction of the surface's diagonal.
+constexpr double touching = 1.0 / 500.0;
 constexpr Index most_loose_components = 20000;
 
-/// Return for each of the lattice's parts whether it contains a handle.
+/// For each part of the lattice, return 1 if the part contains a handle, else 0.
 std::vector<char> parts_with_handles(
   const Components& parts, Index vertex_count, const HandleInsertion& inserted)
 {
@@ -76,8 +78,8 @@ Status find_loose_parts(PointsView points, TrianglesView triangles,
   {
     return {};
   }
-  // Components are linked individually, because a finer lattice may separate the components of one
-  // part.
+  // Link components individually instead of parts, because a finer lattice may separate the
+  // components of one part.
   std::vector<Index> of_triangle;
   const Components components = welded_components(triangles, lowest_equal, of_triangle);
   std::vector<char> is_held(static_cast<std::size_t>(components.count), 0);

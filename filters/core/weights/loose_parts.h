@@ -9,18 +9,19 @@
 namespace bindpose
 {
 
-/// The parts of a surface that have no handle, and their links.
+/// The parts of an embedding lattice that have no handle, and links that connect them to other
+/// parts.
 struct LooseParts
 {
-  Index count = 0; ///< connected parts of the lattice without a handle
-  std::vector<PartLink> links; ///< empty if no component is loose or more than 20,000 are
+  Index count = 0; ///< number of connected parts of the lattice without a handle
+  std::vector<PartLink> links; ///< empty if no component is loose, or if more than 20,000 are loose
 };
 
-/// Link every surface component in a lattice part without a handle to the components that it
-/// touches (nearer than 1/500 of the diagonal), or to the nearest one (link_parts). The surface
-/// must then be embedded again with these links.
+/// Find parts of the lattice that no handle controls. Link every surface component in such a part
+/// to the components that it touches (within 1/500 of the diagonal), or else to the nearest
+/// component (link_parts). The caller must then embed the surface again with these links.
 /// @param surface the surface of the points and triangles, embedded in `lattice`
-/// @param lowest_equal #V: the lowest id among the points that are equal to each point
+/// @param lowest_equal #V: the smallest id of all points with the same position
 Status find_loose_parts(PointsView points, TrianglesView triangles,
   const std::vector<Index>& lowest_equal, const EmbeddingTets& lattice,
   const EmbeddedSurface& surface, const Handles& handles, const HandleInsertionOptions& insertion,

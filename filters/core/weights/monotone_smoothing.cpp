@@ -1,16 +1,18 @@
-// The linear part of the data term is a row of the quadratic form. Q gets an additional unknown
-// whose value is 1, so that 1/2 (w, 1)' Q (w, 1) is the whole energy: smoothness and distance to
-// the data. Solver and certificate are the same as for weights. There are no bounds. The data term
-// or the kept values make the minimum unique.
+// Topological simplification as a quadratic program with ordered pairs (see monotone_smoothing.h).
+// The linear part of the data term is stored as a row of the quadratic form: Q gets an additional
+// unknown whose value is 1, so that 1/2 (w, 1)' Q (w, 1) is the whole energy, smoothness and
+// distance to the data. Solver and certificate are therefore the same as for weights. There are no
+// bounds. The data term or the kept values make the minimum unique.
 //
-// The ordered pairs that exclude other extrema come from an order of the vertices that has exactly
-// the listed extrema (extrema_order.cpp) and is as close as possible to the order of the minimizer
-// without pairs. If that minimizer already has the listed extrema, it is the result. The larger the
-// data weight, the closer the order is to that of the data. The other choice of a guide is the
-// harmonic function with the listed extrema as boundary values; it ignores the data between them.
+// The ordered pairs that exclude unlisted extrema are computed from an order of the vertices. This
+// order has exactly the listed extrema (extrema_order.cpp) and is as close as possible to the order
+// of the minimizer without pairs. If that minimizer already has the listed extrema, it is the
+// result. The larger the data weight, the closer the order is to the order of the data. The
+// alternative guide is the harmonic function with the listed extrema as boundary values; it ignores
+// the data between them.
 //
-// A result is feasible for the order of its own values, with ties broken as before. Solving again
-// for that order can therefore only lower the energy.
+// A result satisfies the pairs of the order of its own values, with ties broken as before. Solving
+// again for that order can therefore only lower the energy.
 #include "weights/monotone_smoothing.h"
 
 #include "weights/free_system.h"
@@ -66,17 +68,17 @@ private:
   ExecutionContext& context_;
   MonotoneSmoothingResult& result_;
 
-  Domain kept_; // without triangles that have no area
+  Domain kept_; // the domain without triangles of zero area
   Components components_;
-  std::vector<char> used_; // #V
-  std::vector<char> taking_part_; // #V: used and not constant
+  std::vector<char> used_; // #V: 1 for vertices in elements of positive measure
+  std::vector<char> taking_part_; // #V: 1 for used vertices in parts that are not constant
   VertexGraph graph_;
   double middle_ = 0.0, range_ = 0.0; // center and range of the data
   VectorXd f_; // data scaled to -1/2 to 1/2; 0 for unused vertices
-  ScaledMesh scaled_; // scaled to size 1
+  ScaledMesh scaled_; // the mesh scaled to size 1
   std::vector<Index> fixed_; // fixed vertices, then the additional unknown #V
   VectorXd fixed_values_;
-  VectorXd pull_; // diagonal of the form's data term
+  VectorXd pull_; // diagonal of the data term in the quadratic form
   bool keep_values_ = false;
   Index constant_parts_ = 0;
   std::unique_ptr<BoxQp> solver_;
@@ -148,6 +150,7 @@ void Smoothing::take_measurable()
   this->graph_ = vertex_graph(this->kept_);
 }
 
+/// Compute f_, the data scaled to a range of 1.
 /// @return false if the data are constant.
 bool Smoothing::scale_data()
 {
@@ -283,9 +286,9 @@ Status Smoothing::find_list()
   return this->check_list();
 }
 
-/// Scale the mesh to size 1. Unlike the diagonal of the bounding box, the size does not change when
-/// the mesh is rotated. The size matters here, because it determines the balance of smoothness and
-/// data.
+/// Scale the mesh to size 1 (see monotone_smoothing). Unlike the diagonal of the bounding box, this
+/// size does not change when the mesh is rotated. The size affects the result, because it
+/// determines the balance of smoothness and data.
 void Smoothing::scale_to_size()
 {
   this->scaled_ = scale_mesh(this->kept_, this->used_);
@@ -309,7 +312,7 @@ void Smoothing::scale_to_size()
   this->scaled_.mass_unit *= std::pow(size, -dimension);
 }
 
-/// Assemble the form with the additional unknown, and the given values.
+/// Assemble the quadratic form with the additional unknown, and the given values.
 void Smoothing::assemble()
 {
   const Index n = this->data_.size();
@@ -372,9 +375,9 @@ void Smoothing::assemble()
       this->options_.tolerance, this->options_.maximum_iterations, this->options_.solver });
 }
 
-/// Estimate the minimum: the energy without pairs, plus the data term's cost of satisfying the
-/// pairs. (The first part alone is far too small if the minimizer without pairs is close to the
-/// data.)
+/// Estimate the minimum energy: the energy without pairs, plus the increase of the data term that
+/// results from satisfying the pairs. (The energy without pairs alone is far too small if the
+/// minimizer without pairs is close to the data.)
 double Smoothing::expected_energy(
   const BoxQpColumn& column, const BoxQpSolution& unconstrained) const
 {
@@ -388,7 +391,7 @@ double Smoothing::expected_energy(
   return unconstrained.certificate.energy + 0.5 * this->pull_.dot(moved.cwiseAbs2());
 }
 
-/// Compute the values whose order is kept as far as the list allows.
+/// Compute the values of the guide. Their order is kept as far as the list allows.
 Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
 {
   values = unconstrained.head(this->data_.size());
@@ -420,7 +423,7 @@ Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
   return status;
 }
 
-/// Solve again for the order of the last result, as long as the energy decreases.
+/// Solve again for the order of the last result (rebuild), as long as the energy decreases.
 void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
 {
   for (int round = 0; round < this->options_.rebuilds && best.status.ok(); ++round)
@@ -462,7 +465,8 @@ void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
   }
 }
 
-/// Record the energy of the integrals, which is the form's energy in other units.
+/// Append the energy of a solution, converted from the units of the form to the units of the
+/// integrals.
 void Smoothing::take(const BoxQpSolution& solution)
 {
   this->result_.energies.push_back(2.0 * solution.certificate.energy /
@@ -535,7 +539,7 @@ Status Smoothing::solve()
   return this->context_.canceled() ? Status::canceled() : Status();
 }
 
-/// Convert the result to the data's unit; compute extrema and report.
+/// Convert the result to the data's unit, and compute its extrema and the report.
 void Smoothing::finish(Status& status)
 {
   const Index n = this->data_.size();
@@ -561,8 +565,8 @@ void Smoothing::finish(Status& status)
       mass += this->scaled_.mass[v];
     }
   }
-  // Kept values are exact, all others are rounded. A value equal to that of an extremum must not
-  // exceed it.
+  // The values at kept extrema are exact, all other values are rounded. No neighbor may exceed a
+  // kept maximum because of rounding.
   if (this->keep_values_)
   {
     std::vector<char> is_free(static_cast<std::size_t>(n));
@@ -575,9 +579,10 @@ void Smoothing::finish(Status& status)
     order_values(upward_pairs(pairs, upward_order(pairs, n)), is_free,
       VectorXd::Constant(n, std::numeric_limits<double>::infinity()), result.values);
   }
-  // Vertices that do not take part are not counted as extrema.
+  // Vertices in constant parts are not counted as extrema.
   std::vector<char> exempt(static_cast<std::size_t>(n));
-  VectorXd strict = w; // ties are broken as in the order: a listed vertex represents its plateau
+  // Equal values are ordered by rank, so that a listed vertex is the extremum of its plateau.
+  VectorXd strict = w;
   std::vector<std::int64_t> vertices;
   std::vector<std::string> kinds;
   std::vector<double> values, data, persistences;

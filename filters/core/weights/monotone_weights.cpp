@@ -1,19 +1,20 @@
-// The guide of a handle is harmonic for the cotangent Laplacian with negative edge weights raised
-// to small positive ones. Unlike the cotangent Laplacian of most tet meshes, this matrix obeys the
-// maximum principle. The guide therefore has no extremum between handles that the weights would
-// inherit. (Uniform edge weights have this property, too, but a guide closer to the mesh's geometry
-// results in less energy.)
+// The ordered pairs of monotone weights (see monotone_weights.h). The guide of a handle is harmonic
+// for the cotangent Laplacian with negative edge weights raised to small positive ones. Unlike the
+// cotangent Laplacian of most tet meshes, this matrix satisfies the maximum principle. The guide
+// therefore has no extremum between handles that the weights would inherit. (Uniform edge weights
+// have this property, too, but a guide closer to the mesh's geometry results in less energy.)
 //
-// Far from a handle its guide is tiny; far inside its region of influence the guide is 1 - tiny.
-// Both are computed without cancellation: guides of positive right-hand sides have small relative
-// errors, and 1 - u is the sum of the other handles' guides. Two vertices are compared by u if it
-// is small and by 1 - u if that is small. Ties are broken by index, so the pairs have no cycle.
+// Far from its handle a guide u is tiny; where its handle dominates, 1 - u is tiny. Both values are
+// computed without cancellation: guides for positive right-hand sides have small relative errors,
+// and 1 - u is the sum of the other handles' guides. Two vertices are compared by u if u is small
+// and by 1 - u if that is small. Ties are broken by index, so the pairs have no cycle.
 //
-// A prescribed extremum has the value 0 or 1, so the bounds order all edges at it.
+// An extremum on a handle has the value 0 or 1, so the bounds alone determine the order of all
+// edges at this vertex.
 //
-// If a column has its own pinned vertices, its guide takes their values, too. The guide is then a
-// function that satisfies pins and order, which proves that the problem is feasible. The vertices
-// of one unknown (rigid sets, mirrors) are one vertex of the guide.
+// If a column has its own pinned vertices, its guide takes their values, too. The guide then
+// satisfies pins and order, which proves that the problem is feasible. The vertices of one unknown
+// (rigid sets, mirrors) are one vertex of the guide.
 #include "weights/monotone_weights.h"
 
 #include "weights/free_system.h"
@@ -27,8 +28,8 @@ namespace bindpose
 
 namespace
 {
-/// Compute the guide u of a column with its own pins, and 1 - u. Each is computed from positive
-/// numbers only.
+/// Compute the guide u of a column with its own pins, and 1 - u. Each is the solution for
+/// nonnegative boundary values, so that no cancellation occurs.
 Status pinned_guide(const SparseMatrix& laplacian, const std::vector<Index>& fixed,
   const BoxQpColumn& column, const SparseSolver::Options& options, ExecutionContext& context,
   Eigen::VectorXd& u, Eigen::VectorXd& rest)
@@ -49,7 +50,7 @@ Status pinned_guide(const SparseMatrix& laplacian, const std::vector<Index>& fix
   return status;
 }
 
-/// Return the handle and vertex of an unknown, for messages.
+/// Return the handle and vertex that an unknown represents, for messages.
 std::string place_of(const WeightsProblem& problem, const ColumnGroup& group, Index c, Index u)
 {
   const Index n = problem.vertex_count();
@@ -103,9 +104,9 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
     fixed_values.col(j) = group.columns[j].fixed_values;
   }
   result.guide = solver.minimizers(fixed_values);
-  // Column j contains the sum of the guides after j; the sums of the guides before j are
-  // accumulated in the loop. This requires that all columns are in the group, because only they sum
-  // to one together.
+  // Column j of `behind` is the sum of the guides after j; `before` accumulates the guides before j
+  // in the loop. Both together are 1 - u only if the group contains all columns, because only all
+  // guides together sum to one.
   const bool whole = m == problem.handle_count();
   Eigen::MatrixXd behind = Eigen::MatrixXd::Zero(n, m);
   for (Index j = m - 1; j-- > 0 && whole;)

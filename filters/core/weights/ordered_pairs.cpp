@@ -1,3 +1,4 @@
+// Ordered pairs of vertices: constraints that exclude extrema (see ordered_pairs.h).
 #include "weights/ordered_pairs.h"
 
 #include <algorithm>
@@ -9,8 +10,8 @@ namespace bindpose
 SparseMatrix positive_stiffness(
   const SparseMatrix& stiffness, const VertexGraph& graph, const std::vector<char>& pulls)
 {
-  // Fraction of the diagonals: small enough not to change the direction of the guide, large enough
-  // to keep the solution's rounding errors small.
+  // Minimum edge weight as a fraction of the diagonal entries. It is small enough to keep the
+  // direction of the guide and large enough to keep rounding errors of the solution small.
   constexpr double least_weight = 1e-3;
   const Eigen::VectorXd diagonal = stiffness.diagonal();
   const auto n = static_cast<int>(stiffness.rows());
@@ -51,7 +52,7 @@ void sort_pairs(std::vector<OrderedPair>& pairs)
 std::vector<Index> upward_order(const std::vector<OrderedPair>& pairs, Index count)
 {
   std::vector<std::vector<Index>> above(static_cast<std::size_t>(count));
-  // Predecessors that are not in the order yet.
+  // Number of pairs, per `high` vertex, whose `low` vertex is not in the order yet.
   std::vector<Index> open(static_cast<std::size_t>(count), 0);
   for (const OrderedPair& pair : pairs)
   {
@@ -97,7 +98,8 @@ std::vector<OrderedPair> upward_pairs(
 void order_values(const std::vector<OrderedPair>& upwards, const std::vector<char>& is_free,
   const Eigen::VectorXd& highest, Eigen::VectorXd& values)
 {
-  // Least given value at any vertex above: an upper limit for everything below it.
+  // The smallest given value of all vertices that must be above a vertex; it is an upper limit for
+  // the vertex.
   Eigen::VectorXd cap = highest;
   for (Index v = 0; v < values.size(); ++v)
   {

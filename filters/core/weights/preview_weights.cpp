@@ -1,4 +1,5 @@
-// Let f be the free and b the fixed vertices, D = M^-1 and Q = K D K:
+// Biharmonic weights from a factor of the Laplacian K (see preview_weights.h). Let f be the free
+// and b the fixed vertices, D = M^-1 and Q = K D K:
 //
 //   Q_ff = K_ff D_f K_ff + U D_b U',  U = K_fb        Q_fb = K_ff D_f U + U D_b K_bb
 //
@@ -47,22 +48,22 @@ public:
     return context.canceled() ? Status::canceled() : status;
   }
 
-  /// Return 1 for each free vertex, #V.
+  /// Return for each vertex 1 if it is free, else 0; #V.
   const std::vector<char>& is_free() const { return this->form_.is_free; }
 
-  /// Return the harmonic weights, #V x m, including the fixed rows.
+  /// Return the harmonic weights, #V x m, including the rows of fixed vertices.
   Eigen::MatrixXd harmonic() const
   {
     const Eigen::MatrixXd& given = this->problem_.fixed_values;
     return this->form_.whole(-this->solve(this->form_.to_fixed * given), given);
   }
 
-  /// Compute the biharmonic weights.
+  /// Compute the biharmonic weights by the cheaper of the two methods.
   /// @return false if canceled.
   bool biharmonic(
     const Eigen::MatrixXd& harmonic, ExecutionContext& context, Eigen::MatrixXd& w) const
   {
-    // Fixed vertices with a free neighbor.
+    // Find the fixed vertices with a free neighbor.
     std::vector<int> active;
     for (int b = 0; b < this->form_.to_fixed.outerSize(); ++b)
     {
@@ -78,7 +79,7 @@ public:
       w = harmonic;
       return true;
     }
-    // D_b K_bb e at the active vertices.
+    // `flow` contains D_b K_bb e at the active vertices.
     Eigen::MatrixXd flow(rank, m);
     SparseMatrix u(this->form_.to_fixed.rows(), rank);
     Eigen::VectorXd mass(rank);
@@ -94,7 +95,7 @@ public:
         u.col(static_cast<int>(i)) = this->form_.to_fixed.col(active[i]);
       }
     }
-    // Approximate number of solves per column for conjugate gradients.
+    // Typical number of solves per column for conjugate gradients.
     constexpr Index solves_of_gradients = 16;
     const Eigen::MatrixXd start = this->form_.free_rows(harmonic);
     Eigen::MatrixXd x;

@@ -6,19 +6,21 @@
 namespace bindpose
 {
 
-/// Compute a fast preview: biharmonic weights without bounds, clamped to [0, 1], with rows divided
-/// by their sums. No row is zero, because the handles' own vertices are fixed as always.
+/// Compute a fast preview of bounded biharmonic weights: biharmonic weights without bounds, clamped
+/// to [0, 1], with rows divided by their sums. No row is zero, because the vertices on handles are
+/// fixed as in the final weights.
 ///
-/// Biharmonic weights do not need a factorization of their energy K M^-1 K. Except in the rows of
-/// the fixed vertices it is a product of matrices, which can be inverted with the factor of the
-/// Laplacian. Those rows change the inverse by a low-rank matrix (Woodbury).
-/// Cost: one factorization of the Laplacian, a fraction of that of the energy in volumes, and two
-/// solves per handle vertex that has a free neighbor. If there are many such vertices, conjugate
-/// gradients with the product as preconditioner are used instead (to 1e-3).
+/// Let K be the cotangent stiffness and M the lumped mass. The energy K M^-1 K does not need a
+/// factorization: except in the rows of the fixed vertices it is a product of matrices, whose
+/// inverse needs only a factor of K. The rows of the fixed vertices change the inverse by a
+/// low-rank matrix (Woodbury).
+/// Cost: one factorization of K (in volumes a fraction of the cost of factoring the energy), and
+/// two solves per handle vertex that has a free neighbor. If there are many such vertices,
+/// conjugate gradients with the product as preconditioner are used instead (to 1e-3).
 ///
 /// The certificate bounds the distance of the clamped columns to bounded biharmonic weights. The
-/// tolerance is not used.
-/// Report in addition to WeightsResult's keys: stage ("preview").
+/// tolerance of the options is ignored.
+/// Report in addition to the keys of WeightsResult: stage ("preview").
 Status preview_weights(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result);
 

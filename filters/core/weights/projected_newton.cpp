@@ -1,6 +1,6 @@
-// In each round, held vertices move to their bounds. For the other vertices, a few steps of
-// preconditioned conjugate gradients reduce the gradient. Values outside of the bounds are
-// projected back to them.
+// A projected Newton method with inexact solves (see projected_newton.h). In each round, held
+// vertices move to their bounds. For the other vertices, a few iterations of preconditioned
+// conjugate gradients reduce the gradient. Values outside of the bounds are projected back to them.
 #include "weights/projected_newton.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 namespace
 {
-/// Return the minimizer over vertex i alone, without bounds.
+/// Return the minimizer over the value of vertex i alone, without bounds.
 double newton_step(const SplitForm& matrices, const VectorXd& gradient, const VectorXd& x, Index i)
 {
   return x[i] - gradient[i] / matrices.lower.valuePtr()[matrices.diagonal[i]];
@@ -36,10 +36,11 @@ double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
   const Preconditioner& preconditioner, int rounds, double enough, const ExecutionContext& context,
   VectorXd& x)
 {
-  constexpr int steps = 4; // steps of conjugate gradients per round
-  constexpr double reduction = 0.05; // reduction of the error's energy norm that ends them
+  constexpr int steps = 4; // maximum iterations of conjugate gradients per round
+  // They end if the energy norm of the error decreased to this fraction.
+  constexpr double reduction = 0.05;
   const Index n = x.size();
-  const SparseMatrix& a = matrices.a; // symmetric: the product with the transpose is faster
+  const SparseMatrix& a = matrices.a; // symmetric; the product with the transpose is faster
   std::vector<char> held;
   const auto release = [&](VectorXd& v)
   {
@@ -52,7 +53,7 @@ double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
   VectorXd r, z, p, ap;
   double moved = 1.0;
   double before = 1e300;
-  // If the moves do not get smaller, the set of held vertices has not been found yet.
+  // Stop if the changes do not decrease, because then the set of held vertices is still wrong.
   for (int round = 0;
        round < rounds && moved > enough && moved < 0.9 * before && !context.canceled(); ++round)
   {
@@ -102,7 +103,7 @@ double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
     x = next;
     if (round > 0 && moved * std::pow(moved / before, rounds - 1 - round) > enough)
     {
-      break; // at this rate the remaining rounds do not suffice
+      break; // at this rate the remaining rounds do not suffice to converge
     }
   }
   return moved;

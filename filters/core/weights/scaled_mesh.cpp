@@ -1,3 +1,4 @@
+// Scale a mesh and assemble its stiffness and mass (see scaled_mesh.h).
 #include "weights/scaled_mesh.h"
 
 namespace bindpose

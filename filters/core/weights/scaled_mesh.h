@@ -7,8 +7,8 @@
 namespace bindpose
 {
 
-/// The mesh from which energies are assembled. It is scaled to diagonal 1 about its center, so that
-/// units and position do not affect the solution.
+/// A mesh scaled to diagonal 1 about its center, with the matrices from which energies are
+/// assembled. Because of the scaling, units and position do not affect the solution.
 struct ScaledMesh
 {
   Points points;
@@ -19,7 +19,7 @@ struct ScaledMesh
 };
 
 /// Scale the mesh and assemble its matrices.
-/// @param used #V: 1 for vertices that count for the diagonal.
+/// @param used #V: 1 for vertices that count for the bounding box.
 ScaledMesh scale_mesh(const Domain& domain, const std::vector<char>& used);
 
 } // namespace bindpose

@@ -1,3 +1,4 @@
+// Split a quadratic form into free and fixed vertices (see split_form.h).
 #include "weights/split_form.h"
 
 #include <algorithm>

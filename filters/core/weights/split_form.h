@@ -9,24 +9,24 @@
 namespace bindpose
 {
 
-/// A quadratic form, split into free vertices, which are solved for, and fixed vertices, whose
-/// values are given.
+/// A quadratic form, split into blocks of free vertices, which are solved for, and of fixed
+/// vertices, whose values are given.
 struct SplitForm
 {
   SplitForm() = default;
-  /// @param q symmetric, #V x #V, both triangles.
+  /// @param q symmetric, #V x #V, both triangular halves stored.
   /// @param fixed ids of the fixed vertices, each once.
   SplitForm(const SparseMatrix& q, std::vector<Index> fixed);
 
-  SparseMatrix q; ///< #V x #V, both triangles
+  SparseMatrix q; ///< #V x #V, both triangular halves stored
   std::vector<Index> fixed;
-  std::vector<char> is_free; ///< #V
+  std::vector<char> is_free; ///< #V: 1 for free vertices
   std::vector<Index> free_vertices;
   std::vector<Index> free_of_vertex; ///< #V: index in free_vertices; -1: fixed
-  SparseMatrix a; ///< free x free, both triangles
+  SparseMatrix a; ///< free x free, both triangular halves stored
   SparseMatrix lower; ///< lower triangle of a; every diagonal entry is stored
   SparseMatrix to_fixed; ///< free x fixed
-  std::vector<int> diagonal; ///< positions of the diagonal in lower's values
+  std::vector<int> diagonal; ///< indices of the diagonal entries in the values of `lower`
 
   /// Return the rows of the free vertices.
   /// @param all #V x m.
@@ -42,12 +42,14 @@ struct SplitForm
   /// vertices.
   /// @param held free: 1 for held vertices.
   static void decouple(const std::vector<char>& held, SparseMatrix& matrix);
-  /// Return the position of entry (i, j), i > j, in lower's values; -1 if there is none.
+  /// Return the index of entry (i, j), i > j, in the values of `lower`; -1 if there is no such
+  /// entry.
   int position(Index i, Index j) const;
 };
 
-/// Replace the message of a factorization's invalid_input: the block of free vertices is not
-/// positive definite, so the form has no unique minimum. Any other status is returned unchanged.
+/// Replace the message of a factorization that failed with invalid_input: the block of free
+/// vertices is not positive definite, so the form has no unique minimum. Return any other status
+/// unchanged.
 Status without_minimum(Status of_factor);
 
 } // namespace bindpose

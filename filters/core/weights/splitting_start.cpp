@@ -1,17 +1,18 @@
-// The problem is the sum of a quadratic function and of a function that keeps each vertex within
-// its bounds: the bounds themselves, or barriers. Douglas-Rachford splitting treats both in turn,
-// in the metric P, a small multiple of A's diagonal:
+// Starts of all columns by Douglas-Rachford splitting (see splitting_start.h). The objective is the
+// sum of a quadratic function and of a function that keeps each vertex within its bounds: the
+// bounds themselves, or barriers. The splitting minimizes the two alternately, in the metric P, a
+// small multiple of A's diagonal:
 //   y = the point within the bounds nearest to z, or
 //       argmin barrier(y) + 1/2 |y - z|_P^2      (one scalar equation per vertex)
 //   x = argmin quadratic(x) + 1/2 |x - (2y - z)|_P^2 = (A + P)^-1 (P (2y - z) - c)
 //   z = z + relaxation (x - y)
 // In the limit y is the minimizer. Without barriers, z is beyond the bound of a vertex if that
-// bound is active. The matrix A + P is the same for all columns and steps, so the solves of all
-// columns share its factor and run as dense products. Anderson acceleration moves z to the
-// combination of the last few steps that would make the change x - y smallest if the map were
+// bound is active. The matrix A + P is the same for all columns and iterations, so the solves of
+// all columns use the same factor and run as dense products. Anderson acceleration replaces z by
+// the combination of the last few iterates for which x - y would be smallest if the iteration were
 // linear.
 //
-// The constants were measured on boxes and on real shapes of 5k to 70k vertices.
+// The constants were measured on boxes and on real shapes with 5k to 70k vertices.
 #include "weights/splitting_start.h"
 
 #include "base/parallel.h"
@@ -38,16 +39,17 @@ constexpr double relative_mu = 1e-4; // target of the relative gap with barriers
 constexpr double metric = 1e-2; // P as a fraction of A's diagonal
 constexpr double relaxation = 1.7;
 constexpr int steps = 80;
-// A column ends if its squared step is at most this fraction of its energy.
+// A column has converged if the square of its last step is at most this fraction of its energy.
 constexpr double enough = 1e-7;
-constexpr int memory = 8; // number of past steps for Anderson acceleration
+constexpr int memory = 8; // number of past iterations for Anderson acceleration
 constexpr Index largest_block = 4; // number of columns that are solved together
 
-/// Return the y in (0, 1) with p (y - z) = mu / y - mu / (1 - y), by Newton's method from the
-/// nearer end.
+/// Return the y in (0, 1) with p (y - z) = mu / y - mu / (1 - y), by Newton's method that starts
+/// near the bound that is closer to z.
 double barrier_step(double z, double mu_per_p)
 {
-  // Without the barrier of the farther bound the equation is quadratic. Start from its solution.
+  // Without the barrier of the farther bound the equation is quadratic. Start from the root of this
+  // quadratic equation.
   const bool low = z < 0.5;
   const double t = low ? z : 1.0 - z;
   const double root = std::sqrt(t * t + 4.0 * mu_per_p);
@@ -69,15 +71,16 @@ double barrier_step(double z, double mu_per_p)
   return low ? y : 1.0 - y;
 }
 
-/// The last steps of one column and the extrapolation from them. Inner products are in the metric
-/// P.
+/// The past iterations of one column, from which the next iterate is extrapolated (Anderson
+/// acceleration). Inner products are in the metric P.
 class Anderson
 {
 public:
   explicit Anderson(Index size) : points_(size, memory), changes_(size, memory) {}
 
-  /// @param z point where the map was applied; replaced by the next point.
-  /// @param change map(z) - z
+  /// Replace z by the next iterate.
+  /// @param z point where the iteration was evaluated; replaced by the next point.
+  /// @param change result of the iteration minus z
   void accelerate(VectorXd& z, const VectorXd& change, const VectorXd& weights)
   {
     const VectorXf f = change.cwiseProduct(weights).cast<float>();
@@ -85,7 +88,7 @@ public:
     const double size = f.squaredNorm();
     if (this->count_ < 0 || size > 4.0 * this->last_size_)
     {
-      this->count_ = 0; // the past steps are unusable
+      this->count_ = 0; // discard past iterations, because the change has grown
     }
     else
     {
@@ -128,11 +131,11 @@ public:
   }
 
 private:
-  MatrixXf points_, changes_; // differences of successive z and of successive changes
+  MatrixXf points_, changes_; // differences of successive z and of successive x - y
   MatrixXd gram_ = MatrixXd::Zero(memory, memory);
   VectorXf last_point_, last_change_;
   double last_size_ = 0.0;
-  int count_ = -1; // columns in use; -1: no step yet
+  int count_ = -1; // number of columns in use; -1: no iteration yet
   int next_ = 0;
 };
 } // namespace

@@ -10,28 +10,30 @@
 namespace bindpose
 {
 
-/// An initial guess for the minimizer of one column.
+/// An initial guess for the minimizer of one column (see BoxQp).
 struct ColumnStart
 {
-  Eigen::VectorXd x; ///< free, within the bounds; empty: no guess
-  std::vector<char> held; ///< free: 1 if x is given or expected to be at a bound
-  /// If above 0, x is near the minimizer with a barrier mu (-log(x - l) - log(u - x)) per vertex in
-  /// place of the bounds, which is a point of the central path, and `held` is empty.
+  Eigen::VectorXd x; ///< one entry per free vertex, within the bounds; empty: no guess
+  std::vector<char> held; ///< per free vertex: 1 if x is given or expected to be at a bound
+  /// If above 0, x is a point of the central path: it is near the minimizer where the bounds of
+  /// each vertex are replaced by the barrier mu (-log(x - l) - log(u - x)). `held` is then empty.
   double mu = 0.0;
 };
 
 /// Guess the minimizers of all columns and their active bounds by Douglas-Rachford splitting with
-/// Anderson acceleration. One factorization in single precision serves all columns and steps; each
-/// step is one solve for all columns together. The bits of the result do not depend on the number
-/// of threads. Every step checks for cancel.
-/// Cost: 0.5 to 1 factorization in double precision per column for eight columns, about 2 for a
+/// Anderson acceleration. One factorization in single precision serves all columns and iterations;
+/// each iteration is one solve for all columns together. The result is bitwise the same for any
+/// number of threads. Every iteration checks for cancel.
+/// Cost per column: 0.5 to 1 factorization in double precision for eight columns, about 2 for a
+/// single column.
 /// single column.
 ///
 /// Douglas and Rachford 1956; Eckstein and Bertsekas 1992; Walker and Ni 2011 for Anderson
 /// acceleration.
-/// @param barriers compute points of the central path, with a relative gap of about 1e-4.
+/// @param barriers compute points of the central path, with a relative gap of about 1e-4, instead
+/// of minimizers within the bounds.
 /// @param unconstrained #V x #columns, the minimizers without bounds.
-/// @param single has analyzed matrices.lower; it is factored here.
+/// @param single a solver that has analyzed matrices.lower; this function factors with it.
 /// @return one start per column. It is empty if the factorization fails, if the call is canceled,
 /// or if barriers are requested and the energy is zero.
 std::vector<ColumnStart> splitting_start(const SplitForm& matrices,

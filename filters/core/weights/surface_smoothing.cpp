@@ -1,3 +1,4 @@
+// Smoothing of transferred weights along a surface (see surface_smoothing.h).
 #include "weights/surface_smoothing.h"
 
 #include "base/float_cholesky.h"
@@ -17,18 +18,18 @@ namespace bindpose
 namespace
 {
 using Eigen::VectorXd;
-/// Number of columns that are smoothed together: the matrix is read once for all of them.
+/// Number of columns that are smoothed together, so that the matrix is read once for all of them.
 constexpr int lanes = 4;
-/// Progress as a fraction of the time: when the energy's matrix has been factored, and before the
-/// first iteration.
+/// Progress as fractions of the time: at the end of the factorization, and before the first
+/// iteration.
 constexpr double factored = 0.4;
 constexpr double prepared = 0.5;
 using Lanes = Eigen::Array<double, 1, lanes>;
-/// #V x lanes.
+/// Values of one block of columns, #V x lanes.
 using Columns = Eigen::Array<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
 
-/// The energy's matrix M + K M⁻¹ K at the points that are not fixed, with lengths in units of
-/// `length`.
+/// The matrix M + K M⁻¹ K of the energy at the points that are not fixed, with lengths in units of
+/// `length`. K is the cotangent stiffness and M the lumped mass.
 class SmoothingEnergy
 {
 public:
@@ -39,7 +40,7 @@ public:
     const Points scaled = (points.rowwise() - points.row(0)) / length;
     this->stiffness_ = stiffness_matrix(scaled, triangles, shares_of(scaled, triangles));
     this->mass_ = lumped_mass(scaled, triangles);
-    // Points of needle triangles have almost no mass, which would only slow down the iterations.
+    // Raise tiny masses: points of needle triangles would increase the number of iterations.
     constexpr double least_mass = 1e-3;
     this->mass_ = this->mass_.cwiseMax(least_mass * this->mass_.mean());
     for (const Index v : fixed)
@@ -56,8 +57,8 @@ public:
     }
   }
 
-  /// Minimize by conjugate gradients; each column has its own step lengths. After each step,
-  /// `advance` is called with the estimated fraction of the work that is done.
+  /// Minimize the energy by conjugate gradients; each column has its own step lengths. After each
+  /// iteration, `advance` is called with the estimated fraction of the work that is done.
   void minimize(Columns& w, const ExecutionContext& context,
     const std::function<void(double share)>& advance) const
   {
@@ -76,7 +77,8 @@ public:
     p = z;
     const Lanes first = now;
     const Lanes enough = reduction * reduction * first;
-    // Columns that have converged, or that round-off has stopped, are not changed any more.
+    // Columns that have converged, or that do not improve because of round-off, do not change any
+    // more.
     Eigen::Array<bool, 1, lanes> goes_on = now > enough;
     for (int i = 0; i < most_iterations && goes_on.any() && !context.canceled(); ++i)
     {
@@ -111,16 +113,16 @@ public:
   }
 
 private:
-  /// Memory that one block of columns reuses.
+  /// Work memory, reused for each block of columns.
   struct Work
   {
     Eigen::MatrixXd once, twice;
   };
 
-  /// Return the weights of the triangles. Triangles with almost no height couple their points with
-  /// factors up to 1e16, and round-off in the products would exceed the values. Their weights are
-  /// reduced so that no coupling is larger than at an angle of 2 degrees; the matrix stays positive
-  /// semi-definite.
+  /// Return the weights of the triangles. The matrix entries between the points of triangles with
+  /// almost no height are up to 1e16, and their round-off would exceed the values. The weights of
+  /// these triangles are reduced so that no entry is larger than at an angle of 2 degrees; the
+  /// matrix stays positive semi-definite.
   static VectorXd shares_of(const Points& points, TrianglesView triangles)
   {
     constexpr double most = 15.0; // half of the cotangent of 2 degrees
@@ -133,7 +135,8 @@ private:
     return shares;
   }
 
-  /// Return row v of K w. K is symmetric, so column v is used.
+  /// Return row v of K w. K is symmetric; the code reads column v of K, which is stored
+  /// contiguously.
   Lanes times_stiffness(const Columns& w, Index v) const
   {
     Lanes sum = Lanes::Zero();
@@ -170,7 +173,7 @@ private:
     constexpr double assembled = 0.15; // fractions of the time, for progress
     constexpr double analyzed = 0.6;
     context.progress(assembled);
-    // The time of METIS exceeds the time that its better ordering saves.
+    // METIS would take more time than its better ordering saves.
     SparseSolver::Options options;
     options.ordering = SparseSolver::Ordering::amd;
     SparseSolver analysis(options);
@@ -182,7 +185,7 @@ private:
     return this->factor_.factor(a, 0.0, context).ok();
   }
 
-  /// Add the energy's terms of the curvature at fixed points to the preconditioner.
+  /// Add a correction to the preconditioner for the energy of the curvature at fixed points.
   void count_fixed(const std::vector<Index>& fixed, ExecutionContext& context)
   {
     const ProgressRange range(context, factored, prepared);
@@ -205,7 +208,7 @@ private:
       });
     if (!whole)
     {
-      this->counted_.clear(); // canceled: some responses are missing
+      this->counted_.clear(); // canceled: some solutions are missing
       return;
     }
     Eigen::MatrixXd small = Eigen::MatrixXd::Identity(most, most);
@@ -217,13 +220,15 @@ private:
     this->small_.compute(0.5 * (small + small.transpose()));
     if (this->small_.info() != Eigen::Success)
     {
-      // The responses in single precision are too inexact: accept more iterations.
+      // Single precision is not accurate enough for the corrections. Omit them; more iterations
+      // follow.
       this->counted_.clear();
     }
   }
 
-  /// Call visit(v, value) for the entries of the term of one fixed point: the curvature at the
-  /// point, as a function of the points that are not fixed, times the square root of the mass.
+  /// Call visit(v, value) for the nonzero entries of the vector u of one fixed point. The dot
+  /// product of u and w is the curvature at the fixed point, times the square root of its mass, as
+  /// a function of the points that are not fixed.
   template <typename Visit>
   void for_each_of_term(Index c, const Visit& visit) const
   {
@@ -237,7 +242,8 @@ private:
     }
   }
 
-  /// Use the diagonal as preconditioner if there is no factor: (K M⁻¹ K)_ii = sum_j K_ij² / m_j.
+  /// Use the inverse diagonal as preconditioner if there is no factor:
+  /// (K M⁻¹ K)_ii = sum_j K_ij² / m_j.
   void take_diagonal()
   {
     this->factor_ = FloatCholesky();
@@ -262,7 +268,7 @@ private:
     z = work.twice.array().colwise() * this->free_.array();
   }
 
-  /// Subtract from z the response to the terms of fixed points.
+  /// Subtract from z the correction for the fixed points (Woodbury).
   void correct(Columns& z) const
   {
     if (this->counted_.empty())
@@ -278,8 +284,8 @@ private:
     z.matrix() -= this->responses_ * this->small_.solve(at_fixed);
   }
 
-  /// Compute z = P⁻¹ r at the free points; z = 0 at the others.
-  /// @return r · z.
+  /// Apply the preconditioner P: compute z = P⁻¹ r at the free points; z = 0 at the others.
+  /// @return r · z for each column.
   Lanes precondition(const Columns& r, Columns& z, Work& work) const
   {
     if (this->factor_.analyzed())
@@ -304,12 +310,12 @@ private:
   VectorXd free_; // 0 for fixed points, 1 for all others
   // The preconditioner. Without fixed points, M + K M⁻¹ K is at most (M + K) M⁻¹ (M + K) and at
   // least half of it, so few iterations are needed. Each fixed point adds a term u uᵀ to the
-  // energy, which would cost several more iterations. The Sherman-Morrison-Woodbury formula adds
-  // these terms to the preconditioner, too.
+  // energy, which would cost several more iterations. The preconditioner includes these terms by
+  // the Sherman-Morrison-Woodbury formula.
   FloatCholesky factor_; // factor of M + K, if available
-  std::vector<Index> counted_; // fixed points whose terms are in the preconditioner
-  Eigen::MatrixXd responses_; // #V x #counted: the solutions for the terms of counted_
-  // Of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, where the columns of U are the terms.
+  std::vector<Index> counted_; // fixed points whose terms u uᵀ are in the preconditioner
+  Eigen::MatrixXd responses_; // #V x #counted: (M + K)⁻¹ M (M + K)⁻¹ u for each of these points
+  // Factor of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, where the columns of U are the vectors u.
   Eigen::LLT<Eigen::MatrixXd> small_;
   VectorXd inverse_diagonal_; // used without a factor; 0 for fixed points
 };

@@ -9,23 +9,25 @@
 namespace bindpose
 {
 
-/// Smooth functions on a surface. The result minimizes ½∫(w - given)² + ½ length⁴ ∫(Δw)², with
-/// linear elements and lumped mass, so that waves shorter than about 6 lengths fade.
+/// Smooth functions along a surface. The result w minimizes ½∫(w - given)² + ½ length⁴ ∫(Δw)²,
+/// where `given` is the input, with linear elements and lumped mass. Waves shorter than about 6
+/// lengths are damped.
 ///
-/// Each column is solved separately by conjugate gradients from the given values, until the
-/// residual is reduced to 1e-6 of its initial value or for 200 iterations. Every iterate has a
+/// Each column is solved separately by conjugate gradients, starting from the input values, until
+/// the residual is reduced to 1e-6 of its initial value or for 200 iterations. Every iterate has a
 /// lower energy than the one before. The preconditioner is a factorization of a second-order
-/// matrix, with a correction for each fixed point; 7 or 8 iterations suffice with it. A build
-/// without CHOLMOD uses the diagonal as preconditioner and usually takes all 200 iterations.
-/// Triangles with an angle below 2 degrees have a reduced weight, so that the coupling of their
-/// points stays within the limits of round-off. Needles and triangle soups are therefore harmless.
-/// Constants do not change.
+/// matrix, with a correction for each fixed point; with it, 7 or 8 iterations suffice. A build
+/// without CHOLMOD uses the diagonal as preconditioner and usually takes all 200 iterations. The
+/// weight of triangles with an angle below 2 degrees is reduced, so that the matrix entries between
+/// their points do not cause large round-off. Needle triangles and triangle soups are therefore
+/// valid input. Constants do not change.
 ///
 /// Cost: analysis and factorization, about 6 us per point; then about 1 us per point and column.
 /// Memory: at most 320 MB for corrections.
 /// @param points,triangles any surface whose equal points are merged; triangles without area are
 /// ignored.
 /// @param fixed ids of points whose values do not change, ascending.
+/// @param length smoothing length, in the unit of the points.
 /// @param values #V x #columns, in and out.
 /// @return false if canceled.
 bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::vector<Index>& fixed,

@@ -1,6 +1,7 @@
-// There is one path for the volume (tets, handles, method, transfer), one for the embedding (the
-// same steps on a lattice, with a smoothed transfer), and the choice between them. If a result is
-// discarded in favor of another one, its status is reported as the reason.
+// Solve the weights of a surface in a domain of its inside (see surface_weights.h). There is one
+// path for the volume (tets, handles, method, transfer), one path for the embedding (the same
+// operations on a lattice, with a smoothed transfer), and the choice between them. If a result is
+// replaced by another one, its status is reported as the reason.
 #include "weights/surface_weights.h"
 
 #include "weights/cage_domain.h"
@@ -22,25 +23,26 @@ namespace bindpose
 
 namespace
 {
-/// Weights of two lattices that differ by at most this rms are trusted. Measured on figures and
-/// furniture: the finer one is then within 0.012 rms of the weights of much finer lattices.
+/// Weights of two lattices that differ by at most this rms difference are trusted. Measured on
+/// figures and furniture: the finer lattice is then within 0.012 rms of the weights of much finer
+/// lattices.
 constexpr double largest_rms = 0.016;
 /// Number of tets of the first lattice. The second has 3/2 of its resolution and about three times
 /// as many tets.
 constexpr Index first_tets = 4500;
-/// Desired number of tets of the third lattice, which has 5/4 to 3/2 of the second one's
-/// resolution.
+/// Target number of tets of the third lattice, whose resolution is limited to 5/4 to 3/2 of the
+/// second one's.
 constexpr double third_tets = 36000.0;
-/// Number of tets of a lattice that is not compared with another one.
+/// Number of tets of the only lattice if the guard is off.
 constexpr Index unguarded_tets = 12000;
 constexpr int most_lattices = 3;
 /// Progress at the end of each lattice, as a fraction of all work. A lattice takes about four times
-/// as long as the one before. Measured on furniture with 8 points and with 14 to 38 bones.
+/// as long as the one before. Measured on furniture with 8 point handles and with 14 to 38 bones.
 constexpr double lattice_ends[most_lattices] = { 0.06, 0.22, 1.0 };
 /// Progress at the end of meshing and at the end of solving, as fractions of one domain's work.
 constexpr double filled = 0.2;
 constexpr double transferring = 0.97;
-/// A third lattice with a longer predicted time, in seconds on one thread, is not solved.
+/// Maximum predicted time of a third lattice, in seconds on one thread.
 constexpr double most_seconds = 20.0;
 
 /// One lattice that contains the surface, and its solution.
@@ -62,7 +64,7 @@ struct Lattice
 
 using LatticePtr = std::unique_ptr<Lattice>;
 
-/// The numbers of tets and vertices are proportional to the resolution to this power, between 2
+/// Exponent of the resolution in the estimated number of tets and vertices. It is between 2
 /// (sheets) and 3 (solids).
 constexpr double power_of_tets = 2.5;
 
@@ -108,13 +110,13 @@ private:
   Status refuse_single_points(const char* domain) const;
   /// Return the status of `step` with the warnings and the report of `before` added.
   Status joined(Status before, Status step) const;
-  /// Transfers weights from the domain's vertices to the surface's points.
+  /// A function that transfers weights from the domain's vertices to the surface's points.
   using Carry = std::function<Status(const Weights& solved, Weights& at_points)>;
   Status solve(const Domain& domain, const std::vector<Index>& region_ids, const WeightTerms& terms,
     const HandleInsertionOptions& insertion, const Carry& carry, const Carry& carry_preview,
     SurfaceWeights& result);
   Status carry_weights(const Carry& carry, SurfaceWeights& result) const;
-  /// Carry the terms from the surface's vertices to a mesh of its inside.
+  /// Transfer the optional terms from the surface's vertices to a mesh of its inside.
   Status carry_terms_to(const Points& points, const std::vector<Index>& original,
     WeightTerms& terms, Status& status) const;
 
@@ -126,11 +128,12 @@ private:
   const WeightsOptions& weights_options_;
   const WeightsMethod& method_;
   ExecutionContext& context_;
-  Weights preview_; ///< empty until the preview is computed
-  /// Null until prepared; used for all tets and lattices.
+  Weights preview_; ///< empty until the preview has been computed
+  /// Null until prepared; the same object serves all tets and lattices.
   std::unique_ptr<PreparedSurface> prepared_;
-  std::unique_ptr<SimplexLocator> surface_; ///< null until needed; used for all lattices
-  std::vector<PartLink> links_; ///< links of parts without a handle; each lattice adds its own
+  /// Null until needed; the same object serves all lattices.
+  std::unique_ptr<SimplexLocator> surface_;
+  std::vector<PartLink> links_; ///< links of parts without a handle, over all lattices so far
   Index linked_parts_ = 0;
 };
 
@@ -167,7 +170,7 @@ Status Solver::joined(Status before, Status step) const
   return step;
 }
 
-/// Rename the tets' report key "method", because the weights report a method, too.
+/// Rename the meshing report's key "method", because the weights report a method, too.
 void rename_tet_method(Report& report)
 {
   if (report.find("method"))
@@ -193,7 +196,7 @@ Status Solver::prepare()
   return status;
 }
 
-/// Fill the inside with tets that are fine enough for smooth weights.
+/// Fill the inside with tets that are small enough for smooth weights.
 Status Solver::fill(TetrahedralizeResult& tets)
 {
   const Phase phase(this->context_, "tetrahedralize", 0.0, filled);
@@ -218,7 +221,8 @@ Status Solver::fill(TetrahedralizeResult& tets)
   return status;
 }
 
-/// Return an error if a term applies to individual points, which are not vertices of this domain.
+/// Return an error if an optional term applies to individual points, which are not vertices of this
+/// domain.
 Status Solver::refuse_single_points(const char* domain) const
 {
   return asks_of_vertices(this->weights_options_.terms)
@@ -298,7 +302,7 @@ Status Solver::solve(const Domain& domain, const std::vector<Index>& region_ids,
   {
     report_difference(this->preview_, result.weights, "preview", status.report);
   }
-  // The transfer adds to report and warnings, but the status code is that of the solve.
+  // The transfer adds report keys and warnings, but does not change the status code of the solve.
   status.report.merge(carried.report);
   status.warnings.insert(status.warnings.end(), carried.warnings.begin(), carried.warnings.end());
   return status;
@@ -351,7 +355,8 @@ Status Solver::in_volume(SurfaceWeights& result)
   return status.usable() ? this->solve_volume(std::move(status), result) : status;
 }
 
-/// @param filled status of the step that made the tets.
+/// Insert handles into the tets of the inside, solve the weights and transfer them.
+/// @param filled status of making the tets.
 Status Solver::solve_volume(Status filled, SurfaceWeights& result)
 {
   std::vector<Index> labels;
@@ -434,7 +439,7 @@ Status Solver::in_cage(SurfaceWeights& result)
     status, this->solve(domain, {}, terms, this->weights_options_.insertion, carry, carry, result));
 }
 
-/// Solve on one lattice.
+/// Make one lattice and solve the weights on it.
 /// @param resolution 0: chosen to give about `tets` tets.
 LatticePtr Solver::embed(Index resolution, Index tets)
 {
@@ -454,7 +459,7 @@ LatticePtr Solver::embed(Index resolution, Index tets)
 }
 
 /// Make a lattice in which every part of the surface has a handle or is linked to other parts.
-/// Links that a lattice adds are used for all later lattices.
+/// Links that are added for one lattice are also used for all later lattices.
 Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
 {
   const Phase phase(this->context_, "tetrahedralize", 0.0, filled);
@@ -467,8 +472,9 @@ Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
   {
     return prepared;
   }
-  // A finer lattice may separate parts that were connected on a coarser one. Real models took at
-  // most three rounds. Parts that remain after the last round follow the nearest handle.
+  // A finer lattice may separate parts that are connected on a coarser one, so links are added in
+  // rounds. Real models took at most three rounds. Parts that remain after the last round follow
+  // the nearest handle.
   constexpr int most_rounds = 4;
   const ProgressRange range(this->context_, 0.3, 1.0);
   Status status;
@@ -533,7 +539,8 @@ HandleInsertionOptions Solver::insertion_in(const Lattice& lattice) const
   return insertion;
 }
 
-/// @param filled status of the step that made the lattice.
+/// Solve the weights on a lattice and transfer them to the surface without smoothing.
+/// @param filled status of making the lattice.
 Status Solver::solve_on(Lattice& lattice, Status filled)
 {
   SurfaceWeights& result = lattice.result;
@@ -580,11 +587,11 @@ Status Solver::in_embedding(SurfaceWeights& result)
   return best->status.usable() ? this->finish(*best, result) : best->status;
 }
 
-/// Return the fraction of the time that the smoothed transfer to the surface takes: half on a dense
-/// surface. Measured on one and four million triangles.
+/// Return the estimated fraction of the time that the smoothed transfer to the surface takes; it is
+/// half for a dense surface. Measured on surfaces with one and four million triangles.
 double Solver::share_of_transfer() const
 {
-  // Seconds, on two threads.
+  // Times in seconds, on two threads.
   constexpr double per_point = 6e-6;
   constexpr double per_point_and_column = 1.5e-6;
   constexpr double lattices_per_point = 20e-6;
@@ -595,9 +602,9 @@ double Solver::share_of_transfer() const
   return transfer / (transfer + lattices_per_point * points + lattices);
 }
 
-/// Solve on lattices of growing resolution until two agree (the guard).
-/// @return the finest lattice that converged; else the finest that has a result; else one whose
-/// status has the reason.
+/// Solve on lattices of increasing resolution until two agree (the guard).
+/// @return the finest lattice that converged; if none converged, the finest that has a result; if
+/// none has a result, a lattice whose status contains the reason.
 LatticePtr Solver::best_lattice()
 {
   const Index asked = this->options_.resolution;
@@ -631,7 +638,7 @@ LatticePtr Solver::best_lattice()
   {
     return best;
   }
-  Index resolution = best->resolution; // of the last lattice, which may not have converged
+  Index resolution = best->resolution; // of the last lattice, whose solve may have failed
   for (int level = 1; level < most_lattices && !trusted; ++level)
   {
     const double growth = level == 1 ? 1.5 : growth_to_third(*best);
@@ -655,7 +662,7 @@ LatticePtr Solver::best_lattice()
     compare(best, std::move(finer));
     if (!has_lattice)
     {
-      break; // the lattice is too fine to be made
+      break; // the lattice could not be made, because it is too fine
     }
   }
   Status& status = best->status;
@@ -674,7 +681,8 @@ LatticePtr Solver::best_lattice()
   return best;
 }
 
-/// Transfer a lattice's weights to the surface again, now smoothed, and describe its tets.
+/// Transfer a lattice's weights to the surface again, now with smoothing, and describe the
+/// lattice's tets.
 Status Solver::finish(Lattice& lattice, SurfaceWeights& result)
 {
   const Phase phase(this->context_, "transfer");
@@ -696,7 +704,7 @@ Status Solver::finish(Lattice& lattice, SurfaceWeights& result)
     return described;
   }
   rename_tet_method(described.report);
-  described.warnings.clear(); // the lattice's status contains them
+  described.warnings.clear(); // the lattice's status contains these warnings already
   Status status = this->joined(std::move(described), std::move(lattice.status));
   if (this->preview_.size() > 0)
   {
@@ -747,7 +755,7 @@ Status Solver::automatic(SurfaceWeights& result)
   return with_reason(this->in_embedding(result), reason);
 }
 
-/// Solve in the volume, or in the embedding if the tets are unsuitable.
+/// Solve in the volume, or in the embedding if the tets are badly shaped or expensive.
 Status Solver::automatic_volume(SurfaceWeights& result)
 {
   result.domain = WeightsDomain::volume;

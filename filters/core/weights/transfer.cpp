@@ -1,3 +1,4 @@
+// Interpolate rows of weights at arbitrary points (see transfer.h).
 #include "weights/transfer.h"
 
 #include "base/parallel.h"

@@ -7,28 +7,29 @@
 namespace bindpose
 {
 
+/// Options of transfer().
 struct TransferOptions
 {
   /// A point that is closer to a vertex than this fraction of the mesh's diagonal takes the
   /// vertex's row.
   double coincident = 1e-9;
-  /// A point farther from the mesh than this fraction of its diagonal still gets the weights of the
-  /// nearest point of the mesh, but counts as a miss.
+  /// A point whose distance from the mesh is more than this fraction of the mesh's diagonal counts
+  /// as a miss. It still gets the weights of the nearest point of the mesh.
   double reach = 0.05;
 };
 
-/// Numbers of points by the source of their weights.
+/// Numbers of points by the way in which their weights were computed.
 struct TransferCounts
 {
-  Index exact = 0; ///< on a vertex: its row, bit by bit
+  Index exact = 0; ///< on a vertex: a bitwise copy of its row
   Index barycentric = 0; ///< in an element
   Index nearest = 0; ///< outside, within reach: from the nearest point of the nearest element
-  Index misses = 0; ///< beyond reach, or not finite (those get zeros)
-  double largest_distance = 0.0; ///< from a point to the mesh
+  Index misses = 0; ///< beyond reach, or not finite (these get zeros)
+  double largest_distance = 0.0; ///< largest distance of a point from the mesh
 };
 
-/// Transfer weights (or other rows) from the vertices of a mesh to points in or near it. The
-/// interpolation is linear in each element, so the sum of a row is preserved. Cost: O(log
+/// Transfer weights (or other rows of values) from the vertices of a mesh to points in or near the
+/// mesh. The interpolation is linear in each element, so the row sums are preserved. Cost: O(log
 /// #elements) per point.
 /// @param values #V x #columns at the mesh's vertices.
 /// @param result #points x #columns.

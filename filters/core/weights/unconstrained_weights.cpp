@@ -1,3 +1,4 @@
+// Weights by one linear solve per handle (see unconstrained_weights.h).
 #include "weights/unconstrained_weights.h"
 
 #include "weights/column_groups.h"
@@ -47,7 +48,7 @@ bool fixed_vertices_span(const WeightsProblem& problem)
       all[components.of_vertex[v]].push_back(v);
     }
   }
-  constexpr double flat = 1e-6; // of the diagonal
+  constexpr double flat = 1e-6; // relative to the diagonal
   for (std::size_t c = 0; c < fixed.size(); ++c)
   {
     const auto dimensions = (spread(all[c]).array() > flat).count();
@@ -60,8 +61,8 @@ bool fixed_vertices_span(const WeightsProblem& problem)
   return true;
 }
 
-/// Return (K - N)' M^-1 (K - N), where N is the flux through the boundary. This energy is zero for
-/// every linear function.
+/// Return (K - N)' M^-1 (K - N), where K is the stiffness, M the mass and N the flux through the
+/// boundary. This energy is zero for every linear function.
 SparseMatrix linear_subspace_energy(const WeightsProblem& problem, bool spanned)
 {
   const Domain& domain = problem.mesh.domain;

@@ -1,9 +1,10 @@
-// Columns are solved group by group (column_groups.h); without mirrors there is one group.
+// The passes that solve all columns of bounded or monotone weights (see weight_solve.h). Columns
+// are solved group by group (column_groups.h); without mirrors there is one group.
 //
-// A limit k on influences keeps the k largest weights of each normalized row. The others are fixed
-// at 0 and all columns are solved again, so that the result is a minimizer among weights with that
-// support. The choice is greedy. The support for a smaller k is a subset of the support for a
-// larger k, so the energy decreases with k.
+// A limit k on influences keeps the k largest weights of each normalized row. The other weights are
+// fixed at 0 and all columns are solved again, so that the result is a minimizer among weights with
+// these nonzero entries. The choice is greedy. The entries for a smaller k are a subset of the
+// entries for a larger k, so the energy decreases with k.
 #include "weights/weight_solve.h"
 
 #include "weights/coupled_qp.h"
@@ -17,14 +18,14 @@ namespace bindpose
 
 namespace
 {
-/// The quadratic form of one group and its solver, which are used in several passes.
+/// The quadratic form of one group and its solver, which all passes use.
 struct GroupSolver
 {
   SparseMatrix q; // kept only if columns are coupled
   std::unique_ptr<BoxQp> solver;
 };
 
-/// The columns of one pass.
+/// The results of one pass over all columns.
 struct Round
 {
   std::vector<BoxQpSolution> solutions; // one per handle, over vertices
@@ -41,7 +42,8 @@ public:
   {
   }
 
-  /// Make the groups with their guides, and in the first pass also the solvers.
+  /// Make the groups, add the constraints of the guide, and in the first pass also make the
+  /// solvers.
   Status prepare(const Exclusions& excluded)
   {
     const bool coupled = this->options_.partition == PartitionOfUnity::coupled;
@@ -86,7 +88,7 @@ public:
     return {};
   }
 
-  /// Solve all columns separately.
+  /// Solve all columns separately, each with its own certificate.
   Status solve_alone(double begin, double end, Round& round)
   {
     const Phase phase(this->context_, "weights", begin, end);
@@ -151,7 +153,7 @@ public:
     return {};
   }
 
-  /// Return the largest memory of the process in bytes, over all groups.
+  /// Return the estimated peak memory of the process in bytes, over all groups.
   double memory_estimate() const
   {
     double most = 0.0;
@@ -173,7 +175,7 @@ public:
   }
 
 private:
-  /// Copy solutions from unknowns to vertices and handles.
+  /// Copy solutions from the unknowns of a group to vertices and handles.
   void spread(const ColumnGroup& group, const std::vector<BoxQpSolution>& solved,
     const Eigen::MatrixXd* fallback, Round& round) const
   {
@@ -219,9 +221,9 @@ Weights normalized(const WeightsProblem& problem, const Round& round, const Excl
   return weights;
 }
 
-/// Exclude the smallest weights, so that each vertex has at most `most` influences. Weights that a
-/// pin or a bound keeps above 0 are never excluded.
-/// @param capped the number of vertices that lose an influence.
+/// Exclude the smallest weights, so that each vertex has at most `most` weights above 0. Weights
+/// that a pin or a bound keeps above 0 are never excluded.
+/// @param capped the number of vertices at which weights are excluded.
 Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, int most,
   Exclusions& excluded, Index& capped)
 {
@@ -314,7 +316,8 @@ void report_mirror(const WeightsProblem& problem, Status& status)
   }
 }
 
-/// Report the largest and the root mean square difference, over vertices that have weights.
+/// Report the largest and the root mean square difference of two weights, over vertices that have
+/// weights.
 void report_difference(const WeightsProblem& problem, const Weights& a, const Weights& b,
   const std::string& key, Report& report)
 {
@@ -346,7 +349,7 @@ Status solve_weights(const WeightsProblem& problem, int order, const std::string
   WeightSolver solver(problem, order, options, guide, context);
   Exclusions excluded;
   Round round;
-  Status outcome; // status of the coupled program
+  Status outcome; // status of the coupled quadratic program
   Weights alone;
   Weights unlimited;
   Index capped = 0;

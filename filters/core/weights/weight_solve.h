@@ -8,11 +8,11 @@
 namespace bindpose
 {
 
-/// Solve the quadratic programs of all columns with all terms, for bounded and monotone weights.
-/// The columns are solved separately or coupled, and a second time if the number of influences is
-/// limited.
-/// @param guide adds constraints to the columns of a group before they are solved; may be empty.
-/// Phase "guide".
+/// Solve the quadratic programs of all columns, with all optional terms, for bounded and monotone
+/// weights. The columns are solved separately or coupled. They are solved a second time if the
+/// number of influences is limited.
+/// @param guide adds the ordered pairs of monotone weights to the columns of a group before they
+/// are solved; may be empty. Progress phase "guide".
 Status solve_weights(const WeightsProblem& problem, int order, const std::string& method,
   const WeightsOptions& options, const std::function<Status(ColumnGroup&)>& guide,
   ExecutionContext& context, WeightsResult& result);

@@ -1,5 +1,6 @@
-// The checks here need only the terms. Contradictions with a handle or between terms are found when
-// the columns are made (column_groups.cpp).
+// Checks and transfer of the optional terms (see weight_terms.h). The checks need only the terms.
+// Contradictions of a term with a handle or with another term are found when the columns are made
+// (column_groups.cpp).
 #include "weights/weight_terms.h"
 
 #include "weights/transfer.h"
@@ -148,7 +149,7 @@ std::vector<Index> mirror_of_plane(const Points& points, const Vec3& origin, con
 }
 
 /// Append mirror entries for inserted vertices. Two inserted vertices are mirror vertices if their
-/// corners are, with the same barycentric coordinates.
+/// corners are mirror vertices and have the same barycentric coordinates.
 void extend_mirror(const HandleInsertion& mesh, std::vector<Index>& mirror)
 {
   constexpr double tolerance = 1e-9;
@@ -409,7 +410,7 @@ std::vector<Index> mirrored_handles(
   {
     row_of[constraints.vertices[i]] = static_cast<Index>(i);
   }
-  // Report whether the mirror maps the nonzero given values of column a to those of column b.
+  // Report whether the mirror maps the nonzero given values of column a to the values of column b.
   const auto image = [&](Index a, Index b)
   {
     bool any = false;

@@ -1,6 +1,7 @@
-// The blend is a product of matrices, computed block by block. Colors are decoded to amounts of
-// light before it and encoded after it. Both curves are monotone and keep 0 and 1, so a blend is
-// outside of the gamut after encoding if and only if it is before.
+// Blend handle colors (see weighted_colors.h). The blend is a product of matrices, computed block
+// by block. Colors are decoded to linear light before the blend and encoded after it. The encoding
+// curve is monotone and maps 0 to 0 and 1 to 1, so a color is outside of the gamut after encoding
+// if and only if it is outside before.
 #include "weights/weighted_colors.h"
 
 #include "base/parallel.h"
@@ -26,7 +27,7 @@ struct Tally
   double gamut_violation = 0.0;
   double overshoot = 0.0;
   double row_sum_error = 0.0;
-  Index not_finite = -1; ///< the first such vertex
+  Index not_finite = -1; ///< the first vertex whose weights are not finite
 };
 
 double beyond(const Vec3& color, const Vec3& lower, const Vec3& upper)
@@ -57,7 +58,7 @@ Colors categorical_colors(Index count)
   Colors colors(count, 3);
   for (Index j = 0; j < count; ++j)
   {
-    // Each round moves half of the remaining way to white.
+    // Every further round of eight colors halves the distance to white.
     const double full = std::ldexp(1.0, -static_cast<int>(std::min<Index>(j / 8, 30)));
     for (int k = 0; k < 3; ++k)
     {

@@ -1,3 +1,5 @@
+// Prepare a mesh with handles for all weight methods, and finish their results (see
+// weights_problem.h).
 #include "weights/weights_problem.h"
 
 #include "base/parallel.h"
@@ -11,7 +13,7 @@ namespace bindpose
 
 namespace
 {
-/// Collect the rows that are given.
+/// Collect the rows that are not solved for.
 void collect_fixed(WeightsProblem& problem)
 {
   const HandleConstraints& constraints = problem.constraints;
@@ -44,8 +46,8 @@ void collect_fixed(WeightsProblem& problem)
   }
 }
 
-/// Return for every element the mean painted rigidity of its corners, times its fraction of
-/// material.
+/// Return for every element the mean painted rigidity of its corners, times the fraction of the
+/// element that is inside.
 Eigen::VectorXd element_rigidity(const Domain& domain, const Eigen::VectorXd& painted)
 {
   Eigen::VectorXd result(domain.element_count());
@@ -190,7 +192,8 @@ SparseMatrix WeightsProblem::energy(int order) const
   SparseMatrix q = harmonic_energy(this->stiffness, this->mass, order);
   if (this->rigid_stiffness.size() > 0)
   {
-    // Q is the energy of the scaled mesh times mass_unit^(order - 1).
+    // Q is the energy of the scaled mesh times mass_unit^(order - 1), so rigidity has the same
+    // factor.
     q += rigidity_unit(order) * std::pow(this->mass_unit, order - 1) * this->rigid_stiffness;
   }
   return q;
@@ -211,7 +214,8 @@ Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallb
     }
     double wanted = 1.0;
     double sum = weights.row(v).sum();
-    Eigen::RowVectorXd scaled = Eigen::RowVectorXd::Ones(m); // 1: scaled, 0: unchanged
+    // 1: the weight is scaled, 0: it is unchanged.
+    Eigen::RowVectorXd scaled = Eigen::RowVectorXd::Ones(m);
     for (Index j = 0; j < m && pinned.size() > 0 && role == VertexRole::solved; ++j)
     {
       if (!std::isnan(pinned(v, j)))

@@ -10,25 +10,25 @@
 namespace bindpose
 {
 
-/// How the rows of bounded weights are made to sum to one.
+/// The way in which rows of bounded weights are made to sum to one.
 enum class PartitionOfUnity
 {
   normalize, ///< each column is solved separately; then rows are divided by their sums
   coupled ///< all columns are solved together with this constraint (see solve_coupled_qp)
 };
 
-/// Options of all weight methods. Lengths have no unit: a mesh in meters or in millimeters gives
+/// Options of all weight methods. Lengths are relative: a mesh in meters or in millimeters gives
 /// the same weights.
 struct WeightsOptions
 {
-  /// Largest relative gap and natural residual of a column (see Certificate), range (0, 1).
-  /// 1e-6 by default, 1e-9 is tight.
+  /// Largest relative gap and natural residual of a column (see Certificate), range (0, 1). 1e-6 by
+  /// default; 1e-9 is near the limit of double precision.
   double tolerance = 1e-6;
-  /// Largest number of iterations per column, > 0: see BoxQpOptions.
+  /// Maximum number of iterations per column, > 0: see BoxQpOptions.
   int maximum_iterations = 100;
   /// How rows are made to sum to one, for bounded weights only.
   PartitionOfUnity partition = PartitionOfUnity::normalize;
-  /// Largest number of handles with a weight above 0 at a vertex; 0: no limit. The handles with the
+  /// Maximum number of handles with a weight above 0 at a vertex; 0: no limit. The handles with the
   /// largest weights are kept. Columns of bounded and monotone weights are then solved again, with
   /// the other weights fixed at 0. Rows of vertices on handles do not change.
   int maximum_influences = 0;
@@ -46,7 +46,7 @@ struct WeightsOptions
 };
 
 /// A mesh with the handles inserted as vertices, and the matrices of its energies. It is the common
-/// input of all methods: built once, it can be solved any number of times.
+/// input of all weight methods: built once, it can be solved any number of times.
 struct WeightsProblem
 {
   Handles handles;
@@ -57,16 +57,17 @@ struct WeightsProblem
   Eigen::VectorXd mass;
   double diagonal = 1.0; ///< bounding-box diagonal of the mesh before scaling
   double mass_unit = 1.0; ///< largest mass of the scaled mesh
-  /// Extended to inserted vertices; a mirror plane is replaced by its vertex pairs.
+  /// Optional terms, extended to inserted vertices; a mirror plane is replaced by pairs of mirror
+  /// vertices.
   WeightTerms terms;
-  /// Stiffness weighted by each element's painted rigidity; empty without rigidity.
+  /// Stiffness weighted by each element's painted rigidity; empty if no rigidity is painted.
   SparseMatrix rigid_stiffness;
   VertexGraph graph;
-  /// All vertices whose rows are given (handles, tethered, followers, unreferenced), and these
-  /// rows, #fixed x #handles.
+  /// All vertices whose rows are given (roles `handle`, `tethered`, `follower`, `unreferenced` of
+  /// VertexRole), and these rows, #fixed x #handles.
   std::vector<Index> fixed;
   Eigen::MatrixXd fixed_values;
-  Status status; ///< counts and warnings so far
+  Status status; ///< counts and warnings of the preparation
 
   Index vertex_count() const { return this->mesh.domain.points.rows(); }
   Index handle_count() const { return static_cast<Index>(this->handles.size()); }
@@ -74,7 +75,8 @@ struct WeightsProblem
   SparseMatrix energy(int order) const;
 };
 
-/// Insert the handles, find the constraints, assemble stiffness and mass. Phase "insert".
+/// Insert the handles, find the constraints, and assemble stiffness and mass. Progress phase
+/// "insert".
 /// @param region_ids label of every vertex, or empty.
 Status make_weights_problem(const Domain& domain, const std::vector<Index>& region_ids,
   const Handles& handles, const WeightsOptions& options, ExecutionContext& context,
@@ -88,13 +90,16 @@ struct WeightsColumn
   double maximum = 0.0;
   int iterations = 0;
   int factorizations = 0;
-  /// Fraction of the vertices where the raw column is exactly 0; measures its locality.
+  /// Fraction of the vertices where the column before normalization is exactly 0; measures its
+  /// locality.
   double zeros = 0.0;
-  double ones = 0.0; ///< fraction where it is exactly 1
-  std::vector<Extremum> extrema; ///< of the raw column: interior ones with persistence above 1e-3
-  Index normalized_interior_extrema = 0; ///< of the column in WeightsResult::weights
+  double ones = 0.0; ///< fraction of the vertices where it is exactly 1
+  /// Interior extrema of the column before normalization, with persistence above 1e-3.
+  std::vector<Extremum> extrema;
+  Index normalized_interior_extrema = 0; ///< number of interior extrema after normalization
 };
 
+/// The result of every weight method.
 struct WeightsResult
 {
   /// #V x #handles, rows sum to one (rows of unreferenced vertices are zero).
@@ -102,20 +107,21 @@ struct WeightsResult
   /// Weights before normalization; the certificates refer to them.
   Weights raw;
   std::vector<WeightsColumn> columns;
-  double row_sum_error = 0.0; ///< max |1 - row sum| of the raw rows
+  double row_sum_error = 0.0; ///< max |1 - row sum| of the rows before normalization
   Index analyses = 0; ///< number of symbolic analyses
 };
 
 /// Divide rows by their sums. Pinned weights do not change; only the other weights of the row are
 /// scaled.
-/// @param fallback rows used if the sum to scale is below 1e-3 (#V x #handles).
-/// @param excluded #V * #handles, row by row: weights that must stay 0; empty: none.
-/// @return the number of rows taken from the fallback.
+/// @param fallback #V x #handles, rows that are used if the sum of the scaled weights is below
+/// 1e-3.
+/// @param excluded #V * #handles, row by row: 1 for weights that must stay 0; empty: no such
+/// weight.
 Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallback,
   const std::vector<char>& excluded, Weights& weights);
 
-/// Compute weights from solved columns: rows of followers, normalization, extrema, report. The
-/// status is that of the problem, or not_converged if a column is not certified.
+/// Compute the final weights from solved columns: rows of followers, normalization, extrema,
+/// report. Return the status of the problem, or not_converged if a column is not certified.
 /// @param fallback, excluded see normalize_rows.
 Status finish_weights(const WeightsProblem& problem, const std::string& method, double tolerance,
   const std::vector<BoxQpSolution>& solutions, const Eigen::MatrixXd& fallback,

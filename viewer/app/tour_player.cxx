@@ -360,12 +360,17 @@ QString TourPlayer::open(const std::string& file)
 
 QString TourPlayer::choose(const TourStep& step)
 {
-  if (step.wants_text || step.wanted.size() != 1)
+  const QString key = QString::fromStdString(step.text);
+  if (step.wants_text)
   {
-    return QString("the value of an option must be a number, true or false");
+    return this->hand_.choose(key, QString::fromStdString(step.wanted_text));
   }
-  return this->hand_.choose(QString::fromStdString(step.text),
-    step.wants_truth ? QVariant(step.wanted[0] != 0.0) : QVariant(step.wanted[0]));
+  if (step.wanted.size() != 1)
+  {
+    return QString("the value of an option must be a word, a number, true or false");
+  }
+  return this->hand_.choose(
+    key, step.wants_truth ? QVariant(step.wanted[0] != 0.0) : QVariant(step.wanted[0]));
 }
 
 QString TourPlayer::find(const TourPlace& place, QPoint& at) const

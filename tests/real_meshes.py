@@ -1,28 +1,28 @@
 #!/usr/bin/env python3
-"""Weights and tets of 820 real furniture models: a benchmark of surfaces as people make them.
+"""Benchmark weights and tets on 820 real furniture models, whose surfaces have the usual defects of modeled meshes.
 
 The models are the .obj files of the Debian package sweethome3d-furniture, or (--set made, --set hostile) those that
-support/furniture.py makes, with the same defects and with worse ones. Each goes through
+support/furniture.py makes, with the same defects and with worse ones. Two commands process each model:
 
     bindpose weights MODEL.obj --handles auto:8
     bindpose tetrahedralize MODEL.obj
 
-each in its own process with a time limit. Seconds, processor time and peak memory are those of the process and its
-helpers. Results are checked here, by code that does not come from Bindpose: weights must be finite, lie in [0, 1],
-sum to one within 1e-9, and have a certificate (relative gap and residual at most 1e-6); tets must have positive
-volumes; a refusal must be true. One row per model goes to a .csv file, a summary to a .md file.
+Each command runs in a separate process with a time limit. Seconds, processor time and peak memory are those of the
+process and its helpers. The results are checked here, by code that does not come from Bindpose. Weights must be finite,
+in [0, 1], sum to one within 1e-9, and have a certificate (relative gap and residual at most 1e-6). Tets must have
+positive volumes. A refusal must be justified. One row per model is written to a .csv file, and a summary to a .md file.
 
     real_meshes.py --build build                              everything: hours
-    real_meshes.py --build build --sample 40                  40 models, the same ones every time, of all sizes
-    real_meshes.py --build build --slice 2/3                  the second, fifth, eighth… model by name
+    real_meshes.py --build build --sample 40                  40 models of all sizes, the same ones every time
+    real_meshes.py --build build --slice 2/3                  models 2, 5, 8, … in the order of their names
     real_meshes.py --build build --only scopia/cup scopia/keys --verb weights
-    real_meshes.py --build build --set made --check           a minute: furniture of our own making
-    real_meshes.py --build build --verb none --accuracy 10    weights of ten models beside those on well-shaped tets
-    real_meshes.py --build build --compare old.csv            seconds before and after, on the same models
+    real_meshes.py --build build --set made --check           synthetic furniture: a minute
+    real_meshes.py --build build --verb none --accuracy 10    weights of ten models, compared with those on good tets
+    real_meshes.py --build build --compare old.csv            compare the seconds with those of an earlier run
     real_meshes.py --build build --check                      exit code 1 if a model fails
     real_meshes.py --build build --check 'weights_seconds_95<=20' 'tets_thin_files<=10'
 
---check takes any number of the summary (the table "Numbers") as a goal.
+The goals of --check are limits for entries of the table "Numbers" in the summary.
 """
 
 import argparse
@@ -56,27 +56,28 @@ PACKAGE = "sweethome3d-furniture"
 HANDLES = 8
 SEED = 820
 SMALL = 100_000  # triangles: peak memory is summarized for smaller models
-THIN_SHARE = 0.01  # of tets below 5 degrees: more make a file thin
+THIN_SHARE = 0.01  # fraction of tets with angles below 5 degrees above which a file counts as thin
 VERBS = {"weights": "weights", "tets": "tetrahedralize"}  # prefix of the columns: verb of the program
 GOOD = {"weights": ("certified", "refused"), "tets": ("filled", "refused")}
 PERCENTILES = {"median": 50, "90": 90, "95": 95, "99": 99, "max": 100}
 EXITS = {1: "usage error", 2: "refused", 3: "not converged", 4: "canceled", 5: "internal error"}
-# Phases that contain others: not the reason why a run is slow.
+# These phases contain other phases, so they are not reported as the reason why a run is slow.
 CONTAINERS = {"total", "tetrahedralize", "weights", "cdt", "parts"}
 SURFACE = ["triangles", "boundary_edges", "nonmanifold_edges", "misoriented_edges", "duplicate_vertices",
            "duplicate_triangles", "degenerate_triangles", "self_intersections", "components", "inward_components"]
 RUN = ["outcome", "message", "exit", "status", "seconds", "user_seconds", "peak_mb", "method", "rungs_failed", "tets",
        "min_dihedral", "below_5", "forced", "phases", "warnings"]
-SOLVE = ["domain", "domain_reason", "relative_gap", "kkt_residual", "guard_rms", "leak"]  # of weights only
+# Report entries of verb weights.
+SOLVE = ["domain", "domain_reason", "relative_gap", "kkt_residual", "guard_rms", "leak"]
 COLUMNS = ["name", "bytes", *SURFACE, *(f"weights_{key}" for key in [*RUN, *SOLVE]), *(f"tets_{key}" for key in RUN)]
 
 
 @dataclasses.dataclass
 class Model:
     name: str
-    size: int  # bytes
-    file: pathlib.Path  # .obj, or the archive that holds it
-    member: str = ""  # of an archive
+    size: int  # file size in bytes
+    file: pathlib.Path  # the .obj file, or the archive that contains it
+    member: str = ""  # name of the .obj file in the archive
 
     def copy_to(self, folder):
         path = folder / "model.obj"
@@ -97,7 +98,7 @@ def package_files():
 
 
 def model_name(member):
-    """scopia/cup/cup.obj is called scopia/cup."""
+    """Return the name of a model: scopia/cup for scopia/cup/cup.obj."""
     path = pathlib.PurePosixPath(member).with_suffix("")
     return str(path.parent if path.name == path.parent.name else path)
 
@@ -112,14 +113,14 @@ def real_models():
 
 
 def made_models(folder, kind):
-    """Models of furniture.py. It runs as a process of its own: see in_other_process."""
+    """Write the models of furniture.py. The script runs as a separate process, see in_other_process."""
     words = ["--hostile"] if kind == "hostile" else []
     subprocess.run([sys.executable, TESTS / "support" / "furniture.py", folder, *words], check=True)
     return [Model(path.stem, path.stat().st_size, path) for path in sorted(pathlib.Path(folder).glob("*.obj"))]
 
 
 def sample(models, count):
-    """The same models every time: one of each of `count` equally large classes of file size."""
+    """Return one model from each of `count` equally large classes of file size. The models are the same every time."""
     ordered = sorted(models, key=lambda model: (model.size, model.name))
     count = min(count, len(ordered))
     draw = random.Random(SEED)
@@ -138,8 +139,10 @@ def named_models(options, folder):
 
 
 def in_other_process(module, name, *arguments):
-    """Call a function of result_checks or accuracy_checks. VTK and numpy stay out of this process: the peak memory of
-    a child process includes what its parent occupied when it was started."""
+    """Call a function of result_checks or accuracy_checks in another process. Those modules load VTK and numpy. The
+    peak memory of a child process includes what its parent occupied when it started the child, so this process must
+    stay small.
+    """
     return getattr(importlib.import_module(module), name)(*arguments)
 
 
@@ -180,7 +183,7 @@ def from_report(report):
 
 
 def outcome_of(prefix, done, report, wrong):
-    """One or two words for how the run ended."""
+    """Return one or two words that say how the run ended."""
     if done.over_limit:
         return "over time limit"
     if done.exit_code < 0:
@@ -202,7 +205,7 @@ def message_of(prefix, done, wrong):
 
 
 def checked(options, pool, prefix, done, report, model, output):
-    """Numbers that were measured on the result, and what is wrong with it."""
+    """Return the numbers that were measured on the result, and the list of its errors."""
     if done.over_limit or done.exit_code not in (0, 2):
         return {"wrong": []}
     if done.exit_code == 2:
@@ -213,12 +216,12 @@ def checked(options, pool, prefix, done, report, model, output):
         arguments = ("check_tets", output, report)
     try:
         return pool.submit(in_other_process, "result_checks", *arguments).result()
-    except Exception as error:  # a file that cannot be read is a wrong result, not the end of the benchmark
+    except Exception as error:  # an unreadable file is a wrong result and must not end the benchmark
         return {"wrong": [f"the check failed: {error}"]}
 
 
 def run_verb(options, pool, prefix, model, folder):
-    """Run one verb on one model. Returns the columns of the table, without their prefix, and the report."""
+    """Run one verb on one model. Return the columns of the table, without their prefix, and the report."""
     output, words = command(options, prefix, model, folder)
     for path in (output, folder / "report.json"):
         path.unlink(missing_ok=True)
@@ -234,7 +237,7 @@ def run_verb(options, pool, prefix, model, folder):
 
 
 def run_model(options, pool, model):
-    """The row of one model."""
+    """Run all verbs on one model and return its row of the table."""
     row = dict.fromkeys(COLUMNS, "")
     row.update(name=model.name, bytes=model.size)
     with tempfile.TemporaryDirectory(prefix="real_meshes_") as folder:
@@ -243,7 +246,7 @@ def run_model(options, pool, model):
         for prefix in options.prefixes:
             cells, report = run_verb(options, pool, prefix, path, folder)
             row.update({f"{prefix}_{key}": "" if value is None else value for key, value in cells.items()})
-            # The last verb counts: `tetrahedralize` describes the surface as it is in the file.
+            # The last verb overwrites these columns: `tetrahedralize` describes the surface as it is in the file.
             row.update({key: report["counts"][key] for key in SURFACE if key in report.get("counts", {})})
     return row
 
@@ -253,7 +256,7 @@ def processes(count):
 
 
 def run_accuracy(options, models):
-    """Rows of --accuracy."""
+    """Return the rows of --accuracy."""
     with processes(options.jobs) as pool:
         def check(name, *arguments):
             return pool.submit(in_other_process, "accuracy_checks", name, *arguments).result()
@@ -261,7 +264,9 @@ def run_accuracy(options, models):
 
 
 def run_models(options, models):
-    """Rows of all models, by name. Each is in the .csv file as soon as it is known."""
+    """Run all models and return their rows, sorted by name. Each row is written to the .csv file as soon as it is
+    known.
+    """
     rows = read_rows(options.csv) if options.resume else {}
     models = [model for model in models if model.name not in rows]
     with processes(options.jobs) as pool, concurrent.futures.ThreadPoolExecutor(options.jobs) as threads:
@@ -272,7 +277,7 @@ def run_models(options, models):
                 rows[row["name"]] = row
                 write_rows(options.csv, rows)
                 print(f"{k}/{len(models)} {progress_line(row, options.prefixes)}", flush=True)
-        except BaseException:  # Ctrl-C above all: do not wait for the models that are left
+        except BaseException:  # mainly for Ctrl-C: do not wait for the remaining models
             threads.shutdown(wait=False, cancel_futures=True)
             end_all()
             raise
@@ -317,7 +322,7 @@ def read_rows(path):
 
 
 def percentile(values, percent):
-    """The smallest value that is at least as large as so many percent of all."""
+    """Return the smallest value for which at least `percent` percent of all values are not larger."""
     ordered = sorted(values)
     return ordered[max(0, math.ceil(percent / 100 * len(ordered)) - 1)] if ordered else math.nan
 
@@ -335,7 +340,7 @@ def succeeded(rows, prefix):
 
 
 def numbers_of(rows, prefix):
-    """All numbers of the summary, by the names that --check knows."""
+    """Return all numbers of the summary under the names that --check uses."""
     rows = ran(rows, prefix)
     done, outcomes = succeeded(rows, prefix), collections.Counter(column(rows, f"{prefix}_outcome"))
     small = [row for row in rows if row["triangles"] == "" or row["triangles"] < SMALL]
@@ -517,7 +522,7 @@ def markdown(options, rows, old, accuracy):
 
 
 def broken_goals(options, rows, accuracy):
-    """Sentences about promises that are broken, and goals NAME<=NUMBER that are missed."""
+    """Return one sentence for each guarantee that is broken and for each goal NAME<=NUMBER that is missed."""
     broken = [f"{row['name']}: {VERBS[prefix]}: {row[f'{prefix}_outcome']}: {row[f'{prefix}_message']}"
               for row, prefix in failures(rows, options.prefixes)]
     numbers = all_numbers(rows, options.prefixes, accuracy)
@@ -585,7 +590,8 @@ def parse_options():
 
 
 def run(options, models):
-    """Run, write, print. Returns sentences about broken promises and missed goals."""
+    """Run the models, write the files and print the summary. Return sentences about broken guarantees and missed goals.
+    """
     old = read_rows(options.compare) if options.compare else {}
     rows = []
     if options.prefixes:
@@ -600,7 +606,7 @@ def run(options, models):
 
 def main():
     options = parse_options()
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # raises KeyboardInterrupt, as Ctrl-C does
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # SIGTERM raises KeyboardInterrupt, like Ctrl-C
     with tempfile.TemporaryDirectory(prefix="real_meshes_") as folder:
         models = named_models(options, folder)
         if not models:

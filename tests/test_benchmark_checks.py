@@ -1,4 +1,4 @@
-"""The checks of real_meshes.py: each finds what is wrong, and nothing where nothing is wrong."""
+"""Test the checks of real_meshes.py: each check finds its error, and reports nothing for a correct result."""
 
 import math
 import pathlib
@@ -26,12 +26,12 @@ CERTIFIED = {"relative_gap": 1e-9, "kkt_residual": 1e-7, "bounds_violation": 0.0
 
 
 def triangulated(part):
-    """Points and triangles of a part of furniture.py."""
+    """Return the points and triangles of a part of furniture.py."""
     return part[0], np.array([[face[0], a, b] for face in part[1] for a, b in zip(face[1:-1], face[2:])])
 
 
 def tets_of_boxes(xs, ys, zs):
-    """Points and tets of a grid, six tets in each box."""
+    """Return the points and tets of a grid of boxes, with six tets in each box."""
     points = np.array([[x, y, z] for x in xs for y in ys for z in zs], float)
     tets = []
     for cell in np.ndindex(len(xs) - 1, len(ys) - 1, len(zs) - 1):
@@ -46,7 +46,7 @@ def tets_of_boxes(xs, ys, zs):
 
 
 def test_tets_that_bridge_a_gap_are_taken_out(tmp_path, monkeypatch):
-    # Inside is where x is not between -0.1 and 0.1; the boxes in the middle reach from -0.2 to 0.2.
+    # In this model, points with |x| > 0.1 are inside. The boxes in the middle reach from x = -0.2 to 0.2.
     def inside(_program, _model, places, _folder):
         return np.where(np.abs(places[:, 0]) > 0.1, 1.0, 0.0)
 
@@ -172,10 +172,10 @@ def box_at(x, size=1.0):
 
 @pytest.mark.parametrize("parts, count", [
     ([box_at(0), box_at(1.5)], 2),
-    ([box_at(0), box_at(1.0)], 1),  # they touch
-    ([box_at(0), furniture.box((0.5, 0.5, -1), (0.51, 0.51, 2))], 1),  # they cross
-    ([box_at(0, 3.0), furniture.box((1, 1, 1), (2, 2, 2))], 1),  # one lies inside the other
-    ([box_at(0), box_at(1.2), furniture.box((0.5, 0.4, 0.4), (1.7, 0.5, 0.5))], 1),  # joined by a third one
+    ([box_at(0), box_at(1.0)], 1),  # the boxes touch
+    ([box_at(0), furniture.box((0.5, 0.5, -1), (0.51, 0.51, 2))], 1),  # the boxes cross
+    ([box_at(0, 3.0), furniture.box((1, 1, 1), (2, 2, 2))], 1),  # the second box is inside of the first one
+    ([box_at(0), box_at(1.2), furniture.box((0.5, 0.4, 0.4), (1.7, 0.5, 0.5))], 1),  # the third box joins the other two
 ])
 def test_separate_parts(parts, count):
     points, triangles = triangulated(furniture.join(*parts))

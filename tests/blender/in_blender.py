@@ -1,7 +1,8 @@
-"""Script that runs inside of Blender: in_blender.py -- FILE.glb RESULT.json [BONE DEGREES] [FRAME…].
+"""Pose a glTF file inside of Blender: in_blender.py -- FILE.glb RESULT.json [BONE DEGREES] [FRAME…].
 
-It imports the file, and rotates a bone around the z axis of glTF through its head or goes to frames of the animation.
-It writes the vertices that Blender's armature modifier computes, in the coordinates of the file.
+The script imports the file. It rotates BONE by DEGREES around the z axis of glTF through the head of the bone, or
+evaluates the given frames of the animation. It writes the vertices that Blender's armature modifier computes, in the
+coordinates of the file.
 """
 
 import json

@@ -1,4 +1,6 @@
-"""Blender imports the glTF files of Bindpose and poses them: its vertices equal those of linear blend skinning."""
+"""Blender imports the glTF files that Bindpose writes and poses them. Blender's vertices must equal Bindpose's linear
+blend skinning.
+"""
 
 import json
 import os
@@ -31,7 +33,8 @@ def folder(tmp_path):
 
 
 def rig(folder, row_sum=1.0, **options):
-    """Write a rig in which every vertex has weights of all six handles, so that the file contains two sets."""
+    """Write a rig in which every vertex has weights of all six handles, so the file contains two sets of joint weights.
+    """
     mesh = to_dataset(cloth())
     points = points_of(mesh)
     weights = np.random.default_rng(3).uniform(0.02, 0.1, (len(points), 6))
@@ -51,7 +54,7 @@ def blender(folder, *words):
 
 
 def error(mesh, found, expected):
-    """Return the largest distance in bounding-box diagonals."""
+    """Return the largest distance between found and expected points, in bounding-box diagonals."""
     points = points_of(mesh)
     return np.linalg.norm(np.array(found) - expected, axis=1).max() / np.linalg.norm(np.ptp(points, axis=0))
 
@@ -64,7 +67,7 @@ def test_a_posed_bone(folder, row_sum):
     mesh, report = rig(folder, row_sum)
     assert report["sets"] == 2 and report["rest_joint"] == ("no" if row_sum == 1.0 else "yes")
     found = blender(folder, "b2", "40")
-    assert found["most_groups"] == (6 if row_sum == 1.0 else 7)  # Blender reads both sets
+    assert found["most_groups"] == (6 if row_sum == 1.0 else 7)  # Blender reads both sets of joint weights
     assert {name: found["bones"][name] for name in NAMES} == {
         "p1": None, "p2": None, "p3": None, "b1": None, "b2": "b1", "b3": "b2"}
     assert error(mesh, found["rest"], points_of(mesh)) < 1e-5
@@ -81,7 +84,7 @@ def test_the_largest_four_weights(folder):
     kept = bindpose.read(folder / "rig.glb")
     posed = points_of(bindpose.deform(kept, folder / "h.tgf", TURN))
     assert error(mesh, found["posed"], posed) < 1e-5
-    # With all six weights the vertices differ, but by less than the dropped fraction of the weights.
+    # With all six weights the posed vertices differ, but by less than the fraction of the weights that was dropped.
     all_six = points_of(bindpose.deform(mesh, folder / "h.tgf", TURN))
     assert 1e-4 < error(mesh, found["posed"], all_six) < report["dropped_share"]
 

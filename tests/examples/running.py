@@ -1,4 +1,4 @@
-"""Run a script of examples/ as a user would, and check its output files."""
+"""Run a script of the folder examples/ as a user would, and check its output files."""
 
 import json
 import os
@@ -14,7 +14,7 @@ EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
 
 
 def script(name, *words, environment=None):
-    """Run the script. Return the finished process with its output as text."""
+    """Run the script. Return the finished process, with its output as text."""
     return subprocess.run([sys.executable, "-B", EXAMPLES / name, *map(str, words)], capture_output=True, text=True,
                           timeout=300, check=False, env={**os.environ, **(environment or {})})
 
@@ -28,7 +28,8 @@ def pixels(path):
 
 
 def numbers_of(name, folder, stem=None, environment=None):
-    """Return the numbers of a quick run, after checking that its picture shows something on white paper."""
+    """Run the script in its quick variant. Check that its picture shows something on white paper. Return its numbers.
+    """
     done = script(name, "--small", "--output", folder, environment=environment)
     assert done.returncode == 0 and done.stderr == "", done.stderr
     stem = stem or pathlib.Path(name).stem

@@ -1,4 +1,4 @@
-"""Check the claim of each script of the gallery, on less data."""
+"""Run each script of the gallery on less data, and check the claim that its picture illustrates."""
 
 import pathlib
 
@@ -83,7 +83,7 @@ def test_drag_only(tmp_path):
 def test_disjoint_skeleton(tmp_path):
     numbers = numbers_of("gallery/disjoint_skeleton.py", tmp_path)
     assert numbers["free bones"] == 5
-    # The hand's own displacement, because skinning leaves the arm in place.
+    # The displacement is that of the hand itself, because skinning does not move the arm.
     assert numbers["skinned: arm to hand"] == pytest.approx(np.hypot(0.02, 0.24), abs=1e-9)
     assert numbers["found: arm to hand"] < 0.02 and numbers["found: flipped triangles"] == 0
     assert abs(numbers["rotation of the arm, degrees"]) > 20
@@ -135,7 +135,7 @@ def test_torus_and_tubes(tmp_path):
     for name in ("torus rings", "straight tubes", "half the domain"):
         apart, narrowest = numbers[f"{name}: farthest from the torus"], numbers[f"{name}: narrowest"]
         assert apart[0] > apart[1] > apart[2] and narrowest[0] < narrowest[1] < narrowest[2]
-        # Order 1 leads straight from one end to the other.
+        # For order 1, the surface is a straight line from one end to the other.
         assert numbers[f"{name}: kink at the end, degrees"][0] == pytest.approx(45, abs=1)
         assert max(numbers[f"{name}: kink at the end, degrees"][1:]) < 10
     assert numbers["torus rings: farthest from the torus"][2] < 0.5 * numbers["straight tubes: farthest from the torus"][2]
@@ -144,7 +144,7 @@ def test_torus_and_tubes(tmp_path):
 
 def test_rig_in_a_file(tmp_path):
     numbers = numbers_of("gallery/rig_in_a_file.py", tmp_path)
-    # Six handles need two sets of four weights, four influences need one.
+    # Six handles need two sets of four weights per vertex. Four influences need one set.
     assert numbers["all: sets of weights"] == 2 and numbers["four: sets of weights"] == 1
     assert max(numbers["all: error, as written"], numbers["all: error, as read"]) < 1e-6
     assert 1e-3 < numbers["four: error, as read"] < 0.2
@@ -174,7 +174,7 @@ def test_crowd(tmp_path):
 def test_jello(tmp_path):
     numbers = numbers_of("gallery/jello.py", tmp_path)
     aside, peaks = numbers["aside"], numbers["kinetic energy at its peaks"]
-    # The top overshoots to the other side, and its amplitude decreases.
+    # The top overshoots to the other side, and the amplitude decreases.
     assert aside[0] > 0.25 and min(aside) < -0.1 and abs(aside[-1]) < 0.5 * aside[0]
     assert numbers["turns"] >= 2
     assert peaks == sorted(peaks, reverse=True) and 0 < peaks[-1] < 0.6
@@ -229,7 +229,7 @@ def test_dragged_points(tmp_path):
     numbers = numbers_of("gallery/dragged_points.py", tmp_path)
     assert numbers["translations, degrees"] == pytest.approx([0, 0, 0, 0], abs=1e-9)
     turned = numbers["pseudo-edges, degrees"]
-    # Each point turns by the mean of the turns of its chords.
+    # The rotation of each point is the mean of the rotations of its two chords.
     assert turned == pytest.approx([-50, -25, 25, 50], abs=1e-6)
     assert numbers["reduced ARAP, degrees"] == pytest.approx([-75, -25, 25, 75], abs=30)
     for name in ("pseudo-edges", "reduced ARAP"):
@@ -268,7 +268,7 @@ def test_boundary_and_parts(tmp_path):
     ball = -numbers["inside out: triangles, open edges, volume"][2]
     assert 3.9 < ball < 4.18879 + 1e-9
     assert abs(numbers["three pages: triangles, open edges, volume"][2]) <= 1e-12
-    # The rims of three pages, and a spine of two edges.
+    # The open edges are the rims of the three pages and, for each page, the two edges at the spine.
     assert numbers["three pages: triangles, open edges, volume"][1] == 3 * 8 + 3 * 2
     assert numbers["points where curves do not close"] == 0
     assert numbers["surface - fan, from an integer"] <= 1e-11
@@ -294,7 +294,7 @@ def test_growth(tmp_path):
 
 
 def test_cost_of_a_point(tmp_path):
-    """Check times with loose bounds, but errors with tight ones."""
+    """Check times with loose bounds, but errors with tight bounds."""
     numbers = numbers_of("gallery/cost_of_a_point.py", tmp_path)
     assert numbers["largest error minus the tolerance"] <= 0.0
     assert numbers["elephant 89k, grid 64³, exact: Y"] < 5 < numbers["elephant with holes 4k, scattered, 1e-3: Y"] * 5 < 500
@@ -353,7 +353,7 @@ def test_near_limbs(tmp_path):
     assert numbers["slit square, bounded-biharmonic: weight across the slit"] == pytest.approx(2.69e-3, abs=5e-6)
     assert numbers["slit square, monotone: weight across the slit"] == pytest.approx(2.63e-3, abs=5e-6)
     assert numbers["slit square, inverse-distance: weight across the slit"] == pytest.approx(0.1552, abs=5e-5)
-    # Shepard's weights: 1/d^2 at (0.65, 0.9) for points at distances 0.35 and 0.15.
+    # Shepard's weights are 1/d^2. The point (0.65, 0.9) has the distances 0.35 and 0.15 from the handles.
     assert numbers["slit square, inverse-distance: weight across the slit"] == pytest.approx(0.15 ** 2 / (0.15 ** 2 + 0.35 ** 2))
 
 
@@ -404,7 +404,7 @@ def test_spurious_extrema(tmp_path):
             assert kind == "unconstrained" or 0 <= lowest <= highest <= 1
     assert numbers["bounded biharmonic: extrema by column"] == [0] * 5
     assert min(numbers["bounded triharmonic: extrema by column"]) > 2
-    # An extremum jumps by four squares if the handle moves by one.
+    # An extremum jumps by four squares when the handle moves by one square.
     assert numbers["bounded triharmonic: farthest jump of an extremum"] > 0.1
     assert max(value for name, value in numbers.items() if name.endswith("relative gap")) <= 1e-6
 
@@ -424,7 +424,7 @@ def test_small_features(tmp_path):
     numbers = numbers_of("gallery/small_features.py", tmp_path)
     ahead = [numbers[f"{name}: excess motion of the tip, fraction of the pull"] for name in ("unconstrained", "bounded", "monotone")]
     assert ahead[0] > ahead[1] > 0.1 > 0.03 > abs(ahead[2])
-    # The pose moves the tip in proportion to its weight.
+    # The pose moves the tip in proportion to the weight at the tip.
     for name, share in zip(("unconstrained", "bounded", "monotone"), ahead):
         foot, tip = numbers[f"{name}: middle point's weight at foot and tip"]
         assert tip - foot == pytest.approx(share, abs=1e-9)
@@ -483,7 +483,7 @@ def test_the_readme_has_them_all():
 
 
 def test_bent_furniture(tmp_path):
-    """The package of these models may be missing. Then the script must refuse with a sentence."""
+    """The Debian package with these models may be missing. The script must then refuse with one sentence."""
     if not pathlib.Path("/usr/share/sweethome3d/furniture/BlendSwap-CC-0.sh3f").exists():
         is_refused(script("gallery/bent_furniture.py", "--small", "--output", tmp_path), "sweethome3d-furniture")
         return

@@ -11,7 +11,8 @@ def test_the_demo_mesh(tmp_path):
     holes, crossing, closed = (numbers[name] for name in ("as it is", "crossing a copy", "without holes"))
     assert holes["vtk_refuses"] and not crossing["vtk_refuses"] and not closed["vtk_refuses"]
     assert holes["wrong"] < holes["vtk_wrong"]
-    assert crossing["wrong"] == 0 and crossing["vtk_wrong"] > 0  # ray parity classifies an overlap as outside
+    # Counting crossings of a ray classifies an overlap as outside.
+    assert crossing["wrong"] == 0 and crossing["vtk_wrong"] > 0
     assert closed["wrong"] == 0
     for tolerance, error in numbers["tolerance"].items():
         assert error <= float(tolerance)
@@ -19,7 +20,7 @@ def test_the_demo_mesh(tmp_path):
     assert numbers["flipped, orient_patches=False"] > 0
     assert numbers["flipped, orient_patches=True"] == 0
     assert numbers["boundary_lines"] == numbers["open_edges"] > 0
-    assert 0.03 < numbers["winding_volume"] < 0.0462012  # volume of the elephant without holes
+    assert 0.03 < numbers["winding_volume"] < 0.0462012  # the upper bound is the volume of the elephant without holes
 
 
 OPEN_BOX = """OFF
@@ -41,7 +42,7 @@ OPEN_BOX = """OFF
 
 
 def test_a_mesh_of_ones_own(tmp_path):
-    """Run on an OFF file of squares that is open at the top; the format and the polygons must not matter."""
+    """Run on an OFF file with quads that is open at the top. The file format and the polygons must not matter."""
     (tmp_path / "box.off").write_text(OPEN_BOX)
     done = script("01_inside_outside.py", tmp_path / "box.off", "--small", "--output", tmp_path)
     assert done.returncode == 0 and done.stderr == "", done.stderr

@@ -1,4 +1,5 @@
-// vtkAutomaticHandles: the output is a handle dataset that weights can be bound to.
+// vtkAutomaticHandles computes handles from a surface. Its output is a handle dataset that weights
+// can be bound to.
 #include "vtkAutomaticHandles.h"
 
 #include "conversion.h"
@@ -33,7 +34,7 @@ class AutomaticBones : public test::NeedsMesher
 {
 };
 
-/// Tets of the box [0, 8] x [0, 1] x [0, 1].
+/// Return tets of the box [0, 8] x [0, 1] x [0, 1].
 TetMesh long_box()
 {
   return test::tet_box(24, 3, 3, Vec3::Zero(), Vec3(8.0, 1.0, 1.0));
@@ -68,7 +69,7 @@ TEST_F(AutomaticBones, BindWithoutAHand)
   ASSERT_EQ(filter->GetStatus(), vtkAutomaticHandles::OK) << filter->GetStatusMessage();
   ASSERT_EQ(weights->GetStatus(), vtkAutomaticHandles::OK) << weights->GetStatusMessage();
   const Handles handles = handles_of(filter);
-  ASSERT_EQ(handles.size(), 4u); // a bone of length 7 with diagonal 8.12, halved twice
+  ASSERT_EQ(handles.size(), 4u); // one bone of length 7 in a shape with diagonal 8.12, halved twice
   vtkDataArray* array = weights->GetOutput()->GetPointData()->GetArray("Weights");
   ASSERT_NE(array, nullptr);
   ASSERT_EQ(array->GetNumberOfComponents(), 4);
@@ -128,7 +129,7 @@ TEST_F(AutomaticBones, SurviveATgfFile)
     EXPECT_EQ(read[i].name, made[i].name);
     EXPECT_EQ(read[i].head, made[i].head);
     EXPECT_EQ(read[i].tail, made[i].tail);
-    // The file cannot store that one bone at the root is the parent of the other.
+    // If both bones begin at the root, the file cannot store that one is the parent of the other.
     const bool beside = made[i].parent >= 0 && made[made[i].parent].tail != made[i].head;
     EXPECT_EQ(read[i].parent, beside ? -1 : made[i].parent);
     ASSERT_EQ(status.warnings.size(), 1u);

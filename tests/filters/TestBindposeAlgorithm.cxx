@@ -1,4 +1,5 @@
-// The contract of all filters: report, failure, cancel, repeated execution.
+// The contract that vtkBindposeAlgorithm gives all filters: report, failure, cancel, repeated
+// execution.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -95,7 +96,7 @@ TEST(BindposeAlgorithm, ExecutesOnlyWhenSomethingChanged)
   filter->Update();
   filter->Update();
   EXPECT_EQ(filter->Executions, 1);
-  filter->SetNumberOfThreads(1); // does not change the result
+  filter->SetNumberOfThreads(1); // the number of threads does not change the result
   EXPECT_EQ(filter->GetNumberOfThreads(), 1);
   filter->Update();
   EXPECT_EQ(filter->Executions, 1);
@@ -109,7 +110,7 @@ TEST(BindposeAlgorithm, ExecutesOnlyWhenSomethingChanged)
 
 TEST(BindposeAlgorithm, TheFirstOfSeveralPiecesIsTheWhole)
 {
-  vtkNew<vtkSphereSource> sphere; // can produce pieces
+  vtkNew<vtkSphereSource> sphere; // this source can produce pieces
   sphere->Update();
   const vtkIdType cells = sphere->GetOutput()->GetNumberOfCells();
   vtkNew<TestFilter> first;
@@ -185,11 +186,11 @@ TEST(BindposeAlgorithm, FailureEmptiesOutputsAndPassesOn)
     EXPECT_THAT(listener->errors[0], HasSubstr("the dog ate it"));
     EXPECT_EQ(downstream->errors.size(), 1u);
 
-    // Nothing has changed, but a failed filter executes again …
+    // Nothing has changed, but a filter that failed executes again.
     second->Update();
     EXPECT_EQ(first->Executions, 2);
   }
-  // … and after a success nothing of the failure remains.
+  // After a success, no trace of the failure remains.
   first->Work = nullptr;
   second->Update();
   EXPECT_EQ(first->GetStatus(), vtkBindposeAlgorithm::OK);

@@ -1,4 +1,5 @@
-// Endpoint weights: 0 at a bone's head, 1 at its tail, and interpolated over the shape.
+// vtkBoneEndpointWeights: endpoint weights are 0 at a bone's head, 1 at its tail, and interpolated
+// over the shape.
 #include "vtkBoneEndpointWeights.h"
 #include "vtkPoseHandles.h"
 #include "vtkSkinningDeformation.h"
@@ -49,7 +50,7 @@ protected:
   vtkNew<test::Listener> listener;
 };
 
-/// A U: two legs of width 1/3 along y, joined below y = 1/4.
+/// Return a U: two legs of width 1/3 along y, joined below y = 1/4.
 vtkSmartPointer<vtkPolyData> u_shape()
 {
   TriangleMesh mesh = test::grid(12, 12);

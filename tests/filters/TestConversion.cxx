@@ -1,4 +1,5 @@
-// Conversion shares memory where layouts allow, and reports and handles survive the round trip.
+// Conversion between VTK datasets and kernel arrays. Memory is shared if the layouts allow it, and
+// reports and handles survive the round trip.
 #include "conversion.h"
 #include "report_field_data.h"
 
@@ -39,7 +40,7 @@ TEST(Conversion, DoublePointsAndTrianglesAreShared)
 
 TEST(Conversion, PolygonsBecomeTriangles)
 {
-  vtkNew<vtkPlaneSource> plane; // quads, float points
+  vtkNew<vtkPlaneSource> plane; // the source makes quads and float points
   plane->SetResolution(3, 2);
   plane->Update();
   SurfaceInput surface;

@@ -1,4 +1,4 @@
-// Crowds as a filter: each instance equals the result of vtkReducedARAP for its pose.
+// vtkCrowdDeformation: each instance of a crowd equals the result of vtkReducedARAP for its pose.
 #include "vtkCrowdDeformation.h"
 
 #include "TestFilter.h"
@@ -53,14 +53,14 @@ protected:
     this->handles = to_polydata(this->rig.handles);
     this->filter->SetInputData(0, this->tets);
     this->filter->SetInputData(1, this->handles);
-    // The solves start from other rotations and converge along other paths. A small tolerance makes
-    // the results comparable.
+    // The two solvers start from different rotations and converge along different paths. A small
+    // tolerance makes the results comparable.
     this->filter->SetTolerance(1e-12);
     this->filter->SetMaximumIterations(1000);
     this->listener->listen(this->filter);
   }
 
-  /// Return a pose with the right end lifted by i tenths and the middle free.
+  /// Return a pose in which the right end is lifted by i tenths and the middle has mode free.
   Pose pose(int i) const
   {
     Pose result(3);
@@ -80,7 +80,7 @@ protected:
     set_pose(result, cells, this->pose(i));
     return result;
   }
-  /// Add the same poses as rows: a translation of one handle, and modes.
+  /// Add the same poses as rows of arrays: the translation of one handle, and modes.
   template <typename Attributes>
   void add_rows(Attributes* arrays, int rows) const
   {
@@ -150,7 +150,7 @@ TEST_F(CrowdDeformationFilter, PosesInstancesAsReducedARAPWouldWhateverTheyAreTo
       EXPECT_LT((this->instance(i) - this->alone(i)).cwiseAbs().maxCoeff(), 1e-5)
         << instances->GetClassName() << " " << i;
     }
-    // All instances share the weights and cells.
+    // All instances share the array objects of the weights and the cells.
     auto* all = vtkPartitionedDataSetCollection::SafeDownCast(this->filter->GetOutput());
     auto* last = vtkUnstructuredGrid::SafeDownCast(all->GetPartition(count - 1, 0));
     EXPECT_EQ(last->GetCells(), this->tets->GetCells());
@@ -159,7 +159,7 @@ TEST_F(CrowdDeformationFilter, PosesInstancesAsReducedARAPWouldWhateverTheyAreTo
     EXPECT_STREQ(all->GetMetaData(count - 1)->Get(vtkCompositeDataSet::NAME()), "instance 3");
   }
   EXPECT_GT(this->report("seconds.solve"), 0.0);
-  // Solves in double precision give the same result.
+  // A solve in double precision gives the same result.
   EXPECT_GT(this->report("single_precision_iterations"), 0.0);
   this->filter->MixedPrecisionOff();
   this->filter->WarmStartOff();
@@ -189,7 +189,8 @@ TEST_F(CrowdDeformationFilter, PlacesInstances)
     const Points expected = this->alone(i).rowwise() + Eigen::RowVector3d(5.0 * i, 1.0, -i);
     EXPECT_LT((this->instance(i) - expected).cwiseAbs().maxCoeff(), 1e-5) << i;
   }
-  // The array Placement takes precedence over the points: a quarter turn and twice the size.
+  // The array Placement takes precedence over the points. It rotates by 90 degrees and doubles the
+  // size.
   vtkNew<vtkDoubleArray> places;
   places->SetName("Placement");
   places->SetNumberOfComponents(12);
@@ -325,7 +326,7 @@ TEST_F(CrowdDeformationFilter, SaysWhatIsWrong)
   table->GetRowData()->AddArray(places);
   EXPECT_THAT(message(table), HasSubstr("instance 1: where it stands"));
 
-  // The handles of an instance differ from those of the mesh.
+  // The handles of an instance are not those of the mesh.
   blocks->SetBlock(0, this->posed_handles(0));
   Handles others = this->rig.handles;
   others[1].name = "another";
@@ -335,7 +336,7 @@ TEST_F(CrowdDeformationFilter, SaysWhatIsWrong)
   EXPECT_THAT(message(blocks), HasSubstr("instance 1: a vtkUnstructuredGrid has no handles"));
   EXPECT_FALSE(this->listener->errors.empty());
 
-  // The filter recovers, and warns if no array has the name of a handle.
+  // The filter works again after the failure. It warns if no array has the name of a handle.
   vtkNew<vtkTable> strange;
   vtkNew<vtkDoubleArray> other;
   other->SetName("no handle");

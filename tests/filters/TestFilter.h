@@ -1,7 +1,7 @@
 #ifndef TestFilter_h
 #define TestFilter_h
 
-// A filter whose work is defined by the test and that counts its executions, and a listener that
+// A filter whose work the test defines and whose executions are counted, and a listener that
 // records the events of a filter.
 
 #include "vtkBindposeAlgorithm.h"
@@ -22,8 +22,8 @@
 namespace bindpose::test
 {
 
-/// A filter from vtkDataSet to vtkPolyData: it copies the input if this is a polydata, then runs
-/// the test's work.
+/// A filter from vtkDataSet to vtkPolyData. It copies the input if this is a polydata, then calls
+/// the function that the test provides.
 class TestFilter : public vtkBindposeAlgorithm
 {
 public:
@@ -63,8 +63,8 @@ protected:
   }
 };
 
-/// Counts an algorithm's events and stores the texts of its errors and warnings. These texts are
-/// then not shown in VTK's output window.
+/// Counts the events of an algorithm and stores the texts of its errors and warnings. VTK's output
+/// window then does not show these texts.
 class Listener : public vtkCommand
 {
 public:

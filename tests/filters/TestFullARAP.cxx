@@ -1,5 +1,5 @@
-// Full as-rigid-as-possible as a filter: no weights, one bind, regions by their labels, named
-// errors.
+// vtkFullARAP (full as-rigid-as-possible deformation): no weights, one bind, regions by their
+// labels, named errors.
 #include "vtkFullARAP.h"
 
 #include "TestFilter.h"
@@ -26,7 +26,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// The bar with regions at its ends and in the middle, as tets and as a surface.
+/// Pipeline of a bar with regions at its ends and in the middle, as tets and as a surface.
 class FullARAPFilter : public testing::Test
 {
 protected:
@@ -103,7 +103,7 @@ TEST_F(FullARAPFilter, RotationArraysTellWhatEachVertexIsTurnedBy)
 {
   this->pose->SetPoseJSON(R"({"handles": {
     "left": {"rotate": {"axis": [0, 0, 1], "degrees": 40}}, "middle": {"mode": "free"},
-    "right": {"mode": "free"}}})"); // the whole bar follows
+    "right": {"mode": "free"}}})"); // the whole bar moves with the handle "left"
   this->filter->RotationArraysOn();
   this->filter->SetMaximumIterations(10000);
   this->filter->SetTolerance(0.0);

@@ -1,5 +1,6 @@
-// A rig is written and read back: weights as floats, equal handles, poses of linear blend skinning.
-// The content of the file itself is tested in core.
+// vtkGLTFSkinWriter and vtkGLTFSkinReader: a rig is written and read back, with weights as floats,
+// equal handles, and poses of linear blend skinning. The content of the file itself is tested in
+// tests/core/io.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -36,8 +37,8 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Return handles of all kinds: points, a cage's vertices with an edge and a face, a region, a
-/// chain of three bones.
+/// Return handles of all kinds: points, the vertices of a cage with an edge and a face, a region,
+/// and a chain of three bones.
 Handles all_kinds()
 {
   Handles handles(8);
@@ -60,7 +61,7 @@ Handles all_kinds()
     handles[h].head = Vec3(-1, 0.3 * static_cast<double>(h), 0.1);
     handles[h].tail = Vec3(-1, 0.3 * static_cast<double>(h + 1), 0.1);
   }
-  handles[5].parent = 6; // a parent may come later in the list
+  handles[5].parent = 6; // a parent may follow its child in the list
   handles[6].parent = 7;
   handles[0].parent = 5;
   return handles;
@@ -170,7 +171,7 @@ TEST_F(GLTFSkin, AllKindsOfHandlesComeBackEqual)
     {
       EXPECT_EQ(pose.transform, identity_affine());
     }
-    // The general readers return the same mesh and handles.
+    // The readers that choose the format by the file's extension return the same mesh and handles.
     vtkNew<vtkMeshFileReader> mesh;
     mesh->SetFileName((this->Folder / name).c_str());
     mesh->Update();
@@ -228,7 +229,7 @@ TEST_F(GLTFSkin, TetsAreTheirBoundary)
   this->Writer->SetInputData(0, grid);
   this->WriteAndRead();
   vtkPolyData* back = this->Mine(0);
-  EXPECT_EQ(back->GetNumberOfPoints(), 64 - 8); // without the inner points
+  EXPECT_EQ(back->GetNumberOfPoints(), 64 - 8); // the inner points of the tets are missing
   EXPECT_EQ(back->GetNumberOfCells(), 6 * 9 * 2);
   for (vtkIdType v = 0; v < back->GetNumberOfPoints(); ++v)
   {
@@ -237,7 +238,8 @@ TEST_F(GLTFSkin, TetsAreTheirBoundary)
   }
 }
 
-/// Request times in any order from the reader and from a pose of its file, at 12 frames per second.
+/// Request the frames in any order of times, from the reader and from a pose of its file, at 12
+/// frames per second.
 void GLTFSkin::ExpectTheTimesOfTheFrames(const std::vector<Points>& expected)
 {
   vtkNew<vtkPoseHandles> posed;
@@ -264,7 +266,7 @@ void GLTFSkin::ExpectTheTimesOfTheFrames(const std::vector<Points>& expected)
         << time;
     }
   }
-  // A reader with a chosen frame has no time steps.
+  // A reader that is set to one frame has no time steps.
   this->Reader->SetFrame(1);
   this->Reader->UpdateInformation();
   for (const int port : { 0, 1 })
@@ -314,8 +316,8 @@ TEST_F(GLTFSkin, PosesAndAnimationsAreThoseOfLinearBlendSkinning)
     EXPECT_EQ(this->Reader->GetFramesPerSecond(), 12.0);
     for (int k = 0; k < 3; ++k)
     {
-      // The reader's own frames, its pose file, and the file as a pose of the handles give the same
-      // result.
+      // The three ways give the same result: the frames of the reader, its pose file, and the glTF
+      // file as a pose of the handles.
       vtkNew<vtkSkinningDeformation> again;
       again->SetInputData(0, this->Mesh);
       vtkNew<vtkPoseHandles> posed;
@@ -339,7 +341,7 @@ TEST_F(GLTFSkin, PosesAndAnimationsAreThoseOfLinearBlendSkinning)
     this->Reader->SetFrame(-1);
     this->ExpectTheTimesOfTheFrames(expected);
   }
-  // Without a sequence, the joints have the pose of the handles.
+  // If no sequence is written, the joints have the pose of the handles.
   this->Writer->SetPoseFileName(nullptr);
   pose->SetFrame(2);
   pose->Update();
@@ -374,10 +376,10 @@ TEST_F(GLTFSkin, FramesOfOtherMethodsAreMorphTargets)
   posed->Update();
   this->Writer->SetHandlesData(posed->GetOutput());
   this->WriteAndRead();
-  // The pose is part of the morph targets.
+  // The morph targets contain the pose, so the joints are at rest.
   EXPECT_EQ(this->PoseRead()[7].transform, identity_affine());
   EXPECT_THAT(this->Writer->GetReportJSON(), HasSubstr("\"animation\": \"morph\""));
-  // Joints cannot represent the displacement of one vertex: the report states the error.
+  // Joints cannot represent the displacement of a single vertex. The report states the error.
   vtkNew<vtkDoubleArray> transforms;
   transforms->SetName("HandleTransforms");
   transforms->SetNumberOfComponents(12);
@@ -406,8 +408,8 @@ TEST_F(GLTFSkin, JointsOfOtherProgramsBecomeHandles)
   const TriangleMesh ball = test::sphere(1);
   skin.points = ball.points;
   skin.triangles = ball.triangles;
-  // Three joints have the root j1 as parent. j0 comes before its parent, and j0 and j2 are at one
-  // position.
+  // Three joints have the root j1 as parent. j0 precedes its parent in the file, and j0 and j2 have
+  // the same position.
   for (const Vec3& place : { Vec3(0, 1, 0), Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0.5, 0) })
   {
     GltfJoint joint;
@@ -422,13 +424,14 @@ TEST_F(GLTFSkin, JointsOfOtherProgramsBecomeHandles)
   this->Reader->Update();
   const bindpose::Handles handles = this->HandlesRead();
   ASSERT_EQ(handles.size(), 4u);
-  EXPECT_EQ(handles[0].name, "j0"); // points first
+  EXPECT_EQ(handles[0].name, "j0"); // point handles are first in the list
   EXPECT_EQ(handles[0].kind, HandleKind::point);
   EXPECT_EQ(handles[1].name, "j3");
   EXPECT_EQ(handles[2].name, "j1");
   EXPECT_EQ(handles[2].kind, HandleKind::bone);
   EXPECT_LT((handles[2].tail - Vec3(1.0 / 3.0, 2.5 / 3.0, 0)).norm(), 1e-6);
-  EXPECT_EQ(handles[3].name, "j2"); // at the position of a point handle, therefore a short bone
+  // A point handle already has this position, so the joint becomes a short bone.
+  EXPECT_EQ(handles[3].name, "j2");
   EXPECT_EQ(handles[3].kind, HandleKind::bone);
   EXPECT_EQ(handles[0].parent, 2);
   EXPECT_NEAR(this->Mine(0)->GetPointData()->GetArray("Weights")->GetComponent(0, 2), 0.7, 1e-6);

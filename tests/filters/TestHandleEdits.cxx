@@ -1,5 +1,5 @@
-// Edits of handle datasets in place: arrays follow their handles, binds depend on shared arrays,
-// rejected edits change nothing.
+// Edits of handle datasets in place. Array values stay with their handles, unchanged arrays cause
+// no new bind, and rejected edits change nothing.
 #include "conversion.h"
 #include "handle_edit_cells.h"
 #include "support/meshes.h"
@@ -32,7 +32,7 @@ Handle make(const std::string& name, HandleKind kind, const Vec3& head, const Ve
   return handle;
 }
 
-// Cells: p, q, b, and a pseudo-edge from p to q.
+// Return handles. The cells are the points p and q, the bone b, and a pseudo-edge from p to q.
 vtkSmartPointer<vtkPolyData> handles()
 {
   const Handles list = { make("p", HandleKind::point, Vec3(0, 0, 0), Vec3(0, 0, 0)),
@@ -150,7 +150,7 @@ TEST(HandleEditCells, FromNothingAndBackToNothing)
 
 TEST(HandleEditCells, RemovedParentsAndBackAgainIsTheSameDataset)
 {
-  // Undo restores the old dataset with its arrays, so nothing binds again.
+  // Undo restores the old dataset with its array objects, so the filter does not bind again.
   const auto data = handles();
   vtkNew<vtkPolyData> before;
   before->ShallowCopy(data);

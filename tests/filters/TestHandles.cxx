@@ -1,4 +1,4 @@
-// Handles from files and from the surface.
+// Handle datasets: read from files, and placed automatically on a surface.
 #include "conversion.h"
 #include "pseudo_edge_cells.h"
 #include "vtkFarthestPointHandles.h"
@@ -86,7 +86,7 @@ TEST_F(HandleFiles, TgfPseudoEdgesJoinPoints)
   EXPECT_TRUE(pseudo_edges_of(path, edges).ok());
   ASSERT_EQ(this->Reader->GetStatusMessage(), "");
   EXPECT_EQ(edges, (PseudoEdges{ { 0, 1 } })) << "each once";
-  // A file format for all handle kinds keeps the pseudo-edges.
+  // The format that stores all kinds of handles also stores pseudo-edges.
   vtkNew<vtkPolyData> copy;
   copy->DeepCopy(this->Reader->GetOutput());
   vtkNew<vtkMeshFileWriter> writer;
@@ -95,7 +95,7 @@ TEST_F(HandleFiles, TgfPseudoEdgesJoinPoints)
   ASSERT_EQ(writer->Write(), 1);
   EXPECT_TRUE(pseudo_edges_of(this->Folder / "h.vtp", edges).ok());
   EXPECT_EQ(edges, (PseudoEdges{ { 0, 1 } }));
-  // The ends of pseudo-edges must be points, not ends of bones.
+  // Pseudo-edges must connect point handles, not ends of bones.
   const vtkIdType at_a_bone[2] = { 0, 2 };
   copy->GetLines()->InsertNextCell(2, at_a_bone);
   vtkDataArray* kinds = copy->GetCellData()->GetArray("HandleKind");
@@ -214,7 +214,7 @@ TEST(FarthestPointHandles, LieOnTheBoundaryOfTets)
   const TetMesh box = test::tet_box(4, 4, 4);
   vtkNew<vtkFarthestPointHandles> filter;
   filter->SetInputData(to_unstructured_grid(box.points, box.tets));
-  filter->SetNumberOfHandles(98); // there are 125 vertices, 27 of them inside
+  filter->SetNumberOfHandles(98); // 98 of the 125 vertices are on the boundary
   filter->Update();
   ASSERT_EQ(filter->GetStatus(), vtkFarthestPointHandles::OK);
   Handles handles;

@@ -1,4 +1,5 @@
-// Grids larger than the memory, and cancellation of long computations.
+// vtkWindingNumberField on grids that are larger than the memory, and cancellation of long
+// computations.
 #include "TestFilter.h"
 
 #include "base/memory.h"
@@ -26,7 +27,7 @@ using bindpose::test::Listener;
 
 TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
 {
-  // A cube of 2 x 2 x 2 with a padding that is not a multiple of the voxel size.
+  // The cube has the size 2 x 2 x 2. Its padding is not a multiple of the voxel size.
   const TriangleMesh cube = test::cube();
   constexpr int samples = 1024;
   constexpr int layers = 16;
@@ -58,8 +59,8 @@ TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
     spacing = image->GetSpacing()[0];
   }
   EXPECT_EQ(field->GetNumberOfBuilds(), 1);
-  // Samples on the faces of the cube would have other values. The padding is 10 % of the diagonal
-  // on each side.
+  // No sample is on a face of the cube, where the value would be another. The padding is 10 % of
+  // the diagonal on each side.
   const double side = 2.0;
   const double expected_spacing = (side + 0.2 * std::sqrt(3.0) * side) / (samples - 1);
   EXPECT_NEAR(spacing, expected_spacing, 1e-12);
@@ -67,14 +68,15 @@ TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
   EXPECT_NEAR(std::cbrt(inside), along, 1.0);
   EXPECT_EQ(other, 0.0);
 #if !defined(__SANITIZE_ADDRESS__) // the sanitizer delays the release of freed memory
-  const double block = (8.0 + 1.0) * samples * samples * layers; // with the flags OnSurface
+  // One double and one byte (array OnSurface) per sample of a block.
+  const double block = (8.0 + 1.0) * samples * samples * layers;
   EXPECT_LT(peak_memory() - before, block + 8e6);
 #endif
 }
 
 TEST(LargeWindingNumberField, StopsWithinAFifthOfASecond)
 {
-  // 1,000,000 triangles, 512^3 samples.
+  // The surface has 1,000,000 triangles, and the grid 512^3 samples.
   const TriangleMesh sphere = test::sphere(8);
   ASSERT_GT(sphere.triangles.rows(), 1000000);
   vtkNew<vtkWindingNumberField> field;
@@ -83,10 +85,12 @@ TEST(LargeWindingNumberField, StopsWithinAFifthOfASecond)
   using Clock = std::chrono::steady_clock;
   for (const double when : { 0.02, 0.1, 0.3, 0.6, 0.9 })
   {
-    double shortest = 1e9; // of three attempts, because other processes may use the processor
+    // The minimum of three attempts, because other processes may use the processor.
+    double shortest = 1e9;
     for (int attempt = 0; attempt < 3 && shortest > 0.2; ++attempt)
     {
-      field->SetInputData(to_polydata(sphere.points, sphere.triangles)); // builds again
+      // A new input causes a new build.
+      field->SetInputData(to_polydata(sphere.points, sphere.triangles));
       field->SetResolution(512);
       Clock::time_point asked{};
       listener->on_progress = [&](vtkAlgorithm* algorithm)
@@ -104,6 +108,7 @@ TEST(LargeWindingNumberField, StopsWithinAFifthOfASecond)
       shortest = std::min(shortest, std::chrono::duration<double>(Clock::now() - asked).count());
     }
     std::printf("  asked at %.0f %%, stopped after %.0f ms\n", 100.0 * when, 1e3 * shortest);
-    EXPECT_LT(shortest, test::sanitized ? 3.0 : 0.2) << when; // sanitizers: 1.0 s on a slow machine
+    // With sanitizers, 1.0 s was measured on a slow machine.
+    EXPECT_LT(shortest, test::sanitized ? 3.0 : 0.2) << when;
   }
 }

@@ -1,5 +1,6 @@
-// Every file format is read back as it was written. A file that cannot be read or written gives one
-// sentence in the status and in the report of the (empty) output, and never a crash.
+// vtkMeshFileReader and vtkMeshFileWriter: every format is read back as it was written. A file that
+// cannot be read or written gives one sentence in the status and in the report of the empty output,
+// and never a crash.
 #include "conversion.h"
 #include "report_field_data.h"
 #include "vtkMeshFileReader.h"
@@ -230,7 +231,7 @@ TEST_F(MeshFiles, AFileThatIsMendedIsReadAgain)
 {
   EXPECT_THAT(this->ReadError(this->Folder / "late.off"), HasSubstr("No such file"));
   this->Write(cube(), this->Folder / "late.off");
-  // No parameter has changed: the failure alone makes the reader execute again.
+  // No parameter has changed. The failure alone makes the reader execute again.
   this->Reader->Update();
   EXPECT_EQ(this->Reader->GetOutput()->GetNumberOfCells(), 12);
 }

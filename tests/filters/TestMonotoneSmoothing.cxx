@@ -1,5 +1,5 @@
-// Smoothing of data on surfaces, polygons and tets as a filter: lists of extrema from arrays,
-// result arrays, the output of extrema, errors, cancel.
+// vtkMonotoneSmoothing: smoothing of data on surfaces, polygons and tets with a list of extrema.
+// The test checks lists from arrays, result arrays, the output of extrema, errors and cancel.
 #include "TestFilter.h"
 
 #include "vtkMonotoneSmoothing.h"
@@ -30,7 +30,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Return data with waves and noise for any mesh.
+/// Return data with waves and noise at the points of any mesh.
 vtkSmartPointer<vtkDoubleArray> waves(vtkDataSet* mesh)
 {
   test::Random random(4);
@@ -136,7 +136,7 @@ TEST_F(MonotoneSmoothing, ActiveScalarsAreSmoothedAndExtremaTold)
 
 TEST_F(MonotoneSmoothing, TakesTheListOfTheMeshAndItsOwn)
 {
-  this->add_list(200, 40); // the data is higher at the first point
+  this->add_list(200, 40); // the data is higher at the first of the two points
   this->smoothing->KeepValuesOn();
   this->smoothing->Update();
   ASSERT_EQ(this->smoothing->GetStatus(), vtkBindposeAlgorithm::OK)
@@ -149,7 +149,8 @@ TEST_F(MonotoneSmoothing, TakesTheListOfTheMeshAndItsOwn)
   EXPECT_EQ(range[0], data->GetTuple1(40));
   EXPECT_EQ(range[1], data->GetTuple1(200));
   EXPECT_EQ(read_report(this->smoothing->GetOutput()).text("extrema_from"), "list");
-  // The list that the filter used can be an input again, under its name.
+  // The filter writes the list that it used as an array. A second filter accepts this array as
+  // input.
   vtkNew<vtkMonotoneSmoothing> again;
   again->SetInputConnection(this->smoothing->GetOutputPort());
   again->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Height");
@@ -163,7 +164,7 @@ TEST_F(MonotoneSmoothing, TakesTheListOfTheMeshAndItsOwn)
   {
     ASSERT_EQ(repeated->GetTuple1(v), smoothed->GetTuple1(v));
   }
-  // With an empty name, the list of the mesh is ignored.
+  // With an empty array name, the filter ignores the list in the mesh.
   this->smoothing->SetExtremaArrayName("");
   this->smoothing->KeepValuesOff();
   this->smoothing->SetNumberOfExtrema(3);

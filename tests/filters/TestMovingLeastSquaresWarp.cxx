@@ -1,4 +1,4 @@
-// Moving least squares as a filter: no weights, one bind, rotation of flat meshes in their plane.
+// vtkMovingLeastSquaresWarp: no weights, one bind, rotation of flat meshes in their plane.
 #include "TestFilter.h"
 
 #include "vtkMovingLeastSquaresWarp.h"
@@ -60,7 +60,7 @@ protected:
 
 TEST_F(MovingLeastSquaresWarp, AQuarterTurnWithoutWeights)
 {
-  // The second point moves by a quarter turn about the first.
+  // The second point is rotated by 90 degrees about the first point.
   this->pose->SetPoseJSON(R"({"handles": {"high": {"translate": [-2, 0, 0]}}})");
   this->filter->Update();
   ASSERT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::OK)

@@ -1,5 +1,5 @@
-// vtkPlanarShape: images by alpha or as a rectangle, curves, handles; arrays, report, errors,
-// repeated updates.
+// vtkPlanarShape triangulates planar shapes: images by their alpha channel or as a rectangle,
+// curves, and handles. The test checks arrays, report, errors and repeated updates.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -134,7 +134,7 @@ TEST_F(PlanarShapeFilter, CutOutOfAnImage)
   {
     const Vec3 p(out->GetPoint(v));
     EXPECT_EQ(p.z(), 3.0);
-    // Texture coordinates refer to the pixel at the vertex.
+    // The texture coordinates of a vertex are those of the pixel at its position.
     ASSERT_NEAR(texture->GetComponent(v, 0) * 80.0 - 0.5, (p.x() - 100.0) / 0.5, 1e-9);
     ASSERT_NEAR(texture->GetComponent(v, 1) * 60.0 - 0.5, (p.y() - 200.0) / 0.5, 1e-9);
     ASSERT_LE(std::hypot(p.x() - 120.0, p.y() - 215.0), (radius + 1.0) * 0.5);
@@ -159,7 +159,7 @@ TEST_F(PlanarShapeFilter, WholeImage)
   EXPECT_EQ(range[0], 0.0);
   EXPECT_EQ(range[1], 1.0);
   EXPECT_EQ(read_report(filter->GetOutput()).text("domain"), "rectangle");
-  // An image without alpha gives the same result.
+  // An image without an alpha channel gives the same rectangle.
   vtkNew<vtkImageData> gray;
   gray->SetDimensions(80, 60, 1);
   gray->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
@@ -172,7 +172,7 @@ TEST_F(PlanarShapeFilter, WholeImage)
 TEST_F(PlanarShapeFilter, AlphaOfAnyType)
 {
   vtkNew<vtkImageData> image;
-  image->SetExtent(5, 14, -3, 6, 2, 2); // 10 x 10
+  image->SetExtent(5, 14, -3, 6, 2, 2); // this is 10 x 10 pixels
   vtkNew<vtkFloatArray> alpha;
   alpha->SetName("Alpha");
   for (int v = 0; v < 100; ++v)

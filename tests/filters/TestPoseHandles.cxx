@@ -1,4 +1,5 @@
-// A pose file becomes pose arrays; the output shares all bind-time arrays with the input.
+// vtkPoseHandles converts a pose file to pose arrays. The output shares all bind-time arrays with
+// the input.
 #include "vtkPoseHandles.h"
 
 #include "conversion.h"
@@ -23,7 +24,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Return a point p and two consecutive bones along y: b1 from 0 to 1, b2 from 1 to 2.
+/// Return a point p and two consecutive bones along y: b1 from y = 0 to 1, b2 from y = 1 to 2.
 vtkSmartPointer<vtkPolyData> arm()
 {
   Handles handles(3);
@@ -96,7 +97,7 @@ TEST(PoseHandles, AParentTakesItsChildAlong)
   const std::string b2 = R"(, "b2": {"rotate": {"axis": [0, 0, 1], "degrees": 90})";
   EXPECT_LT((tip(posed(turned + "}")) - Vec3(-2, 0, 0)).norm(), 1e-15);
   EXPECT_LT((tip(posed(turned + b2 + "}}")) - Vec3(-1, -1, 0)).norm(), 1e-15);
-  // In the world, b2 rotates about its own rest head only.
+  // In world space, b2 rotates only about its own head at rest.
   EXPECT_LT((tip(posed(turned + b2 + R"(, "space": "world"}})")) - Vec3(-1, 1, 0)).norm(), 1e-15);
 }
 
@@ -195,7 +196,7 @@ TEST(PoseHandles, ExpressionsFollowTime)
   filter->SetTime(0.5);
   EXPECT_EQ(update(filter), "");
   EXPECT_LT((place() - Vec3(1, 0.5, 0)).norm(), 1e-12);
-  // The time of a pipeline has priority.
+  // The time that a pipeline requests has priority over the time that was set.
   filter->UpdateTimeStep(1.5);
   EXPECT_LT((place() - Vec3(-1, 5, 0)).norm(), 1e-12);
   filter->UpdateTimeStep(0.25);

@@ -1,4 +1,5 @@
-// Reduced as-rigid-as-possible as a filter: one bind, many poses, modes, named errors.
+// vtkReducedARAP (reduced as-rigid-as-possible deformation): one bind, many poses, modes, named
+// errors.
 #include "vtkReducedARAP.h"
 
 #include "TestFilter.h"
@@ -50,7 +51,7 @@ vtkSmartPointer<vtkDoubleArray> weights_array(const Weights& weights, const Hand
   return array;
 }
 
-/// The bar as tets and as a surface, its three handles, and a pose file connected to the filter.
+/// Pipeline of a bar as tets and as a surface, with its three handles and a pose file.
 class ReducedARAPFilter : public testing::Test
 {
 protected:
@@ -112,13 +113,13 @@ TEST_F(ReducedARAPFilter, RestStaysAtRestAndEverythingButThePointsIsShared)
     grid->GetPointData()->GetArray("Weights"), this->tets->GetPointData()->GetArray("Weights"));
   EXPECT_EQ(this->report("counts.tets"), this->rig.mesh.tets.rows());
   EXPECT_EQ(read_report(grid).text("method"), "tetrahedra");
-  // A second Update() does not execute.
+  // If nothing has changed, Update() does not execute the filter again.
   const int starts = this->listener->starts;
   this->filter->Update();
   EXPECT_EQ(this->listener->starts, starts);
 }
 
-// SPEC F49
+// A hundred poses with all modes need one bind.
 TEST_F(ReducedARAPFilter, AHundredDragsOfAllModesBindOnce)
 {
   for (int k = 0; k < 100; ++k)
@@ -140,7 +141,8 @@ TEST_F(ReducedARAPFilter, AHundredDragsOfAllModesBindOnce)
     this->filter->Update();
   }
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
-  // Pose parameters do not bind either; bind parameters, weights, points and cells do.
+  // A change of a pose parameter does not cause a bind. Changes of bind parameters, weights, points
+  // and cells do.
   this->filter->SetMaximumIterations(50);
   this->filter->SetTolerance(1e-5);
   this->filter->WarmStartOff();
@@ -169,7 +171,7 @@ TEST_F(ReducedARAPFilter, AHundredDragsOfAllModesBindOnce)
 
 TEST_F(ReducedARAPFilter, AnUpstreamFilterThatRunsAgainDoesNotBind)
 {
-  vtkNew<test::TestFilter> upstream; // makes a shallow copy at each execution
+  vtkNew<test::TestFilter> upstream; // this filter makes a shallow copy at each execution
   upstream->SetInputData(this->surface);
   this->filter->SetInputConnection(0, upstream->GetOutputPort());
   this->filter->Update();
@@ -193,15 +195,16 @@ TEST_F(ReducedARAPFilter, ModesAreRespected)
     const Eigen::RowVector3d rest = this->rig.mesh.points.row(v);
     if (rest.x() < 1e-9)
     {
-      EXPECT_LT((bent.row(v) - rest).norm(), 1e-12); // full
+      EXPECT_LT((bent.row(v) - rest).norm(), 1e-12); // mode full
     }
     if ((rest - Eigen::RowVector3d(4, 0.5, 0.5)).norm() < 1e-9)
     {
-      EXPECT_LT((bent.row(v) - Eigen::RowVector3d(3.9, 1.5, 0.5)).norm(), 1e-12); // position
+      EXPECT_LT((bent.row(v) - Eigen::RowVector3d(3.9, 1.5, 0.5)).norm(), 1e-12); // mode position
     }
     if ((rest - Eigen::RowVector3d(2, 0.5, 0.5)).norm() < 1e-9)
     {
-      middle = bent(v, 1) - rest.y(); // free: moves along, but less far
+      // Mode free: the handle moves in the same direction, but less far.
+      middle = bent(v, 1) - rest.y();
     }
   }
   EXPECT_GT(middle, 0.1);
@@ -210,7 +213,7 @@ TEST_F(ReducedARAPFilter, ModesAreRespected)
   EXPECT_GT(this->report("energy"), 0.0);
   EXPECT_GT(this->report("microseconds_per_iteration"), 0.0);
 
-  // The found transforms reproduce the output by blending.
+  // Linear blend skinning with the transforms that the filter found reproduces its output.
   vtkDataArray* found = this->filter->GetOutput()->GetFieldData()->GetArray("HandleTransforms");
   ASSERT_NE(found, nullptr);
   ASSERT_EQ(found->GetNumberOfTuples(), 3);
@@ -264,14 +267,15 @@ TEST_F(ReducedARAPFilter, RotationArraysTellWhatEachVertexIsTurnedBy)
     for (vtkIdType v = 0; v < posed->GetNumberOfPoints(); ++v)
     {
       seen.insert(static_cast<int>(clusters->GetComponent(v, 0)));
-      // The whole bar follows the one constrained handle.
+      // The whole bar moves with its one constrained handle.
       const Vec3 turn(posed->GetPointData()->GetArray("Rotation")->GetTuple3(v));
       EXPECT_LT((turn - Vec3(0, 0, 50)).norm(), 1e-4) << v;
     }
     EXPECT_EQ(*seen.begin(), 0);
     EXPECT_LE(*seen.rbegin(), this->report("counts.clusters") - 1);
     EXPECT_GT(seen.size(), 4u);
-    // The output has the same array object for another pose, and another one after another bind.
+    // The output keeps the array object if only the pose changes, and gets a new one after another
+    // bind.
     this->pose->SetPoseJSON(drag_right(0.5));
     this->filter->Update();
     EXPECT_EQ(this->filter->GetOutput()->GetPointData()->GetArray("RotationCluster"), clusters);
@@ -303,7 +307,7 @@ TEST_F(ReducedARAPFilter, SurfacesBendToo)
   this->fails_with("needs a surface");
 }
 
-// SPEC F51: the bits are the same for the filter, the kernel and any number of threads.
+// The filter, the kernel and any number of threads give the same bits.
 TEST_F(ReducedARAPFilter, ThreadsAndTheKernelAgreeToTheBit)
 {
   this->pose->SetPoseJSON(drag_right(0.5));
@@ -363,13 +367,13 @@ TEST_F(ReducedARAPFilter, WhatDoesNotFitIsNamed)
   this->fails_with("no point array 'Wrong'");
   this->filter->SetArrayName("Weights");
 
-  // Weights of another mesh: too many tuples.
+  // The weights are those of another mesh and have too many tuples.
   auto array = weights_array(this->rig.weights, this->rig.handles);
   array->InsertNextTuple3(1, 0, 0);
   this->tets->GetPointData()->AddArray(array);
   this->fails_with("weights of another mesh");
 
-  // Weights of other handles: a component has another name.
+  // The weights are those of other handles: one component has another name.
   array = weights_array(this->rig.weights, this->rig.handles);
   array->SetComponentName(1, "elbow");
   this->tets->GetPointData()->AddArray(array);
@@ -384,7 +388,7 @@ TEST_F(ReducedARAPFilter, WhatDoesNotFitIsNamed)
   this->tets->GetPointData()->AddArray(weights_array(bad, this->rig.handles));
   this->fails_with("vertex 5");
 
-  // Rows that do not sum to one give a warning with the number, and a result.
+  // If rows do not sum to 1, there is a warning with the number of rows, and a result.
   this->tets->GetPointData()->AddArray(
     weights_array(Weights(0.5 * this->rig.weights), this->rig.handles));
   this->listener->errors.clear();
@@ -394,7 +398,8 @@ TEST_F(ReducedARAPFilter, WhatDoesNotFitIsNamed)
   EXPECT_THAT(this->listener->warnings[0], HasSubstr("0.5"));
   EXPECT_NEAR(this->report("row_sum_error"), 0.5, 1e-12);
 
-  // A failure upstream is passed on, and repairing the upstream filter repairs this filter.
+  // A failure of an upstream filter makes this filter fail. After the upstream filter is repaired,
+  // this filter works again.
   this->pose->SetPoseJSON(R"({"handles": {"elbow": {}}})");
   vtkNew<test::Listener> quiet;
   quiet->listen(this->pose);
@@ -498,8 +503,8 @@ TEST_F(ReducedARAPFilter, ReflectionsAndCollapsedScalesAreNamedAndDestroyNothing
   {
     algorithm->SetInputData(0, this->tets);
     quiet->listen(algorithm);
-    // A reflection, a reflection by a negative scale, a scale to a plane, a scale to a point, and a
-    // valid scale.
+    // The transforms are a reflection, a reflection by a negative scale, a collapse to a plane, a
+    // collapse to a point, and a valid scale.
     for (const Vec3& scale :
       { Vec3(1, 1, -1), Vec3(-2, -2, -2), Vec3(1, 0, 1), Vec3(0, 0, 0), Vec3(2, 1, 0.5) })
     {

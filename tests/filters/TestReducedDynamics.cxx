@@ -1,4 +1,4 @@
-// Reduced dynamics as a filter: a time source whose results do not depend on earlier requests.
+// vtkReducedDynamics: a source of time steps whose results do not depend on earlier requests.
 #include "vtkReducedDynamics.h"
 
 #include "TestFilter.h"
@@ -118,12 +118,13 @@ TEST_F(ReducedDynamicsFilter, TheSameTimeGivesTheSameBitsInAnyOrder)
   EXPECT_GT((forward[20] - forward[5]).cwiseAbs().maxCoeff(), 1e-3); // the body moves
   EXPECT_EQ(at(this->filter, 0.14), forward[7]);
   EXPECT_EQ(at(this->filter, 0.4), forward[20]);
-  EXPECT_EQ(at(this->filter, 0.15), forward[7]); // between two steps: the earlier step
+  // A time between two steps gives the result of the earlier step.
+  EXPECT_EQ(at(this->filter, 0.15), forward[7]);
   vtkNew<vtkReducedDynamics> fresh;
   this->connect(fresh);
   fresh->SetNumberOfThreads(1);
   EXPECT_EQ(at(fresh, 0.26), forward[13]);
-  // Steps are requested by number, without a time.
+  // Steps are requested by their number, without times.
   vtkNew<vtkReducedDynamics> counted;
   this->connect(counted);
   counted->SetStep(13);
@@ -154,7 +155,7 @@ TEST_F(ReducedDynamicsFilter, MixedPrecisionChangesNoMotion)
   const Points mixed = at(this->filter, 0.3);
   EXPECT_GT(this->report("single_precision_iterations"), 0.0);
   this->filter->MixedPrecisionOff();
-  const Points in_double = at(this->filter, 0.3); // restarts at step 0
+  const Points in_double = at(this->filter, 0.3); // this restarts at step 0
   EXPECT_EQ(this->report("single_precision_iterations"), 0.0);
   EXPECT_EQ(this->report("steps"), 15.0);
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
@@ -186,7 +187,7 @@ TEST_F(ReducedDynamicsFilter, BadNumbersAndPosesEndIt)
   EXPECT_EQ(this->filter->GetOutput()->GetNumberOfPoints(), 0);
   this->filter->SetStiffness(100.0);
   EXPECT_EQ(at(this->filter, 0.1).rows(), this->rig.mesh.points.rows());
-  // An expression that becomes invalid during the motion.
+  // The expression becomes invalid during the motion.
   this->pose->SetPoseJSON(
     R"json({"handles": {"right": {"translate": [0, "sqrt(0.1 - t)", 0]}}})json");
   vtkNew<test::Listener> upstream;

@@ -1,13 +1,13 @@
-// Comparison of inside tests with VTK's vtkSelectEnclosedPoints: the same surfaces and points, and
-// a ground truth that is independent of both. Bindpose must be right at every point. For VTK's
-// filter only the results that do not depend on its random rays are asserted; the number of its
-// errors is printed.
+// Comparison of inside tests with VTK's vtkSelectEnclosedPoints. Both filters get the same surfaces
+// and points, and the ground truth is independent of both. Bindpose must be right at every point.
+// For VTK's filter the test asserts only results that do not depend on its random rays, and prints
+// the number of its errors.
 //
 // Measured with VTK 9.1 and the default tolerance, vtkSelectEnclosedPoints gives these results:
 // - It is right on spheres, cubes, rings and single thin plates, also near the surface, and on a
-//   sphere with a small hole if CheckSurface is off.
-// - It is wrong at 46 and 5762 of 20000 points among 200 closed plates of thickness 2e-3 and 2e-4.
-//   There, 52 of 10000 answers depend on the other points of the query.
+// sphere with a small hole if CheckSurface is off.
+// - It is wrong at 46 and 5762 of 20000 points among 200 closed plates of thickness 2e-3 and 2e-4,
+// respectively. There, 52 of 10000 answers depend on the other points of the query.
 // - It is wrong at all points that are inside two components.
 // - It refuses open surfaces if CheckSurface is on.
 // With PyVista's tolerance of 1e-3 it is wrong at 3 of 23822 points around closed real surfaces
@@ -50,7 +50,7 @@ enum Truth
   unknown ///< too near to the surface for a ground truth
 };
 
-/// Return the query points of both filters.
+/// Return the query points as the input dataset of both filters.
 vtkSmartPointer<vtkPolyData> data_of(const Points& points)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
@@ -58,7 +58,7 @@ vtkSmartPointer<vtkPolyData> data_of(const Points& points)
   return data;
 }
 
-/// Return 1 (inside) or 0 for each point.
+/// Return Bindpose's result for each point: 1 inside, 0 outside.
 vtkSmartPointer<vtkDataArray> inside_by_bindpose(
   const TriangleMesh& mesh, const Points& points, bool orient = false)
 {
@@ -72,8 +72,9 @@ vtkSmartPointer<vtkDataArray> inside_by_bindpose(
   return vtkDataSet::SafeDownCast(field->GetOutput())->GetPointData()->GetArray("Inside");
 }
 
-/// Return 1 (inside) or 0 for each point, or null if VTK's filter refuses the surface. The
-/// tolerance is in bounding-box diagonals; the default is VTK's, PyVista's is 1e-3.
+/// Return the result of VTK's filter for each point (1 inside, 0 outside), or null if the filter
+/// refuses the surface. The tolerance is in bounding-box diagonals; its default is VTK's, and
+/// PyVista uses 1e-3.
 vtkSmartPointer<vtkDataArray> inside_by_vtk(
   const TriangleMesh& mesh, const Points& points, bool check_surface, double tolerance = 1e-4)
 {
@@ -116,7 +117,7 @@ Wrong compare(const std::string& name, const TriangleMesh& mesh, const Points& p
   return wrong;
 }
 
-/// Return n^3 points of a lattice on [lower, upper]^3.
+/// Return a lattice of n^3 points on [lower, upper]^3.
 Points lattice(Index n, double lower, double upper)
 {
   Points points(n * n * n, 3);
@@ -140,7 +141,8 @@ Points anywhere(Index count, double size)
   return points;
 }
 
-/// Return the ground truth for a convex surface: a point is inside if it is behind all planes.
+/// Return the ground truth for a convex surface: a point is inside if it is behind the planes of
+/// all triangles.
 std::function<Truth(const Vec3&)> behind_all_planes(const TriangleMesh& mesh)
 {
   return [mesh](const Vec3& p)
@@ -163,7 +165,7 @@ Truth in_ball(const Vec3& p, const Vec3& center, double radius, double unsure)
   return std::abs(height) < unsure ? unknown : height < 0.0 ? inside : outside;
 }
 
-/// Number of closed plates of 2 x 2 x thickness, distributed evenly from z = -1 to 1.
+/// Number of closed plates of size 2 x 2 x thickness, distributed evenly from z = -1 to 1.
 constexpr int plates = 200;
 TriangleMesh stack_of_plates(double thickness)
 {
@@ -185,7 +187,8 @@ Truth in_plates(double thickness, const Vec3& p)
   return std::abs(height) < 1e-6 ? unknown : height < 0.0 ? inside : outside;
 }
 
-/// Remove the triangles around a direction.
+/// Remove the triangles around a direction. `cosine` limits the angle between the direction and a
+/// triangle's center.
 TriangleMesh with_hole(TriangleMesh mesh, const Vec3& direction, double cosine)
 {
   Index kept = 0;
@@ -210,7 +213,7 @@ TEST(SelectEnclosedPoints, ClosedManifoldSurfaces)
   EXPECT_EQ(compare("sphere, random points", ball, anywhere(30000, 1.2), in_sphere).bindpose, 0);
   EXPECT_EQ(compare("sphere, lattice", ball, lattice(33, -1.2, 1.2), in_sphere).bindpose, 0);
 
-  // Rays through a cube of small squares meet many edges and vertices.
+  // Rays through a cube made of small squares hit many edges and vertices.
   TriangleMesh box;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -236,7 +239,7 @@ TEST(SelectEnclosedPoints, ClosedManifoldSurfaces)
   EXPECT_EQ(compare("cube, random points", box, anywhere(60000, 1.2), in_box).bindpose, 0);
   EXPECT_EQ(compare("cube, lattice", box, lattice(41, -1.2, 1.2), in_box).bindpose, 0);
 
-  // The polygons of the ring deviate from its circles by at most 1 - cos(pi / n).
+  // The torus is made of polygons, which deviate from its circles by at most 1 - cos(pi / n).
   const TriangleMesh ring = test::torus(120, 60, 1.0, 0.4);
   const auto in_ring = [](const Vec3& p)
   {
@@ -249,7 +252,8 @@ TEST(SelectEnclosedPoints, ClosedManifoldSurfaces)
 
 TEST(SelectEnclosedPoints, StacksOfPlates)
 {
-  // Rays cross hundreds of sides whose distances are close to the tolerance of VTK's filter.
+  // Rays cross hundreds of plates. The distances between their faces are close to the tolerance of
+  // VTK's filter.
   for (const double thickness : { 2e-3, 2e-4 })
   {
     std::ostringstream name;
@@ -263,8 +267,8 @@ TEST(SelectEnclosedPoints, StacksOfPlates)
 
 TEST(SelectEnclosedPoints, ScannedAndModeledSurfaces)
 {
-  // Closed manifold surfaces. The ground truth is the direct sum over all triangles; points within
-  // a thousandth of the diagonal do not count.
+  // These are closed manifold surfaces. The ground truth is the direct sum over all triangles.
+  // Points within a thousandth of the diagonal are not compared.
   for (const char* name : { "cow.off", "femur.off", "anchor.off" })
   {
     const TriangleMesh mesh = test::demo_mesh(name);
@@ -299,7 +303,8 @@ TEST(SelectEnclosedPoints, ScannedAndModeledSurfaces)
 
 TEST(SelectEnclosedPoints, PointsNearTheSurface)
 {
-  // Points at distances from 1e-2 down to 1e-9 above and below the faces of a convex surface.
+  // The points are above and below the faces of a convex surface, at distances from 1e-2 down to
+  // 1e-9.
   const TriangleMesh ball = test::sphere(3);
   for (const double height : { 1e-2, 1e-4, 1e-6, 1e-9 })
   {
@@ -313,7 +318,7 @@ TEST(SelectEnclosedPoints, PointsNearTheSurface)
       points.row(2 * t) = ((a + b + c) / 3.0 + up).transpose();
       points.row(2 * t + 1) = ((a + b + c) / 3.0 - up).transpose();
     }
-    Index asked = 0; // points above and below alternate
+    Index asked = 0; // points above and below a face alternate
     const auto truth = [&](const Vec3&) { return asked++ % 2 == 0 ? outside : inside; };
     std::ostringstream name;
     name << "sphere, " << height << " off its faces";
@@ -323,7 +328,8 @@ TEST(SelectEnclosedPoints, PointsNearTheSurface)
 
 TEST(SelectEnclosedPoints, ThinPlate)
 {
-  // A plate of 2 x 2 x 2e-5: the distance of its two sides is below the tolerance of VTK's filter.
+  // The plate is 2 x 2 x 2e-5: the distance of its two large faces is below the tolerance of VTK's
+  // filter.
   TriangleMesh plate = test::cube();
   plate.points.col(2) *= 1e-5;
   Points points = anywhere(20000, 1.2);
@@ -342,8 +348,8 @@ TEST(SelectEnclosedPoints, ThinPlate)
 
 TEST(SelectEnclosedPoints, OverlappingComponents)
 {
-  // A ray that starts inside both overlapping balls crosses two sides, which VTK's filter counts as
-  // outside.
+  // A ray that starts inside of both overlapping balls crosses two surfaces. VTK's filter counts
+  // such a point as outside.
   const Vec3 aside(0.5, 0.0, 0.0);
   const TriangleMesh ball = test::sphere(4);
   const TriangleMesh both =
@@ -363,7 +369,7 @@ TEST(SelectEnclosedPoints, OverlappingComponents)
   EXPECT_EQ(overlap.bindpose, 0);
   EXPECT_GT(2 * overlap.vtk, overlap.points);
 
-  // A cavity is a component of opposite orientation: both filters report it as outside.
+  // A cavity is a component of opposite orientation. Both filters report its inside as outside.
   const TriangleMesh hollow = test::join(ball, test::flipped(test::sphere(4, 0.5)));
   const auto in_shell = [&](const Vec3& p)
   {
@@ -378,8 +384,8 @@ TEST(SelectEnclosedPoints, OverlappingComponents)
 
 TEST(SelectEnclosedPoints, FlippedSurfaces)
 {
-  // VTK's filter ignores orientations. The winding number inside a flipped surface is -1, which
-  // does not count as inside unless patches are oriented first.
+  // VTK's filter ignores orientations. The winding number inside of a flipped surface is -1.
+  // Bindpose counts this as inside only if patches are oriented first.
   const TriangleMesh ball = test::sphere(3);
   const Points points = anywhere(20000, 1.2);
   const auto truth = behind_all_planes(ball);
@@ -390,7 +396,7 @@ TEST(SelectEnclosedPoints, FlippedSurfaces)
   {
     ASSERT_EQ(not_turned->GetTuple1(i), 0.0);
   }
-  // Every seventh triangle is flipped, which does not change the surface for VTK's filter.
+  // Every seventh triangle is flipped, which makes no difference for VTK's filter.
   TriangleMesh mixed = ball;
   for (Index t = 0; t < mixed.triangles.rows(); t += 7)
   {
@@ -401,7 +407,7 @@ TEST(SelectEnclosedPoints, FlippedSurfaces)
 
 TEST(SelectEnclosedPoints, OpenSurfaces)
 {
-  // A hole of a tenth of the radius; points near it have no ground truth.
+  // The hole has a radius of a tenth of the sphere's. There is no ground truth for points near it.
   const Vec3 up(0.0, 0.0, 1.0);
   const TriangleMesh open = with_hole(test::sphere(4), up, 0.995);
   const auto truth = [&](const Vec3& p)
@@ -414,8 +420,8 @@ TEST(SelectEnclosedPoints, OpenSurfaces)
 
 TEST(SelectEnclosedPoints, AnotherBatch)
 {
-  // The same points in another query: Bindpose's result for a point does not depend on other
-  // points.
+  // The same points are part of another query. Bindpose's result for a point does not depend on the
+  // other points.
   const TriangleMesh stack = stack_of_plates(2e-3);
   const Points points = anywhere(20000, 1.1);
   const Points second = points.bottomRows(10000);

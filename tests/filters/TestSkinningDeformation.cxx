@@ -1,4 +1,4 @@
-// Skinning as a filter: identity, rigid motion and joints as documented by the kernel, one bind,
+// vtkSkinningDeformation: identity, rigid motion and joints as the kernel documents them, one bind,
 // clear errors.
 #include "vtkSkinningDeformation.h"
 
@@ -27,7 +27,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Return two bones along z that meet at the origin.
+/// Return two bones along z that share the origin as a joint.
 vtkSmartPointer<vtkPolyData> two_bones()
 {
   Handles handles(2);
@@ -42,8 +42,8 @@ vtkSmartPointer<vtkPolyData> two_bones()
   return to_polydata(handles);
 }
 
-/// Return weights that change linearly from the lower to the upper bone within |z| < 1/2; both are
-/// 1/2 at 0.
+/// Return weights that change linearly from the lower to the upper bone within |z| < 1/2. Both
+/// weights are 1/2 at z = 0.
 vtkSmartPointer<vtkDoubleArray> weights_of(PointsView points)
 {
   auto weights = vtkSmartPointer<vtkDoubleArray>::New();
@@ -158,7 +158,7 @@ TEST_F(SkinningDeformation, ATwistedJointShrinksUnderLinearBlendAndKeepsItsRadiu
     this->pose->SetPoseJSON(turn_upper(degrees, "[0, 0, 1]"));
     this->filter->SetMethodToLinearBlend();
     this->filter->Update();
-    EXPECT_NEAR(this->ring_radius(), radius, 1e-6); // the mesh's points are floats
+    EXPECT_NEAR(this->ring_radius(), radius, 1e-6); // the points of the mesh are floats
     for (const int method :
       { vtkSkinningDeformation::DUAL_QUATERNION, vtkSkinningDeformation::CENTERS_OF_ROTATION })
     {
@@ -206,7 +206,7 @@ TEST_F(SkinningDeformation, AHundredDragsBindOnce)
     this->filter->Update();
   }
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
-  // Editing the transform in place, as a widget does, does not bind either.
+  // An edit of the transform in place, as by a widget, does not cause a bind either.
   this->filter->SetInputData(1, this->handles);
   this->filter->Update();
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
@@ -291,7 +291,8 @@ TEST_F(SkinningDeformation, AFreeHandleIsNamedInAWarning)
 
 TEST_F(SkinningDeformation, BonesStretchAlongTheirEndpointWeights)
 {
-  this->pose->SetPoseJSON(R"({"handles": {"upper": {"tail": [0, 0, 3]}}})"); // three times as long
+  // This makes the bone three times as long.
+  this->pose->SetPoseJSON(R"({"handles": {"upper": {"tail": [0, 0, 3]}}})");
   this->filter->SetMethodToStretchableBones();
   this->filter->Update();
   ASSERT_EQ(this->error, "");
@@ -402,7 +403,8 @@ TEST_F(SkinningDeformation, CentersAreMadeOnceAndCanBeCanceled)
 
 TEST_F(SkinningDeformation, PseudoEdgesTurnPointsThatAreDragged)
 {
-  // Three points on a square that is rotated by 90 degrees about the first.
+  // The handles are three points on a square. The square is rotated by 90 degrees about the first
+  // point.
   const TriangleMesh square = test::grid(4, 4);
   const auto flat = to_polydata(square.points, square.triangles);
   vtkNew<vtkDoubleArray> weights;
@@ -478,7 +480,8 @@ TEST_F(SkinningDeformation, ReportsWhatIsInsideOutAndStretched)
   this->pose->SetPoseJSON(R"({"handles": {"upper": {"translate": [0, 0, -3]}}})");
   this->filter->StretchArrayOn();
   this->filter->Update();
-  // For z between -1/2 and 1/2, z becomes z - 3 (z + 1/2): half of the tets are scaled by -2.
+  // For z between -1/2 and 1/2, z becomes z - 3 (z + 1/2). These are half of the tets, scaled by -2
+  // along z.
   report = read_report(this->filter->GetOutput());
   EXPECT_EQ(report.number("counts.inverted_elements", 0), 96);
   EXPECT_EQ(report.number("counts.stretched_elements", -1), 0) << "not beyond twice";

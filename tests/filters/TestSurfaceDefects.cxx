@@ -1,3 +1,4 @@
+// vtkSurfaceDefects: every defect of a surface becomes a cell with its type and its source.
 #include "vtkSurfaceDefects.h"
 #include "vtkTetrahedralizeSurface.h"
 
@@ -28,7 +29,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Count the cells for each value of `Defect`.
+/// Count the cells for each value of the array `Defect`.
 std::map<int, int> counts(vtkDataSet* data)
 {
   std::map<int, int> result;
@@ -52,11 +53,12 @@ Array* array_of(vtkDataSet* data, const char* name)
 
 TEST(SurfaceDefectsFilter, CellsAndArrays)
 {
-  // An open cube and, apart from it, a cube inside out; a duplicate triangle; an unused point.
+  // The surface is an open cube and, at a distance, a cube inside out, with a duplicate triangle
+  // and an unused point.
   TriangleMesh mesh = join(open_cube(), translated(flipped(cube()), Vec3(5.0, 0.0, 0.0)));
   const Index t = mesh.triangles.rows();
   mesh.triangles.conservativeResize(t + 1, 3);
-  mesh.triangles.row(t) = mesh.triangles.row(8); // away from the rim
+  mesh.triangles.row(t) = mesh.triangles.row(8); // this triangle is away from the rim
   const Index v = mesh.points.rows();
   mesh.points.conservativeResize(v + 1, 3);
   mesh.points.row(v) << 1.0, 2.0, 9.0;
@@ -109,7 +111,7 @@ TEST(SurfaceDefectsFilter, CellsAndArrays)
 
 TEST(SurfaceDefectsFilter, CellIdsAreThoseOfPolygons)
 {
-  // A square that occurs twice: its two triangles are duplicates of cell 1.
+  // A square occurs twice. The two triangles of the second copy are duplicates of cell 1.
   vtkNew<vtkPolyData> squares;
   const TriangleMesh flat = grid(1, 1);
   squares->SetPoints(to_vtk_points(flat.points));

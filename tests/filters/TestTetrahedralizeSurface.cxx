@@ -1,4 +1,4 @@
-// vtkTetrahedralizeSurface: ports, arrays, report, errors, no repeated work, abort.
+// vtkTetrahedralizeSurface: ports, arrays, report, errors, no repeated execution, abort.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -132,7 +132,7 @@ TEST(TetrahedralizeSurface, EveryTetKnowsItsLabelAndAngle)
 
 TEST(TetrahedralizeSurface, PolygonsAndUnstructuredGridsAreSurfaces)
 {
-  vtkNew<vtkCubeSource> cube; // quads that do not share points
+  vtkNew<vtkCubeSource> cube; // the source makes quads that do not share points
   vtkNew<vtkAppendFilter> grid;
   grid->SetInputConnection(cube->GetOutputPort());
   vtkNew<vtkTetrahedralizeSurface> filter;
@@ -177,7 +177,7 @@ TEST_F(TetrahedralizeSurfaceByHelper, WrapHoldsASheet)
   filter->SetWrapOffset(0.01);
   filter->Update();
   ASSERT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK) << filter->GetStatusMessage();
-  // The result is two offsets thick, and rounded at the rim.
+  // The tets are two offsets thick, and rounded at the rim of the sheet.
   const double diagonal = bounding_box(sheet.points).diagonal();
   const double offset = 0.01 * diagonal;
   const double area = surface_area(sheet.points, sheet.triangles);
@@ -259,7 +259,7 @@ TEST(TetrahedralizeSurface, EmbedBindsTheSurface)
     }
     EXPECT_LT((p - sphere.points.row(v).transpose()).norm(), 1e-12);
   }
-  // Other methods produce no embedding output.
+  // The other methods leave the outputs of the embedding empty.
   filter->SetMethodToCDT();
   filter->Update();
   EXPECT_EQ(filter->GetOutput(2)->GetNumberOfPoints(), 0);
@@ -308,7 +308,7 @@ TEST(TetrahedralizeSurface, ErrorsAreOneSentenceAndAnEmptyOutput)
   filter->SetInputData(empty);
   filter->Update();
   EXPECT_THAT(filter->GetStatusMessage(), HasSubstr("empty"));
-  // The filter recovers with a valid surface.
+  // The filter works again with a valid surface.
   const TriangleMesh cube = test::cube();
   filter->SetInputData(to_polydata(cube.points, cube.triangles));
   filter->Update();
@@ -342,7 +342,7 @@ TEST(TetrahedralizeSurface, AbortKillsTheHelper)
   EXPECT_TRUE(listener->errors.empty());
   EXPECT_LT(waited, 0.2);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
-  // The next update executes again, with the real helper or the lattice.
+  // The next update executes again, with the real helper program or with a lattice.
   filter->SetAbortExecute(0);
   listener->on_progress = nullptr;
   filter->Update();
@@ -383,7 +383,8 @@ TEST_F(TetrahedralizeSurfaceByHelper, HandlesArePartOfTheMesh)
     ASSERT_GE(vertices[h], 0);
     EXPECT_EQ(Vec3(filter->GetOutput()->GetPoint(vertices[h])), handle->head);
   }
-  // The tets contain the handles as vertices, so weights insert no vertex for the handles inside.
+  // The vertices of the tets include the handles. The weights therefore insert no vertices for
+  // handles inside.
   handles.pop_back();
   vtkNew<vtkBoundedBiharmonicWeights> weights;
   weights->SetInputData(0, filter->GetOutput());

@@ -1,5 +1,5 @@
-// Weights of tets are transferred to their source surface, to another dataset, and in a pipeline
-// whose pose changes.
+// vtkTransferWeights: weights of tets are transferred to the surface of the tets, to another
+// dataset, and in a pipeline whose pose changes.
 #include "TestFilter.h"
 
 #include "vtkBoundedBiharmonicWeights.h"
@@ -93,7 +93,7 @@ TEST_F(TransferWeights, SharedVerticesAreExactAndCertificatesTravel)
 
 TEST_F(TransferWeights, OfVerticesAtOnePlaceEachKeepsItsOwn)
 {
-  // Two adjacent squares, as after a cut: two vertices at each point of the seam.
+  // Two adjacent squares, as after a cut: the seam has two vertices at each point.
   const TriangleMesh left = test::grid(2, 2);
   const TriangleMesh both = test::join(left, test::translated(left, Vec3(1, 0, 0)));
   const auto mesh = to_polydata(both.points, both.triangles);
@@ -152,7 +152,7 @@ TEST_F(TransferWeights, AHundredPosesBindNothingAgain)
   EXPECT_EQ(this->weights->GetNumberOfBinds(), 1);
   EXPECT_EQ(this->transfer->GetNumberOfBinds(), 1);
   EXPECT_EQ(skinning->GetNumberOfBinds(), 1);
-  // A vertex moves in proportion to its weight of the moved handle.
+  // A vertex moves in proportion to its weight for the handle that moves.
   vtkDataArray* to = this->transfer->GetOutput()->GetPointData()->GetArray("Weights");
   double p[3];
   double q[3];
@@ -175,7 +175,7 @@ TEST_F(TransferWeights, ErrorsTellWhatIsMissing)
   this->transfer->SetInputData(0, empty);
   this->transfer->Update();
   EXPECT_EQ(this->transfer->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
-  // A failure upstream is passed on.
+  // A failure of an upstream filter makes this filter fail.
   this->transfer->SetInputData(0, this->surface);
   vtkNew<vtkPolyData> none;
   this->weights->SetInputData(1, none);

@@ -1,5 +1,5 @@
-// The writer passes image, array and options to the kernel: its files equal those of the kernel,
-// byte for byte. Their content is tested with the kernel.
+// vtkVDBWriter passes image, array and options to the kernel. Its files equal those of the kernel
+// byte for byte; the content is tested with the kernel.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -135,7 +135,8 @@ TEST_F(VDBWriter, TakesArraysOfAnyNumbers)
   for (const char* name : { "Floats", "Integers" })
   {
     VdbOptions options;
-    options.grid_name = name; // name of the array, unless it is the winding number
+    // The grid has the name of the array, unless the array is the winding number.
+    options.grid_name = name;
     this->Writer->SetArrayName(name);
     EXPECT_TRUE(this->Written() == this->Expected(options)) << name;
   }

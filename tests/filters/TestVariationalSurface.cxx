@@ -1,5 +1,5 @@
-// Variational surfaces as a filter: handles and arrays of the mesh, one bind, use without handles,
-// named errors.
+// vtkVariationalSurface: handles and arrays of the mesh, one bind, use without handles, named
+// errors.
 #include "vtkVariationalSurface.h"
 
 #include "TestFilter.h"
@@ -28,7 +28,7 @@ namespace
 {
 constexpr int squares = 12;
 
-/// A square with a fixed band and a region in its middle.
+/// Pipeline of a square with a fixed band and a region in its middle.
 class VariationalSurfaceFilter : public testing::Test
 {
 protected:
@@ -144,7 +144,7 @@ TEST_F(VariationalSurfaceFilter, DragsBindOnceAndBindParametersBindAgain)
 
 TEST_F(VariationalSurfaceFilter, WithoutHandlesAPatchIsMadeAnew)
 {
-  // A dent in a flat patch, with a flat parameter domain.
+  // A flat patch has a dent, and its parameter domain is flat.
   vtkNew<vtkDoubleArray> domain;
   domain->SetName("Parameterization");
   domain->SetNumberOfComponents(2);
@@ -172,7 +172,7 @@ TEST_F(VariationalSurfaceFilter, WithoutHandlesAPatchIsMadeAnew)
   this->surface->Modified();
   this->filter->Update();
   EXPECT_GT(this->height(0.5, 0.5), 1e-3);
-  // With displacements and without handles, nothing moves.
+  // In the mode that smooths displacements, nothing moves without handles.
   this->surface->GetPointData()->RemoveArray("Load");
   this->filter->FairOff();
   this->filter->Update();

@@ -1,5 +1,5 @@
-// Colors, depth and cuts as filters: arrays, reports, names in errors, and limbs whose order
-// follows their layers.
+// Filters that use weights: colors, depth order and cuts along bones. The test checks arrays,
+// reports, names in errors, and limbs whose order in depth follows their layers.
 #include "TestFilter.h"
 
 #include "vtkBoundedBiharmonicWeights.h"
@@ -88,8 +88,8 @@ vtkSmartPointer<vtkPolyData> two_limbs()
   return to_polydata(points, triangles);
 }
 
-/// Return the rest z of a limb's material at a position of the posed shape, or NaN. The function
-/// tests every triangle.
+/// Return the z coordinate at rest of the material of one limb at a position of the posed shape, or
+/// NaN. Every triangle is tested.
 double height_of(vtkPolyData* rest, vtkPolyData* posed, bool right_limb, double x, double y)
 {
   SurfaceInput surface;
@@ -163,13 +163,13 @@ protected:
     this->handles->Modified();
   }
 
-  /// Return the limb that is in front where they cross.
+  /// Return the name of the limb that is in front where the limbs cross.
   std::string owner()
   {
     this->depth->Update();
     EXPECT_EQ(this->depth->GetStatus(), vtkBindposeAlgorithm::OK);
-    // Compare vertices in the middle of the crossing. The mesh is that of the weights filter, with
-    // its splits.
+    // Compare vertices in the middle of the crossing. The mesh is the output of the weights filter,
+    // which has split triangles.
     auto* mesh = vtkPolyData::SafeDownCast(this->weights->GetOutput());
     auto* posed = vtkPolyData::SafeDownCast(this->depth->GetOutput());
     const double left = height_of(mesh, posed, false, 1.5, 2.3);
@@ -293,7 +293,7 @@ TEST_F(WeightUses, ColorsOfHandlesBytesAndNumbersAlike)
     EXPECT_EQ(data->GetArray("OutOfGamut")->GetComponent(v, 0), 0.0);
   }
   EXPECT_EQ(read_report(this->colors->GetOutput()).number("counts.out_of_gamut", -1), 0);
-  // The same colors as bytes: 51 of 255 is 0.2.
+  // The same colors are given as bytes: 51 of 255 is 0.2.
   vtkNew<vtkUnsignedCharArray> same;
   same->SetName("Color");
   same->SetNumberOfComponents(3);

@@ -50,7 +50,7 @@ vtkSmartPointer<vtkPolyData> square(int n)
   return to_polydata(mesh.points, mesh.triangles);
 }
 
-/// Return two points and a bone within the unit cube, none of them on a vertex.
+/// Return two points and a bone inside of the unit cube. None of them is on a vertex.
 vtkSmartPointer<vtkPolyData> three_handles()
 {
   return to_polydata({ test::point_handle("left", Vec3(0.13, 0.22, 0.31)),
@@ -92,7 +92,7 @@ void expect_rows_sum_to_one(vtkDoubleArray* weights)
   }
 }
 
-/// Return the point of the mesh at a position, or -1.
+/// Return the id of the mesh point at a position, or -1.
 vtkIdType vertex_at(vtkPointSet* mesh, double x, double y, double z, double tolerance)
 {
   const vtkIdType v = mesh->FindPoint(x, y, z);
@@ -116,7 +116,7 @@ TEST(WeightsFilters, TetsGetNamedWeightsAndCertificates)
   EXPECT_STREQ(weights->GetComponentName(2), "middle");
   expect_rows_sum_to_one(weights);
 
-  // Original points come first, then new ones. There is no hole: the cells still fill the cube.
+  // Original points precede new ones. There is no hole: the cells still fill the cube.
   const vtkIdType n = mesh->GetNumberOfPoints();
   ASSERT_GT(run.output()->GetNumberOfPoints(), n);
   for (vtkIdType v = 0; v < n; ++v)
@@ -192,11 +192,11 @@ TEST(WeightsFilters, PoseEditsNeverBindAgain)
   EXPECT_EQ(run.output()->GetFieldData()->GetAbstractArray("WeightsRelativeGap"), gap);
   EXPECT_EQ(run.report().number("counts.handles", 0), 3) << "the bind's report stays whole";
   EXPECT_GT(run.report().number("seconds.factor", 0), 0.0);
-  // A second Update() without a change does not execute.
+  // If nothing has changed, Update() does not execute the filter again.
   run.filter->Update();
   EXPECT_EQ(run.listener->starts, 101);
 
-  // Changes of bind-time data cause a bind: a handle's rest position, the mesh, a parameter.
+  // Changes of bind-time data cause a bind: the rest position of a handle, the mesh, a parameter.
   double p[3];
   handles->GetPoint(0, p);
   handles->GetPoints()->SetPoint(0, p[0] + 0.05, p[1], p[2]);
@@ -218,7 +218,8 @@ TEST(WeightsFilters, PoseEditsNeverBindAgain)
 
 TEST(WeightsFilters, SurfacesOfAnyPolygonsWork)
 {
-  vtkNew<vtkPlaneSource> plane; // quads, float points, from (-.5, -.5) to (.5, .5)
+  // The source makes quads and float points, from (-.5, -.5) to (.5, .5).
+  vtkNew<vtkPlaneSource> plane;
   plane->SetResolution(12, 12);
   plane->Update();
   const auto on_vertices = to_polydata(Handles{
@@ -244,7 +245,8 @@ TEST(WeightsFilters, SurfacesOfAnyPolygonsWork)
   ASSERT_EQ(split.filter->GetStatus(), vtkBindposeAlgorithm::OK);
   EXPECT_EQ(split.output()->GetNumberOfPoints(), 169 + 2);
   EXPECT_EQ(split.report().number("counts.inserted_vertices", 0), 2);
-  // Cell arrays follow the cells: every triangle is in the row that its array states.
+  // Cell arrays stay with their cells: every triangle is in the row of squares that its array
+  // states.
   vtkDataArray* rows = split.output()->GetCellData()->GetArray("Row");
   for (vtkIdType cell = 0; cell < split.output()->GetNumberOfCells(); ++cell)
   {
@@ -253,7 +255,7 @@ TEST(WeightsFilters, SurfacesOfAnyPolygonsWork)
     const double y = 0.5 * (bounds[2] + bounds[3]);
     ASSERT_EQ(std::floor((y + 0.5) * 12.0), rows->GetTuple1(cell));
   }
-  // Normals and texture coordinates keep their role and are interpolated.
+  // Normals and texture coordinates keep their attribute role and are interpolated.
   ASSERT_TRUE(split.output()->GetPointData()->GetNormals());
   EXPECT_NEAR(split.output()->GetPointData()->GetNormals()->GetComponent(170, 2), 1.0, 1e-6);
   double p[3];
@@ -525,7 +527,7 @@ TEST(WeightsFilters, OfASurfaceInALatticeComeWithTheLattice)
   EXPECT_EQ(lattice->GetCellData()->GetArray("InsideFraction")->GetNumberOfTuples(),
     lattice->GetNumberOfCells());
 
-  // Poses never cause a bind; another domain does.
+  // A change of the pose never causes a bind; a change of the domain does.
   weights.filter->Modified();
   weights.filter->Update();
   EXPECT_EQ(weights.filter->GetNumberOfBinds(), 1);
@@ -539,7 +541,8 @@ TEST(WeightsFilters, OfASurfaceInALatticeComeWithTheLattice)
 
 TEST(WeightsFilters, ExtremaComeAsPoints)
 {
-  // The biharmonic weights of the five points on a square have 5, 5, 4, 5 and 4 extrema.
+  // The biharmonic weights of the five points on a square have 5, 5, 4, 5 and 4 extrema,
+  // respectively.
   Pipeline<vtkUnconstrainedWeights> weights(square(40),
     to_polydata({ test::point_handle("c", Vec3(0.5, 0.5, 0)),
       test::point_handle("a", Vec3(0.2, 0.2, 0)), test::point_handle("b", Vec3(0.8, 0.2, 0)),
@@ -655,8 +658,8 @@ TEST(WeightsFilters, TermsComeFromArraysAndBelongToTheBind)
   EXPECT_EQ(pipeline.filter->GetNumberOfBinds(), 3) << "a brush stroke binds again";
   EXPECT_EQ(pipeline.weights()->GetComponent(pinned, 0), 0.8);
 
-  // With an empty name, the array of pinned values has no effect. Methods without bounds ignore
-  // these terms.
+  // If the array name is empty, the pinned values have no effect. Methods without bounds ignore
+  // pinned values.
   pipeline.filter->SetPinnedArrayName("");
   pipeline.filter->SetMaximumInfluences(1);
   pipeline.filter->Update();
@@ -684,7 +687,7 @@ TEST(WeightsFilters, HandlesHaveBoundsOfTheirOwn)
   bounds->SetNumberOfComponents(2);
   bounds->SetNumberOfTuples(4);
   bounds->Fill(std::nan(""));
-  bounds->SetTuple2(1, -10, 10); // too wide to have an effect
+  bounds->SetTuple2(1, -10, 10); // these bounds are too wide to have an effect
   handles->GetCellData()->AddArray(bounds);
   Pipeline<vtkBoundedBiharmonicWeights> pipeline(mesh, handles);
   pipeline.filter->SetTolerance(1e-9);

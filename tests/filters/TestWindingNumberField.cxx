@@ -1,4 +1,4 @@
-// The field on grids and at points, for all requests of a pipeline.
+// vtkWindingNumberField: winding numbers on grids and at points, for all requests of a pipeline.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -61,9 +61,9 @@ TEST(WindingNumberField, GridCoversThePaddedBounds)
 {
   vtkNew<vtkWindingNumberField> field;
   TriangleMesh mesh = test::cube();
-  mesh.points.col(0) *= 2.0; // 4 x 2 x 2
+  mesh.points.col(0) *= 2.0; // the box is 4 x 2 x 2
   mesh.points.conservativeResize(9, 3);
-  mesh.points.row(8) << 100, 100, 100; // unused point
+  mesh.points.row(8) << 100, 100, 100; // no triangle uses this point
   field->SetInputData(data_of(mesh));
   field->SetResolution(41);
   field->Update();
@@ -108,7 +108,7 @@ TEST(WindingNumberField, GridCoversThePaddedBounds)
   EXPECT_EQ(report.number("counts.components", -1), 1);
   EXPECT_EQ(report.number("counts.queries", -1), image->GetNumberOfPoints());
   EXPECT_NEAR(report.number("volume", 0), 16.0, 1e-12);
-  // A sum over samples is the volume up to one layer of voxels.
+  // The sum over the samples gives the volume, up to one layer of voxels.
   EXPECT_NEAR(report.number("winding_volume", 0), 16.0, 40.0 * spacing);
   EXPECT_GE(field->GetReport().number("seconds.build", -1), 0.0);
   EXPECT_GT(field->GetReport().number("seconds.evaluate", -1), 0.0);
@@ -134,7 +134,7 @@ TEST(WindingNumberField, DimensionsAndBoundsAsAskedFor)
   EXPECT_NEAR(array_of(image)->GetValue(0), 1.0, 1e-15);
   EXPECT_EQ(array_of(image)->GetValue(1), 0.5) << "on a face";
 
-  field->SetBounds(1, 0, 1, 0, 1, 0); // no bounds: cubic voxels around the surface
+  field->SetBounds(1, 0, 1, 0, 1, 0); // these invalid bounds mean cubic voxels around the surface
   field->SetDimensions(11, 21, 11);
   field->Update();
   image = image_of(field);
@@ -142,7 +142,7 @@ TEST(WindingNumberField, DimensionsAndBoundsAsAskedFor)
   EXPECT_LE(image->GetBounds()[0], -1.0);
   EXPECT_LE(image->GetBounds()[2], image->GetBounds()[0]);
 
-  field->SetBounds(-1, 1, -1, 1, 0.25, 0.25); // one slice
+  field->SetBounds(-1, 1, -1, 1, 0.25, 0.25); // these bounds mean a single slice
   field->SetDimensions(3, 3, 1);
   field->Update();
   image = image_of(field);
@@ -157,7 +157,7 @@ TEST(WindingNumberField, SubExtentsHaveTheSameBits)
   vtkNew<vtkSphereSource> sphere; // an upstream filter in the pipeline
   sphere->SetThetaResolution(24);
   sphere->SetPhiResolution(16);
-  sphere->SetEndTheta(300.0); // open surface
+  sphere->SetEndTheta(300.0); // this makes an open surface
   vtkNew<vtkWindingNumberField> field;
   field->SetInputConnection(sphere->GetOutputPort());
   field->SetResolution(20);
@@ -202,7 +202,7 @@ TEST(WindingNumberField, SubExtentsHaveTheSameBits)
     }
     EXPECT_EQ(read_report(image).find("winding_volume"), nullptr) << "only of the whole";
   }
-  // Pieces, as requested by filters with unstructured output.
+  // Filters with unstructured output request pieces.
   vtkNew<vtkContourFilter> contour;
   contour->SetInputConnection(other->GetOutputPort());
   contour->SetValue(0, 0.5);
@@ -215,13 +215,13 @@ TEST(WindingNumberField, SubExtentsHaveTheSameBits)
     EXPECT_LT(image_of(other)->GetNumberOfPoints(), all->GetNumberOfPoints());
     points += image_of(other)->GetNumberOfPoints();
   }
-  EXPECT_GE(points, all->GetNumberOfPoints()); // pieces share a layer of points
+  EXPECT_GE(points, all->GetNumberOfPoints()); // neighboring pieces share a layer of points
 }
 
 TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
 {
-  vtkNew<vtkSphereSource> sphere; // can produce pieces
-  sphere->SetEndTheta(300.0); // open surface
+  vtkNew<vtkSphereSource> sphere; // this source can produce pieces
+  sphere->SetEndTheta(300.0); // this makes an open surface
   vtkNew<vtkWindingNumberField> field;
   field->SetInputConnection(sphere->GetOutputPort());
   field->SetResolution(12);
@@ -231,7 +231,7 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
   const vtkIdType edges = field->GetBoundaryOutput()->GetNumberOfCells();
   EXPECT_GT(edges, 0);
 
-  // Another consumer, such as a renderer, has requested a piece of the sphere, which has other
+  // Another consumer, such as a renderer, has requested a piece of the sphere. This piece has other
   // bounds.
   vtkNew<vtkWindingNumberField> again;
   again->SetInputConnection(sphere->GetOutputPort());
@@ -257,8 +257,9 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
     }
   }
 
-  // The boundary is not split: the first piece contains all of it. If it is requested with ghost
-  // levels, as ParaView does, the filter executes once more but outputs the existing field array.
+  // The output of boundary edges is not split into pieces: the first piece contains all of them. If
+  // it is requested with ghost levels, as ParaView does, the filter executes once more but outputs
+  // the existing field array.
   for (int piece = 0; piece < 2; ++piece)
   {
     again->UpdatePiece(piece, 2, 0);
@@ -275,7 +276,7 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
     EXPECT_EQ(array_of(image_of(again)), array_of(kept));
     EXPECT_EQ(read_report(image_of(again)).number("counts.queries", 0), kept->GetNumberOfPoints());
     vtkDataArray* const before = array_of(kept);
-    again->SetWindingThreshold(0.6 + piece); // a parameter that changes the field
+    again->SetWindingThreshold(0.6 + piece); // this parameter changes the field
     again->UpdatePiece(piece, 2, 0);
     EXPECT_NE(array_of(image_of(again)), before);
   }
@@ -312,7 +313,7 @@ TEST(WindingNumberField, PointsOfAnyDataset)
   EXPECT_EQ(read_report(result).find("winding_volume"), nullptr);
   EXPECT_EQ(tets->GetPointData()->GetArray("WindingNumber"), nullptr) << "input untouched";
 
-  // An image as points: its extents are respected, too.
+  // The points of an image are query points. Requests for parts of its extent are respected.
   vtkNew<vtkImageData> image;
   image->SetExtent(2, 6, 0, 4, -3, 3);
   image->SetOrigin(-1.0, -0.7, 0.1);
@@ -330,7 +331,7 @@ TEST(WindingNumberField, PointsOfAnyDataset)
       winding_number_direct(mesh.points, mesh.triangles, Vec3(image->GetPoint(i))), 1e-12);
   }
 
-  // The filter returns to a grid.
+  // Without query points, the filter samples a grid again.
   field->SetInputConnection(1, nullptr);
   field->SetResolution(8);
   field->Update();
@@ -360,7 +361,7 @@ TEST(WindingNumberField, PointsThatAreNotFiniteAreCounted)
 
 TEST(WindingNumberField, QuadsStripsAndOtherCells)
 {
-  // A cube of six quads, one of them flipped, and a line that is ignored.
+  // The surface is a cube of six quads, one of them flipped. A line in the input is ignored.
   const TriangleMesh mesh = test::cube();
   vtkNew<vtkPolyData> data;
   data->SetPoints(to_vtk_points(mesh.points));
@@ -406,7 +407,7 @@ TEST(WindingNumberField, ExecutesOnlyWhenSomethingChanged)
   field->UpdateInformation();
   field->Update();
   EXPECT_EQ(listener->starts, 1);
-  field->SetResolution(8); // unchanged value
+  field->SetResolution(8); // the value does not change
   field->SetNumberOfThreads(1);
   field->Update();
   EXPECT_EQ(listener->starts, 1);
@@ -414,7 +415,7 @@ TEST(WindingNumberField, ExecutesOnlyWhenSomethingChanged)
   field->Update();
   EXPECT_EQ(listener->starts, 2);
   EXPECT_EQ(upstream->starts, 1);
-  // The surface grows, and so does the grid.
+  // The surface becomes larger, and so does the grid.
   const double before = image_of(field)->GetLength();
   sphere->SetRadius(2.0 * sphere->GetRadius());
   field->Update();
@@ -425,7 +426,7 @@ TEST(WindingNumberField, ExecutesOnlyWhenSomethingChanged)
 
 TEST(WindingNumberField, FastKeepsItsToleranceAndSaysSo)
 {
-  TriangleMesh mesh = test::sphere(4); // 5120 triangles, every third removed
+  TriangleMesh mesh = test::sphere(4); // every third of the 5120 triangles is removed
   Index kept = 0;
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
   {
@@ -497,7 +498,7 @@ TEST(WindingNumberField, ASurfaceIsBuiltOnce)
   field->Update();
   EXPECT_EQ(field->GetNumberOfBuilds(), 5);
   EXPECT_EQ(array_of(image_of(field))->GetValue(0), 1.0) << "of the new radius";
-  // After a failure the old build must not be used again.
+  // After a failure the filter must not use its old build.
   field->SetInputData(vtkNew<vtkPolyData>());
   vtkNew<Listener> listener;
   listener->listen(field);
@@ -574,7 +575,8 @@ TEST(WindingNumberField, GradientInsideAndOnSurfaceAsKnown)
       (2.0 * h);
     EXPECT_NEAR(data->GetArray("WindingNumberGradient")->GetComponent(0, k), difference, 1e-8);
   }
-  // On the axis above the hole, the gradient is that of a current loop: along z only.
+  // On the axis above the hole, the gradient has the direction of the field of a current loop:
+  // along z only.
   EXPECT_NEAR(data->GetArray("WindingNumberGradient")->GetComponent(2, 0), 0.0, 1e-14);
   EXPECT_LT(std::abs(data->GetArray("WindingNumberGradient")->GetComponent(2, 2)), 1.0);
   EXPECT_NE(data->GetArray("WindingNumberGradient")->GetComponent(2, 2), 0.0);
@@ -606,7 +608,7 @@ TEST(WindingNumberField, CellCentersOfAnyDataset)
       values->GetTuple1(t), winding_number_direct(mesh.points, mesh.triangles, center), 1e-12);
   }
 
-  // Grids with uneven spacing.
+  // The queries are the points of grids with uneven spacing.
   vtkNew<vtkRectilinearGrid> rectilinear;
   vtkNew<vtkDoubleArray> places;
   for (const double x : { -1.5, -0.7, 0.1, 0.2, 1.3 })
@@ -682,7 +684,7 @@ TEST(WindingNumberField, SpacingAndTargetCount)
       EXPECT_GT(count, 0.85 * static_cast<double>(target)) << "the finest such grid";
     }
   }
-  field->SetDimensions(3, 4, 5); // has priority over all others
+  field->SetDimensions(3, 4, 5); // the dimensions have priority over all other sizes
   field->SetSpacing(1, 1, 1);
   field->Update();
   EXPECT_EQ(image_of(field)->GetNumberOfPoints(), 60);
@@ -696,14 +698,14 @@ TEST(WindingNumberField, SpacingAndTargetCount)
   field->SetSpacing(1e-300, 1, 1);
   field->Update();
   EXPECT_THAT(field->GetStatusMessage(), HasSubstr("samples"));
-  // A grid that can be described, but does not fit in memory: 8 TB.
+  // This grid can be described, but needs 8 TB of memory.
   field->SetSpacing(0, 0, 0);
   field->SetTargetNumberOfSamples(1000000000000);
   field->Update();
   EXPECT_THAT(field->GetStatusMessage(), HasSubstr("GiB"));
   EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
   EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
-  // A part of it can be computed.
+  // A part of the grid can be computed.
   field->UpdateInformation();
   int part[6] = { 100, 103, 2000, 2003, 300, 301 };
   field->UpdateExtent(part);
@@ -748,7 +750,7 @@ TEST(WindingNumberField, BoundaryAndTableOfComponents)
 
 TEST(WindingNumberField, PatchesAreTurnedOnDemand)
 {
-  // One side of a cube is flipped, and the whole of another cube.
+  // One face of one cube is flipped, and all faces of another cube.
   TriangleMesh mesh =
     test::join(test::cube(), test::translated(test::flipped(test::cube()), Vec3(10, 0, 0)));
   mesh.triangles.row(4).reverseInPlace();
@@ -778,8 +780,8 @@ TEST(WindingNumberField, PatchesAreTurnedOnDemand)
 
 TEST(WindingNumberField, LinesAreACurveInTheirPlane)
 {
-  // A square in each of the three coordinate planes, as one closed polyline. It is
-  // counter-clockwise seen from the tip of the perpendicular axis.
+  // A square in each of the three coordinate planes, as one closed polyline. Viewed from the
+  // positive end of the perpendicular axis, it is counter-clockwise.
   for (int across = 0; across < 3; ++across)
   {
     SCOPED_TRACE(across);
@@ -817,14 +819,14 @@ TEST(WindingNumberField, LinesAreACurveInTheirPlane)
     EXPECT_EQ(field->GetBoundaryOutput()->GetNumberOfCells(), 0);
     EXPECT_NEAR(read_report(image).number("area", 0), 4.0, 1e-12);
 
-    // Without the last side, the winding number lacks the angle of that side.
+    // Without its last side, the winding number decreases by the angle of that side.
     const vtkIdType open[4] = { 0, 1, 2, 3 };
     vtkNew<vtkCellArray> three_sides;
     three_sides->InsertNextCell(4, open);
     square->SetLines(three_sides);
     vtkNew<vtkPolyData> where;
     vtkNew<vtkPoints> at;
-    // Offset along the perpendicular axis, which must have no effect.
+    // The query points are offset along the perpendicular axis, which must have no effect.
     for (const double away : { 0.0, 7.0 })
     {
       Vec3 p = Vec3::Constant(away);
@@ -844,13 +846,14 @@ TEST(WindingNumberField, LinesAreACurveInTheirPlane)
       EXPECT_NEAR(array_of(field->GetOutput())->GetValue(i), 0.75, 1e-14);
       EXPECT_EQ(flags->GetTuple1(i), 0);
       EXPECT_EQ(flags->GetTuple1(i + 1), 1);
-      // The angle of the missing side, at u = -1, is 2 atan(1 / (1 + u)), of slope -1.
+      // The angle of the missing side, which is at u = -1, is 2 atan(1 / (1 + u)), with the slope
+      // -1 at u = 0.
       EXPECT_NEAR(gradient->GetComponent(i, u), 1.0 / 6.283185307179586, 1e-12);
       EXPECT_NEAR(gradient->GetComponent(i, v), 0.0, 1e-12);
       EXPECT_EQ(gradient->GetComponent(i, across), 0.0);
     }
   }
-  // Lines in space are not a curve in a plane.
+  // A polyline that is not planar is refused.
   vtkNew<vtkPolyData> bent;
   vtkNew<vtkPoints> points;
   points->InsertNextPoint(0, 0, 0);
@@ -871,7 +874,8 @@ TEST(WindingNumberField, LinesAreACurveInTheirPlane)
 
 TEST(WindingNumberField, PointsWithNormalsAreSamplesOfASurface)
 {
-  // The centers of the sphere's triangles, with and without their areas.
+  // The point cloud consists of the centers of the sphere's triangles, with and without their
+  // areas.
   const TriangleMesh sphere = test::sphere(4);
   vtkNew<vtkPoints> points;
   vtkNew<vtkDoubleArray> normals;
@@ -887,7 +891,7 @@ TEST(WindingNumberField, PointsWithNormalsAreSamplesOfASurface)
     const Vec3 middle = (a + b + c) / 3.0;
     const Vec3 normal = (b - a).cross(c - a);
     points->InsertNextPoint(middle.data());
-    normals->InsertNextTuple(normal.data()); // any length
+    normals->InsertNextTuple(normal.data()); // normals may have any length
     areas->InsertNextValue(0.5 * normal.norm());
   }
   vtkNew<vtkPolyData> cloud;
@@ -933,7 +937,8 @@ TEST(WindingNumberField, PointsWithNormalsAreSamplesOfASurface)
     ASSERT_TRUE(gradient.allFinite());
     if (std::abs(at.norm() - 1.0) > 0.2)
     {
-      EXPECT_LE(gradient.norm(), 0.1) << at.transpose(); // nearly constant inside and outside
+      // The field is nearly constant inside and outside.
+      EXPECT_LE(gradient.norm(), 0.1) << at.transpose();
     }
   }
 }
@@ -982,7 +987,7 @@ TEST(WindingNumberField, BadSurfacesFailCleanlyForTheWholeChain)
 {
   const TriangleMesh cube = test::cube();
   vtkNew<vtkPolyData> empty;
-  vtkNew<vtkPolyData> no_triangles; // points and a line only
+  vtkNew<vtkPolyData> no_triangles; // the dataset has points and a line only
   no_triangles->SetPoints(to_vtk_points(cube.points));
   vtkNew<vtkCellArray> lines;
   const vtkIdType ends[2] = { 0, 7 };
@@ -1031,7 +1036,7 @@ TEST(WindingNumberField, BadSurfacesFailCleanlyForTheWholeChain)
       EXPECT_EQ(next->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
       EXPECT_EQ(next->GetStatusMessage(), field->GetStatusMessage());
       EXPECT_EQ(downstream->errors.size(), 1u);
-      // VTK's own filters must not crash and must not keep their old output.
+      // VTK's own filters downstream must not crash and must not keep their old output.
       contour->Update();
       EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
 
@@ -1115,7 +1120,7 @@ TEST(WindingNumberField, BlocksOfACompositeInput)
         EXPECT_NEAR(read_report(image).number("volume", 0), std::pow(2.0 + 2.0 * b, 3), 1e-9);
       }
     }
-    // The same filter works on a plain surface again.
+    // The same filter works again with a surface that has no defects.
     vtkNew<vtkSphereSource> sphere;
     sphere->SetRadius(5.0);
     field->SetInputConnection(sphere->GetOutputPort());

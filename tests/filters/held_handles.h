@@ -12,8 +12,8 @@
 namespace bindpose::test
 {
 
-/// Return handles at rest in mode full: methods that find rotations constrain their whole
-/// transforms.
+/// Return handles at rest with mode full: methods that find rotations must keep the whole transform
+/// of such handles.
 inline vtkSmartPointer<vtkPolyData> to_held_polydata(const Handles& handles)
 {
   const vtkSmartPointer<vtkPolyData> data = to_polydata(handles);

@@ -1,8 +1,8 @@
-"""Checks of tests/paraview.sh that run outside of ParaView: check.py BUILD MESH FOLDER.
+"""Check the results of tests/paraview.sh outside of ParaView: check.py BUILD MESH FOLDER.
 
-FOLDER/1 and FOLDER/2 contain the results of in_paraview.py on one and on two ranks, and FOLDER/N.log the log of
-ParaView. The fields of both runs have the same bits. They also equal those of `bindpose winding`, which is built with
-another VTK.
+FOLDER/1 and FOLDER/2 contain the results of in_paraview.py on one and on two MPI ranks, and FOLDER/N.log the log of
+ParaView. The fields of both runs must have the same bits. They must also equal those of `bindpose winding`, which is
+built with another VTK.
 """
 
 import json
@@ -16,10 +16,10 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 
-# Lines of PrintSelf that describe the last run and are not parameters.
+# PrintSelf prints these lines about the last run; they are not parameters.
 NO_PARAMETER = {"Status", "StatusMessage", "Report"}
-# Defaults of proxies that differ from their class on purpose. The file dialog has already asked about overwriting. A
-# user of a panel wants weights of any surface, while a C++ pipeline solves on the given mesh.
+# These defaults of proxies differ from their class on purpose. ParaView's file dialog has already asked about
+# overwriting. A user of a panel wants weights of any surface, while a C++ pipeline solves on the mesh that it is given.
 OTHER_DEFAULTS = {("vtkMeshFileWriter", "Overwrite"), ("vtkVDBWriter", "Overwrite"),
                   ("vtkGLTFSkinWriter", "Overwrite"), ("vtkBoundedBiharmonicWeights", "Domain"),
                   ("vtkMonotoneWeights", "Domain"), ("vtkUnconstrainedWeights", "Domain")}
@@ -42,13 +42,14 @@ def load(folder, name, ranks):
 
 
 def place(whole, extent):
-    """Return the slices of an extent in the array of the whole extent."""
+    """Return the array slices that select an extent in the array of the whole extent."""
     return tuple(slice(extent[2 * k] - whole[2 * k], extent[2 * k + 1] - whole[2 * k] + 1) for k in (2, 1, 0))
 
 
 def compare_ranks(folder, name):
-    """Check that two ranks computed different halves that share one plane, and that all their samples equal those of
-    one rank."""
+    """Check that two ranks computed different halves that share one plane of samples, and that all their samples equal
+    those of one rank.
+    """
     ((alone, all_values),) = load(folder / "1", name, 1)
     assert alone["extent"] == alone["whole"]
     seen = np.zeros(all_values.shape, int)
@@ -77,7 +78,7 @@ def compare_builds(build, folder, name, surface, alone, values, *options):
 
 
 def parameters(printed):
-    """Return the `Name: value` lines of Bindpose's own classes, which follow those of VTK's classes."""
+    """Return the `Name: value` lines that Bindpose's own classes print, which follow the lines of VTK's classes."""
     own = printed[printed.index("NumberOfThreads:"):]
     found = dict(re.findall(r"^ *(\w+): *(.*?) *$", own, re.MULTILINE))
     return {name: "" if value == "(none)" else value for name, value in found.items() if name not in NO_PARAMETER}

@@ -1,9 +1,9 @@
-"""Tests of tests/paraview.sh that run inside of ParaView: pvbatch in_paraview.py PLUGIN MESH FOLDER, on any number of
-ranks.
+"""Test the ParaView plugin inside of ParaView, for tests/paraview.sh: pvbatch in_paraview.py PLUGIN MESH FOLDER, on any
+number of MPI ranks.
 
 Each rank computes its part of winding number fields and writes it to FOLDER. Then all other proxies of the plugin are
-used. Facts about one run are asserted here, and facts about several runs in check.py. FOLDER/run.json is written last;
-it exists only if all assertions hold.
+used. Facts about one run are asserted here, and facts about several runs in check.py. FOLDER/run.json is written last,
+so it exists only if all assertions hold.
 """
 
 import json
@@ -23,8 +23,8 @@ FILTERS = (
 SOURCES = "BindposeMeshReader BindposeHandleReader".split()
 WRITERS = "BindposeMeshWriter BindposeVDBWriter".split()
 
-# This script runs on every rank. It writes the requested piece, the received data, and the number of samples that the
-# filter reports as computed.
+# This script runs on every rank. It writes the piece that was requested, the data that arrived, and the number of
+# samples that the filter reports as computed.
 WRITE_PARTS = """
 import json
 import numpy as np
@@ -51,7 +51,7 @@ with open(f"{folder}/{name}.{rank}.json", "w") as file:
 
 
 def fetch(proxy, port=0):
-    """Return an unchanged output, gathered from all ranks."""
+    """Return an unchanged output of a proxy, gathered from all ranks."""
     proxy.UpdatePipeline()
     return servermanager.Fetch(proxy, idx=port)
 
@@ -67,7 +67,7 @@ def write_parts(name, field, folder):
 
 
 def spheres():
-    """Return an open sphere and a closed one that crosses it. Both are updated first, as the window does."""
+    """Return an open sphere and a closed one that crosses it. Both are updated first, as ParaView's window does."""
     open_sphere = Sphere(ThetaResolution=24, PhiResolution=16, EndTheta=300.0)
     other = Sphere(ThetaResolution=17, PhiResolution=13, Center=[0.4, 0.1, -0.05])
     for sphere in (open_sphere, other):
@@ -81,7 +81,7 @@ def fields(mesh, folder):
     field = WindingNumberField(Input=both, Resolution=40)
     write_parts("spheres", field, folder)
     surface = fetch(field, 1)
-    # The edges of the two meridians at the opening.
+    # The open edges are those of the two meridians at the opening.
     assert surface.GetNumberOfCells() == 16 - 1 + 16 - 1, surface.GetNumberOfCells()
     values = vtk_to_numpy(fetch(Contour(Input=field, ContourBy=["POINTS", "WindingNumber"], Isosurfaces=[0.5]))
                           .GetPointData().GetArray("WindingNumber"))
@@ -92,7 +92,7 @@ def fields(mesh, folder):
     write_parts("mesh", WindingNumberField(Input=reader, Resolution=48), folder)
     write_parts("exact", WindingNumberField(Input=reader, Resolution=24, Method="Exact"), folder)
 
-    # Winding numbers at the points of another dataset, of which each rank has a part.
+    # Evaluate winding numbers at the points of another dataset. Each rank has a part of the points.
     wavelet = Wavelet(WholeExtent=[-6, 6, -6, 6, -6, 6])
     inside = WindingNumberField(Input=Sphere(Radius=5.0, ThetaResolution=60, PhiResolution=60), Points=wavelet,
                                 ComputeInside=1, ComputeGradient=1)
@@ -104,7 +104,7 @@ def fields(mesh, folder):
     assert np.array_equal(flags[clear] == 1, radii[clear] < 5.0)
     assert image.GetPointData().GetArray("WindingNumberGradient").GetNumberOfComponents() == 3
     assert image.GetPointData().GetArray("RTData")
-    # Without the points, the filter samples a grid again.
+    # Without query points, the filter samples a grid again.
     inside.Points = None
     inside.Resolution = 10
     inside.UpdatePipeline()
@@ -112,7 +112,7 @@ def fields(mesh, folder):
 
 
 def deformation():
-    """Run the pipeline from a surface to a posed one. Several ranks compute the same result as one."""
+    """Run the pipeline from a surface to a posed surface. Several ranks compute the same result as one rank."""
     numbers = {}
     surface = Sphere(ThetaResolution=20, PhiResolution=14, EndTheta=320.0)
     surface.UpdatePipeline()
@@ -124,7 +124,7 @@ def deformation():
     assert numbers["tets"] > 100
     assert {data.GetCellType(i) for i in range(numbers["tets"])} == {10}
     numbers["volume"] = data.GetFieldData().GetArray("Report.volume").GetTuple1(0)
-    # The volumes of the ball without and with its slice are 0.465 and 0.524.
+    # The volume of the ball is 0.524; without the missing slice it is 0.465.
     assert 0.3 < numbers["volume"] < 0.53, numbers["volume"]
     assert fetch(TetrahedralizeSurface(Input=surface, Method="Remesh", Resolution=10)).GetNumberOfCells() > 100
 
@@ -168,12 +168,13 @@ def deformation():
     assert vtk_to_numpy(colors.GetArray("Color")).shape == (len(rest), 3) and colors.GetArray("OutOfGamut").GetRange() == (0, 0)
     assert fetch(DepthOrder(Input=bound, Handles=handles)).GetPointData().GetArray("Depth").GetRange() == (0, 0)
     moved = np.linalg.norm(points_of(fetch(posed["SkinningDeformation"])) - rest, axis=1)
-    assert abs(moved.max() - 0.1) < 1e-12 and moved.min() < 0.05  # the handle itself, and a distant point
+    # The first value is the handle itself, the second a distant point.
+    assert abs(moved.max() - 0.1) < 1e-12 and moved.min() < 0.05
     return numbers, bound, posed_handles
 
 
 def files(folder, bound):
-    """Check readers and writers on one process: read data equals the written data."""
+    """Check readers and writers on one process: the data that is read equals the data that was written."""
     data = fetch(bound)
     SaveData(str(folder / "bound.mesh"), proxy=bound)
     back = fetch(BindposeMeshReader(FileName=str(folder / "bound.mesh")))
@@ -222,7 +223,7 @@ def bad_input(folder, bound, posed_handles):
         assert arrays.GetAbstractArray("Report.status").GetValue(0) == "invalid_input", name
         sentences[name] = arrays.GetAbstractArray("Report.message").GetValue(0)
         assert len(sentences[name]) > 10, name
-    # A failed source makes its consumers fail. They work again after the source is repaired.
+    # If a source fails, its consumers fail. They work again after the source is repaired.
     reader = cases["missing.off"]
     (folder / "missing.off").write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
     reader.FileName = str(folder / "broken.off")
@@ -280,8 +281,8 @@ def main():
 
 
 if __name__ == "__main__":
-    # Programmable filters execute their scripts in __main__ and replace max, sum and abs there, so run in another
-    # module.
+    # Programmable filters execute their scripts in __main__, and replace max, sum and abs there. Therefore the tests
+    # run in another module.
     sys.path.insert(0, str(pathlib.Path(__file__).parent))
     import in_paraview
 

@@ -1,4 +1,4 @@
-"""Smooth patches between fixed vertices, on arrays and datasets, and exceptions."""
+"""bindpose.fair: smooth patches between fixed vertices, on arrays and datasets, and exceptions."""
 
 import warnings
 
@@ -45,7 +45,8 @@ def test_tangents_of_an_array_tilt_the_edge():
     up = np.where((DEPTH == 2)[:, None], [0, 0, 1.0], 0)
     made = np.asarray(bindpose.fair((FLAT, TRIANGLES), FIXED, boundary="tangent", tangents=up))
     free = ~FIXED
-    assert made[free, 2].max() < 0  # the patch leaves the edge in the direction opposite to the given outward tangent
+    # The given tangent points outward, and the patch leaves the edge in the opposite direction.
+    assert made[free, 2].max() < 0
     assert np.array_equal(made[FIXED], FLAT[FIXED])
 
 

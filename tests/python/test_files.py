@@ -1,4 +1,4 @@
-"""Files: round trips, and errors as exceptions."""
+"""Files in the Python package: round trips, and errors as exceptions."""
 
 import warnings
 
@@ -41,7 +41,7 @@ def test_rigs(tmp_path):
                   bindpose.deform(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb")):
         for k in range(3):
             assert points_of(again[k]) == pytest.approx(points_of(posed[k]), abs=2e-6)
-    # A sequence of one frame gives a list of one mesh.
+    # A sequence with one frame gives a list with one mesh.
     assert len(bindpose.deform(mesh, tmp_path / "h.tgf", {"frames": pose["frames"][:1]})) == 1
     bindpose.write(shapes.cube(), tmp_path / "cube.gltf")
     assert bindpose.read(tmp_path / "cube.gltf").GetNumberOfCells() == 12

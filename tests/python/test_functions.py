@@ -1,4 +1,6 @@
-"""All stages on arrays and datasets: the same numbers as those of the program, and exceptions."""
+"""All functions of the Python package on arrays and datasets: the same values as the command-line program, and
+exceptions.
+"""
 
 import json
 import os
@@ -125,7 +127,7 @@ def test_tetrahedralize_around_a_sheet():
                                                                wrap_offset=0.01)
     p = vertices[tets]
     volume = np.einsum("ti,ti->t", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0]) / 6
-    # A square of side 1, thickened by two offsets and rounded at the rim.
+    # The volume is that of a square of side 1, thickened by two offsets and rounded at the rim.
     assert volume.min() > 0 and 1.8 * 0.01 * 2**0.5 < volume.sum() < 2.2 * 0.01 * 2**0.5
     assert (original == -1).all() and report["method"] == "wrap"
     assert any("thin shell" in warning for warning in report["warnings"])
@@ -276,7 +278,7 @@ def test_dynamics_falls():
     posed = bindpose.dynamics(BAR, handles, pose, frames=11, time_step=0.1, gravity=(0, -10, 0),
                               weights=np.stack([1 - x, x], axis=1))
     assert len(posed) == 11 and bindpose.report(posed[-1])["steps"] == 10
-    for n in range(11):  # parabola of implicit Euler
+    for n in range(11):  # falling with implicit Euler follows a parabola
         assert posed[n] == pytest.approx(np.array(BAR[0]) + [0, -10 * 0.01 * n * (n + 1) / 2, 0], abs=1e-9)
 
 
@@ -325,7 +327,7 @@ def test_crowd():
     assert len(posed) == 4 and bindpose.report(posed[3])["counts"]["instances"] == 4
     for one, other in zip(posed, alone):
         assert one == pytest.approx(other, abs=1e-5)
-    # The frames of a sequence are instances, each at its placement.
+    # The frames of a sequence are posed as instances, each at its own placement.
     turn = np.array([[0, -1, 0, 5], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
     placed = bindpose.crowd(BAR, handles, {"frames": poses}, weights=weights,
                             placements=[[1, 2, 3], turn, turn[:3], [0, 0, 0]])
@@ -406,7 +408,7 @@ def test_planar_shape_of_images(tmp_path):
     inside = np.hypot(x - 30.2, y - 20.7) < 15
     shape = bindpose.planar_shape(inside)
     assert area_of(*shape[:2]) == pytest.approx(np.pi * 225, rel=0.03)
-    middle = shape.vertices.mean(axis=0)  # rows count from the top, y from the bottom
+    middle = shape.vertices.mean(axis=0)  # rows of the image count from the top, y from the bottom
     assert middle[:2] == pytest.approx([30.2, 59 - 20.7], abs=1)
     assert shape.texture == pytest.approx((shape.vertices[:, :2] + 0.5) / [80, 60], abs=1e-12)
     pixels = np.zeros((60, 80, 4), np.uint8)

@@ -1,4 +1,4 @@
-"""Handles from arrays equal those from files."""
+"""Handles that are made from arrays equal those that are read from files."""
 
 import bindpose
 import numpy as np

@@ -1,4 +1,4 @@
-"""Conversion of arrays to datasets and back."""
+"""Conversion of arrays to VTK datasets and back."""
 
 import bindpose
 import numpy as np

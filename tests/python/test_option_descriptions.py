@@ -1,4 +1,4 @@
-"""Options: VTK setters match their descriptions, and a new description appears in all generated layers."""
+"""Descriptions of options: the VTK setters match them, and a new description appears in all generated layers."""
 
 import ast
 import inspect
@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "filters" / "options"))
 import descriptions  # noqa: E402
 
 SETS = descriptions.read_sets()
-# Options of abstract classes are set on a class that derives from them.
+# Options of abstract classes are tested on a class that derives from them.
 CONCRETE = {"vtkWeightsAlgorithm": "vtkBoundedBiharmonicWeights", "vtkPoseAlgorithm": "vtkSkinningDeformation"}
 CASES = [(group, name, option) for group in SETS.values() for name in group.filters for option in group.of_layer("vtk")]
 
@@ -46,7 +46,9 @@ def test_defaults_are_those_of_the_description(group, name, option):
 
 @pytest.mark.parametrize("group, name, option", CASES, ids=lambda case: getattr(case, "name", str(case)))
 def test_ranges_are_those_of_the_description(group, name, option):
-    """Every allowed end is accepted. A setter that clamps does so at the ends; others leave the check to the kernel."""
+    """Check that every allowed end of a range is accepted. A setter that clamps does so at the ends; for the other
+    setters the kernel checks the range.
+    """
     set_, get = accessors(instance(name), option)
     if option.type == "choice":
         for value in option.choices.values():
@@ -80,7 +82,9 @@ def test_weight_methods_are_those_of_the_registry():
 
 
 def test_every_bind_and_pose_setter_is_described():
-    """A setter with a getter, of a filter that has descriptions, is an option unless it is listed here."""
+    """Check that every setter with a getter is described as an option, in the filters that have descriptions.
+    Exceptions are listed here.
+    """
     others = {"AbortExecute", "ProgressText", "NumberOfThreads", "InputData", "ReleaseDataFlag", "Debug", "ReferenceCount",
               "Step", "NumberOfSteps", "Interactive", "GlobalWarningDisplay", "ObjectName", "ErrorCode", "Information",
               "Executive", "ProgressObserver"}

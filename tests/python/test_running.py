@@ -1,4 +1,4 @@
-"""Status of a filter as exception, warning or report; progress, cancel and Ctrl-C."""
+"""Running a filter from Python: its status as exception, warning or report; progress, cancel and Ctrl-C."""
 
 import os
 import signal
@@ -39,10 +39,10 @@ def test_seconds_are_in_the_report_and_not_in_the_data(tmp_path):
     assert bindpose.report(filter_) == bindpose.report(data) == report
     bindpose.write(data, tmp_path / "w.vti")
     assert b"econds" not in (tmp_path / "w.vti").read_bytes()
-    # The report of a returned dataset includes its run, also in copies that the package makes.
+    # The report of a returned dataset includes the run that made it, also in copies that the package makes.
     grid = bindpose.winding_number(shapes.cube(), 8)
     assert bindpose.report(grid)["seconds"]["evaluate"] > 0
-    # After an update by the filter itself, the report describes the new data and contains no times.
+    # After the filter updates itself, the report describes the new data. It contains no times.
     filter_.SetResolution(12)
     filter_.Update()
     again = bindpose.report(filter_.GetOutput())

@@ -1,4 +1,4 @@
-"""Smoothing of data with a list of extrema or by persistence, on arrays and datasets, and exceptions."""
+"""Smoothing of data with a list of extrema or by persistence: arrays, datasets, and exceptions."""
 
 import bindpose
 import numpy as np

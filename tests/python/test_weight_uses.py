@@ -1,4 +1,4 @@
-"""Colors, depth order and cuts on arrays and datasets: formulas and exceptions."""
+"""Colors, depth order and cuts in the Python package, on arrays and datasets: formulas and exceptions."""
 
 import bindpose
 import numpy as np
@@ -43,7 +43,7 @@ def test_colors_in_light_or_bytes_or_none():
     handles = bindpose.handles(bones=BONES)
     half = np.full((len(X), 2), 0.5)
     gray = bindpose.weighted_colors(BAR, handles, np.array([[0] * 3, [255] * 3], dtype=np.uint8), weights=half)
-    assert np.array_equal(np.rint(255 * gray), np.full((len(X), 3), 188))  # half of the light as an sRGB value
+    assert np.array_equal(np.rint(255 * gray), np.full((len(X), 3), 188))  # half of the light, encoded as an sRGB value
     palette = bindpose.weighted_colors(BAR, handles, weights=LINEAR)
     assert bindpose.report(palette)["colors"] == "categorical"
 
@@ -77,7 +77,7 @@ def test_depth_is_the_weights_sum_and_moves_points():
 
 
 def square(n=8):
-    """Return n x n squares on the unit square."""
+    """Return the unit square, divided into n x n cells."""
     at = np.linspace(0, 1, n + 1)
     x, y = np.meshgrid(at, at)
     first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
@@ -96,7 +96,8 @@ def test_a_curve_has_two_colors():
     assert (labels == 1).sum() == 3 and (labels == 2).sum() == 3
     assert values[labels == 1] == pytest.approx(np.array([[1, 0, 0]] * 3), abs=1e-12)
     assert values[labels == 2] == pytest.approx(np.array([[0, 0, 1]] * 3), abs=1e-12)
-    # The upper part is nearer to the left side, the lower part to the right one: no color leaks through the curve.
+    # The upper part gets the color of the left side, the lower part that of the right side. No color leaks through the
+    # curve.
     centers = points_of(painted)[triangles_of(painted)].mean(axis=1)
     red = values[triangles_of(painted)][:, :, 0].mean(axis=1)
     near = (np.abs(centers[:, 1] - 0.5) < 0.1) & (np.abs(centers[:, 0] - 0.5) < 0.15)
@@ -111,7 +112,7 @@ def test_bones_of_one_curve_share_their_sides():
     mesh, sides = bindpose.cut_along_bones(square(), ring, inside, outside, curves=[0, 0, 0, 0])
     assert sides.GetNumberOfCells() == 2 and mesh.GetNumberOfPoints() == 81 + 16
     painted = bindpose.weighted_colors(bindpose.weights(mesh, sides, domain="surface"), sides)
-    # A closed curve fills its inside with its color.
+    # A closed curve fills its inside with one color.
     values, places = point_array(painted, "ColorValues"), points_of(painted)
     enclosed = (np.abs(places[:, :2] - 0.5) < 0.25 - 1e-9).all(axis=1)
     assert enclosed.sum() == 9
@@ -142,7 +143,8 @@ def test_what_is_wrong_is_one_sentence(call, words):
 def test_moving_least_squares_needs_no_weights():
     handles = bindpose.handles(points=[[0, 0, 0], [6, 0, 0], [3, 1, 1]])
     turn = {"rotate": {"axis": [0, 0, 1], "degrees": 90}}
-    # Each handle rotates around itself, so the others must also move to where the first one would take them.
+    # Each handle rotates about itself. The second and third handles are also translated to where the rotation about the
+    # first one would move them.
     pose = {"handles": {"p1": turn, "p2": {**turn, "translate": [-6, 6, 0]}, "p3": {**turn, "translate": [-4, 2, 0]}}}
     posed = bindpose.deform(BAR, handles, pose, method="mls")
     rest = np.array(BAR[0])

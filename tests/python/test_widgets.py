@@ -1,4 +1,4 @@
-"""The widgets in Python: handles are posed by numbers and edited, without a window."""
+"""The VTK widgets from Python, without a window: handles are posed by numbers and edited."""
 
 import bindpose
 import numpy as np

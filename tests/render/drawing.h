@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_render_drawing_h
 #define bindpose_tests_render_drawing_h
 
-// A picture and functions that examine it.
+// A picture that a test has drawn, and functions that examine its pixels.
 
 #include "render/harness.h"
 #include "scene/colors.h"
@@ -19,8 +19,8 @@ struct Drawing
 
   Pixel at(const Vec3& point, std::size_t tile = 0) const;
   long long count(const std::function<bool(const Pixel&)>& which) const;
-  /// Return the smallest rectangle, in pixels from the lower left corner, that contains the
-  /// selected pixels.
+  /// Return the smallest rectangle that contains the selected pixels. Its coordinates are pixels
+  /// from the lower left corner.
   Eigen::AlignedBox2d extent(const std::function<bool(const Pixel&)>& which) const;
 };
 
@@ -28,7 +28,7 @@ Drawing draw(const std::vector<Tile>& tiles, const PictureOptions& options);
 
 bool is_paper(const Pixel& p);
 double lightness(const Pixel& p);
-/// Return the largest difference of a channel, 0 to 255.
+/// Return the largest difference of a channel between pixel and color, from 0 to 255.
 double distance(const Pixel& p, const Rgb& color);
 
 } // namespace bindpose::test

@@ -1,7 +1,7 @@
-// The program of all render tests.
+// The program that runs all render tests.
 // usage: bindpose_render_tests NAME [--differing-pixels N] [--bless]
 // It runs the test Render.NAME. The environment variable BINDPOSE_BLESS=NAME has the effect of
-// --bless.
+// --bless: the picture becomes the new baseline.
 #include "render/harness.h"
 
 #include "scene/display.h"
@@ -33,7 +33,8 @@ const unsigned char* pixel_pointer(vtkImageData* image, int x, int y)
   return static_cast<const unsigned char*>(image->GetScalarPointer(x, y, 0));
 }
 
-// Color equal pixels gray, pixels with a tolerated difference pink, and other differing pixels red.
+// Return a picture of the differences: equal pixels are gray, tolerated differences pink, and other
+// differences red.
 vtkSmartPointer<vtkImageData> difference_image(vtkImageData* a, vtkImageData* b)
 {
   int size[3];

@@ -1,9 +1,9 @@
 #ifndef bindpose_tests_render_harness_h
 #define bindpose_tests_render_harness_h
 
-// Strict comparison of pictures with baselines. It shifts and averages nothing and counts the
-// differing pixels. The defaults of vtkImageDifference are too tolerant: they accept a camera that
-// is rotated by 15 degrees.
+// Strict comparison of pictures with baselines. The comparison counts differing pixels, without
+// shifting or averaging pictures. The defaults of vtkImageDifference are too tolerant: they accept
+// a camera that is rotated by 15 degrees.
 
 #include "vtkSmartPointer.h"
 
@@ -14,8 +14,8 @@ class vtkImageData;
 namespace bindpose::test
 {
 
-/// Two pixels differ if one of their channels differs by more than this number of the 255 levels.
-/// Other processors and driver versions round differently by one or two levels.
+/// Two pixels differ if a channel differs by more than this many of the 255 levels. Rounding on
+/// other processors and driver versions differs by one or two levels.
 constexpr int pixel_level = 8;
 
 struct Difference
@@ -39,8 +39,8 @@ bool passes(const Difference& difference);
 /// earlier assertion has failed.
 void expect_baseline(vtkImageData* actual);
 
-/// A color with channels from 0 to 255. pixel_at() takes a position in pixels from the lower left
-/// corner.
+/// A color with channels from 0 to 255. The position for pixel_at() is in pixels from the lower
+/// left corner.
 struct Pixel
 {
   int r = 0, g = 0, b = 0, a = 255;

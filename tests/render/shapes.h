@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_render_shapes_h
 #define bindpose_tests_render_shapes_h
 
-// Datasets for pictures, all given by closed-form expressions.
+// Datasets for pictures. All of them are given by closed-form expressions.
 
 #include "scene/picture.h"
 
@@ -14,10 +14,10 @@ class vtkUnstructuredGrid;
 namespace bindpose::test
 {
 
-/// Return a smooth and a sharp shape: a sphere of radius 1 next to a cube of side 1.6.
+/// Return a smooth and a sharp shape: a sphere of radius 1 and, next to it, a cube of side 1.6.
 vtkSmartPointer<vtkPolyData> sphere_and_cube();
-/// Return a bent finger along x in [-2, 2] with the weights of two handles: "left" 1 - s and
-/// "right" s, where s = (x + 2) / 4.
+/// Return a finger along x in [-2, 2], bent, with the weights of two handles. With s = (x + 2) / 4,
+/// the weight of "left" is 1 - s and that of "right" is s.
 vtkSmartPointer<vtkPolyData> finger();
 double right_weight(const Vec3& p);
 /// Return 60 x 40 x 40 samples of the winding number of three spheres. Two overlap, and one is
@@ -26,17 +26,17 @@ vtkSmartPointer<vtkImageData> three_spheres();
 /// Centers of the spheres with winding numbers +1, +1 (2 in the overlap) and -1.
 extern const Vec3 sphere_centers[3];
 extern const double sphere_radius;
-/// Return 49 x 49 x 49 samples over [-1.6, 1.6] of 1.5 - |p|. The level set of w is a sphere of
-/// radius 1.5 - w.
+/// Return 49 x 49 x 49 samples of the field 1.5 - |p| over [-1.6, 1.6]. The level set of w is a
+/// sphere of radius 1.5 - w.
 vtkSmartPointer<vtkImageData> cone_field();
-/// Return two circles of radius 1 around the y axis, one polyline each: at y = -0.5 with
-/// Multiplicity -1, and at y = 0.5 with Multiplicity 2.
+/// Return two circles of radius 1 around the y axis, one polyline per circle. The array
+/// Multiplicity is -1 at y = -0.5, and 2 at y = 0.5.
 vtkSmartPointer<vtkPolyData> two_circles();
-/// Return a wavy box of 8 x 5 x 6 cells of 6 tets each, 1.6 x 1.0 x 1.2, with Weights linear along
-/// x.
+/// Return a wavy box of 1.6 x 1.0 x 1.2 with 8 x 5 x 6 cells of 6 tets each. The array Weights is
+/// linear along x.
 vtkSmartPointer<vtkUnstructuredGrid> tet_brick();
-/// Return the points "a" (full), "b" (position) and "c" (free) in a row along x, and a bone above
-/// them.
+/// Return the points "a" (mode full), "b" (position) and "c" (free) in a row along x, and a bone
+/// above them.
 vtkSmartPointer<vtkPolyData> handle_row();
 
 /// Return options for a picture of 400 x 300 pixels without title and legend.

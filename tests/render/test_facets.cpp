@@ -1,5 +1,6 @@
-// Weights solved on a coarse lattice bend a surface as smoothly as weights solved on conforming
-// tets: the shading shows no tets of the lattice. This test measures lightness and has no baseline.
+// Weights that are solved on a coarse lattice bend a surface as smoothly as weights solved on
+// conforming tets. The shading must not show the facets of the lattice tets. The test measures
+// lightness and needs no baseline.
 #include "render/drawing.h"
 #include "render/harness.h"
 #include "render/shapes.h"
@@ -26,7 +27,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// Return a spindle from z = -1 to 1 whose triangles are much smaller than the lattice's cubes.
+/// Return a spindle from z = -1 to 1. Its triangles are much smaller than the cubes of the lattice.
 TriangleMesh spindle()
 {
   TriangleMesh mesh = sphere(5);
@@ -46,7 +47,8 @@ Handles three_along()
   return handles;
 }
 
-/// Bend by linear blend skinning: each end turns by 40 degrees along an arc around the middle.
+/// Bend the shape by linear blend skinning: each end is rotated by 40 degrees along an arc around
+/// the middle.
 Points bent(const Points& rest, const Weights& weights)
 {
   Points posed(rest.rows(), 3);
@@ -72,9 +74,9 @@ Drawing draw_bent(const TriangleMesh& mesh, const Weights& weights)
   return draw({ { to_polydata(posed, mesh.triangles), nullptr, "" } }, options);
 }
 
-/// Return the roughness of the shading: the root mean square of second differences of the lightness
-/// over 8 pixels, in levels of 255, away from the silhouette. It is near zero for smooth shading
-/// and large at the borders of facets.
+/// Return the roughness of the shading, in levels of 255: the root mean square of second
+/// differences of the lightness over 8 pixels, away from the silhouette. It is near zero for smooth
+/// shading and large at the borders of facets.
 double roughness(const Drawing& drawing)
 {
   int size[3];
@@ -129,7 +131,7 @@ TEST(Render, no_facets_of_the_embedding)
   SurfaceWeights embedded;
   solve(WeightsDomain::volume, conforming);
   solve(WeightsDomain::embedding, embedded);
-  // Weights interpolated linearly in each tet of the lattice show its facets.
+  // Weights that are interpolated linearly in each lattice tet make the facets visible.
   Weights linear;
   ExecutionContext context;
   TransferCounts counts;
@@ -142,8 +144,8 @@ TEST(Render, no_facets_of_the_embedding)
   RecordProperty("conforming", std::to_string(smooth));
   RecordProperty("embedded", std::to_string(shown));
   RecordProperty("linear", std::to_string(faceted));
-  // Measured: 0.778, 0.782 and 1.172 levels. The embedding without smoothing along the surface has
-  // 0.834.
+  // The measured values are 0.778, 0.782 and 1.172 levels. The embedding without smoothing along
+  // the surface gives 0.834.
   EXPECT_LT(shown, 1.03 * smooth) << "facets are seen";
   EXPECT_GT(faceted, 1.3 * smooth) << "what is looked for is not there to be found";
 }

@@ -1,4 +1,5 @@
-// Inspection of weights. Each test also asserts numbers that do not depend on the baseline.
+// Pictures that inspect weights: territories, slices, extrema, row sums, differences. Each test
+// also asserts numbers that do not depend on the baseline.
 #include "render/drawing.h"
 #include "render/harness.h"
 #include "render/shapes.h"
@@ -52,7 +53,7 @@ void add_array(vtkDataSet* data, const char* name, const std::vector<Column>& co
   data->GetPointData()->AddArray(array);
 }
 
-/// Return the unit square of 24 x 24 cells in the plane z = 0.
+/// Return the unit square in the plane z = 0, divided into 24 x 24 cells.
 vtkSmartPointer<vtkPolyData> square()
 {
   constexpr Index n = 24;
@@ -77,7 +78,7 @@ vtkSmartPointer<vtkPolyData> square()
   return to_polydata(points, triangles);
 }
 
-/// Return a function on the square with five maxima (corners and center) and four minima (middles
+/// Return a function on the square with five maxima (corners and center) and four minima (midpoints
 /// of the sides).
 double waves(const Vec3& p)
 {
@@ -94,7 +95,7 @@ std::vector<Vec3> minima(double z)
   return { { 0.5, 0, z }, { 0, 0.5, z }, { 1, 0.5, z }, { 0.5, 1, z } };
 }
 
-/// Draw the tile, and return the report in the last argument.
+/// Draw the tile and set `report` to its report.
 Drawing draw(const Tile& tile, const PictureOptions& options, Report& report)
 {
   Drawing drawing;
@@ -132,7 +133,8 @@ TEST(Render, handles_of_surface)
 
 TEST(Render, handles_of_tets)
 {
-  // Three handles along x. The middle one is the strongest between 0.4 and 1.2.
+  // There are three handles along x. The middle handle is the strongest one between x = 0.4 and
+  // 1.2.
   const auto brick = tet_brick();
   add_array(brick, "Weights",
     { [](const Vec3& p) { return std::max(0.0, 1.0 - p[0] / 0.8); },
@@ -143,11 +145,11 @@ TEST(Render, handles_of_tets)
   Report report;
   const Drawing drawing = draw({ brick, nullptr, "" }, options, report);
   const std::vector<Category> handles = handle_categories({ "a", "b", "c" });
-  // Points on the cut face, which faces the camera.
+  // These points are on the cut face, which faces the camera.
   const double places[] = { 0.2, 0.8, 1.4 };
   for (int k = 0; k < 3; ++k)
   {
-    // Edges are drawn over the face, so only most of the neighborhood has the color.
+    // Edges are drawn over the face, so only most of the pixels around a point have its color.
     int close = 0;
     for (int dx = -3; dx <= 3; ++dx)
     {
@@ -176,7 +178,7 @@ TEST(Render, tets_slice)
   options.array = "Weights";
   options.component = "0";
   options.slice = true;
-  // The oblique plane passes through tets and is parallel to none of their facets.
+  // The oblique plane passes through tets. It is not parallel to any of their facets.
   const Plane plane{ Vec3(1.0, 0.5, 0.52), Vec3(0.13, 0.31, 1.0) };
   options.section_plane = plane;
   options.view.azimuth = 25.0;
@@ -197,15 +199,16 @@ TEST(Render, tets_slice)
   {
     for (int band = 0; band < 10; ++band)
     {
-      // Inside a band the slice has exactly one color of the legend, independent of the lighting.
+      // Inside of a band, the slice has exactly one color of the legend, which does not depend on
+      // the lighting.
       for (const double within : { 0.2, 0.5, 0.8 })
       {
         const double x = 0.2 * (band + within);
         EXPECT_LE(distance(drawing.at(on_plane(x, y)), color_of(map, left(Vec3(x, y, 0)))), 2.0)
           << x << " " << y;
       }
-      // A dark line separates two bands. The first bands are skipped because they are as dark as
-      // the lines.
+      // A dark line separates neighboring bands. The first bands are skipped, because they are as
+      // dark as the lines.
       const double x = 0.2 * band;
       if (band > 2)
       {
@@ -215,8 +218,8 @@ TEST(Render, tets_slice)
       }
     }
   }
-  // The tets in front of the plane are removed: their lower edge shows paper, that of the plane
-  // does not.
+  // The tets in front of the plane are removed. Their lower edge shows the paper, the lower edge of
+  // the plane does not.
   EXPECT_TRUE(is_paper(drawing.at(Vec3(1.0, 0.02, 0.98))));
   EXPECT_FALSE(is_paper(drawing.at(on_plane(1.0, 0.02))));
   // The slice contains exactly the tets with vertices on both sides of the plane.
@@ -242,7 +245,7 @@ TEST(Render, tets_slice)
 
 TEST(Render, tets_slice_by_handle)
 {
-  // Values per tet: the slice shows every tet in the color of its strongest handle.
+  // For values per tet, the slice shows every tet in the color of its strongest handle.
   const auto brick = tet_brick();
   PictureOptions options = small_picture();
   options.color_by = ColorBy::handle;
@@ -285,7 +288,8 @@ TEST(Render, extrema)
   {
     EXPECT_LT(hue_distance(drawing.at(place), kinds[0].color), 0.06) << place;
   }
-  // The function "Waves" is 1 at all its maxima, so the array "Weights" identifies the handle.
+  // The function "Waves" is 1 at all its maxima. The array "Weights" therefore identifies which
+  // maximum is the handle.
   options.array = "Waves";
   draw({ surface, nullptr, "" }, options, report);
   EXPECT_EQ(counts(report, "maxima"), Counts{ 4 });
@@ -315,7 +319,7 @@ TEST(Render, extrema_of_tets)
   {
     EXPECT_LT(hue_distance(drawing.at(place), extremum_categories()[1].color), 0.08) << place;
   }
-  // The cut removes this side.
+  // The cut removes the side that shows the extrema.
   options.cut = true;
   draw({ grid, nullptr, "" }, options, report);
   EXPECT_EQ(counts(report, "maxima"), Counts{ 5 });
@@ -346,7 +350,7 @@ TEST(Render, row_sum)
 
 TEST(Render, difference)
 {
-  // Two linear functions of x with the difference -0.25 x.
+  // The dataset has two linear functions of x, whose difference is -0.25 x.
   const auto other = vtkSmartPointer<vtkPolyData>::New();
   const auto surface = finger();
   other->DeepCopy(surface);
@@ -364,15 +368,15 @@ TEST(Render, difference)
   }
   EXPECT_NEAR(report.number("picture.difference.largest", 0), 0.5, 1e-12);
   EXPECT_NEAR(report.number("picture.difference.rms", 0), std::sqrt(squares), 1e-12);
-  // The difference is positive on the left, because both values are negative there and the
-  // subtracted one is larger in magnitude.
+  // On the left, both values are negative. The subtracted value is larger in magnitude, so the
+  // difference is positive.
   for (const double x : { -1.6, 0.0, 1.6 })
   {
     const double round = std::sqrt(1.0 - x * x / 4.0);
     const Vec3 ridge(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968);
     EXPECT_LT(hue_distance(drawing.at(ridge), diverging_color(-x / 2.0)), 0.06) << x;
   }
-  // The difference of a dataset and itself is zero.
+  // The difference between a dataset and itself is zero.
   options.minus = surface;
   const Drawing nothing = draw({ surface, nullptr, "" }, options, report);
   EXPECT_EQ(report.number("picture.difference.largest", -1), 0.0);
@@ -382,7 +386,8 @@ TEST(Render, difference)
 
 TEST(Render, handle_names)
 {
-  // The legend has more handles than fit into it; it shows them from top to bottom in their order.
+  // There are more handles than fit into the legend. It shows handles from top to bottom in their
+  // order.
   const auto surface = finger();
   std::vector<Column> columns;
   constexpr int many = 40;
@@ -397,7 +402,7 @@ TEST(Render, handle_names)
   options.legend = true;
   const Drawing drawing = draw({ { surface, nullptr, "" } }, options);
   const std::vector<Category> handles = handle_categories({ "a", "b", "c" });
-  // The pixels of the legend, which is drawn without lighting.
+  // These are the pixels of the legend, which is drawn without lighting.
   const int right = drawing.geometry.tiles[0].x + drawing.geometry.tiles[0].width;
   int above = 300;
   for (const Category& handle : handles)

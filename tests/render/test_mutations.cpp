@@ -1,4 +1,5 @@
-// Tests of the harness: equal pictures pass, and the smallest relevant changes fail.
+// Tests of the picture comparison: equal pictures pass, and the smallest relevant changes of a
+// picture fail.
 #include "render/harness.h"
 #include "render/shapes.h"
 
@@ -40,7 +41,7 @@ TEST(Render, mutations)
     std::printf(
       "%s: %lld pixels differ, %lld allowed\n", what, difference.pixels, allowed_pixels());
     EXPECT_FALSE(passes(difference)) << what;
-    // The change must be detected even with a ten times larger tolerance.
+    // Each change must be detected even if the tolerance is ten times larger.
     EXPECT_GT(difference.pixels, 10 * allowed_pixels()) << what;
   };
   PictureOptions turned = options;

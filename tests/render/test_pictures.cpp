@@ -1,5 +1,5 @@
-// Surfaces, weights, slices, handles, tiles and legends. Each test also asserts numbers that do not
-// depend on the baseline.
+// Pictures of surfaces, weights, slices, handles, tiles and legends. Each test also asserts numbers
+// that do not depend on the baseline.
 #include "render/drawing.h"
 #include "render/harness.h"
 #include "render/shapes.h"
@@ -24,8 +24,8 @@ TEST(Render, surface)
 {
   const auto surface = sphere_and_cube();
   const Drawing drawing = draw({ { surface, nullptr, "" } }, small_picture());
-  // The painted rectangle equals that of the projected vertices. It fills the picture up to the
-  // margin in one direction.
+  // The painted rectangle equals the rectangle of the projected vertices. In one direction it fills
+  // the picture up to the margin.
   Eigen::AlignedBox2d expected;
   for (vtkIdType v = 0; v < surface->GetNumberOfPoints(); ++v)
   {
@@ -36,7 +36,7 @@ TEST(Render, surface)
   EXPECT_LT((painted.max() - expected.max()).cwiseAbs().maxCoeff(), 1.5);
   EXPECT_NEAR(expected.min().x(), 0.04 * 400, 0.01);
   EXPECT_NEAR(expected.max().x(), 0.96 * 400, 0.01);
-  // A side of the cube is flat, so it has a single shade.
+  // A face of the cube is flat, so it has a single shade.
   const Pixel side = drawing.at(Vec3(1.0, 0.3, 0.8));
   for (const Vec3& p : { Vec3(0.7, -0.4, 0.8), Vec3(1.6, 0.5, 0.8) })
   {
@@ -54,7 +54,7 @@ TEST(Render, weights)
   options.array = "Weights";
   options.component = "right";
   const Drawing drawing = draw({ { surface, nullptr, "" } }, options);
-  // Along the ridge that faces the camera, each band is darker than the one before.
+  // Along the ridge that faces the camera, each band is darker than the previous one.
   std::vector<double> bands;
   for (int band = 0; band < 10; ++band)
   {
@@ -67,7 +67,7 @@ TEST(Render, weights)
   {
     EXPECT_LT(bands[band + 1], bands[band]) << "band " << band + 1;
   }
-  // The other component has mirrored colors: it is light where this one is dark.
+  // The other component has the mirrored colors: it is light where the first component is dark.
   options.component = "0";
   const Drawing other = draw({ { surface, nullptr, "" } }, options);
   const Vec3 right_end(1.8, 0.1, 0.25);
@@ -94,14 +94,15 @@ TEST(Render, winding_slice)
 {
   PictureOptions options = small_picture();
   const Drawing drawing = draw({ { three_spheres(), nullptr, "" } }, options);
-  // The slice is half a sample away from z = 0. Where nothing covers it, it has exactly the colors
-  // of the color map.
+  // The slice is half a sample away from z = 0. Pixels of the slice that nothing covers have
+  // exactly the colors of the color map.
   EXPECT_LT(distance(drawing.at(Vec3(-1.8, 1.2, 0.0)), winding_color(0.0)), 3.0);
   const Vec3 overlap = 0.5 * (sphere_centers[0] + sphere_centers[1]);
   const Pixel one = drawing.at(sphere_centers[0] - Vec3(0.25, 0, 0));
   const Pixel two = drawing.at(overlap);
   const Pixel negative = drawing.at(sphere_centers[2]);
-  EXPECT_LT(distance(one, winding_color(1.0)), 60.0); // behind the translucent isosurface
+  // This point is behind the translucent isosurface.
+  EXPECT_LT(distance(one, winding_color(1.0)), 60.0);
   EXPECT_GT(one.r, one.b + 50) << "inside is orange";
   EXPECT_LT(lightness(two), lightness(one) - 60.0) << "twice inside is darker";
   EXPECT_LT(lightness(negative), lightness(one) - 60.0) << "inside out is dark";
@@ -114,7 +115,7 @@ TEST(Render, tets_cut)
   PictureOptions options = small_picture();
   const Drawing cut = draw({ { tet_brick(), nullptr, "" } }, options);
   const auto is_cut = [](const Pixel& p) { return p.b > p.r + 20; };
-  // The area of the cut face equals that of the brick's front: about 1.6 x 1.0, projected.
+  // The area of the cut face equals that of the front of the box: about 1.6 x 1.0, projected.
   const Eigen::Vector2d a = cut.geometry.project(0, Vec3(0, 0, 0.6));
   const Eigen::Vector2d b = cut.geometry.project(0, Vec3(1.6, 0, 0.6));
   const Eigen::Vector2d c = cut.geometry.project(0, Vec3(0, 1, 0.6));
@@ -130,7 +131,7 @@ TEST(Render, tets_cut)
 
 TEST(Render, handles)
 {
-  // The handles are inside a sphere and must be visible.
+  // The handles are inside of a sphere. They must be visible.
   PictureOptions options = small_picture();
   const TriangleMesh ball = sphere(4, 1.8);
   const Drawing drawing =
@@ -155,7 +156,7 @@ TEST(Render, tiles)
   const Drawing drawing = draw({ { surface, nullptr, "" }, { other, nullptr, "" },
                                  { other, nullptr, "" }, { surface, nullptr, "" } },
     options);
-  // Equal datasets look equal in all tiles, because all tiles share one camera.
+  // All tiles share one camera, so equal datasets look equal in all tiles.
   long long differing = 0;
   for (int y = 0; y < 150; ++y)
   {
@@ -183,11 +184,11 @@ TEST(Render, transparent)
   const auto solid = drawing.count([](const Pixel& p) { return p.a == 255; });
   EXPECT_EQ(pixel_at(drawing.image, 0, 0).a, 0);
   EXPECT_EQ(drawing.at(Vec3(0, 0.5, 0.7)).a, 255);
-  // The remaining pixels are partly transparent: the silhouette, a thin line.
+  // The remaining pixels are partly transparent. They are the silhouette, which is a thin line.
   EXPECT_GT(400 * 300 - clear - solid, 200);
   EXPECT_LT(400 * 300 - clear - solid, 2500);
-  // Composited on white, the picture equals the one drawn on white: colors are not darkened at the
-  // edge.
+  // If the picture is composited on white, it equals the picture that is drawn on white: colors are
+  // not darkened at the silhouette.
   options.background = Background::white;
   const Drawing white = draw({ { finger(), nullptr, "" } }, options);
   long long differing = 0;
@@ -213,14 +214,14 @@ TEST(Render, legend)
   options.title = "Bounded biharmonic weights";
   const Drawing drawing =
     draw({ { finger(), nullptr, "rest" }, { finger(), nullptr, "posed" } }, options);
-  // All ten colors of the legend occur unchanged, because it is drawn without lighting.
+  // The legend is drawn without lighting, so all its ten colors occur unchanged.
   for (int band = 0; band < 10; ++band)
   {
     const Rgb color = sequential_color(band / 9.0);
     EXPECT_GT(drawing.count([&](const Pixel& p) { return distance(p, color) <= 2.0; }), 60)
       << "band " << band;
   }
-  // The title: the top lines contain dark pixels, but not at their ends.
+  // The top lines contain the title: dark pixels, but not at the ends of the lines.
   EXPECT_TRUE(is_paper(pixel_at(drawing.image, 2, 297)));
   EXPECT_TRUE(is_paper(pixel_at(drawing.image, 397, 297)));
   long long dark = 0;

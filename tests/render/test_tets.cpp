@@ -1,4 +1,5 @@
-// Tets and defects. Each test also asserts numbers that do not depend on the baseline.
+// Pictures of tets and of surface defects. Each test also asserts numbers that do not depend on the
+// baseline.
 #include "render/drawing.h"
 #include "render/harness.h"
 #include "render/shapes.h"
@@ -25,8 +26,9 @@ using namespace bindpose::test;
 
 namespace
 {
-/// Return the distance in hue of a lit pixel from a color: the largest difference of the fractions
-/// of red, green and blue. Lighting changes the sum of the channels, but hardly their fractions.
+/// Return the distance in hue between a lit pixel and a color: the largest difference of the
+/// fractions of red, green and blue. Lighting changes the sum of the channels, but almost does not
+/// change the fractions.
 double hue_distance(const Pixel& p, const Rgb& color)
 {
   const double its = std::max(1, p.r + p.g + p.b);
@@ -48,7 +50,8 @@ TEST(Render, tets_shrunk)
   const Drawing whole = draw({ { tet_brick(), nullptr, "" } }, options);
   options.shrink = 0.5;
   const Drawing drawing = draw({ { tet_brick(), nullptr, "" } }, options);
-  // Nothing is drawn outside of the unshrunk picture, and gaps show paper.
+  // Nothing is drawn outside of the picture of the unshrunk tets, and the gaps between the tets
+  // show paper.
   long long gaps = 0;
   for (int y = 0; y < 300; ++y)
   {
@@ -61,12 +64,12 @@ TEST(Render, tets_shrunk)
     }
   }
   EXPECT_GT(gaps, painted(whole) / 50);
-  // A smaller size leaves less; size 1 leaves no gap.
+  // If the tets are smaller, fewer pixels are covered. At size 1 there are no gaps.
   options.shrink = 0.25;
   EXPECT_LT(painted(draw({ { tet_brick(), nullptr, "" } }, options)), 3 * painted(drawing) / 4);
   options.shrink = 1.0;
   EXPECT_EQ(painted(draw({ { tet_brick(), nullptr, "" } }, options)), painted(whole));
-  // The half toward the camera is removed, whichever way the normal points.
+  // The half toward the camera is removed, for both directions of the plane's normal.
   options.section_plane->normal *= -1.0;
   EXPECT_EQ(painted(draw({ { tet_brick(), nullptr, "" } }, options)), painted(whole));
   expect_baseline(drawing.image);
@@ -74,7 +77,7 @@ TEST(Render, tets_shrunk)
 
 TEST(Render, tets_labels)
 {
-  // Four blocks side by side, one per label.
+  // There are four adjacent blocks, one per label.
   TetMesh mesh = tet_box(8, 4, 4, Vec3::Zero(), Vec3(2, 1, 1));
   const auto grid = to_unstructured_grid(mesh.points, mesh.tets);
   vtkNew<vtkIntArray> labels;
@@ -130,7 +133,8 @@ TEST(Render, defects)
   tile.defects = vtkPolyData::SafeDownCast(filter->GetOutput());
   const Drawing drawing = draw({ tile }, options);
   const auto& kinds = defect_categories();
-  // The border of the opening, and the two triangles of the lid that the sphere crosses.
+  // The points are on the border of the opening, and on the two triangles of the lid that cross the
+  // sphere.
   EXPECT_LT(hue_distance(drawing.at(Vec3(0.3, -1.0, 1.0)), kinds[2].color), 0.08);
   EXPECT_LT(hue_distance(drawing.at(Vec3(0.85, 1.0, 0.7)), kinds[7].color), 0.08);
   // Clean parts are translucent gray.

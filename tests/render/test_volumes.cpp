@@ -1,5 +1,5 @@
-// Isosurfaces, clouds and boundary curves. Each test also asserts numbers that do not depend on the
-// baseline.
+// Pictures of isosurfaces, clouds (volume renderings) and boundary curves. Each test also asserts
+// numbers that do not depend on the baseline.
 #include "render/drawing.h"
 #include "render/shapes.h"
 
@@ -18,7 +18,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// Return the rectangle in which a sphere around the origin appears.
+/// Return the rectangle of the picture that a sphere around the origin covers.
 Eigen::AlignedBox2d sphere_on_paper(const Drawing& drawing, double radius)
 {
   const TriangleMesh ball = sphere(5, radius);
@@ -51,8 +51,8 @@ TEST(Render, isosurface)
   const Eigen::AlignedBox2d found = drawing.extent(painted);
   EXPECT_LT((found.min() - expected.min()).cwiseAbs().maxCoeff(), 1.0);
   EXPECT_LT((found.max() - expected.max()).cwiseAbs().maxCoeff(), 1.0);
-  // It is lit: the upper side is lighter. It is smooth: neighboring pixels along the middle differ
-  // little.
+  // The isosurface is lit: its upper side is lighter. It is smooth: the lightness of neighboring
+  // pixels along the middle differs little.
   EXPECT_GT(lightness(drawing.at(Vec3(0, 0.65, 0.3))), lightness(drawing.at(Vec3(0, -0.65, 0.3))));
   const int row = static_cast<int>(expected.center().y());
   for (int x = static_cast<int>(expected.min().x()) + 12; x < expected.max().x() - 12; ++x)
@@ -61,10 +61,10 @@ TEST(Render, isosurface)
       lightness(pixel_at(drawing.image, x + 1, row)), 6.0)
       << x;
   }
-  // It has the hue of its level: orange.
+  // The isosurface has the hue of its level, which is orange.
   const Pixel middle = drawing.at(Vec3(0, 0, 0.75));
   EXPECT_GT(middle.r, middle.b + 30);
-  // Another level gives another picture, although the camera frames it as tightly.
+  // Another level gives another picture, although the camera fits its view to each isosurface.
   options.isosurfaces = { 0.25 };
   const Drawing other = draw({ { cone_field(), nullptr, "" } }, options);
   const Pixel blue = other.at(Vec3(0, 0, 1.25));
@@ -79,7 +79,7 @@ TEST(Render, isosurfaces_nested)
   options.isosurfaces = { 0.75, 0.25, 0.25, 0.9 };
   options.legend = true;
   const Drawing drawing = draw({ { cone_field(), nullptr, "" } }, options);
-  // The legend has a field in the color of each level, in the order of the levels.
+  // The legend has one field per level, in the color and in the order of the levels.
   const ColorMap map = winding_map();
   double below = 0.0;
   for (const double level : { 0.25, 0.75, 0.9 })
@@ -90,14 +90,14 @@ TEST(Render, isosurfaces_nested)
     EXPECT_GT(height, below) << level;
     below = height;
   }
-  // The inner isosurfaces are visible through the outer ones. The innermost one is opaque, so the
-  // color at its middle does not depend on anything behind it.
+  // The inner isosurfaces are visible through the outer ones. The innermost isosurface is opaque,
+  // so the color at its middle does not depend on anything behind it.
   const auto rim = [&](double radius)
   { return lightness(drawing.at(radius * Vec3(-0.88, 0.0, 0.47).normalized())); };
   EXPECT_LT(rim(0.7), rim(1.2)) << "the inner sphere lies under glass, the outer on paper";
   const Pixel middle = drawing.at(Vec3(0, 0, 0.6));
   EXPECT_GT(middle.r, middle.b + 20);
-  // Mutation: one level changes by 0.03.
+  // Change one level by 0.03; the comparison must fail.
   options.isosurfaces = { 0.75, 0.25, 0.87 };
   const Difference moved =
     compare(drawing.image, draw({ { cone_field(), nullptr, "" } }, options).image);
@@ -131,7 +131,7 @@ TEST(Render, winding_cloud)
   EXPECT_LT(lightness(two), lightness(one) - 60.0);
   EXPECT_GT(two.r, two.b + 20);
   EXPECT_GT(negative.b, negative.r + 20);
-  // Mutation: the camera turns by one degree.
+  // Rotate the camera by one degree; the comparison must fail.
   options.view.azimuth = 1.0;
   const Difference turned =
     compare(drawing.image, draw({ { volume, nullptr, "" } }, options).image);
@@ -147,8 +147,8 @@ TEST(Render, boundary_curves)
   Tile tile{ cone_field(), nullptr, "" };
   tile.context = { to_polydata(ball.points, ball.triangles), two_circles() };
   const Drawing drawing = draw({ tile }, options);
-  // The curves are drawn at their projections: opaque in front, faint where the isosurface covers
-  // them.
+  // The curves are drawn at their projected positions. They are opaque in front, and faint where
+  // the isosurface covers them.
   Tile without = tile;
   without.context.pop_back();
   const Drawing bare = draw({ without }, options);
@@ -180,7 +180,7 @@ TEST(Render, boundary_curves)
   };
   EXPECT_GE(width(-0.5), 2);
   EXPECT_GT(width(0.5), width(-0.5));
-  // The surface is translucent: the isosurface's orange is visible.
+  // The surface is translucent, so the orange of the isosurface is visible.
   const Pixel middle = drawing.at(Vec3(0, 0, 1.1));
   EXPECT_GT(middle.r, middle.b + 20);
   expect_baseline(drawing.image);

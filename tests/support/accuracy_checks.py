@@ -1,4 +1,6 @@
-"""Numerical part of weights_accuracy.py: handles, quality of tets, weights interpolated at points, differences."""
+"""Numerical part of weights_accuracy.py: handles, quality of tets, interpolation of weights at points, and differences
+between weights.
+"""
 
 import numpy as np
 import vtk
@@ -56,7 +58,8 @@ def read_grid(path):
 
 def write_without_doubles(model, path):
     """Write an .obj model as .vtp without triangles that occur twice. Two coincident sheets that face each other
-    enclose nothing, but their winding numbers would cancel."""
+    enclose no volume, but their winding numbers would cancel.
+    """
     points, triangles, _ = weld(*read_obj(model))
     _, first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)
     write_poly_data(path, poly_data(points, triangles[np.sort(first)]))
@@ -92,8 +95,9 @@ def connected_parts(grid):
 
 
 def tets_quality(model, path):
-    """Return the smallest dihedral angle, the numbers of tets and connected parts, and the fraction of the vertices
-    near the tets."""
+    """Return the smallest dihedral angle, the numbers of tets and of connected parts, and the fraction of the vertices
+    that are near the tets.
+    """
     points, tets = read_tets(path)
     surface, triangles = read_obj(model)
     queries = surface[chosen_vertices(surface, triangles)]
@@ -113,8 +117,9 @@ def barycentric(points, tets, places):
 
 
 def carried(path, queries):
-    """Interpolate the weights of a .vtu file linearly at the queries. Also return the distances of the queries from the
-    tets."""
+    """Interpolate the weights of a .vtu file linearly at the query points. Also return the distances of the query
+    points from the tets.
+    """
     grid = read_grid(path)
     points, tets = read_tets(path)
     weights = vtk_to_numpy(grid.GetPointData().GetArray("Weights")).astype(float)

@@ -35,7 +35,7 @@ import horrors
 ARCHIVE = pathlib.Path("/usr/share/doc/libcgal-dev/data.tar.gz")
 SECONDS = 120
 TRIANGLES = 100_000  # the time limit SECONDS applies to surfaces with at most this many triangles
-SPECK = 1e-6  # fraction of the bounding box: a smaller volume may be missed
+SPECK = 1e-6  # fraction of the bounding box; a volume below this may be missed
 DEFECTS = ["duplicate_vertices", "degenerate_triangles", "duplicate_triangles", "boundary_edges", "nonmanifold_edges",
            "misoriented_edges", "inward_components", "self_intersections", "triangulated_cells"]
 FACETS = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
@@ -50,7 +50,7 @@ class Surface:
 
 @dataclasses.dataclass
 class Row:
-    """Result of one method on one surface."""
+    """Result of one method for one surface."""
 
     surface: Surface
     seconds: float
@@ -143,8 +143,9 @@ def volumes_of(points, tets):
 
 
 def open_edges(tets):
-    """Return 0 if the boundary's triangles meet in opposite directions at every edge, -1 if more than two tets share a
-    facet, and a positive number otherwise."""
+    """Return 0 if the boundary's triangles have opposite directions at every edge, -1 if more than two tets share a
+    facet, and a positive number otherwise.
+    """
     facets = tets[:, FACETS].reshape(-1, 3)
     _, first, count = np.unique(np.sort(facets, axis=1), axis=0, return_index=True, return_counts=True)
     if count.max() > 2:
@@ -179,7 +180,7 @@ def used_points(mesh):
 
 
 def outside(grid, points):
-    """Count the points that no cell contains."""
+    """Count the points that are in no cell of the grid."""
     data = vtk.vtkPolyData()
     holder = vtk.vtkPoints()
     holder.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
@@ -221,7 +222,7 @@ def broken_volume(row):
     if (not 0.9 <= ratio <= 1.1 and not told) or not 0.5 <= ratio <= 2.0:
         return [f"volume {volume:g}, but the winding number encloses {winding:g}"]
     broken = []
-    # The comparison is limited to clean triangle meshes, because polygons can be triangulated in more than one way.
+    # Only clean triangle meshes are compared, because polygons can be triangulated in more than one way.
     if row.rung == "cdt" and not any(report["counts"].get(defect) for defect in DEFECTS) and report["counts"]["components"] == 1:
         true = horrors.volume(read_off(row.surface.path))
         if abs(volume / true - 1) > 1e-10:
@@ -293,8 +294,9 @@ def run(program, surface, method, folder):
 
 
 def broken_refusal(program, row, method, folder):
-    """Check a refusal. cdt and remesh may fail (exit code 5), and remesh may report that the volume is too thin. Any
-    other refusal is right only if the surface encloses nothing; embed must never refuse."""
+    """Check a refusal. Methods cdt and remesh may fail (exit code 5), and remesh may report that the volume is too
+    thin. Any other refusal is justified only if the surface encloses nothing; method embed must never refuse.
+    """
     broken = []
     if "\n" in row.sentence or not row.sentence or row.code not in (2, 5):
         broken.append(f"exit {row.code}: {row.sentence}")
@@ -319,7 +321,7 @@ def summary(method, rows, surfaces):
     answered = [row for row in rows if row.answered]
     thin = [row for row in rows if method == "remesh" and row.too_thin]
     refused = [row for row in rows if row.code == 2 and row not in thin]
-    worth = [row for row in rows if row not in refused]  # refused surfaces enclose nothing and are not counted
+    worth = [row for row in rows if row not in refused]  # refused surfaces enclose no volume and are not counted
     slowest = max(rows, key=lambda row: row.seconds)
     angles = [row.report["min_dihedral_angle"] for row in answered]
     lines = [f"{len(rows)} surfaces ({surfaces}): {len(answered)} answered, {len(refused)} refused, "

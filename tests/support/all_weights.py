@@ -17,8 +17,8 @@ import tempfile
 from all_surfaces import real_surfaces
 
 HANDLES = 15
-# Surfaces small enough for one hour in total, of all types: closed, open, with sharp edges, of higher genus, of several
-# parts.
+# The surfaces are small enough for one hour in total. They are of all types: closed, open, with sharp edges, of higher
+# genus, and with several parts.
 SURFACES = ["anchor.off", "armadillo.off", "bear.off", "cactus.off", "couplingdown.off", "cow.off", "cross.off", "dragknob.off",
             "elephant.off", "elephant-with-holes.off", "hand.off", "handle.off", "helmet.off", "homer.off", "joint.off",
             "knot1.off", "knot2.off", "man.off", "mushroom.off", "pig.off", "pinion.off", "pipe.off", "rotor.off", "sphere.off",
@@ -36,7 +36,7 @@ def weights(program, surface, method, certificate, out):
 
 
 def rows_of(path):
-    """Return the rows of a .dmat file, which contains "columns rows" and then the values column by column."""
+    """Return the rows of a .dmat file. Such a file contains "columns rows", and then the values column by column."""
     words = path.read_text(encoding="ascii").split()
     columns, rows = int(words[0]), int(words[1])
     values = [float(word) for word in words[2:]]

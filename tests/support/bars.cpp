@@ -61,7 +61,7 @@ Weights biharmonic(
     if (unknown[static_cast<std::size_t>(v)] >= 0)
     {
       weights.row(v) = solution.row(unknown[static_cast<std::size_t>(v)]);
-      weights.row(v) /= weights.row(v).sum(); // removes round-off only
+      weights.row(v) /= weights.row(v).sum(); // this removes only round-off
     }
   }
   return weights;

@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_support_bars_h
 #define bindpose_tests_support_bars_h
 
-// Small meshes with handles and smooth weights, for tests of posing.
+// Small meshes with handles and smooth weights, for tests of posing methods.
 
 #include "base/mesh.h"
 #include "weights/handles.h"
@@ -13,11 +13,11 @@ struct Rig
 {
   TetMesh mesh;
   Handles handles;
-  /// #V x #handles; rows sum to 1; 1 at the column's own handle, 0 at the other handles.
+  /// Weights, #V x #handles. Rows sum to 1. A weight is 1 at its own handle and 0 at other handles.
   Weights weights;
 };
 
-/// Compute weights that minimize the biharmonic energy with the rows of the given vertices fixed.
+/// Compute weights that minimize the biharmonic energy. The rows of the given vertices are fixed.
 Weights biharmonic(
   const TetMesh& mesh, const std::vector<Index>& vertices, const std::vector<Index>& handles);
 
@@ -25,7 +25,8 @@ Weights biharmonic(
 /// Each handle constrains the whole cross section at x = 0, 2 or 4.
 Rig bar(int cells = 8);
 
-/// Return the unit cube with point handles at four corners that span it, and one in the middle.
+/// Return the unit cube with point handles at four corners that span it, and one handle in the
+/// middle.
 Rig box(int cells = 4);
 
 } // namespace bindpose::test

@@ -33,8 +33,8 @@ public:
   CancelLater(const CancelLater&) = delete;
   CancelLater& operator=(const CancelLater&) = delete;
 
-  /// Return the seconds from the request until now, called when the work has ended. The result is
-  /// negative if the work ended before the request.
+  /// Return the seconds from the cancel request until now. Call this function when the work has
+  /// ended. The result is negative if the work ended before the request.
   double waited()
   {
     const auto now = Clock::now();
@@ -45,7 +45,7 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  Clock::time_point asked_; // declared before the thread that writes it
+  Clock::time_point asked_; // must be declared before the thread that writes it
   std::thread user_;
 };
 

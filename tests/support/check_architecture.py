@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Check that the includes of the project respect its layers, and fail for an include in the wrong direction.
+"""Check that the includes of the project respect its layers. Fail for an include in the wrong direction.
 
-core includes no VTK header. Inside core the layers are base <- winding <- (surface <- embedding, helper, planar) <-
-inside <- weights <- (automatic, pose); io includes base only (inside may include io). Filters include nothing of the
-viewer. Nothing outside of the tests includes a header of the tests. The ParaView plugin has no sources, and has a proxy
-for every filter that can be instantiated.
+The library core includes no VTK header. Inside of core the layers are base <- winding <- (surface <- embedding, helper,
+planar) <- inside <- weights <- (automatic, pose); io includes base only (inside may include io). Filters include
+nothing from the viewer. Nothing outside of the tests includes a header of the tests. The ParaView plugin has no
+sources, and has a proxy for every filter that can be instantiated.
 """
 
 import pathlib
@@ -23,7 +23,7 @@ CORE_ARROWS = {
     "helper": {"base", "winding", "helper"},
     "planar": {"base", "winding", "helper", "planar"},
     "embedding": {"base", "winding", "surface", "embedding"},
-    # inside exchanges files with fTetWild.
+    # The folder inside exchanges mesh files with the program fTetWild.
     "inside": {"base", "io", "winding", "surface", "helper", "embedding", "inside"},
     "weights": {"base", "winding", "surface", "planar", "embedding", "inside", "weights"},
     "automatic": {"base", "winding", "surface", "helper", "inside", "weights", "automatic"},
@@ -36,10 +36,10 @@ PLUGIN = "filters/paraview"
 
 
 def without_proxy():
-    """Return the filters that the plugin's XML does not name, and the names in the XML that are not filters."""
+    """Return the filters that the plugin's XML does not mention, and the names in the XML that are not filters."""
     filters = {path.stem for path in (ROOT / "filters").glob("vtk*.h") if f"static {path.stem}* New()" in path.read_text()}
     proxies = re.compile(r'<(?:SourceProxy|WriterProxy)\b[^>]*\bclass="(\w+)"')
-    # Base proxies name abstract classes.
+    # Base proxies refer to abstract classes.
     named = {name for path in (ROOT / PLUGIN).rglob("*.xml") for name in proxies.findall(path.read_text())
              if not name.endswith("Algorithm")}
     return [f"{name} is either no filter or has no proxy in {PLUGIN}" for name in sorted(filters ^ named)]

@@ -17,7 +17,8 @@ namespace
 {
 constexpr const char* archive = "/usr/share/doc/libcgal-dev/data.tar.gz";
 
-/// Unpacks into a folder named after this process, then renames it, because tests run in parallel.
+/// Unpack into a folder named after this process, then rename the folder. Tests run in parallel, so
+/// another process may unpack at the same time.
 bool unpack(const std::filesystem::path& folder)
 {
   namespace fs = std::filesystem;
@@ -34,7 +35,7 @@ bool unpack(const std::filesystem::path& folder)
   const std::string command =
     "tar xzf " + std::string(archive) + " -C '" + scratch.string() + "' data/meshes";
   const bool unpacked = std::system(command.c_str()) == 0;
-  std::error_code ignored; // another process may have finished first
+  std::error_code ignored; // the rename fails if another process has finished first
   if (unpacked)
   {
     fs::rename(scratch, folder, ignored);

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Write synthetic furniture with the defects of real models, and hostile models with worse defects.
 
-`furniture.py FOLDER [--hostile]` writes them as .obj files, always the same ones. They replace the package
+`furniture.py FOLDER [--hostile]` writes the models as .obj files, always the same ones. They replace the Debian package
 sweethome3d-furniture if that is too large: see real_meshes.py, --set made and --set hostile.
 
-A part is a pair: points (#V x 3) and faces, which are lists of three or more point ids.
+A part is a pair of points (#V x 3) and faces, which are lists of three or more point ids.
 """
 
 import argparse
@@ -26,7 +26,7 @@ def box(lower, upper):
 
 
 def triangles(part):
-    """Convert a part of horrors.py, whose faces are an array."""
+    """Convert a part of horrors.py. Its faces are an array; the result has a list of faces."""
     return part[0], part[1].tolist()
 
 
@@ -47,7 +47,7 @@ def lathe(profile, around=24):
 
 
 def tube(start, end, radius, around=10, along=6):
-    """Return an open cylinder from one point to another."""
+    """Return an open cylinder from point `start` to point `end`."""
     start, end = np.array(start, float), np.array(end, float)
     axis = end - start
     side = np.cross(axis, [0.31, 0.17, 0.93])
@@ -104,14 +104,15 @@ def table():
 
 
 def open_shelf():
-    """Return sheets without thickness that meet in non-manifold edges."""
+    """Return sheets without thickness that share non-manifold edges."""
     uprights = [sheet(5, (x, 0, 0), (0, 0.3, 0), (0, 0, 2)) for x in (0, 0.5, 1)]
     boards = [sheet(5, (x, 0, z), (0.5, 0, 0), (0, 0.3, 0)) for x in (0, 0.5) for z in np.linspace(0, 2, 6)]
     return welded(join(*uprights, *boards, sheet(5, (0, 0.3, 0), (1, 0, 0), (0, 0, 2))))
 
 
 def lathe_lamp():
-    """Return foot, stem and shade of one profile, with disks inside that make all edges on their rims non-manifold."""
+    """Return a lamp whose foot, stem and shade are one profile. Disks inside make all edges on their rims non-manifold.
+    """
     profile = [(0, 0), (0.15, 0), (0.16, 0.02), (0.03, 0.05), (0.02, 0.4), (0.02, 0.5), (0.18, 0.45), (0.1, 0.75)]
     disks = [lathe([(0.0, height), (radius, height)]) for radius, height in ((0.02, 0.4), (0.02, 0.5), (0.15, 0.0))]
     return welded(join(lathe(profile), *disks))
@@ -127,7 +128,8 @@ def tube_chair():
 
 
 def leaf_plant():
-    """Return a pot and 300 loose leaves of two quads each. Every third leaf is doubled back to back."""
+    """Return a pot and 300 loose leaves of two quads each. Every third leaf occurs twice, with opposite orientations.
+    """
     draw = np.random.RandomState(21)
     leaves = []
     for k in range(300):
@@ -142,7 +144,7 @@ def leaf_plant():
 
 
 def keys():
-    """Return twelve plates, 50 times as wide as thick, with small plates on them, around a ring that passes through."""
+    """Return twelve plates, 50 times as wide as thick, with small plates on them. A ring passes through all plates."""
     ring = horrors.torus(24, 8, 0.3, 0.015)
     plates = []
     for k in range(12):
@@ -156,7 +158,7 @@ def keys():
 
 
 def car_body():
-    """Return an open sheet with holes and slivers, in panels with a gap of 1e-4 between them."""
+    """Return an open sheet with holes and slivers. It consists of panels with a gap of 1e-4 between them."""
     n, m = 30, 12
 
     def height(s, t):
@@ -211,7 +213,7 @@ def rug():
 
 
 def needles_only():
-    """Return forty faces without area, on which nothing can be bound and in which nothing can be filled."""
+    """Return forty faces without area. Nothing can be bound on them, and they enclose no volume."""
     points = np.array([[k, 2 * k, -k] for k in range(42)], float)
     return points, [[k, k + 1, k + 2] for k in range(40)]
 

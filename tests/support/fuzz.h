@@ -1,8 +1,8 @@
 #ifndef bindpose_tests_support_fuzz_h
 #define bindpose_tests_support_fuzz_h
 
-// Support for tests that try many random cases. A round's case depends only on its seed, so that a
-// failure can be repeated alone:
+// Support for fuzz tests, which try many random cases. The case of a round depends only on its
+// seed, so that a failure can be repeated alone. Environment variables control the rounds:
 // BINDPOSE_FUZZ_FACTOR=8   runs 8 times as many rounds (nightly)
 // BINDPOSE_FUZZ_NIGHT=3    uses the seeds that follow those of three such runs (nightly: the date)
 // BINDPOSE_FUZZ_SEED=7     runs only the round with this seed
@@ -26,7 +26,7 @@
 namespace bindpose::test
 {
 
-/// Return the positive integer in an environment variable, or the fallback.
+/// Return the positive integer in an environment variable, or `fallback` if the variable has none.
 inline Index whole_number_of(const char* variable, Index fallback)
 {
   const char* text = std::getenv(variable);
@@ -34,7 +34,7 @@ inline Index whole_number_of(const char* variable, Index fallback)
   return value >= 1 ? value : fallback;
 }
 
-/// Return base times BINDPOSE_FUZZ_FACTOR.
+/// Return the number of rounds: base times BINDPOSE_FUZZ_FACTOR.
 inline Index fuzz_rounds(Index base)
 {
   return base * whole_number_of("BINDPOSE_FUZZ_FACTOR", 1);
@@ -77,14 +77,14 @@ void fuzz(const char* what, Index base, const Body& body)
   std::cout << "[ fuzz ] " << seed - first << " " << what << "\n";
 }
 
-/// Return true in a fraction `share` of all calls.
+/// Return true for a random fraction `share` of all calls.
 inline bool chance(Random& random, double share)
 {
   return random.uniform() < share;
 }
 
-/// Expect a text that fits into one line of a log or a window: not empty, no control characters,
-/// UTF-8.
+/// Expect that a text fits into one line of a log or a window: UTF-8, not empty, and without
+/// control characters.
 inline void expect_sentence(const std::string& text)
 {
   EXPECT_FALSE(text.empty());
@@ -106,7 +106,7 @@ inline void expect_sentence(const std::string& text)
   }
 }
 
-/// Expect that a failure has a message of one line, and that all warnings are single lines.
+/// Expect that a failure has a message of one line, and that each warning is one line.
 inline void expect_spoken(const Status& status)
 {
   if (status.code != StatusCode::ok)

@@ -17,19 +17,20 @@ import numpy as np
 class Horror:
     """A surface and known facts about it."""
 
-    vertices: np.ndarray  # #V x 3
-    triangles: np.ndarray  # #F x 3 ids
+    vertices: np.ndarray  # positions, #V x 3
+    triangles: np.ndarray  # vertex ids, #F x 3
     volume: float = None  # volume of the inside, None if no formula gives it
     tolerance: float = 1e-9  # relative tolerance of the volume
-    encloses: bool = True  # False: encloses nothing and must be refused with a sentence; None: unknown
+    encloses: bool = True  # False: the surface encloses nothing and must be refused with a sentence; None: unknown
 
 
 # ---- Clean parts -----------------------------------------------------------------------------------
 
 
 def cube(lower=(-1.0, -1.0, -1.0), upper=(1.0, 1.0, 1.0)):
-    """Return 12 triangles, oriented outwards. The triangles of side k are 2k and 2k + 1 in the order -x +x -y +y -z
-    +z."""
+    """Return a cube of 12 triangles, oriented outwards. The triangles of face k are 2k and 2k + 1 in the order -x +x -y
+    +y -z +z.
+    """
     corners = np.array([[(upper if v >> k & 1 else lower)[k] for k in range(3)] for v in range(8)], float)
     faces = [[0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5], [0, 1, 5], [0, 5, 4],
              [2, 6, 7], [2, 7, 3], [0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6]]
@@ -129,7 +130,7 @@ def unwelded(mesh):
 
 
 def chosen(mesh, share, seed):
-    """Return a mask of about the fraction `share` of the triangles."""
+    """Return a random mask that selects about the fraction `share` of the triangles."""
     return np.random.RandomState(seed).uniform(size=len(mesh[1])) < share
 
 
@@ -214,7 +215,7 @@ def unwelded_soup():
 
 
 def unwelded_and_jittered():
-    """Return loose triangles whose corners do not meet."""
+    """Return loose triangles with small gaps between their corners."""
     mesh = torus()
     return Horror(*jittered(unwelded(mesh), 1e-3, 7), volume(mesh), 0.03)
 
@@ -281,7 +282,7 @@ def fan():
 
 
 def wedges_around_an_edge():
-    """Return every second one of 200 tets around one edge."""
+    """Return 100 tets around one edge: every second one of 200."""
     ring = [[math.cos(math.pi * k / 100), math.sin(math.pi * k / 100), 0.5] for k in range(200)]
     faces = []
     for k in range(0, 200, 2):
@@ -309,19 +310,19 @@ def checkerboard():
 
 
 def cubes_side_by_side():
-    """Return 3 x 3 x 3 cubes with all walls between them, each wall twice."""
+    """Return 3 x 3 x 3 cubes with all walls between them. Each wall occurs twice."""
     cubes = [cube((x, y, z), (x + 1, y + 1, z + 1)) for x in range(3) for y in range(3) for z in range(3)]
     return Horror(*join(*cubes), 27.0)
 
 
 def hanging_vertices():
-    """Return a cube with one side tessellated differently, so that vertices lie in the middle of edges."""
+    """Return a cube with one face tessellated differently, so that vertices are in the middle of edges."""
     parts = [unwelded((cube()[0], cube()[1][:10])), sheet(7, (-1.0, -1.0), (1.0, 1.0), 1.0)]
     return Horror(*join(*parts), 8.0)
 
 
 def klein_bottle():
-    """Return a tube that passes through its own wall. Neither of its sides is the outer one."""
+    """Return a closed tube that passes through its own wall. The surface is one-sided, so it has no outside."""
     def place(s, t):
         u, v = 2 * math.pi * s, 2 * math.pi * t
         r = 4 * (1 - math.cos(u) / 2)
@@ -356,8 +357,7 @@ def moebius_strip():
 
 
 def roman_surface():
-    """Return Steiner's Roman surface. It is one-sided, and its three lines of self-intersection meet in a triple
-    point."""
+    """Return Steiner's Roman surface. It is one-sided. Its three lines of self-intersection share a triple point."""
     def place(s, t):
         u, v = math.pi * s, 2 * math.pi * t
         x, y, z = math.sin(u) * math.cos(v), math.sin(u) * math.sin(v), math.cos(u)
@@ -380,8 +380,9 @@ def knot():
 
 
 def spiky_ball():
-    """Return a sphere whose vertices are moved at random along and across their rays. It crosses itself hundreds of
-    times."""
+    """Return a sphere whose vertices are moved at random, along their radius and perpendicular to it. The surface
+    crosses itself hundreds of times.
+    """
     points, faces = sphere(3)
     random = np.random.RandomState(9)
     return Horror(points * random.uniform(0.3, 1.2, (len(points), 1)) + random.uniform(-0.15, 0.15, points.shape), faces)
@@ -422,7 +423,7 @@ def bowl():
 
 
 def house():
-    """Return walls and a roof without thickness, without floor, with a doorway and windows."""
+    """Return a house: walls and a roof without thickness, a doorway and windows, and no floor."""
     points, faces = [], []
     walls = join(sheet(8, (-1.0, -1.0), (1.0, 1.0), 1.0))
     for turn in range(4):
@@ -451,7 +452,7 @@ def thousand_degenerate():
 
 
 def collinear_slivers():
-    """Return a cube with one side made of 200 slivers between points on a line and a far corner."""
+    """Return a cube with one face made of 200 slivers between points on a line and a far corner."""
     points, faces = cube()
     line = np.linspace([-1, 1, 1], [-1, -1, 1], 201)[1:-1]
     ids = [6, *range(8, 8 + len(line)), 4]
@@ -475,7 +476,7 @@ def far_away():
 
 
 def two_scales():
-    """Return a solid and a small solid of a hundred-thousandth of its size that crosses its wall."""
+    """Return a solid, and a second solid of a hundred-thousandth of its size that crosses the wall of the first one."""
     return Horror(*join(sphere(), sphere(2, 1e-5, (1.0, 0, 0))), volume(sphere()))
 
 

@@ -1,4 +1,4 @@
-"""Run commands in separate process groups, with a time limit, and measure them."""
+"""Run commands in separate process groups with a time limit, and measure their time and memory."""
 
 import contextlib
 import dataclasses
@@ -11,7 +11,7 @@ import time
 
 GRACE = 5  # seconds between the request to end a process and killing it
 running = set()  # ids of the process groups that are running
-closed = threading.Event()  # set if no further process may start
+closed = threading.Event()  # set when no further process may start
 
 
 @dataclasses.dataclass
@@ -27,7 +27,7 @@ class Finished:
 
 
 def stop(group, over_limit, ended):
-    """Ask a process group to end, which allows the program to write its report, then kill it."""
+    """Ask a process group to end, which allows the program to write its report. After GRACE seconds, kill it."""
     over_limit.set()
     with contextlib.suppress(ProcessLookupError):
         os.killpg(group, signal.SIGTERM)
@@ -36,7 +36,7 @@ def stop(group, over_limit, ended):
 
 
 def end_all():
-    """Kill all processes and prevent new ones. Called when the benchmark is interrupted."""
+    """Kill all processes and prevent new ones. The benchmark calls this function when it is interrupted."""
     closed.set()
     for group in list(running):
         with contextlib.suppress(ProcessLookupError):

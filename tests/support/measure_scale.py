@@ -29,10 +29,10 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 SHAPES = ("closed", "open")
 VERBS = ("info", "winding", "tetrahedralize", "weights", "deform", "view")
-LIMIT = 1800.0  # seconds
+LIMIT = 1800.0  # time limit in seconds
 GRACE = 60.0  # seconds between an interrupt and killing the process
 MOST_MEMORY = 12 << 30
-CANCELED = 4  # exit code
+CANCELED = 4  # exit code of a canceled program
 PROGRESS = re.compile(rb"([0-9]+) %  ([a-z][^\x1b\r\n]*)")
 TOUR = {"tour": {"schema": 1, "name": "first picture", "view": [1200, 800], "seconds": LIMIT},
         "steps": [{"screenshot": "first"}]}
@@ -41,14 +41,14 @@ POSE = {"handles": {"p1": {"translate": [0.1, 0.0, 0.0]}}}
 
 @dataclasses.dataclass
 class Run:
-    """Measurements of one process."""
+    """Measurements of one run."""
 
     exit_code: int
     seconds: float
     peak_bytes: int
-    silence: float = 0.0  # longest time in seconds without a change of the progress
-    silent: str = ""  # phase of the longest silence
-    interrupted: float = 0.0  # seconds from the interrupt to the end
+    silence: float = 0.0  # longest time in seconds during which the progress did not change
+    silent: str = ""  # phase during the longest silence
+    interrupted: float = 0.0  # seconds from the interrupt to the end of the process
     text: str = ""
 
 
@@ -63,7 +63,7 @@ class Screen:
 
     def look(self, chunk):
         self.text = (self.text + chunk)[-4000:]
-        found = PROGRESS.findall(self.text)  # a line may arrive in two reads
+        found = PROGRESS.findall(self.text)  # a line may be split over two reads
         if found and found[-1] != self.shown:
             self.change(found[-1])
 
@@ -123,7 +123,7 @@ def commands(program, surface, folder):
 
 
 def counts_of(program, surface, folder):
-    """Return the number of triangles. Also write the handles that deform moves."""
+    """Return the number of triangles. Also write the handles that the verb deform moves."""
     done = subprocess.run([program, "info", surface, "--report", "-", "--quiet"], capture_output=True, text=True, check=True)
     subprocess.run([program, "handles", surface, "--method", "points", "--number-of-points", "8", "-o", folder / "handles.vtp", "--overwrite", "--quiet"],
                    check=True)
@@ -177,7 +177,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         for millions in options.millions:
             folder = pathlib.Path(scratch) / str(millions)
-            # A separate process, because the peak memory of a child includes the memory of its parent.
+            # Use a separate process, because the peak memory of a child includes the memory of its parent.
             subprocess.run([sys.executable, HERE / "scale_surfaces.py", folder, str(millions)], check=True)
             for shape in options.shape:
                 rows += measure(options, f"{shape}, {millions} M", folder / f"{shape}.ply", folder)

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Compare the time of `bindpose tetrahedralize` with TetGen alone (plain_tetgen.cpp, compiled here).
 
-Four tables: clean closed surfaces against TetGen with the same switches, with the volume against that of the divergence
-theorem; unclean surfaces of about 50,000 triangles; embeddings of surfaces of about 100,000 triangles; and two surfaces
-of a million triangles. Fails if the program fails.
+The script prints four tables. The first compares clean closed surfaces with TetGen and the same switches, and their
+volume with that of the divergence theorem. The second has unclean surfaces of about 50,000 triangles, the third
+embeddings of surfaces of about 100,000 triangles, and the fourth two surfaces of a million triangles. The script fails
+if the program fails.
 
 Seconds of Bindpose are those of its report (diagnosis, winding numbers, meshing, checks), without reading and writing.
 Seconds of TetGen are those of its call. Runs of the two programs alternate, so that other load on the machine affects
@@ -46,7 +47,7 @@ def bindpose(program, surface, folder, *words):
 
 
 def repeated(options, surface, folder, *words):
-    """Return the seconds and the reports of all runs."""
+    """Run the program repeatedly. Return the seconds and the reports of all runs."""
     return zip(*(bindpose(options.program, surface, folder, *words) for _ in range(options.runs)))
 
 

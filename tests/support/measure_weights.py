@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Compare the volume, the embedding and the preview of `bindpose weights` by time and by their weights.
+"""Compare three ways of `bindpose weights` by their time and their weights: tets of the volume, an embedding, and the
+preview.
 
 Seconds are those of the whole work as reported, tets included. Differences are root mean square and largest, over the
-weights of all handles at the points of the surface. Runs on one surface alternate between the three, so that other load
-on the machine affects them equally.
+weights of all handles at the points of the surface. Runs on one surface alternate between the three ways, so that other
+load on the machine affects them equally.
 """
 
 import argparse
@@ -18,7 +19,7 @@ from all_surfaces import real_surfaces
 from all_weights import rows_of
 
 SURFACES = [("hand.off", 20), ("elephant.off", 8), ("elephant.off", 24), ("armadillo.off", 10), ("refined_elephant.off", 10)]
-LARGEST = 100_000_000  # bytes of a file; larger files are skipped
+LARGEST = 100_000_000  # file size in bytes; larger files are skipped
 WAYS = {"volume": ["--domain", "volume"], "embedding": ["--domain", "embedding"],
         "preview": ["--domain", "embedding", "--stage", "preview"]}
 

@@ -203,8 +203,8 @@ TetMesh tet_box(int nx, int ny, int nz, const Vec3& lower, const Vec3& upper)
         {
           continue;
         }
-        // One tet for each of the six orders of the axes along which a path leads from corner to
-        // corner.
+        // Kuhn's subdivision: a path along the axes leads from one corner of the cell to the
+        // opposite corner. Each of the six orders of the axes gives one tet.
         constexpr int orders[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 0, 2, 1 },
           { 2, 1, 0 }, { 1, 0, 2 } };
         for (int o = 0; o < 6; ++o)
@@ -235,7 +235,7 @@ TetMesh tet_box(int nx, int ny, int nz, const Vec3& lower, const Vec3& upper)
 
 double Random::uniform()
 {
-  // splitmix64
+  // This is the generator splitmix64.
   this->state_ += 0x9e3779b97f4a7c15ull;
   std::uint64_t z = this->state_;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;

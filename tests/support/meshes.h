@@ -10,21 +10,21 @@
 namespace bindpose::test
 {
 
-/// Return [lower, upper]^3 as 12 triangles, oriented outwards. The triangles of side k are 2k and
+/// Return [lower, upper]^3 as 12 triangles, oriented outwards. The triangles of face k are 2k and
 /// 2k + 1, in the order -x +x -y +y -z +z.
 TriangleMesh cube(double lower = -1.0, double upper = 1.0);
 /// Return an axis-aligned box of 12 triangles.
 TriangleMesh box(const Vec3& lower, const Vec3& upper);
-/// Return the cube without its +z side.
+/// Return the cube without its face toward +z.
 TriangleMesh open_cube(double lower = -1.0, double upper = 1.0);
 /// Return a subdivided icosahedron of 20 * 4^levels triangles on a sphere, oriented outwards.
 TriangleMesh sphere(int levels, double radius = 1.0, const Vec3& center = Vec3::Zero());
 /// Return a torus of around * across * 2 triangles around the z axis.
 TriangleMesh torus(int around, int across, double radius, double tube);
-/// Return nx * ny squares on [0, sx] x [0, sy], z = 0, oriented upwards, all cut along the same
-/// diagonal.
+/// Return nx * ny squares on [0, sx] x [0, sy] in the plane z = 0, oriented upwards. All squares
+/// are cut along the same diagonal.
 TriangleMesh grid(int nx, int ny, double sx = 1.0, double sy = 1.0);
-/// Combine two meshes; the vertex ids of the second one are shifted.
+/// Combine two meshes. The vertex ids of the second mesh are shifted.
 TriangleMesh join(const TriangleMesh& a, const TriangleMesh& b);
 TriangleMesh translated(TriangleMesh mesh, const Vec3& by);
 /// Reverse the orientation of all triangles.
@@ -37,7 +37,8 @@ TriangleMesh unwelded(const TriangleMesh& mesh);
 TetMesh tet_box(
   int nx, int ny, int nz, const Vec3& lower = Vec3::Zero(), const Vec3& upper = Vec3::Ones());
 
-/// Return vertices - edges + facets - tets: 1 for a ball, 0 for a solid torus, 2 for a shell.
+/// Return vertices - edges + facets - tets: 1 for a ball, 0 for a solid torus, 2 for a ball with a
+/// cavity.
 Index euler_characteristic(const TetMesh& mesh);
 
 /// Deterministic random numbers in [0, 1). They are the same on every machine, unlike those of the

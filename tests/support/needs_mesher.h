@@ -8,7 +8,8 @@
 namespace bindpose::test
 {
 
-/// Fixture of tests that run the helper executable. They are skipped if it is not built.
+/// Fixture of tests that run the helper program bindpose-mesher. They are skipped if it was not
+/// built.
 class NeedsMesher : public testing::Test
 {
 protected:

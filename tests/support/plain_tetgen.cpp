@@ -1,5 +1,5 @@
-// TetGen alone, for measure_tets.py. `plain_tetgen SURFACE.off SWITCHES` prints the seconds of the
-// call, the number of tets and their volume. The script builds this program, not CMake.
+// Run TetGen alone, for measure_tets.py. `plain_tetgen SURFACE.off SWITCHES` prints the seconds of
+// the call, the number of tets and their volume. The script builds this program; CMake does not.
 #include <tetgen.h>
 
 #include <chrono>
@@ -54,5 +54,5 @@ int main(int argc, char* argv[])
   }
   std::printf("seconds %.6f tets %d volume %.17g\n", taken.count(), out.numberoftetrahedra, volume);
   std::fflush(stdout);
-  std::_Exit(0); // TetGen's destructors are not reliable
+  std::_Exit(0); // avoid TetGen's destructors, which are not reliable
 }

@@ -21,8 +21,8 @@ inline std::size_t open_descriptors()
   return static_cast<std::size_t>(std::distance(begin(files), end(files)));
 }
 
-/// Report whether a process has ended: it does not exist, or it is dead and its parent has not
-/// reaped it yet.
+/// Report whether a process has ended: it does not exist, or it is a zombie that its parent has not
+/// reaped yet.
 inline bool gone(pid_t process)
 {
   if (::kill(process, 0) != 0)
@@ -35,7 +35,7 @@ inline bool gone(pid_t process)
   return state.empty() || state == "Z" || state == "X";
 }
 
-/// Wait until the condition holds, for at most 5 s. Return whether it holds.
+/// Wait until the condition is true, for at most 5 s. Return whether it is true.
 inline bool soon(const std::function<bool()>& holds)
 {
   for (int i = 0; i < 500 && !holds(); ++i)

@@ -1,7 +1,7 @@
 """Independent checks of the results of `bindpose weights` and `bindpose tetrahedralize` for an .obj model.
 
-No check uses code of Bindpose: VTK or a parser of this file reads the results, and numpy computes with them. Each check
-returns a dict of measured numbers. Its entry "wrong" lists the failures as sentences.
+No check uses code of Bindpose: VTK or a parser in this file reads the results, and numpy computes with them. Each check
+returns a dict of measured numbers. Its entry "wrong" lists the errors as sentences.
 """
 
 import math
@@ -17,10 +17,10 @@ from separate_parts import largest_leak, weld
 CERTIFICATE = 1e-6  # a column is certified if its relative gap and residual are at most this large
 ROW_SUM = 1e-9
 SAMPLES = 1_000_000  # sample points at which the winding number of a refused model is evaluated
-LOOKED_AT = 2000  # number of samples inside that are examined more closely
-SPECK = 1e-5  # fraction of the bounding box: a smaller volume may be missed
+LOOKED_AT = 2000  # maximum number of sample points inside that are examined more closely
+SPECK = 1e-5  # fraction of the bounding box; a volume below this may be missed
 EDGES = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
-THIN = 5.0  # degrees: a dihedral angle below this is thin
+THIN = 5.0  # degrees; a tet with a dihedral angle below this is thin
 
 
 # ---- Models ----------------------------------------------------------------------------------------
@@ -53,7 +53,7 @@ def is_flat(points):
 
 
 def model_facts(path, handles):
-    """Return facts about the model that justify a refusal to bind or to fill it."""
+    """Return facts about the model that justify a refusal to compute weights or tets."""
     points, triangles = read_obj(path)
     used = np.unique(points[np.unique(triangles)], axis=0) if len(triangles) else np.empty((0, 3))
     has_area = len(triangles) > 0 and areas(points, triangles).max() > 0
@@ -201,11 +201,12 @@ def write_points(path, points):
 
 
 def enclosed_fraction(program, model, folder):
-    """Return the fraction of the bounding box where the winding number is at least 0.5, or at most -0.5 if that is
-    more.
+    """Return the fraction of the bounding box where the winding number is at least 0.5, or at most -0.5 if that
+    fraction is larger.
 
-    The result is 0 for loose triangles (nine of ten edges belong to one triangle only) that enclose only specks: fewer
-    than half of the examined points inside have such points on all sides, 1/1000 of the diagonal away.
+    The result is 0 for loose triangles (nine of ten edges belong to one triangle only) that enclose only tiny volumes.
+    Their enclosed volume counts as tiny if fewer than half of the examined points inside have other inside points in
+    all directions, at a distance of 1/1000 of the diagonal.
     """
     points, triangles = read_obj(model)
     surface = points[np.unique(triangles)]
@@ -231,7 +232,7 @@ def are_loose(points, triangles):
 
 
 def winding_at(program, model, places, folder):
-    """Return the winding numbers of a model at some points, after its patches are oriented consistently."""
+    """Return the winding numbers of a model at the given points, after its patches are oriented consistently."""
     write_points(folder / "samples.vtp", places)
     subprocess.run([program, "winding", model, "--points", folder / "samples.vtp", "--orient-patches",
                     "-o", folder / "winding.vtp", "--overwrite", "--quiet"], check=True, timeout=600)
@@ -242,7 +243,7 @@ def winding_at(program, model, places, folder):
 
 
 def check_refusal(verb, program, model, message, handles):
-    """Check that a refusal is justified: the model has nothing to bind or to fill."""
+    """Check that a refusal is justified: weights need a surface with an area, and tets need an enclosed volume."""
     if not message or "\n" in message:
         return {"wrong": ["a refusal must be one line"]}
     facts = model_facts(model, handles)

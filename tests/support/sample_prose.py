@@ -16,7 +16,7 @@ import re
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("filters", "viewer", "python", "tests", "examples")
 CPP = {".h", ".cpp", ".cxx"}
-LONGEST = 12  # lines: a longer comment is shortened
+LONGEST = 12  # maximum number of lines; a longer comment is shortened
 WORD = re.compile(r"[A-Za-z]{2,}")
 STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 DECLARED = re.compile(r"\b(?:class|struct|enum class|enum)\s+([A-Za-z_]\w+)|"

@@ -4,7 +4,7 @@
 namespace bindpose::test
 {
 
-/// True in a build with sanitizers, which slow everything down several times.
+/// True in a build with sanitizers. They make everything several times slower.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool sanitized = true;
 #else

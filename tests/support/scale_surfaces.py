@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Write surfaces of one and of four million triangles, closed and open.
 
-`scale_surfaces.py FOLDER MILLIONS` writes closed.ply and open.ply: a camel of the Debian package libcgal-demo,
-decimated to 15,625 triangles, then subdivided (Loop) three times for one million triangles or four times for four
-million. The open surface lacks the triangles inside forty balls. Used by measure_scale.py.
+`scale_surfaces.py FOLDER MILLIONS` writes closed.ply and open.ply. The surface is a camel of the Debian package
+libcgal-demo. It is decimated to 15,625 triangles, then subdivided (Loop) three times for one million triangles or four
+times for four million. The open surface lacks the triangles inside of forty balls. measure_scale.py uses this script.
 """
 
 import pathlib
@@ -17,8 +17,8 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 from all_surfaces import ARCHIVE, read_off
 
 SOURCE = "camel.off"
-BASE = 15_625  # triangles
-LEVELS = {1: 3, 4: 4}  # number of subdivisions by millions of triangles
+BASE = 15_625  # number of triangles before subdivision
+LEVELS = {1: 3, 4: 4}  # millions of triangles: number of subdivisions
 BALLS = 40
 BALL_RADIUS = 0.012  # in bounding-box diagonals
 SEED = 27
@@ -59,7 +59,7 @@ def camel(folder, levels):
 
 
 def with_holes(points, triangles):
-    """Remove the triangles whose centers lie in one of BALLS balls around points of the surface."""
+    """Remove the triangles whose centers are in one of BALLS balls around points of the surface."""
     radius = BALL_RADIUS * np.linalg.norm(points.max(axis=0) - points.min(axis=0))
     centers = points[triangles].mean(axis=1)
     keep = np.ones(len(triangles), bool)

@@ -1,9 +1,9 @@
-"""Find the separate parts of a surface, and measure how much the weights of one part leak into another.
+"""Find the separate parts of a surface, and measure how much the weights of one part leak into another part.
 
 Components that share no vertex still belong together if they touch, cross, or contain each other. Two components touch
-if points of them share a cube of a grid. They do if they are nearer than 1/500 of the bounding-box diagonal, and they
-do not if they are farther apart than 1/144 of it. Open components also belong together if the inside connects them,
-such as a bottle's open neck and its cap: a straight line between them is completely inside.
+if they have points in the same cube of a grid. This is always true if they are nearer than 1/500 of the bounding-box
+diagonal, and never true if they are farther apart than 1/144 of it. Open components, such as a bottle with an open neck
+and its cap, also belong together if the inside connects them: a straight line between them is completely inside.
 """
 
 import numpy as np
@@ -12,7 +12,7 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 
 from weights_accuracy import LEAK
 
-NEAR = 1 / 500  # in bounding-box diagonals: spacing of the sample points on the surface, half an edge of the cubes
+NEAR = 1 / 500  # in bounding-box diagonals: the spacing of sample points on the surface, and half the size of the cubes
 MOST_SAMPLES = 2_000_000
 LINES = 300  # straight lines that are tested from one part to another
 SEED = 11
@@ -119,7 +119,7 @@ def touching_pairs(points, triangles, component):
     owner = component[owners]
     count = component.max() + 1
     halves = np.floor((places - points.min(axis=0)) / spacing).astype(np.int64)
-    size = halves.max() // 2 + 2  # cubes along an edge of the grid; size^3 * count stays below 2^63
+    size = halves.max() // 2 + 2  # number of cubes along an edge of the grid; size^3 * count must be below 2^63
     once = np.unique(((halves[:, 0] * 2 * size + halves[:, 1]) * 2 * size + halves[:, 2]) * count + owner)
     key, owner = once // count, once % count
     halves = np.stack([key // (2 * size) ** 2, key // (2 * size) % (2 * size), key % (2 * size)], axis=1)
@@ -147,7 +147,9 @@ def winding_numbers(queries, points, triangles):
 
 
 def inside_pairs(points, triangles, component, groups):
-    """Return the pairs of components in different groups of which the first has a vertex inside the second."""
+    """Return the pairs of components in different groups for which the first component has a vertex inside of the
+    second one.
+    """
     order = np.argsort(component, kind="stable")
     parts = np.split(triangles[order], np.cumsum(np.bincount(component))[:-1])
     lower = np.array([points[part.ravel()].min(axis=0) for part in parts])
@@ -162,10 +164,10 @@ def inside_pairs(points, triangles, component, groups):
 
 
 def inside_leads(first, second, points, triangles):
-    """Return True if a straight line between two sets of points is completely inside.
+    """Return True if a straight line between two sets of points is completely inside of the surface.
 
-    Half of the lines end at the nearest point of the second set, the other half at a random one. The steps along a line
-    are short enough to detect the gap between the sets.
+    Half of the lines end at the nearest point of the second set, the other half at a random point of it. The steps
+    along a line are short enough to detect the gap between the sets.
     """
     random = np.random.RandomState(SEED)
     starts, ends = (side[random.randint(len(side), size=LINES)] for side in (first, second))
@@ -220,9 +222,10 @@ def farthest_points(points, triangles, count):
 
 
 def largest_leak(points, triangles, weights):
-    """Return the largest weight on one part of a handle on another part, over all parts that have handles.
+    """Return the largest weight that a handle on one part has at a point of another part, over all parts that have
+    handles.
 
-    None if fewer than two parts have handles, or if the handles are not at the expected vertices.
+    Return None if fewer than two parts have handles, or if the handles are not at the expected vertices.
     """
     handles = farthest_points(points, triangles, weights.shape[1])
     if not all(weights[vertex, k] > 0.99 for k, vertex in enumerate(handles)):

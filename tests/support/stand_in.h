@@ -11,8 +11,8 @@
 namespace bindpose::test
 {
 
-/// Replaces the program that an environment variable names by a shell script, for the lifetime of
-/// the object.
+/// Replaces a program by a shell script for the lifetime of the object. An environment variable
+/// contains the path of the program.
 class StandIn
 {
 public:
@@ -23,7 +23,7 @@ public:
     ::chmod(this->path_.c_str(), 0755);
   }
 
-  /// The folder of the script. The script may write into it.
+  /// Return the folder that contains the script. The script may write into it.
   const Folder& folder() const { return this->folder_; }
 
 private:

@@ -16,8 +16,8 @@
 namespace bindpose::test
 {
 
-/// A stand-in whose destructor expects that its callers have left no open descriptor and no
-/// temporary file.
+/// A script that replaces a program (StandIn). The destructor expects that no file descriptor is
+/// open and no temporary file is left.
 class WatchedStandIn : public StandIn
 {
 public:
@@ -34,7 +34,7 @@ public:
 
   /// Return the process id that the script wrote into the file "pid" in its folder.
   pid_t process() const { return std::atoi(this->folder().read("pid").c_str()); }
-  /// The folder for temporary files.
+  /// Return the folder for temporary files.
   const Folder& temporary() const { return this->temporary_; }
 
 private:

@@ -2,14 +2,14 @@
 
 The reference weights are solved for the same handles on tets of `bindpose tetrahedralize --method remesh`, and
 interpolated at the surface's vertices by this script's own code. The reference is also compared with a coarse
-reference, from whose tets those that bridge gaps are removed. Where the two references differ, they are not accurate
+reference, from which the tets that bridge gaps are removed. Where the two references differ, they are not accurate
 enough to measure with. Models are drawn in a seeded order until enough are measured. A model is skipped
 - if its reference tets have angles below GOOD_ANGLE;
-- if they miss a part of the surface (remesh has no tets for open sheets);
-- if they and the default tets have different numbers of connected parts;
+- if the reference tets miss a part of the surface (remesh has no tets for open sheets);
+- if the reference tets and the default tets have different numbers of connected parts;
 - if the two references differ by more than AGREE.
 
-Part of real_meshes.py, which calls these functions. Only accuracy_checks.py uses VTK and numpy.
+This module is a part of real_meshes.py, which calls its functions. Only accuracy_checks.py uses VTK and numpy.
 """
 
 import concurrent.futures
@@ -22,19 +22,19 @@ from limited_process import run_limited
 
 SEED = 15
 GOOD_ANGLE = 10.0  # degrees: smallest dihedral angle of a reference; remesh aims at 12
-CUBES = 40  # along the longest side of the bounding box, for the reference
+CUBES = 40  # number of cubes along the longest side of the bounding box, for the reference
 COARSE_CUBES = 27
 AGREE = 0.01  # largest rms difference between the two references
 COVERED = 0.99  # fraction of the vertices that must be near the reference tets
 RMS = 0.015
-LEAK = 0.01  # a larger weight on a separate part is a leak
+LEAK = 0.01  # a weight on a separate part is a leak if it is larger than this
 COLUMNS = ["triangles", "domain", "tets", "angle", "reference tets", "references", "rms", "largest", "warned", "leak",
            "s", "reference s"]
 WARNING = "are not resolved"  # part of the warning that the weights of two lattices differ
 
 
 def run(options, verb, words, folder):
-    """Run a verb. Return its report, or a sentence if it failed."""
+    """Run a verb of the program. Return its report, or a sentence if it failed."""
     report = folder / "accuracy.json"
     report.unlink(missing_ok=True)
     done = run_limited([options.program, verb, *words, "--report", report, "--overwrite", "--quiet",
@@ -97,7 +97,7 @@ def compare(options, check, path, folder, quality):
 
 
 def measure(options, check, model, handles):
-    """Return the table row of one model. "skipped" is the reason to skip it, or empty."""
+    """Measure one model and return its table row. The entry "skipped" is the reason to skip it, or empty."""
     with tempfile.TemporaryDirectory(prefix="weights_accuracy_") as folder:
         folder = pathlib.Path(folder)
         path = model.copy_to(folder)
@@ -114,8 +114,9 @@ def differences(row):
 
 
 def accuracy(options, check, models, handles):
-    """Return rows of models in a seeded order until enough are measured. The result is the same for any number of
-    jobs."""
+    """Return rows of models in a seeded order, until enough models are measured. The result is the same for any number
+    of jobs.
+    """
     order = random.Random(SEED).sample(models, len(models))
     rows, measured = [], 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as threads:

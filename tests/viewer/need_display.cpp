@@ -1,5 +1,5 @@
-// Tests that draw fail without a display instead of being skipped, and VTK must not terminate the
-// process.
+// Test environment for tests that draw. Without a display they fail instead of being skipped, and
+// VTK must not terminate the process.
 #include "scene/display.h"
 
 #include <gtest/gtest.h>

@@ -15,9 +15,9 @@ namespace bindpose::test
 
 using Block = std::array<int, 3>;
 
-/// Return the boundary of the cubes [i, i+1] x [j, j+1] x [k, k+1], with two triangles per side,
-/// oriented outwards. The surface is clean if any two cubes that share only an edge have a common
-/// neighbor.
+/// Return the boundary of the cubes [i, i+1] x [j, j+1] x [k, k+1], oriented outwards, with two
+/// triangles per face of a cube. The surface is clean if any two cubes that share only an edge have
+/// a common neighbor.
 inline TriangleMesh blocks(const std::set<Block>& cubes)
 {
   std::map<Block, Index> ids;

@@ -1,4 +1,4 @@
-// Automatic handles of a shape, ready for binding.
+// Automatic handles (bones along a curve skeleton, or spread points) of shapes with known limbs.
 #include "automatic/automatic_handles.h"
 
 #include "core/automatic/blocks.h"

@@ -168,7 +168,7 @@ TEST_F(CurveSkeletonTest, OfAFlatSheetIsItsMedialAxis)
 
 TEST_F(CurveSkeletonTest, OfBoxesThatTouchIsOne)
 {
-  // Two closed bars end to end, like the parts of furniture.
+  // Two closed bars touch end to end, like the parts of furniture.
   const TriangleMesh row = test::join(bar(4), test::translated(bar(4), Vec3(4.0, 0.0, 0.0)));
   const CurveSkeleton skeleton = run(row, "lattice");
   EXPECT_EQ(skeleton.centroids.size(), 1u);

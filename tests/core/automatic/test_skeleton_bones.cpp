@@ -1,4 +1,5 @@
-// Curves of known shape become bones that are known in advance.
+// Conversion of curve skeletons to bones. The curves have known shapes, so the expected bones are
+// known.
 #include "automatic/skeleton_bones.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +14,8 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Builds curves and stores the radii and centroids of the shape around them.
+/// A curve skeleton under construction, with the radii and centroids of the shape around its
+/// curves.
 struct Drawing
 {
   std::vector<Vec3> points;
@@ -29,7 +31,8 @@ struct Drawing
     this->parts.push_back(static_cast<Index>(this->centroids.size()) - 1);
     return static_cast<Index>(this->points.size()) - 1;
   }
-  /// Draw a line of `pieces` segments from an existing point to p. @return The last point.
+  /// Draw a line of `pieces` segments from the point with index `from` to p. @return The last
+  /// point.
   Index line(Index from, const Vec3& p, int pieces = 10)
   {
     const Vec3 head = this->points[from];
@@ -157,7 +160,8 @@ TEST(SkeletonBones, AStraightCurveIsOneBone)
   const SkeletonBones bones = run(drawing);
   ASSERT_EQ(bones.handles.size(), 1u);
   EXPECT_EQ(bones.handles[0].name, "b1");
-  EXPECT_EQ(bones.handles[0].head, Vec3(0.0, 0.0, 0.0)); // this end is nearer to the centroid
+  // The head is the end that is nearer to the centroid.
+  EXPECT_EQ(bones.handles[0].head, Vec3(0.0, 0.0, 0.0));
   EXPECT_EQ(bones.handles[0].tail, Vec3(1.0, 0.0, 0.0));
   EXPECT_EQ(bones.handles[0].parent, -1);
   EXPECT_EQ(bones.junctions, 0);
@@ -211,13 +215,14 @@ TEST(SkeletonBones, AreWithinTheToleranceOfTheCurve)
       EXPECT_LE(distance_to(p, bones.handles), tolerance * (1.0 + 1e-12));
     }
   }
-  // A chord of a unit circle with sagitta s spans the angle 2 acos(1 - s).
+  // A chord of a unit circle with sagitta s subtends the angle 2 acos(1 - s).
   EXPECT_GE(static_cast<double>(fewer), M_PI / (2.0 * std::acos(1.0 - 0.01)));
 }
 
 TEST(SkeletonBones, StayWithinTheShape)
 {
-  // A knee of height 0.1, below the tolerance, in a shape that follows it closely.
+  // The curve has a knee of height 0.1, which is below the tolerance. The shape is a narrow band
+  // around the curve.
   Drawing drawing;
   drawing.centroids = { Vec3::Zero() };
   drawing.line(drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.1, 0.0)), Vec3(2.0, 0.0, 0.0));
@@ -235,7 +240,7 @@ TEST(SkeletonBones, StayWithinTheShape)
 
 TEST(SkeletonBones, PutJointsWhereTheCurveIsInside)
 {
-  // A hook whose corner and tip are outside of the shape.
+  // The curve is a hook whose corner and tip are outside of the shape.
   Drawing drawing;
   drawing.centroids = { Vec3::Zero() };
   drawing.line(
@@ -261,7 +266,7 @@ TEST(SkeletonBones, AreAtMostAsManyAsAskedFor)
     options.maximum_bones = most;
     EXPECT_EQ(run(half_circle(), options).handles.size(), static_cast<std::size_t>(most));
   }
-  // The shortest limbs are removed first.
+  // If there are too many bones, the shortest limbs are removed first.
   const Drawing drawing =
     arms({ { 1, 0, 0 }, { 0, 0.9, 0 }, { -0.8, 0, 0 }, { 0, -0.3, 0 }, { 0, 0, 0.2 } });
   options.maximum_bones = 3;
@@ -366,10 +371,10 @@ TEST(SkeletonBones, ARingIsCutOnceOppositeItsRoot)
   ASSERT_EQ(bones.roots.size(), 1u);
   EXPECT_EQ(Vec3(bones.joints.row(bones.roots[0])), Vec3(1.0, 0.0, 0.0));
   expect_tree(bones);
-  // The bones form a tree.
+  // A tree has one joint more than bones.
   EXPECT_EQ(bones.joints.rows(), static_cast<Index>(bones.handles.size()) + 1);
   EXPECT_EQ(bones.junctions, 0);
-  // The cut loop has two ends at (-1, 0, 0), one segment apart.
+  // Two bones end where the loop is cut at (-1, 0, 0), one segment apart.
   int ends = 0;
   for (const Handle& bone : bones.handles)
   {
@@ -407,7 +412,7 @@ TEST(SkeletonBones, BallsArePointsAndComponentsHaveRootsOfTheirOwn)
   drawing.centroids = { Vec3(0.0, 0.0, 5.0) };
   drawing.point(Vec3(0.0, 0.0, 5.0), 1.0);
   drawing.centroids.emplace_back(0.0, 0.0, -5.0);
-  // Short, so it becomes a point handle.
+  // This line is short, so it becomes a point handle.
   drawing.line(drawing.point(Vec3(0.0, 0.0, -5.0), 1.0), Vec3(0.4, 0.0, -5.0));
   drawing.centroids.emplace_back(Vec3::Zero());
   drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.0, 0.0));

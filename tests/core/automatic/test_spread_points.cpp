@@ -1,4 +1,5 @@
-// Spread points: far apart, on every component, in the middle of the shape.
+// Spread points: handles that are far apart, on every component, on the surface or in the middle of
+// the shape.
 #include "automatic/spread_points.h"
 
 #include "support/meshes.h"
@@ -45,7 +46,8 @@ SpreadPointsOptions on_surface(Index count, PointDistance distance)
   return options;
 }
 
-/// Return the distances along edges from a vertex, by relaxing all edges until nothing changes.
+/// Return the distance along edges from a vertex to each vertex, by relaxing all edges until no
+/// distance changes.
 std::vector<double> along_edges(const TriangleMesh& mesh, Index from)
 {
   std::vector<double> distance(static_cast<std::size_t>(mesh.points.rows()), infinite);
@@ -141,8 +143,8 @@ TEST(SpreadPoints, FewerAreTheFirstOfMore)
 
 TEST(SpreadPoints, EveryComponentHasItsShare)
 {
-  // Two concentric spheres and a smaller one, with areas 4 : 4 : 1, and a tiny sphere that gets no
-  // point.
+  // Two concentric spheres, a smaller sphere, and a tiny one. The areas of the first three have the
+  // ratio 4 : 4 : 1; the tiny sphere gets no point.
   TriangleMesh mesh = test::join(test::sphere(2), test::sphere(3, 1.001)); // no vertices coincide
   mesh = test::join(mesh, test::sphere(2, 0.5, Vec3(9.0, 0.0, 0.0)));
   const Index crumb = mesh.points.rows();
@@ -168,7 +170,7 @@ TEST(SpreadPoints, EveryComponentHasItsShare)
 
 TEST(SpreadPoints, WeldEqualVertices)
 {
-  // Distances are also measured across the edges of unwelded triangles.
+  // Distances along edges also continue across the edges of unwelded triangles.
   const TriangleMesh mesh = test::sphere(2);
   const TriangleMesh loose = test::unwelded(mesh);
   const SpreadPoints a = run(mesh, on_surface(12, PointDistance::along_edges));
@@ -193,13 +195,13 @@ TEST(SpreadPoints, LieInTheMiddleOfTheShape)
   double least = infinite, most = -infinite;
   for (Index i = 0; i < 6; ++i)
   {
-    // The points are on the axis, up to the length of the last step.
+    // The points are on the axis, up to the length of the last step of their motion.
     EXPECT_NEAR(points.places(i, 1), 0.5, 0.15) << i;
     EXPECT_NEAR(points.places(i, 2), 0.5, 0.15) << i;
     least = std::min(least, points.places(i, 0));
     most = std::max(most, points.places(i, 0));
   }
-  // The outermost points are within half a thickness of the ends.
+  // The outermost points are less than 0.7 from the ends of the bar, which has the thickness 1.
   EXPECT_LT(least, 0.7);
   EXPECT_GT(most, 7.3);
 }

@@ -1,5 +1,5 @@
-// The factor satisfies L L^T = A, the columns of L^-T are orthonormal in A, and the reciprocal
-// condition number of a diagonal matrix is exact.
+// Dense Cholesky factorization A = L L^T. The columns of L^-T are orthonormal in the inner product
+// of A, and the reciprocal condition number of a diagonal matrix is exact.
 #include "base/dense_cholesky.h"
 
 #include "support/meshes.h"

@@ -1,4 +1,4 @@
-// Products equal those of Eigen for all sizes and strides.
+// Dense matrix products, compared with Eigen for many sizes and strides.
 #include "base/dense_product.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,8 @@ TEST(DenseProduct, TakesTransposedAndWholeNumbersExactly)
   Weights c = Weights::Zero(37, 50);
   add_product({ a.data(), 37, 300, 1, 37 }, { b.data(), 300, 41, 41, 1 }, c.data(), 50);
   EXPECT_EQ(Weights(c.leftCols(41)), Weights(a.transpose() * b));
-  EXPECT_TRUE(c.rightCols(9).isZero(0.0)); // values between the rows are unchanged
+  // The columns that are not part of the product are unchanged.
+  EXPECT_TRUE(c.rightCols(9).isZero(0.0));
 }
 
 TEST(DenseProduct, LowerHasTheLowerTriangle)
@@ -57,7 +58,7 @@ TEST(DenseProduct, LowerHasTheLowerTriangle)
 
 TEST(DenseProduct, OfMatricesIsTheSumOfProductsAtOddSizes)
 {
-  // Operands are whole column-major matrices, and blocks of larger matrices.
+  // The operands are whole column-major matrices, and blocks of larger matrices.
   for (const Index rows : { 1, 5, 7, 13, 97 })
   {
     for (const Index cols : { 1, 3, 9, 17 })

@@ -1,3 +1,4 @@
+// Error-free sums and products, double-double arithmetic, exact 2D orientation, and parallel sort.
 #include "base/exact.h"
 #include "base/parallel_sort.h"
 
@@ -13,7 +14,7 @@ TEST(Exact, SumsAndProductsLoseNothing)
   two_sum(1.0, 0x1p-80, high, low);
   EXPECT_EQ(high, 1.0);
   EXPECT_EQ(low, 0x1p-80);
-  two_product(1.0 + 0x1p-52, 1.0 - 0x1p-52, high, low); // 1 - 2^-104
+  two_product(1.0 + 0x1p-52, 1.0 - 0x1p-52, high, low); // the exact product is 1 - 2^-104
   EXPECT_EQ(high, 1.0);
   EXPECT_EQ(low, -0x1p-104);
 }
@@ -32,9 +33,9 @@ TEST(Exact, OrientationSeesTheLastBit)
 {
   EXPECT_EQ(orientation_2d(0, 0, 1, 0, 0, 1), 1);
   EXPECT_EQ(orientation_2d(0, 0, 0, 1, 1, 0), -1);
-  // Points next to a diagonal, in steps of the last bit: the textbook example of a failure in
-  // floating point. Multiplied by 2^53, the coordinates are integers, whose determinant fits into
-  // 128-bit integers.
+  // The points are next to a diagonal, at distances of single units in the last place. Naive
+  // floating point fails here (the textbook example). Multiplied by 2^53, the coordinates are
+  // integers, whose determinant fits into 128-bit integers.
   for (int i = 0; i < 32; ++i)
   {
     for (int j = 0; j < 32; ++j)

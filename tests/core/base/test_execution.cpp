@@ -1,3 +1,4 @@
+// ExecutionContext and Phase: monotone progress, nested phases, seconds per phase, and cancel.
 #include "base/execution.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ TEST(ExecutionContext, ProgressNeverGoesBack)
   std::vector<double> told;
   ExecutionContext context(
     [&](double fraction, const std::string&) { told.push_back(fraction); }, [] { return false; });
-  // Every phase reports the fraction at its start.
+  // Every phase reports its begin, or the largest fraction that was reported before.
   for (const double begin : { 0.0, 0.4, 0.1, 0.0, 0.7 })
   {
     const Phase phase(context, "again", begin, 0.9);
@@ -46,7 +47,7 @@ TEST(Execution, PhasesNestAndProgressNeverGoesBack)
   EXPECT_EQ(fractions.front(), 0.0);
   EXPECT_LE(fractions.back(), 1.0);
   EXPECT_EQ(names.front(), "build");
-  // The start of each phase is always reported: iterate begins at 0.25 + 0.75 * 0.5.
+  // The start of each phase is always reported. Phase "iterate" begins at 0.25 + 0.75 * 0.5.
   const auto at = std::find(names.begin(), names.end(), "iterate") - names.begin();
   EXPECT_DOUBLE_EQ(fractions.at(static_cast<std::size_t>(at)), 0.625);
 }

@@ -1,5 +1,6 @@
-// The single-precision factorization against a dense and a double-precision one, failing pivots,
-// and equal bits on clones and on any number of threads.
+// Sparse Cholesky factorization in single precision, compared with a dense and a double-precision
+// factorization. Failing pivots are reported, and clones give the same bits on any number of
+// threads.
 #include "base/float_cholesky.h"
 
 #include "support/meshes.h"
@@ -79,7 +80,7 @@ TEST_F(FloatCholeskyTest, SolvesAsADenseFactorizationDoes)
       Eigen::VectorXd one;
       single.solve(Eigen::VectorXd(rhs.col(1)), one);
       EXPECT_LT((one - expected.col(1)).norm(), 1e-4 * expected.col(1).norm());
-      // The matrix plus 0.5 times its own diagonal.
+      // Factor the matrix plus 0.5 times its diagonal.
       ASSERT_TRUE(single.factor(a, 0.5, context_).ok());
       single.solve(rhs, x);
       Eigen::MatrixXd shifted = dense;
@@ -101,7 +102,7 @@ TEST_F(FloatCholeskyTest, SolvesAnyNumberOfColumnsAsItSolvesOne)
   {
     Eigen::MatrixXd rhs =
       Eigen::MatrixXd::NullaryExpr(a.rows(), columns, [&] { return random.uniform(-1.0, 1.0); });
-    rhs.col(columns / 2) *= 1e40; // each column has its own scale
+    rhs.col(columns / 2) *= 1e40; // each right-hand side has its own scale
     Eigen::MatrixXd x;
     single.solve(rhs, x);
     for (int c = 0; c < columns; ++c)
@@ -126,7 +127,8 @@ TEST_F(FloatCholeskyTest, ResidualsAreThoseOfSinglePrecisionAtAnyScale)
   solver.solve(rhs, expected);
   for (const double scale : { 1.0, 1e-60, 1e60 })
   {
-    // Rows and columns also have very different scales, far outside of the range of float.
+    // The rows and columns of one matrix also have very different scales. They exceed the range of
+    // float.
     Eigen::VectorXd rows(a.rows());
     for (Index i = 0; i < rows.size(); ++i)
     {

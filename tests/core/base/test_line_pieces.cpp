@@ -1,3 +1,4 @@
+// Subdivision of a line into segments whose lengths follow a given function.
 #include "base/line_pieces.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ int nearest(double lengths)
 TEST(LinePieces, AreEqualWhereTheLengthIs)
 {
   const std::vector<double> cuts = line_cuts(
-    0.2, 0.8, [](double) { return 0.11; }, nearest); // 5.45 pieces fit
+    0.2, 0.8, [](double) { return 0.11; }, nearest); // 0.6 / 0.11 = 5.45 segments, rounded to 5
   ASSERT_EQ(cuts.size(), 4u);
   for (std::size_t i = 0; i < cuts.size(); ++i)
   {
@@ -27,7 +28,7 @@ TEST(LinePieces, AreEqualWhereTheLengthIs)
 
 TEST(LinePieces, AreTwiceAsLongWhereTheLengthIs)
 {
-  // Eight pieces of length 1/16, then four of length 1/8.
+  // Expect eight segments of length 1/16, then four of length 1/8.
   const std::vector<double> cuts = line_cuts(
     0.0, 1.0, [](double t) { return t < 0.5 ? 0.0625 : 0.125; }, nearest);
   ASSERT_EQ(cuts.size(), 11u);

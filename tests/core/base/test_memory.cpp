@@ -1,4 +1,4 @@
-// Memory measurements against those of Linux, and sentences with numbers.
+// Measurements of used memory, compared with those of Linux, and messages about memory limits.
 #include "base/memory.h"
 
 #include "support/sanitized.h"

@@ -1,3 +1,4 @@
+// Volumes, edge counts, connected components and input checks of triangle and tet meshes.
 #include "base/mesh.h"
 
 #include "support/meshes.h"
@@ -47,7 +48,7 @@ TEST(Mesh, EdgeCountsTellOpenFlippedAndNonManifold)
   turned.triangles.row(0).reverseInPlace();
   EXPECT_EQ(count_edges(turned.triangles).misoriented, 3);
 
-  TriangleMesh wall = closed; // plus an inner wall through four corners
+  TriangleMesh wall = closed; // the cube plus an inner wall through four corners
   wall.triangles.conservativeResize(14, 3);
   wall.triangles.row(12) << 0, 3, 7;
   wall.triangles.row(13) << 0, 7, 4;

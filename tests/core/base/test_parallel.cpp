@@ -1,3 +1,4 @@
+// Parallel loops and sums: each item is processed once, and the bits do not depend on the threads.
 #include "base/parallel.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The order contains every point once and places neighbors next to each other.
+// Spatial sort of points: the order contains every point once, and consecutive points are close.
 #include "base/point_order.h"
 
 #include "support/meshes.h"

@@ -1,5 +1,5 @@
-// Solutions with a single-precision factor against a dense double-precision factorization, and the
-// reported residual against the actual one.
+// Iterative refinement: a single-precision factor gives double-precision solutions. They are
+// compared with a dense factorization, and the reported residual with the actual one.
 #include "base/refined_solve.h"
 
 #include "support/meshes.h"
@@ -80,7 +80,7 @@ protected:
 
 TEST_F(RefinedSolve, IsAsGoodAsADenseFactorization)
 {
-  // Without this scale per column, squares of the other columns would overflow.
+  // Keep the entries of this column moderate, because the norms below square them.
   this->rhs.col(3) *= 1e-100;
   Eigen::MatrixXd x;
   EXPECT_LE(this->solve({}, x), 1e-14);

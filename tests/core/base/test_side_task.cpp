@@ -1,3 +1,4 @@
+// SideTask: work in the background that begins after a delay, on finish(), or never.
 #include "base/side_task.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ void sleep_for(double seconds)
 {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
-constexpr double never = 1e6; // seconds
+constexpr double never = 1e6; // delay in seconds
 } // namespace
 
 TEST(SideTask, BeginsByItselfAfterItsDelay)

@@ -1,5 +1,6 @@
-// Both backends against a dense factorization, equal bits from concurrent clones, one analysis for
-// many factorizations, and failures that name the pivot.
+// Both backends of the sparse solver, compared with a dense factorization. Concurrent clones give
+// equal bits, one analysis serves many factorizations, and a failure names the pivot entry of the
+// matrix.
 #include "base/sparse_solver.h"
 
 #include "support/meshes.h"
@@ -161,8 +162,8 @@ TEST_P(SparseSolverTest, NamesThePivotThatIsNotPositive)
   SparseMatrix a = definite_matrix(3, 0.1);
   SparseSolver solver({ GetParam(), SparseSolver::Ordering::automatic });
   ASSERT_TRUE(solver.analyze(a).ok());
-  // A large negative diagonal entry makes its own pivot fail, at any position of the elimination
-  // order.
+  // A large negative diagonal entry makes the pivot of its own row fail, at any position in the
+  // elimination order.
   a.coeffRef(17, 17) = -1e6;
   const Status status = solver.factor(a);
   EXPECT_EQ(status.code, StatusCode::invalid_input);

@@ -1,3 +1,4 @@
+// Reports with named entries, their JSON, and status messages in one line of UTF-8.
 #include "base/status.h"
 #include "io/report_json.h"
 
@@ -55,8 +56,8 @@ TEST(Status, MessagesAreOneLineOfUtf8)
   EXPECT_EQ(Status::invalid_input("a\nb\r\x1b\x7f").message, "a?b???");
   EXPECT_EQ(one_line("gr\xc3\xbc\xc3\x9f\xe2\x80\xa6 \xf0\x9f\x98\x80"),
     "gr\xc3\xbc\xc3\x9f\xe2\x80\xa6 \xf0\x9f\x98\x80");
-  // A truncated sequence, an overlong one, a surrogate, a code point above the largest one, and no
-  // lead byte.
+  // The invalid sequences are: a truncated one, an overlong one, a surrogate, a code point above
+  // the largest one, and a byte that cannot begin a sequence.
   EXPECT_EQ(one_line("\xc3"), "?");
   EXPECT_EQ(one_line("\xe0\x80\x80x"), "???x");
   EXPECT_EQ(one_line("\xed\xa0\x80"), "???");

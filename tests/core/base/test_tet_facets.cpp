@@ -1,3 +1,4 @@
+// Facets of tets, grouped by their three vertices, and their orientation.
 #include "base/tet_facets.h"
 
 #include "support/meshes.h"
@@ -12,7 +13,7 @@ using namespace bindpose;
 TEST(TetFacets, EveryFacetOfEveryTetIsThereInOrder)
 {
   const TetMesh box = test::tet_box(3, 4, 5);
-  // Reference: facets collected in a map with their sorted vertices as the key.
+  // Compute the reference with a map from the sorted vertices of a facet to its tets.
   std::map<std::array<Index, 3>, std::vector<Index>> expected;
   for (Index t = 0; t < box.tets.rows(); ++t)
   {

@@ -1,4 +1,4 @@
-// Products with three columns against those of Eigen.
+// Products of a matrix with three columns, compared with Eigen.
 #include "base/thin_product.h"
 
 #include "support/meshes.h"

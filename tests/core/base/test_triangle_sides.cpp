@@ -1,4 +1,4 @@
-// Sides grouped by edge: the same result as sorting all sides.
+// Triangle sides (half-edges), grouped by edge. The result must equal that of sorting all sides.
 #include "base/triangle_sides.h"
 
 #include "support/meshes.h"
@@ -54,7 +54,7 @@ TEST(TriangleSides, OfAnySoup)
   test::Random random(4);
   for (int round = 0; round < 50; ++round)
   {
-    // Few points and many triangles give edges with many sides, repeated triangles, and sides of
+    // Few points and many triangles produce edges with many sides, repeated triangles, and sides of
     // length zero.
     Triangles triangles(1 + round * 7, 3);
     for (Index k = 0; k < triangles.size(); ++k)

@@ -1,3 +1,5 @@
+// Lattice of congruent tets (disphenoids): location of points, tets that a triangle crosses, and
+// exact nodes.
 #include "embedding/disphenoid_lattice.h"
 
 #include "inside/tet_quality.h"
@@ -44,7 +46,7 @@ TEST(DisphenoidLattice, EveryPlaceIsInItsTet)
     Vec3 place = random.in_box(Vec3::Constant(2.0), Vec3::Constant(5.0));
     if (round % 4 == 0)
     {
-      // Round the point to a node, an edge or a facet.
+      // Round the point so that it is on a node, an edge or a facet.
       place = (4.0 * place).array().round() / 4.0;
     }
     const auto at = DisphenoidLattice::locate(place);

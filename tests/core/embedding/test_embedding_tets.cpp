@@ -1,3 +1,5 @@
+// Embeddings: regular tets that contain a surface. Nodes of the lattice are duplicated, so that
+// parts of the surface that are close but not connected share no vertex.
 #include "embedding/embedding_tets.h"
 
 #include "surface/surface_repair.h"
@@ -36,7 +38,7 @@ EmbeddingTets embedded(const TriangleMesh& mesh, Index resolution = 0, int threa
   return result;
 }
 
-/// Return the vertices of the tets that contain the points for which chosen(point) is true.
+/// Return the vertices of the tets to which the points with chosen(point) == true are bound.
 template <typename Chosen>
 std::set<Index> vertices_of(const EmbeddingTets& result, const Points& points, const Chosen& chosen)
 {
@@ -91,13 +93,14 @@ std::vector<double> distances(const TetMesh& mesh, const std::set<Index>& from)
   return distance;
 }
 
-/// Expect the invariants of every embedding.
+/// Expect the invariants that every embedding has.
 void expect_valid(const TriangleMesh& surface, const EmbeddingTets& result)
 {
   const TetMesh& mesh = result.mesh;
   ASSERT_GT(mesh.tets.rows(), 0);
   ASSERT_TRUE(check_mesh(mesh.points, mesh.tets).ok());
-  constexpr bool may_branch = true; // boundaries may be non-manifold where parts meet
+  // The boundary may be non-manifold where parts of the surface touch.
+  constexpr bool may_branch = true;
   const Status status = check_tets(mesh.points, mesh.tets, may_branch);
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_NEAR(measure_tets(mesh.points, mesh.tets).min_dihedral_angle, 60.0, 1e-6);
@@ -107,7 +110,8 @@ void expect_valid(const TriangleMesh& surface, const EmbeddingTets& result)
   ASSERT_EQ(result.inside_fractions.size(), mesh.tets.rows());
   EXPECT_GE(result.inside_fractions.minCoeff(), 0.0);
   EXPECT_LE(result.inside_fractions.maxCoeff(), 1.0);
-  // All points that triangles use are bound, and their barycentric coordinates reproduce them.
+  // All points that triangles use are bound, and their barycentric coordinates reproduce their
+  // positions.
   const PointBinding& binding = result.binding;
   ASSERT_EQ(static_cast<Index>(binding.tets.size()), surface.points.rows());
   ASSERT_EQ(binding.coordinates.rows(), surface.points.rows());
@@ -136,7 +140,7 @@ void expect_valid(const TriangleMesh& surface, const EmbeddingTets& result)
   }
 }
 
-/// Report whether a tet of a component contains a point, by brute force.
+/// Report whether any tet of the component contains the point, by brute force.
 bool is_held(const EmbeddingTets& result, const Components& components, Index component,
   const Vec3& p, double tolerance)
 {
@@ -274,7 +278,7 @@ TEST(EmbeddingTets, AnyConvexBodyHasNoCopies)
   for (int round = 0; round < 6; ++round)
   {
     TriangleMesh body = round % 2 == 0 ? test::cube() : test::sphere(2);
-    // Scale the body to a flat or long one that may be much thinner than a lattice cube.
+    // Flatten or stretch the body. It may be much thinner than a lattice cube.
     const Vec3 scale = random.in_box(Vec3::Constant(0.02), Vec3::Ones());
     const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(random.uniform(0.0, 3.0), Vec3(1.0, 2.0, 3.0).normalized())
@@ -293,7 +297,7 @@ TEST(EmbeddingTets, TopologyIsTheSurfaces)
   EXPECT_EQ(test::euler_characteristic(embedded(torus).mesh), 0);
   const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(3, 0.5)));
   EXPECT_EQ(test::euler_characteristic(embedded(shell).mesh), 2) << "a ball with a cavity";
-  // A thinner ring has the same topology.
+  // A ring that is thin compared with a lattice cube has the same topology.
   TriangleMesh ring = test::torus(48, 24, 1.0, 0.2);
   const EmbeddingTets whole = embedded(ring, 20);
   EXPECT_EQ(test::euler_characteristic(whole.mesh), 0);
@@ -319,7 +323,7 @@ TEST(EmbeddingTets, BarsThatAreNearShareNoVertex)
     {
       EXPECT_EQ(of_lower.count(v), 0u);
     }
-    // The volume equals that of two separate embeddings on the same lattice.
+    // The inside volume is that of the two bars, up to 3 %.
     const Eigen::VectorXd volumes = tet_volumes(result.mesh.points, result.mesh.tets);
     EXPECT_NEAR(volumes.dot(result.inside_fractions), 2.0 * 4.0 * 0.4 * 0.5, 0.03 * 1.6);
   }
@@ -387,7 +391,7 @@ TEST(EmbeddingTets, InsideFractionsGiveTheVolume)
     EXPECT_LT(error(16), 0.04);
     EXPECT_LT(error(24), 0.01);
   }
-  // Open: the inside ends at the opening, where the winding number is 0.5.
+  // The cube is open: the inside ends at the opening, where the winding number is 0.5.
   const TriangleMesh open = test::open_cube();
   const EmbeddingTets result = embedded(open, 16);
   expect_valid(open, result);

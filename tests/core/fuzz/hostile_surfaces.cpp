@@ -186,7 +186,7 @@ TriangleMesh cubes(Random& random, Index n)
   return mesh;
 }
 
-/// Return the facets of tets between given vertices, in either orientation.
+/// Return facets of random tets between the given vertices, in either orientation.
 template <typename Place>
 TriangleMesh tets(Random& random, Index count, Index vertices, const Place& place)
 {
@@ -231,7 +231,7 @@ TriangleMesh blob(Random& random, Index most)
   {
     mesh.points.col(random.below(3)) *= magnitude(random, -12.0, 0.0);
   }
-  if (chance(random, 0.25)) // one side is much finer than the other
+  if (chance(random, 0.25)) // make one half much finer than the other
   {
     for (Index v = 0; v < mesh.points.rows(); ++v)
     {
@@ -264,7 +264,7 @@ void spoil(Random& random, TriangleMesh& mesh)
     {
       kept.push_back(ids);
     }
-    if (what == 3) // a separate vertex for a corner, at or near its position
+    if (what == 3) // replace a corner by a separate vertex at or near its position
     {
       Vec3 corner = mesh.points.row(ids[0]);
       if (chance(random, 0.5))
@@ -318,7 +318,7 @@ Vec3 any_point(Random& random, const TriangleMesh& mesh)
       return a + s * u;
     case 2:
       return on_face;
-    case 3: // in the plane of the triangle
+    case 3: // in the plane of the triangle, anywhere
       return a + random.uniform(-2.0, 3.0) * u + random.uniform(-2.0, 3.0) * v;
     case 4:
     case 5: // on an axis-parallel line through a vertex
@@ -330,7 +330,7 @@ Vec3 any_point(Random& random, const TriangleMesh& mesh)
         chance(random, 0.5) ? other[axis] : box.center()[axis] + size * random.uniform(-1.5, 1.5);
       return p;
     }
-    case 6: // coordinates of three different vertices
+    case 6: // the coordinates of three different vertices, mixed
       return Vec3(any_vertex().x(), any_vertex().y(), any_vertex().z());
     case 7:
     case 8: // near a face, edge or vertex
@@ -338,7 +338,7 @@ Vec3 any_point(Random& random, const TriangleMesh& mesh)
       const Vec3 foot = chance(random, 0.4) ? on_face : chance(random, 0.5) ? Vec3(a + s * u) : a;
       return foot + size * magnitude(random, -16.5, -3.0) * in_cube(random);
     }
-    case 9: // above a face, at about the tolerance of touching
+    case 9: // above a face, at about the tolerance for touching it
     {
       const Vec3 normal = u.cross(v).stableNormalized();
       const double largest =
@@ -437,7 +437,7 @@ TriangleMesh placed(Random& random, TriangleMesh mesh)
     case 1:
       mesh.points *= magnitude(random, -30.0, 30.0);
       break;
-    case 2: // near the limits of the range of double
+    case 2: // coordinates near the limits of the range of double
     {
       const int top = 1023 - std::ilogb(mesh.points.cwiseAbs().maxCoeff() + 1.0);
       mesh.points *= chance(random, 0.5)
@@ -465,7 +465,7 @@ Vec3 hostile_point(Random& random, const TriangleMesh& mesh)
   for (;;)
   {
     const Vec3 p = any_point(random, mesh);
-    if (p.allFinite()) // inside of the range of double
+    if (p.allFinite()) // all points must be in the range of double
     {
       return p;
     }

@@ -8,15 +8,15 @@
 namespace bindpose::test
 {
 
-/// Return up to about `most` triangles of a random type, of size about 1 near the origin. The types
-/// are heaps on a lattice or anywhere, needles, slivers, layers, fans, closed surfaces, surfaces
-/// with holes, reversed or repeated triangles, parts of very different sizes, and one or two
-/// triangles.
+/// Return about `most` triangles or fewer of a random type, of size about 1 near the origin. The
+/// types are: random triangles with corners on a lattice or anywhere, needles, slivers, layers,
+/// fans, closed surfaces, surfaces with holes, with reversed or repeated triangles or with parts of
+/// very different sizes, and one or two triangles.
 TriangleMesh hostile_surface(Random& random, Index most);
 
 /// Return a closed surface: the directions of its triangles cancel at every edge. The types are
 /// self-crossing spheres, very thin rings, nested spheres at distances down to 1e-5, cubes of a
-/// lattice that touch at edges and vertices, heaps of tets, and bipyramids of many needles.
+/// lattice that touch at edges and vertices, facets of random tets, and bipyramids of many needles.
 TriangleMesh hostile_closed_surface(Random& random, Index most);
 
 /// Return the same surface after a random scaling and translation: tiny, huge, as far from the

@@ -1,6 +1,6 @@
-// Sequences of extreme poses: collapsed, mirrored or huge, with repeated, empty or negative
-// weights. Finite input gives finite output, the rest pose gives the rest shape, and results are
-// deterministic.
+// Fuzz test of skinning and as-rigid-as-possible solvers with sequences of extreme poses. Handles
+// are collapsed, mirrored or huge, and weights are repeated, zero or negative. Finite input gives
+// finite output, the rest pose gives the rest shape, and results are deterministic.
 #include "pose/full_arap.h"
 #include "pose/reduced_arap.h"
 #include "pose/skinning.h"
@@ -91,7 +91,7 @@ void make_bones(Random& random, const TetMesh& mesh, Handles& handles)
       [&](const Handle& other) { return other.head == handle.tail && other.tail == handle.head; });
     if (twice)
     {
-      handle.tail += Vec3(0.1, 0.2, 0.3); // zero length, or the reverse of another bone
+      handle.tail += Vec3(0.1, 0.2, 0.3); // bone of length zero, or the reverse of another bone
     }
   }
 }
@@ -114,7 +114,7 @@ void pose_anyhow(Random& random, double exponent, const Handle& handle, HandlePo
   }
 }
 
-/// Return the scale of a pose relative to rest, at least 1.
+/// Return the largest scale of the pose relative to the rest pose, at least 1.
 double size_of(const Pose& pose)
 {
   double size = 1.0;
@@ -133,7 +133,7 @@ Weights spoilt(Random& random, const Weights& good)
   const Index m = weights.cols(), a = random.below(m), b = random.below(m);
   switch (random.below(6))
   {
-    case 0: // a repeated column; rows still sum to 1
+    case 0: // a repeated column of weights; rows still sum to 1
       weights.col(a) = 0.5 * (good.col(a) + good.col(b));
       weights.col(b) = weights.col(a);
       break;
@@ -211,7 +211,7 @@ TEST(FuzzPoses, Skinning)
       EXPECT_EQ(blended, again);
       for (Index v = 0; v < rest.rows(); ++v)
       {
-        // The definition of linear blend skinning for one point.
+        // Compute linear blend skinning for one point from its definition.
         const Vec3 p = rest.row(v);
         Vec3 expected = p;
         for (Index j = 0; j < weights.cols(); ++j)
@@ -360,8 +360,8 @@ TEST(FuzzPoses, ReducedArap)
           ASSERT_LT((r.transpose() * r - Eigen::Matrix3d::Identity()).norm(), 1e-9);
           ASSERT_GT(r.determinant(), 0.0);
         }
-        // Round-off is proportional to the largest terms, which grow with the square of the pose's
-        // size.
+        // Round-off is proportional to the largest summands, which grow with the square of the
+        // pose's size.
         const double size = size_of(pose);
         const double share = options.mixed_precision ? 1e-6 : 1e-12;
         const double unit = share * arap.rest_energy() * size * size;
@@ -403,7 +403,7 @@ struct FullCase
   Triangles surface; ///< used if the case is bound as a surface
   Handles handles;
   FullArapOptions options;
-  bool vertices_alone = true; ///< only vertices are constrained, no other points of the mesh
+  bool vertices_alone = true; ///< only vertices are constrained, no points inside of elements
 
   explicit FullCase(Random& random) : mesh(rig(random.below(2)).mesh)
   {
@@ -472,8 +472,8 @@ TEST(FuzzPoses, FullArap)
       ASSERT_EQ(shape.bind(many, twin).code, bound.code);
       if (!bound.usable())
       {
-        // For example two handles at one position, or a region whose vertices are already
-        // constrained.
+        // The bind fails, for example, if two handles have the same position, or if the vertices of
+        // a region are already constrained.
         ASSERT_EQ(bound.code, StatusCode::invalid_input);
         return;
       }
@@ -501,10 +501,10 @@ TEST(FuzzPoses, FullArap)
           ASSERT_LT((r.transpose() * r - Eigen::Matrix3d::Identity()).norm(), 1e-9);
           ASSERT_GT(r.determinant(), 0.0);
         }
-        // The energy increases in no iteration if only vertices are constrained. Points inside of
-        // elements add linear constraints. If such points are close together and are dragged apart,
-        // the condition number reaches 1e8, and the energy is only as accurate as the constraints.
-        // So for them only the total decrease is checked.
+        // If only vertices are constrained, the energy never increases. Point handles inside of
+        // elements add linear constraints. If two of them are close and are dragged apart, the
+        // condition number reaches 1e8, and the energy is only as accurate as the constraints. In
+        // this case only the total decrease is checked.
         const double size = size_of(pose);
         const double unit = 1e-12 * arap.rest_energy() * size * size;
         for (std::size_t i = 1; shape.vertices_alone && i < arap.energies().size(); ++i)

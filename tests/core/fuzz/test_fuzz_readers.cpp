@@ -1,5 +1,6 @@
-// Valid files of every format that core reads, with typical damage: bits, lines, numbers,
-// truncation. A reader returns usable data or one sentence.
+// Fuzz test of the file readers. Valid files of every format that the core library reads are
+// damaged: bits are flipped, lines moved, numbers replaced, ends cut off. A reader must return
+// usable data or one sentence.
 #include "io/dmat.h"
 #include "io/gltf_skin.h"
 #include "io/medit.h"
@@ -56,7 +57,8 @@ std::vector<std::size_t> line_begins(const std::string& text)
   return begins;
 }
 
-/// Replace a number of the text by an invalid, too large, negative or other one.
+/// Replace one number of the text by a random text: an invalid, too large, negative or ordinary
+/// number.
 void replace_number(test::Random& random, std::string& text)
 {
   static const char* const others[] = { "nan", "inf", "-inf", "-1", "0", "1", "2", "-0", "1e400",
@@ -74,7 +76,7 @@ void replace_number(test::Random& random, std::string& text)
   text.replace(begin, end - begin, others[random.below(std::size(others))]);
 }
 
-/// Replace a raw number of a binary file in the same way.
+/// Replace one raw number of a binary file by an invalid, too large, negative or ordinary number.
 void replace_raw(test::Random& random, std::string& text)
 {
   const double reals[] = { std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300, -1.0, 0.0, 1e-310 };
@@ -374,7 +376,7 @@ TEST(FuzzReaders, Dmat)
         expect_refused(status);
         EXPECT_EQ(back.size(), 0);
       }
-      // An empty matrix may have a nonzero side, but not a huge one.
+      // An empty matrix may have rows or columns, but not a huge number of them.
       EXPECT_LE(std::max(back.rows(), back.cols()), Index(1) << 20);
       EXPECT_LE(back.size(), static_cast<Index>(std::filesystem::file_size(path)));
     });
@@ -459,7 +461,7 @@ TEST(FuzzReaders, Gltf)
         ASSERT_EQ(static_cast<Index>(frame.posed.size()), joints);
       }
       EXPECT_GT(skin.frames_per_second, 0.0);
-      // A skin that was read can be written, unless its numbers exceed the range of float.
+      // A skin that was read can be written, unless its values exceed the range of float.
       const Status again = write_gltf_skin(path + ".glb", skin);
       test::expect_spoken(again);
     });
@@ -501,7 +503,7 @@ Handles named_handles()
   return handles;
 }
 
-/// Return the largest number in an edit. Products of huge numbers may exceed the range of double.
+/// Return the largest value in an edit. Products of huge values may exceed the range of double.
 double largest_number(const HandleEdit& edit)
 {
   double largest = std::max(std::abs(edit.scale.value_or(0)), edit.stretch.value_or(0));

@@ -1,4 +1,5 @@
-// Small damaged surfaces: each run gives a valid result or one sentence.
+// Fuzz test of the tetrahedralization with small damaged surfaces. Each run must give valid tets or
+// one sentence.
 #include "inside/tetrahedralize.h"
 
 #include "inside/tet_quality.h"
@@ -90,7 +91,8 @@ void jitter(test::Random& random, TriangleMesh& mesh, double size)
   }
 }
 
-/// Add triangles between random vertices of the surface, which may cross others or be degenerate.
+/// Add triangles between random vertices of the surface. They may cross other triangles or be
+/// degenerate.
 void add_loose(test::Random& random, TriangleMesh& mesh)
 {
   const Index count = 1 + random.below(4), before = mesh.triangles.rows();
@@ -184,8 +186,9 @@ std::vector<std::pair<std::string, std::string>> rungs(const Status& status)
   return list;
 }
 
-/// Return the largest permitted displacement of input vertices as a fraction of the diagonal. Some
-/// attempts round the vertices or move them by a fixed amount; the name of the attempt states this.
+/// Return the largest permitted displacement of input vertices, as a fraction of the bounding-box
+/// diagonal. Some meshing attempts round the vertices or move them by a fixed amount, which the
+/// name of the attempt states.
 double allowed_move(const Status& status)
 {
   double allowed = 1e-12;
@@ -265,7 +268,7 @@ void expect_bound(const TriangleMesh& surface, const TetrahedralizeResult& resul
   }
 }
 
-/// Tetrahedralize a surface. Expect valid tets, or one sentence.
+/// Tetrahedralize a surface. Expect valid tets or one sentence.
 Status fill(const TriangleMesh& surface, const TetrahedralizeOptions& options,
   TetrahedralizeResult& result, int threads = 0)
 {
@@ -276,7 +279,7 @@ Status fill(const TriangleMesh& surface, const TetrahedralizeOptions& options,
   return status;
 }
 
-/// Expect an embedding of every surface that has a triangle with an area.
+/// Expect an embedding if the surface has a triangle with a positive area.
 void expect_embedding(const TriangleMesh& surface, Index resolution)
 {
   TetrahedralizeOptions options;
@@ -304,7 +307,7 @@ void expect_repeatable(const TriangleMesh& surface, const TetrahedralizeOptions&
 {
   if (test::sanitized)
   {
-    return; // a second run takes too long
+    return; // a second run would take too long
   }
   const auto clock_decided = [](const Status& run)
   {
@@ -410,8 +413,8 @@ TEST(FuzzTetrahedralize, AbusedSurfaces)
   std::cout << "[ fuzz ] " << filled << " of them were filled\n";
 }
 
-/// Runs without the helper program, as in a build without it, and covers many more cases of the
-/// surrounding code.
+/// This test runs without the helper program, as in a build without it. It covers many more cases
+/// of the code around the program.
 TEST(FuzzTetrahedralize, LatticesOfAbusedSurfaces)
 {
   const test::Environment no_helper("BINDPOSE_MESHER", "/nowhere");
@@ -470,8 +473,8 @@ TEST_F(FuzzWrap, AbusedSurfaces)
     });
 }
 
-/// Heaps, needles, layers and similar surfaces of any size at any position. Most of them enclose
-/// almost nothing.
+/// Random triangles, needles, layers and similar surfaces of any size at any position. Most of them
+/// enclose almost no volume.
 TEST(FuzzTetrahedralize, HostileSurfaces)
 {
   const bool helper = !find_mesher().empty();

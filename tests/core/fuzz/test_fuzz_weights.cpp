@@ -52,7 +52,7 @@ Domain shape(Random& random)
 }
 
 /// Return a random point in a special position: at or near a vertex, on an edge, in an element,
-/// outside, or at or near another handle.
+/// outside of the domain, or at or near another handle.
 Vec3 place(Random& random, const Domain& domain, const Handles& others)
 {
   const Box box = bounding_box(domain.points);
@@ -125,8 +125,8 @@ double measure(const Domain& domain)
                             : surface_area(domain.points, domain.triangles);
 }
 
-/// Return the smallest height of an element in bounding-box diagonals. It is tiny if handles nearly
-/// touch.
+/// Return the smallest height of an element in bounding-box diagonals. It is tiny if two handles
+/// almost touch.
 double smallest_height(const Domain& domain)
 {
   const double size = bounding_box(domain.points).diagonal();
@@ -248,8 +248,8 @@ TEST(FuzzWeights, HandlesAnywhere)
       expect_spoken(status);
       if (!status.usable())
       {
-        // Only tiny elements may fail, because second differences over their lengths exceed the
-        // range of double.
+        // Only tiny elements may make the solver fail: second differences over their lengths exceed
+        // the range of double.
         EXPECT_EQ(status.code, StatusCode::invalid_input);
         EXPECT_LT(smallest_height(problem.mesh.domain), 1e-4) << status.message;
         ++unsolvable;

@@ -1,9 +1,10 @@
-// Winding numbers of hostile surfaces, curves and point clouds. All methods are compared with plain
-// sums, at points on, near and far from the input.
+// Fuzz test of winding numbers of hostile surfaces, curves and point clouds. All methods are
+// compared with plain sums over the input, at points on, near and far from the input.
 //
-// Tolerances are those of the documentation. Exact methods have an error of 1e-14 plus the
-// round-off of the sum of unsigned contributions, and integers are exact. Fast methods keep their
-// tolerance. Flags always agree. Rows of grids and batches have the same bits as single points.
+// The tolerances are those of the documentation. Exact methods have an error of 1e-14 plus the
+// round-off of the sum of unsigned contributions, and integers are exact. Fast methods satisfy
+// their tolerance. The flags of all methods agree. Rows of grids and batches of points have the
+// same bits as single points.
 #include "winding/curve_winding_number.h"
 #include "winding/exact_frame.h"
 #include "winding/point_cloud_winding_number.h"
@@ -78,7 +79,7 @@ bool is_borderline(const TriangleMesh& mesh, const Vec3& point)
   return false;
 }
 
-/// Points and the values of the plain sum at them.
+/// Points, and the plain sum (the true winding number) at each of them.
 struct Truth
 {
   Points points;
@@ -131,9 +132,10 @@ struct Tally
 {
   Index queries = 0;
   Index touching = 0;
-  Index borderline = 0; ///< number of borderline queries, which are not compared
+  /// Number of queries on the borderline of touching a triangle, which are not compared.
+  Index borderline = 0;
   double exact_error = 0.0; ///< largest absolute error
-  double fast_error = 0.0; ///< largest error in tolerances
+  double fast_error = 0.0; ///< largest error divided by the tolerance
 
   void add(const WindingNumber& winding, const Way& way, bool closed, const Truth& truth, Index i,
     double value, bool touches)
@@ -254,8 +256,8 @@ TEST(FuzzWinding, AllMethodsOnSurfacesOfAllKinds)
 
 namespace
 {
-/// Scatter copies of a surface in a box far larger than the surface, so that cells have several
-/// levels.
+/// Scatter copies of a surface in a box far larger than the surface, so that the search cells have
+/// several levels.
 TriangleMesh scattered(Random& random, const TriangleMesh& part, Index most)
 {
   TriangleMesh mesh = part;
@@ -347,7 +349,8 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
             << largest << " triangles\n";
 }
 
-// Cubes of a lattice: the winding number in the middle of each lattice cube is known.
+// The surface is made of cubes of a lattice. The winding number in the middle of each cube is
+// known.
 TEST(FuzzWinding, CubesHoldTheirMiddles)
 {
   Index queries = 0;
@@ -450,7 +453,7 @@ TEST(FuzzWinding, GradientIsThatOfThePlainSum)
       for (int q = 0; q < 12; ++q)
       {
         const Vec3 p = hostile_point(random, mesh);
-        double off = 1e300; // distance from the surface
+        double off = 1e300; // distance of the point from the surface
         for (Index t = 0; t < mesh.triangles.rows(); ++t)
         {
           const auto corner = [&](int k) { return Vec3(mesh.points.row(mesh.triangles(t, k))); };
@@ -465,8 +468,8 @@ TEST(FuzzWinding, GradientIsThatOfThePlainSum)
         {
           continue;
         }
-        // The distance of the boundary curve, and the sum of multiplicities, which scales the
-        // round-off and the error of the finite differences.
+        // Compute the distance to the boundary curve, and the sum of its multiplicities. The sum
+        // scales the round-off and the error of the finite differences.
         double rim = 1e300, weights = 0.0;
         for (const SurfaceBoundary::BoundaryEdge& edge : exact.boundary().edges)
         {
@@ -534,7 +537,7 @@ Curve hostile_curve(Random& random)
         lattice ? static_cast<double>(random.below(lattice)) : random.uniform(-1.0, 1.0);
     }
     curve.points(v, 1) *= flat;
-    if (v > 0 && chance(random, 0.1)) // nearly coincides with another point
+    if (v > 0 && chance(random, 0.1)) // this point nearly coincides with another one
     {
       curve.points.row(v) = curve.points.row(random.below(v)).eval();
       curve.points(v, random.below(2)) += std::pow(10.0, random.uniform(-16.0, -6.0));
@@ -691,8 +694,8 @@ Cloud hostile_cloud(Random& random)
   return cloud;
 }
 
-/// Evaluate the formula and the sum of its unsigned contributions. Samples within the tolerance
-/// contribute nothing.
+/// Evaluate the formula, and the sum of its unsigned contributions. Samples of the cloud within the
+/// tolerance contribute nothing.
 void plain_sum(const Cloud& cloud, const Vec3& p, double tolerance, double& sum,
   double& unsigned_sum, bool& touches)
 {

@@ -1,4 +1,4 @@
-// Child processes: how they end, and that they leave nothing behind.
+// Child processes: how their end is reported, and that no process of their group survives.
 #include "helper/child_process.h"
 
 #include "support/cancel_later.h"
@@ -81,7 +81,7 @@ TEST(ChildProcess, RunsInItsFolder)
 
 TEST(ChildProcess, MemoryIsLimitedFromOutside)
 {
-  // The limit may take effect shortly after the start.
+  // The memory limit may take effect shortly after the start of the process.
   Shell shell("sleep 0.2; ulimit -v; ulimit -c");
   shell.request.memory_limit = 500;
   ASSERT_TRUE(shell.run().ok());

@@ -1,4 +1,4 @@
-// The helper process: its results, and the cleanup after a failure.
+// The process of the helper program bindpose-mesher: its results, and the cleanup after a failure.
 #include "helper/mesher_process.h"
 
 #include "inside/tet_quality.h"
@@ -88,7 +88,7 @@ TEST(MesherProcess, MissingHelperNamesItsPackages)
 
 TEST(MesherProcess, CopiesThroughAnHonestHelper)
 {
-  // The helper returns the record unchanged.
+  // This fake helper returns the record that it reads unchanged.
   FakeHelper helper("echo progress 0.5 >&2; echo report rounds 3 >&2; cat");
   const Status status = helper.run();
   ASSERT_TRUE(status.ok()) << status.message;
@@ -226,8 +226,8 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
     const MesherData& refined = answer.data;
     EXPECT_GT(refined.triangles.rows(), mesh.triangles.rows());
     EXPECT_EQ(refined.points.topRows(mesh.points.rows()), mesh.points) << "vertices keep their ids";
-    // Reference: exact predicates of Bindpose find no crossings afterward, and as many pairs as
-    // CGAL before.
+    // Check with the exact predicates of Bindpose: no triangles cross after the refinement, and
+    // before it as many pairs cross as CGAL reports.
     ExecutionContext context;
     std::vector<std::pair<Index, Index>> pairs;
     ASSERT_TRUE(crossing_pairs(refined.points, refined.triangles, pairs, context));
@@ -239,7 +239,7 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
   }
   MesherAnswer answer;
   ASSERT_TRUE(run_real({ "refine" }, two, answer).ok());
-  // No triangles are coplanar, so refinement only cuts them.
+  // No triangles are coplanar, so refinement only subdivides them.
   EXPECT_NEAR(surface_area(answer.data.points, answer.data.triangles),
     surface_area(two.points, two.triangles), 1e-12);
   EXPECT_NEAR(signed_volume(answer.data.points, answer.data.triangles),
@@ -248,7 +248,8 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
 
 TEST_F(RealHelper, AFewTrianglesMayFallIntoManyPieces)
 {
-  // 14 squares across each axis. The other squares cut each square into 15 x 15 parts.
+  // There are 14 squares perpendicular to each axis. Each square is cut into 15 x 15 parts by the
+  // squares perpendicular to the other axes.
   constexpr int count = 14;
   TriangleMesh mesh;
   for (int axis = 0; axis < 3; ++axis)
@@ -279,8 +280,8 @@ TEST_F(RealHelper, AFewTrianglesMayFallIntoManyPieces)
 
 TEST_F(RealHelper, SheetsThatNearlyCoincideAreRounded)
 {
-  // A sphere and a copy that was rotated and rotated back. Some vertices differ by one ulp, and
-  // triangles cross at angles of the size of rounding errors.
+  // The second surface is a copy of the sphere that was rotated and rotated back. Some vertices
+  // differ by one ulp, and triangles cross at angles of the size of rounding errors.
   const TriangleMesh sphere = test::sphere(4);
   TriangleMesh twin = sphere;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).matrix();
@@ -323,7 +324,7 @@ TEST_F(RealHelper, FillsACube)
 
 TEST_F(RealHelper, WhatCrashesTetgenIsAStatus)
 {
-  // Two crossing surfaces that were not refined.
+  // These two surfaces cross and were not refined.
   TriangleMesh mesh = test::join(test::sphere(2), test::sphere(2, 1.0, Vec3(0.7, 0.31, 0.17)));
   MesherAnswer answer;
   EXPECT_EQ(

@@ -1,5 +1,5 @@
-// The adapter to fTetWild, with a script that accepts the same arguments, and with the program
-// itself if it is installed.
+// The adapter to the program fTetWild. A script with the same arguments replaces the program; the
+// program itself is also tested if it is installed.
 #include "inside/ftetwild_process.h"
 
 #include "helper/child_process.h"
@@ -119,7 +119,7 @@ TEST(Ftetwild, SurfacesGoAndTetsComeInTheirOwnPlace)
   EXPECT_NEAR(tet_volumes(fake.mesh.points, fake.mesh.tets).sum(), 8.0, 1e-12);
   EXPECT_EQ(bounding_box(fake.mesh.points).lower, Vec3(at - Vec3::Ones()));
   EXPECT_EQ(bounding_box(fake.mesh.points).upper, Vec3(at + Vec3::Ones()));
-  // The input of the script is the same triangles around the origin.
+  // The script gets the same triangles, translated to the origin.
   PolygonMesh given;
   ASSERT_TRUE(read_off(fake.file("input.off"), given).ok());
   EXPECT_EQ(given.points, test::cube(-0.5, 0.5).points);
@@ -186,7 +186,7 @@ TEST(Ftetwild, WhateverItDoesIsAStatusAndNothingIsLeft)
          Case{ "echo garbage > \"$output\"", "wrote no readable mesh" },
          Case{ "head -c 700 \"$here/tets.mesh\" > \"$output\"", "wrote no readable mesh" },
          Case{ "sed 's/-0.5/nan/' \"$here/tets.mesh\" > \"$output\"", "wrote no readable mesh" },
-         // Degenerate: all vertices are in one plane.
+         // The tets are degenerate: all vertices are in one plane.
          Case{ "sed -E 's/^(-?[0-9.]+ -?[0-9.]+) -?[0-9.]+ 0$/\\1 0 0/' \"$here/tets.mesh\" > "
                "\"$output\"",
            "has no positive volume" },
@@ -278,8 +278,8 @@ TEST(Ftetwild, TheRealOneFillsASphere)
 {
   if (find_ftetwild().empty())
   {
-    // No package contains fTetWild, and a skipped test counts as a failure if all packages are
-    // installed.
+    // No Debian package contains fTetWild. The test is therefore not skipped, because a skipped
+    // test counts as a failure if all packages are installed.
     std::cout << "fTetWild is not installed: not tried\n";
     return;
   }

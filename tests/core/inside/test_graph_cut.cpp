@@ -1,3 +1,4 @@
+// Binary labelings of minimum energy by graph cuts, compared with brute force.
 #include "inside/graph_cut.h"
 
 #include "support/cancel_later.h"
@@ -20,7 +21,7 @@ CutEnergy random_energy(Index nodes, Index edges, Random& random)
   CutEnergy energy;
   for (Index i = 0; i < nodes; ++i)
   {
-    // Some nodes are indifferent, and some strongly prefer one side.
+    // Some nodes have equal costs on both sides, and some strongly prefer one side.
     const Index kind = random.below(5);
     energy.inside_costs.push_back(kind == 0 ? 0.0 : kind == 1 ? 100.0 : random.uniform());
     energy.outside_costs.push_back(kind == 0 ? 0.0 : random.uniform());
@@ -28,7 +29,8 @@ CutEnergy random_energy(Index nodes, Index edges, Random& random)
   for (Index e = 0; e < edges; ++e)
   {
     const Index a = random.below(nodes);
-    const Index b = (a + 1 + random.below(nodes - 1)) % nodes; // any other node; pairs may repeat
+    // This is any node except a; pairs may repeat.
+    const Index b = (a + 1 + random.below(nodes - 1)) % nodes;
     energy.edges.push_back({ a, b, random.below(4) == 0 ? 0.0 : random.uniform() });
   }
   return energy;
@@ -57,7 +59,7 @@ Status minimized(const CutEnergy& energy, std::vector<char>& inside)
   return minimize(energy, inside, context);
 }
 
-/// Return a grid of n^3 nodes with random costs, which are slow to minimize.
+/// Return a grid of n^3 nodes with random costs. Its energy is slow to minimize.
 CutEnergy noise(Index n)
 {
   Random random(7);
@@ -99,7 +101,7 @@ TEST(GraphCut, WithoutEdgesEveryNodeTakesItsCheaperSide)
   energy.outside_costs = { 1.0, 0.0, 0.5, 0.6 };
   std::vector<char> inside;
   ASSERT_TRUE(minimized(energy, inside).ok());
-  EXPECT_EQ(inside, (std::vector<char>{ 1, 0, 0, 1 })); // the indifferent node is outside
+  EXPECT_EQ(inside, (std::vector<char>{ 1, 0, 0, 1 })); // the node with equal costs is outside
 }
 
 TEST(GraphCut, ScaleDoesNotMatter)
@@ -159,7 +161,7 @@ TEST(GraphCut, BadCostsAndNodesAreNamed)
 
 TEST(GraphCut, CancelStopsIt)
 {
-  const CutEnergy energy = noise(70); // takes seconds
+  const CutEnergy energy = noise(70); // minimizing this energy takes seconds
   ExecutionContext context;
   test::CancelLater user(context, 500);
   std::vector<char> inside;
@@ -167,11 +169,13 @@ TEST(GraphCut, CancelStopsIt)
   const double waited = user.waited();
   if (status.code == StatusCode::canceled)
   {
-    EXPECT_LT(waited, test::sanitized ? 10.0 : 1.0); // about 200 ms on an idle machine
+    // The cancel takes about 200 ms on an idle machine.
+    EXPECT_LT(waited, test::sanitized ? 10.0 : 1.0);
   }
   else
   {
-    EXPECT_TRUE(status.ok()) << status.message; // a fast machine may finish before the cancel
+    // A fast machine may finish before the cancel request.
+    EXPECT_TRUE(status.ok()) << status.message;
     EXPECT_LT(waited, 0.0);
   }
 }

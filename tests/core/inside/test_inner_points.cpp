@@ -51,11 +51,11 @@ TEST(InnerPoints, AreInsideAndAsFarApartAsTheSizesSay)
   for (Index i = 0; i < inner.rows(); ++i)
   {
     EXPECT_LE(inner.row(i).norm(), 1.0 - 0.5 * length + 1e-3);
-    // Cells are bisected, so their size is 0.55 to 1.1 of the length.
+    // Cells are repeatedly halved, so their size is 0.55 to 1.1 of the requested length.
     EXPECT_GE(spacing(inner, i), 0.47 * length);
     EXPECT_LE(spacing(inner, i), 1.1 * length);
   }
-  // A cell has two points.
+  // Each cell contributes two points.
   const double volume = 4.0 / 3.0 * pi * std::pow(1.0 - 0.5 * length, 3.0);
   EXPECT_GE(static_cast<double>(inner.rows()), 2.0 * volume / std::pow(1.1 * length, 3.0) * 0.9);
   EXPECT_LE(static_cast<double>(inner.rows()), 2.0 * volume / std::pow(0.55 * length, 3.0) * 1.1);
@@ -88,7 +88,8 @@ TEST(InnerPoints, AreNotManyMoreThanAskedFor)
 
 TEST(InnerPoints, EvenGridsGiveSomePointsAndNotTooMany)
 {
-  // All cells at the surface are subdivided at the same size, so that their number jumps.
+  // All cells at the surface are subdivided at the same size. The number of points therefore
+  // changes abruptly with the size.
   for (const double height : { 1.0, 0.2, 0.05 })
   {
     const TetMesh box = test::tet_box(20, 20, 4, Vec3::Zero(), Vec3(1.0, 1.0, height));

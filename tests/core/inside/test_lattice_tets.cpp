@@ -1,3 +1,4 @@
+// Isosurface stuffing: tets of a lattice that fill the inside of a surface.
 #include "inside/lattice_tets.h"
 
 #include "inside/tet_quality.h"
@@ -65,8 +66,8 @@ TEST(LatticeTets, StuffingBoundaryLiesOnTheSurface)
   const Triangles skin = boundary_triangles(mesh.tets);
   for (Index k = 0; k < skin.size(); ++k)
   {
-    // Bisection is accurate to 1/256 of an edge. The subdivided sphere itself is up to 1e-3 inside
-    // the round one.
+    // Bisection places a boundary vertex with an accuracy of 1/256 of a lattice edge. The
+    // subdivided sphere itself is up to 1e-3 inside of the round sphere.
     EXPECT_NEAR(mesh.points.row(skin.data()[k]).norm(), 1.0, cube / 256.0 + 3e-3);
   }
 }
@@ -96,7 +97,7 @@ TEST(LatticeTets, MovesAndScalesWithTheSurface)
 {
   const TriangleMesh surface = test::torus(24, 12, 1.0, 0.4);
   TriangleMesh large = surface;
-  large.points *= 1024.0; // a power of two, so the bits are the same
+  large.points *= 1024.0; // a power of two, so the results have the same bits
   const TetMesh a = stuffed(surface, 12), b = stuffed(large, 12);
   EXPECT_EQ(a.tets, b.tets);
   EXPECT_EQ(Points(1024.0 * a.points), b.points);

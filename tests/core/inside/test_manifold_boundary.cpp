@@ -1,3 +1,4 @@
+// Boundary of tets as a manifold surface: vertices and edges where solids touch are duplicated.
 #include "inside/manifold_boundary.h"
 
 #include "support/meshes.h"
@@ -11,8 +12,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Return each cube of the list as six tets. Adjacent cubes share vertices, and their tets match
-/// across common faces.
+/// Return each cube of the list as six tets. Adjacent cubes share vertices, and the tets on both
+/// sides of a shared face match.
 TetMesh cubes(const std::vector<std::array<int, 3>>& list)
 {
   std::map<std::array<int, 3>, Index> ids;
@@ -31,7 +32,7 @@ TetMesh cubes(const std::vector<std::array<int, 3>>& list)
       }
       return found->second;
     };
-    // Kuhn's six tets share the diagonal from corner 0 to corner 7.
+    // The six tets of Kuhn's subdivision share the cube diagonal from corner 0 to corner 7.
     for (const auto& [first, second] :
       { std::pair(1, 3), { 3, 2 }, { 2, 6 }, { 6, 4 }, { 4, 5 }, { 5, 1 } })
     {
@@ -126,7 +127,7 @@ TEST(ManifoldBoundary, CubesThatShareAnEdgeArePartedThere)
 
 TEST(ManifoldBoundary, ARingOfCubesThatCloseAtAnEdgeIsOneSurface)
 {
-  // The first and the last cube meet only at an edge. They are separate around this edge and
+  // The first and the last cube touch only at an edge. They are separated at this edge and
   // connected along the ring.
   const TetMesh mesh = cubes({ { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 1, 1, 0 } });
   const TriangleMesh surface = manifold_boundary(mesh);

@@ -1,3 +1,4 @@
+// Method remesh: well-shaped, graded tets of the region that the winding number defines.
 #include "inside/remesh_tets.h"
 
 #include "helper/mesher_process.h"
@@ -68,7 +69,7 @@ bool manifold(const Triangles& skin)
       return false;
     }
   }
-  // Vertex -> neighbor -> next neighbor around the vertex.
+  // Map each vertex to its ring: from a neighbor to the next neighbor around the vertex.
   std::map<Index, std::map<Index, Index>> next;
   for (Index t = 0; t < skin.rows(); ++t)
   {
@@ -94,7 +95,7 @@ bool manifold(const Triangles& skin)
   return true;
 }
 
-/// Expect the invariants of every result.
+/// Expect the invariants that every result has.
 void expect_valid(const Outcome& outcome, const TriangleMesh& surface, double angle = 8.0)
 {
   ASSERT_TRUE(outcome.status.ok()) << outcome.status.message;
@@ -117,7 +118,7 @@ void expect_valid(const Outcome& outcome, const TriangleMesh& surface, double an
   }
 }
 
-/// Return the mean edge length of the tets with a corner within `reach` of p.
+/// Return the mean edge length of the tets whose first corner is within `reach` of p.
 double edge_length_near(const TetMesh& mesh, const Vec3& p, double reach)
 {
   double sum = 0.0;
@@ -140,7 +141,7 @@ double edge_length_near(const TetMesh& mesh, const Vec3& p, double reach)
   return sum / count;
 }
 
-/// Give every triangle its own vertices and move them by up to `by`: a soup whose triangles cross.
+/// Give every triangle its own vertices and move them by up to `by`. The resulting triangles cross.
 TriangleMesh shaken_soup(const TriangleMesh& mesh, double by)
 {
   test::Random random(5);
@@ -171,7 +172,7 @@ TEST_F(Remesh, ClosedSurfacesKeepVolumeVerticesAndShape)
   {
     const char* name;
     TriangleMesh mesh;
-    double share; ///< fraction of the vertices that must be kept
+    double share; ///< fraction of the input vertices that must be kept
   };
   const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(2, 0.5)));
   for (const Case& c : { Case{ "cube", test::cube(), 1.0 }, Case{ "sphere", test::sphere(3), 0.99 },
@@ -196,11 +197,12 @@ TEST_F(Remesh, OpenCubeGetsALid)
   const TriangleMesh cube = test::open_cube();
   const Outcome outcome = run(cube);
   expect_valid(outcome, cube, 11.0);
-  // The bounding box clips the region, because the winding number exceeds 0.5 up to the rim.
+  // The winding number exceeds 0.5 up to the rim of the opening, so the bounding box clips the
+  // region there.
   EXPECT_NEAR(outcome.volume(), 8.0, 0.01);
   EXPECT_EQ(outcome.kept(), 8);
   EXPECT_LT(outcome.status.report.number("distance_max", 100.0), 0.5) << "the lid does not count";
-  // A higher threshold moves the lid inwards.
+  // A higher threshold moves the lid over the opening inwards.
   RemeshOptions high;
   high.winding_threshold = 0.9;
   const Outcome lower = run(cube, high);
@@ -239,8 +241,8 @@ TEST_F(Remesh, ASoupThatCrosses)
 
 TEST_F(Remesh, SquaresOfFourPointsOnACircleLeaveNoClusters)
 {
-  // Rounding can move the circumcenters of flat cells anywhere, which used to make refinement
-  // continue around them.
+  // The four corners of a square are on a circle, so tets on them are flat. Rounding can move the
+  // circumcenters of flat tets anywhere, which used to make the refinement continue around them.
   const TriangleMesh torus = test::torus(48, 24, 1.0, 0.4);
   const TriangleMesh loose = test::unwelded(torus);
   TriangleMesh turned = torus;
@@ -284,7 +286,7 @@ TEST_F(Remesh, TetsAreSmallWhereTheSurfaceIsFine)
 TEST_F(Remesh, ThinPlatesAreKept)
 {
   TriangleMesh plate = test::cube(0.0, 1.0);
-  plate.points.col(2) *= 0.02; // the edges of its triangles are as long as the plate is wide
+  plate.points.col(2) *= 0.02; // the triangle edges are as long as the plate is wide
   RemeshOptions options;
   options.largest_edge = 0.1;
   const Outcome outcome = run(plate, options);
@@ -294,7 +296,7 @@ TEST_F(Remesh, ThinPlatesAreKept)
 
 TEST_F(Remesh, LengthsAreFractions)
 {
-  // Powers of two scale without rounding, so the tets are the same.
+  // Scaling by a power of two does not round, so the tets are the same.
   const TriangleMesh mesh = test::torus(24, 12, 1.0, 0.4);
   const Outcome one = run(mesh);
   for (const double scale : { 9.313225746154785e-10, 1073741824.0 })
@@ -350,7 +352,7 @@ TEST_F(Remesh, ASheetBesideASolidEnds)
   {
     EXPECT_NEAR(outcome.volume(), 4.0 / 3.0 * pi, 0.05 * 4.0 / 3.0 * pi);
   }
-  // tetrahedralize() returns a result or a sentence in any case.
+  // tetrahedralize() returns a result, or a status with one sentence.
   ExecutionContext context;
   TetrahedralizeOptions ladder;
   ladder.method = TetMethod::remesh;

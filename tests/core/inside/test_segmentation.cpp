@@ -1,3 +1,4 @@
+// Segmentation of tets into inside and outside: the energy is compared with brute force.
 #include "inside/segmentation.h"
 
 #include "base/tet_facets.h"
@@ -25,7 +26,7 @@ Segmentation segmented(
   return result;
 }
 
-/// Evaluate the energy of the header directly, over all pairs of tets.
+/// Evaluate the energy that segmentation.h defines directly, over all pairs of tets.
 double stated_energy(const TetMesh& mesh, const Eigen::VectorXd& w, const SegmentationOptions& o,
   const std::vector<char>& inside)
 {
@@ -88,7 +89,7 @@ TEST(Segmentation, EqualsBruteForce)
   Random random(3);
   for (int instance = 0; instance < 240; ++instance)
   {
-    // 6, 12 or 18 tets of boxes that are not cubes.
+    // The boxes have 6, 12 or 18 tets and are not cubes.
     TetMesh mesh = tet_box(1 + static_cast<int>(random.below(3)), 1, 1, Vec3::Zero(),
       random.in_box(Vec3::Constant(0.2), Vec3::Constant(3.0)));
     if (mesh.tets.rows() > 12 && instance % 4 != 0)
@@ -101,7 +102,8 @@ TEST(Segmentation, EqualsBruteForce)
     options.cut_smoothness = random.uniform(0.0, 2.0);
     options.cut_sigma = random.uniform(0.05, 1.0);
     const Segmentation found = segmented(mesh, w, options);
-    // Costs of single tets and of facets make all labelings fast to evaluate.
+    // The costs of single tets and of facets are computed once, so that the energies of all
+    // labelings are fast to evaluate.
     CutEnergy energy;
     const auto nodes = static_cast<std::size_t>(mesh.tets.rows());
     std::vector<char> labels(nodes, 0);
@@ -112,7 +114,7 @@ TEST(Segmentation, EqualsBruteForce)
       energy.inside_costs.push_back(std::max(1.0 - shifted, 0.0));
       energy.outside_costs.push_back(std::max(shifted, 0.0));
     }
-    std::vector<double> alone; // cost of the cut around a single tet
+    std::vector<double> alone; // energy of the facets of a single tet, if only this tet is inside
     for (std::size_t t = 0; t < nodes; ++t)
     {
       labels.assign(nodes, 0);

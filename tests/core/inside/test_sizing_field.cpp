@@ -1,3 +1,4 @@
+// The edge length that is requested at a point: it grows with the distance from given sites.
 #include "inside/sizing_field.h"
 
 #include "support/meshes.h"

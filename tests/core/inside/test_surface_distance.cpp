@@ -1,3 +1,4 @@
+// Distance between a surface and the boundary of its tets, for boxes with known distances.
 #include "inside/surface_distance.h"
 
 #include "support/meshes.h"
@@ -33,8 +34,8 @@ TEST(SurfaceDistance, OfBoxesIsKnown)
   EXPECT_NEAR(none.maximum, 0.0, 1e-12);
   EXPECT_NEAR(none.mean, 0.0, 1e-12);
   EXPECT_GT(none.samples, 12);
-  // The top is too low by 0.25: a sixth of the surface is wrong, and a slightly larger fraction of
-  // the tets' boundary.
+  // The top is too low by 0.25. It is a sixth of the surface, and a slightly larger fraction of the
+  // boundary of the tets.
   const SurfaceDistance low = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 0.75)), cube);
   EXPECT_NEAR(low.maximum, 0.25, 1e-12);
   EXPECT_GT(low.mean, 0.25 / 7.0);
@@ -56,14 +57,15 @@ TEST(SurfaceDistance, MissingPartsCountFromTheSurface)
 
 TEST(SurfaceDistance, LidsDoNotCount)
 {
-  // The region of the open cube ends at the top of its bounding box, where no triangle is.
+  // The tets of the open cube end at the top of its bounding box, where the surface has no
+  // triangles.
   const SurfaceDistance open = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), test::open_cube());
   EXPECT_NEAR(open.maximum, 0.0, 1e-9);
 }
 
 TEST(SurfaceDistance, InnerPartsDoNotCount)
 {
-  // The winding number inside of both solids is 2, so the inner surface does not bound the region.
+  // The winding number inside of both cubes is 2, so the inner surface does not bound the tets.
   const TriangleMesh nested = test::join(test::cube(), test::cube(-0.4, 0.4));
   const SurfaceDistance distance = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), nested);
   EXPECT_NEAR(distance.maximum, 0.0, 1e-12);

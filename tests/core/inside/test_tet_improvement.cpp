@@ -1,3 +1,4 @@
+// Improvement of tets by smoothing, flips, contraction and insertion of vertices.
 #include "inside/tet_improvement.h"
 
 #include "inside/tet_quality.h"
@@ -15,7 +16,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Return the box of n x n x n cells with its inner vertices moved by up to `by`.
+/// Return a box of n x n x n cells whose inner vertices are moved by up to `by`.
 TetMesh shaken_box(double by, int n = 6)
 {
   TetMesh mesh = test::tet_box(n, n, n);
@@ -137,7 +138,8 @@ TEST(TetImprovement, HeldVerticesMoveOnlyWhenNothingElseHelps)
 
 TEST(TetImprovement, AFlatTetOnTheBoundaryGoes)
 {
-  // A square of two triangles on a pyramid, with a nearly flat tet in front of it.
+  // The mesh is a pyramid with a square base of two triangles, and a nearly flat tet in front of
+  // the base.
   TetMesh mesh;
   mesh.points.resize(5, 3);
   mesh.points << 0, 0, 0, 1, 0, -1e-4, 1, 1, 0, 0, 1, -1e-4, 0.5, 0.5, -0.8;
@@ -162,8 +164,8 @@ TEST(TetImprovement, AFlatTetOnTheBoundaryGoes)
 
 TEST(TetImprovement, OfTwoFlatTetsOnOneEdgeOnlyOneGoes)
 {
-  // The edge 0-1 has two thick tets and, outside of them, two flat ones on opposite sides. Without
-  // the flat tets the boundary would touch itself along the edge.
+  // The edge 0-1 has two thick tets. Outside of them are two flat tets, on opposite sides of the
+  // edge. If both flat tets were removed, the boundary would touch itself along the edge.
   TetMesh mesh;
   mesh.points.resize(6, 3);
   constexpr double thin = 1e-4;
@@ -198,7 +200,7 @@ TEST(TetImprovement, CanceledAtOnceIsStillAMesh)
 
 TEST(TetImprovement, ThreadsMakeNoDifference)
 {
-  // Flat tets occur everywhere, also next to each other.
+  // Flat tets occur everywhere, also as neighbors of each other.
   const TetMesh shaken = shaken_box(0.02, 12);
   ASSERT_TRUE(check_tets(shaken.points, shaken.tets).ok());
   for (const bool keep_boundary : { false, true })
@@ -234,7 +236,7 @@ TEST(TetImprovement, ThreadsMakeNoDifference)
 
 TEST(TetImprovement, KeepsTheBoundaryWhenAsked)
 {
-  // Vertices of the sides also move within their planes, so the sides have flat tets.
+  // Vertices on the top also move within its plane, so there are flat tets on the boundary.
   TetMesh mesh = shaken_box(0.05);
   test::Random random(5);
   for (Index v = 0; v < mesh.points.rows(); ++v)
@@ -317,7 +319,7 @@ TEST(TetImprovement, HeldVerticesNeverGo)
   const Index inside = vertex_at(mesh, Vec3(0.5, 0.5, 0.5));
   const Index fresh = split_edge(mesh, inside, vertex_at(mesh, Vec3(0.5, 0.5, 0.75)), 1e-6);
   ImproveOptions options;
-  options.least_angle = 0.0; // fixed vertices do not move
+  options.least_angle = 0.0; // held vertices do not move
   ExecutionContext context;
   Improvement done;
   for (const bool both : { true, false })
@@ -358,7 +360,8 @@ TEST(TetImprovement, BoundaryVerticesStayWhenTheBoundaryIsKept)
 
 TEST(TetImprovement, ContractionClosesNoHole)
 {
-  // A ring around a hole that is one cell wide, with extra vertices anywhere on its edges.
+  // The mesh is a ring around a hole that is one cell wide. Extra vertices are inserted anywhere on
+  // its edges.
   const TetMesh box = test::tet_box(3, 3, 1, Vec3::Zero(), Vec3(3, 3, 1));
   int good = 0;
   for (int seed = 1; seed <= 20; ++seed)

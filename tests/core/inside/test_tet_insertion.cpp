@@ -1,4 +1,5 @@
-// Insertion of vertices into tets: the new vertices, and the parts that do not change.
+// Insertion of vertices into tets: the new vertices exist, and the rest of the mesh does not
+// change.
 #include "inside/tet_insertion.h"
 
 #include "inside/tet_quality.h"
@@ -64,7 +65,7 @@ TEST(TetInsertion, PlacesBecomeVertices)
 {
   TetMesh mesh = test::tet_box(1, 1, 1);
   Points places(4, 3);
-  // In general position, on the cube's diagonal, on the boundary, and outside.
+  // The points are in general position, on the cube's diagonal, on its boundary, and outside.
   places << 0.3, 0.41, 0.2, 0.5, 0.5, 0.5, 0.0, 0.31, 0.4, 1.5, 0.5, 0.5;
   std::vector<Index> vertices;
   ExecutionContext context;
@@ -98,8 +99,8 @@ TEST(TetInsertion, ManyPlacesAreInserted)
 
 TEST(TetInsertion, PlacesAreFoundAgainWhenReplacedTetsAreDropped)
 {
-  // Each insertion replaces about 20 tets, so the number of ids becomes several times the number of
-  // tets.
+  // Each insertion replaces about 20 tets by new ones with new ids. The number of ids becomes
+  // several times the number of tets.
   TetMesh mesh = test::tet_box(3, 3, 3);
   test::Random random(23);
   Points places(20000, 3);
@@ -120,8 +121,8 @@ TEST(TetInsertion, PlacesAreFoundAgainWhenReplacedTetsAreDropped)
 
 TEST(TetInsertion, ThreadsMakeNoDifference)
 {
-  // Ten times as many points as tets. Most points are in tets that have been replaced, and many
-  // points of one batch need the same tets.
+  // There are ten times as many points as tets. Most points are in tets that have been replaced
+  // before, and many points of one batch need the same tets.
   const TetMesh box = test::tet_box(3, 3, 3);
   test::Random random(17);
   Points places(10 * box.tets.rows(), 3);
@@ -180,8 +181,8 @@ TEST_F(Cdt, NumbersOfTetsGrowWithTheSurfaceNotWithTheVolume)
 
 TEST_F(Cdt, AnEllipsoidIsFilledWithoutSlivers)
 {
-  // All vertices are on one quadric, so tets between these vertices alone are slivers through the
-  // whole shape.
+  // All vertices are on one quadric, so a mesh without additional vertices consists of slivers that
+  // cross the whole shape.
   TriangleMesh spindle = test::sphere(5);
   spindle.points.leftCols(2) *= 0.45;
   const Outcome outcome = run(spindle, TetMethod::cdt);
@@ -205,7 +206,7 @@ TEST_F(Cdt, AFewTrianglesAreFilledWithManyTets)
 
 TEST_F(Cdt, TetsForcedByNeedlesAreCounted)
 {
-  // Boxes of 12 triangles. The sides of the box of 100 x 1 x 1 have corners of 0.57 degrees.
+  // The boxes have 12 triangles. The triangles of the 100 x 1 x 1 box have corners of 0.57 degrees.
   TetrahedralizeOptions bare;
   bare.method = TetMethod::cdt;
   bare.bare = true;

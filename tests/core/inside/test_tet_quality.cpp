@@ -1,3 +1,4 @@
+// Checks of tets, dihedral angles, histograms of angles, and removal of tiny components.
 #include "inside/tet_quality.h"
 
 #include "support/meshes.h"
@@ -13,7 +14,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Return a triangle with apices above and below it: one tet per apex.
+/// Return one tet per apex, all on the same base triangle. The apices are above or below it.
 TetMesh fan(const std::vector<Vec3>& apices)
 {
   TetMesh mesh;
@@ -44,7 +45,7 @@ TEST(TetQuality, TetsMeetAtMostInPairsOnOppositeSides)
   EXPECT_THAT(check_tets(three.points, three.tets).message, HasSubstr("no closed boundary"));
   EXPECT_TRUE(check_tets(three.points, three.tets, true).ok());
   TetMesh twice = three;
-  twice.tets.row(2) << 1, 2, 0, 3; // repeats the first tet
+  twice.tets.row(2) << 1, 2, 0, 3; // this tet repeats the first one
   EXPECT_THAT(
     check_tets(twice.points, twice.tets, true).message, HasSubstr("tet 2 is there twice"));
   TetMesh turned = good;
@@ -57,7 +58,7 @@ TEST(TetQuality, AnglesOfVeryFlatTetsAreNotZero)
   for (const double height : { 1e-3, 1e-7, 1e-10, 1e-13 })
   {
     SCOPED_TRACE(height);
-    // The base's edges are at distances of 0.3, 0.3 and 0.2 sqrt(2) from the foot of the apex.
+    // The foot of the apex is at the distances 0.3, 0.3 and 0.2 sqrt(2) from the edges of the base.
     const double degrees = 57.295779513082320877;
     const double angle =
       min_dihedral_angle(Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0.3, 0.3, -height));
@@ -80,7 +81,7 @@ TEST(TetQuality, TheHistogramCountsEveryTetOnce)
   const TetQuality best = measure_tets(regular.points, regular.tets);
   EXPECT_NEAR(best.min_dihedral_angle, 70.528779365509308, 1e-9);
   EXPECT_EQ(best.histogram.tets[14], 1);
-  // The smallest angle of Kuhn's tets is 45 degrees.
+  // The smallest dihedral angle in Kuhn's subdivision of a cube is 45 degrees.
   const TetMesh box = test::tet_box(2, 3, 4, Vec3::Zero(), Vec3(2, 3, 4));
   const TetQuality quality = measure_tets(box.points, box.tets);
   const auto& bins = quality.histogram.tets;
@@ -90,7 +91,7 @@ TEST(TetQuality, TheHistogramCountsEveryTetOnce)
 
 TEST(TetQuality, CrumbsAndLoneTetsGo)
 {
-  // A large component, a component of two small tets, and a single small tet.
+  // The mesh has a large component, a component of two small tets, and a single small tet.
   TetMesh mesh = test::tet_box(1, 1, 1);
   const Index n = mesh.points.rows();
   const Index m = mesh.tets.rows();
@@ -114,9 +115,10 @@ TEST(TetQuality, CrumbsAndLoneTetsGo)
 
 TEST(TetQuality, TrianglesInFrontOfOthersForceFlatTets)
 {
-  // A plate of 6 x 6 cells. The inscribed circles of its large triangles have the radius 0.0488. A
-  // tet on such a triangle whose dihedral angles are all at least 5 degrees is higher than 0.00427.
-  // The needles at the rim force only the tets next to them.
+  // A plate of 6 x 6 cells. The inscribed circles of its large triangles have the radius 0.0488. If
+  // all dihedral angles of a tet on such a triangle are at least 5 degrees, the tet is higher than
+  // 0.00427. If the plate is thinner, all its tets are forced to be flat; otherwise only those next
+  // to the needles at the rim.
   for (const double height : { 0.004, 0.005 })
   {
     TetMesh plate = test::tet_box(6, 6, 1);

@@ -1,5 +1,5 @@
-// The sequence of methods: lattices without the helper program, broken and slow helpers, cancel,
-// and bad input.
+// The sequence of meshing methods that tetrahedralize() tries: lattices without the helper program,
+// helpers that fail or are slow, cancel, and bad input.
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
@@ -75,8 +75,8 @@ TEST(Tetrahedralize, EmbedHoldsAnySurface)
 
 TEST(Tetrahedralize, EmbedBindsEveryPointOfAnUncleanSurface)
 {
-  // Two spheres at a tiny distance, one inside out, with unwelded vertices and a triangle without
-  // area.
+  // Two spheres at a tiny distance, one of them inside out. Their triangles are unwelded, and one
+  // triangle has no area.
   TriangleMesh mesh = test::unwelded(
     test::join(test::sphere(2), test::flipped(test::sphere(2, 1.0, Vec3(2.0001, 0.0, 0.0)))));
   mesh.triangles.row(0) << 0, 0, 1;
@@ -172,7 +172,8 @@ TEST(Tetrahedralize, FtetwildIsJudgedLikeAnyOther)
   EXPECT_NEAR(right.number("distance_max"), 0.0, 1e-12);
   EXPECT_EQ(right.number("counts.kept_vertices"), 0.0);
   EXPECT_TRUE(right.status.warnings.empty());
-  // A box of 1.4 times the volume is accepted with a warning, and its distance is reported.
+  // A box with 1.4 times the volume of the returned cube is accepted with a warning, and the
+  // distance is reported.
   TriangleMesh longer = test::cube();
   longer.points.col(0) *= 1.0 / 1.4;
   const Outcome off = run(longer, TetMethod::ftetwild);
@@ -180,13 +181,13 @@ TEST(Tetrahedralize, FtetwildIsJudgedLikeAnyOther)
   ASSERT_EQ(off.status.warnings.size(), 1u);
   EXPECT_THAT(off.status.warnings[0], HasSubstr("but the winding number encloses"));
   EXPECT_GT(off.number("distance_max"), 5.0);
-  // More than twice the volume: no result.
+  // If the volume differs by more than a factor of 2, there is no result.
   TriangleMesh thin = test::cube();
   thin.points.col(0) *= 0.2;
   const Outcome wrong = run(thin, TetMethod::ftetwild);
   EXPECT_EQ(wrong.status.code, StatusCode::internal_error);
   EXPECT_EQ(wrong.result.mesh.tets.rows(), 0);
-  // fTetWild decides inside and outside by itself, so the threshold cannot be set.
+  // fTetWild itself separates inside from outside, so the threshold cannot be set.
   TetrahedralizeOptions options;
   options.method = TetMethod::ftetwild;
   options.winding_threshold = 0.7;
@@ -231,7 +232,7 @@ TEST(Tetrahedralize, BadInputIsOneSentence)
 
 TEST(Tetrahedralize, TheBacksOfTrianglesAreLeftOut)
 {
-  // Every triangle occurs once in each orientation. In one case the inner one is first.
+  // Every triangle occurs once in each orientation. In one case the inward triangles are first.
   const TriangleMesh ball = test::sphere(3);
   for (const TriangleMesh& mesh :
     { test::join(ball, test::flipped(ball)), test::join(test::flipped(ball), ball),
@@ -269,7 +270,7 @@ TEST(Tetrahedralize, LooseTrianglesThatEncloseOnlySpecksAreNamed)
   EXPECT_THAT(
     outcome.status.message, HasSubstr("loose triangles (12000) that enclose only specks"));
   EXPECT_THAT(outcome.status.message, HasSubstr("--method embed"));
-  // A sphere whose triangles do not quite meet still encloses a ball.
+  // A sphere whose triangles are separated by tiny gaps still encloses a ball.
   TriangleMesh ball = test::unwelded(test::sphere(5));
   ASSERT_GT(ball.triangles.rows(), 10000);
   for (double& x : ball.points.reshaped())
@@ -285,7 +286,7 @@ TEST(Tetrahedralize, LooseTrianglesThatEncloseOnlySpecksAreNamed)
 
 TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
 {
-  // The winding number of a cube is 1, below the threshold. No method may retry.
+  // The winding number in the cube is 1, below the threshold. No method may retry.
   TetrahedralizeOptions options;
   options.winding_threshold = 1.5;
   for (const TetMethod method : { TetMethod::cdt, TetMethod::automatic, TetMethod::remesh })
@@ -310,7 +311,7 @@ TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
   {
     return;
   }
-  // The winding number of two overlapping cubes of side 2 is 2 in a cube of side 1.
+  // The winding number is 2 where the two cubes of side 2 overlap, which is a cube of side 1.
   const TriangleMesh two = test::join(test::cube(), test::translated(test::cube(), Vec3(1, 1, 1)));
   options.method = TetMethod::cdt;
   const Outcome overlap = run(two, options);
@@ -321,7 +322,7 @@ TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
 TEST(Tetrahedralize, WhatIsTooThinForRemeshIsSaid)
 {
   TriangleMesh needle = test::sphere(2);
-  needle.points.col(2) *= 1e4; // its volume is 52 % of its bounding box
+  needle.points.col(2) *= 1e4; // the volume is 52 % of the bounding box's
   TetrahedralizeOptions options;
   options.method = TetMethod::remesh;
   const Outcome outcome = run(needle, options);

@@ -1,4 +1,5 @@
-// Method cdt fills closed surfaces exactly, and other surfaces up to the boundary of their inside.
+// Method cdt: a constrained Delaunay tetrahedralization. It fills closed surfaces exactly, and
+// other surfaces up to the boundary of their inside.
 #include "inside/tetrahedralize.h"
 
 #include "inside/tet_quality.h"
@@ -31,8 +32,8 @@ Index surface_characteristic(const TriangleMesh& mesh)
   return mesh.points.rows() - count_edges(mesh.triangles).edges + mesh.triangles.rows();
 }
 
-/// Return the largest distance of the tets' boundary (vertices and centers of facets) from the
-/// surface.
+/// Return the largest distance from the surface of the vertices and facet centers of the tets'
+/// boundary.
 double boundary_distance(const TetMesh& mesh, const TriangleMesh& surface)
 {
   const TriangleTree tree(surface.points, surface.triangles);
@@ -125,7 +126,7 @@ TEST_F(Cdt, VerticesInsideAreAdded)
     signed_volume(sphere.points, sphere.triangles), bounding_box(sphere.points).diagonal());
   EXPECT_GT(run(sphere, of_weights).result.mesh.points.rows(), 2 * sphere.points.rows());
   EXPECT_GT(full.number("min_dihedral_angle"), 4.0);
-  // Inner edges are not much longer than requested.
+  // Inner edges are not much longer than `interior_edge` requests.
   TetrahedralizeOptions fine;
   fine.interior_edge = 0.02;
   EXPECT_GT(run(sphere, fine).result.mesh.tets.rows(), 3 * full.result.mesh.tets.rows());
@@ -147,7 +148,7 @@ TEST_F(Cdt, TheSurfaceIsLeftForAnAngleThatItDoesNotAllow)
   EXPECT_THAT(kept.status.message, testing::HasSubstr("smallest dihedral angle"));
   EXPECT_LT(kept.number("min_dihedral_angle"), 3.0);
   options.method = TetMethod::automatic;
-  options.resolution = 200; // resolves the thin wedge
+  options.resolution = 200; // this resolution resolves the thin wedge
   const Outcome left = run(wedge, options);
   expect_valid(left, wedge);
   EXPECT_EQ(left.method(), "remesh");
@@ -162,7 +163,7 @@ TEST_F(Cdt, TheSurfaceIsLeftForAnAngleThatItDoesNotAllow)
   EXPECT_EQ(with_handle.number("counts.handle_vertices"), -1.0);
   EXPECT_EQ(with_handle.result.mesh.tets, left.result.mesh.tets);
   options.handles = HandlePlaces();
-  // The result of cdt is kept if its angles are large enough.
+  // The result of method cdt is kept if its angles are large enough.
   const Outcome cube = run(test::cube(), options);
   expect_valid(cube, test::cube());
   EXPECT_EQ(cube.method(), "cdt");
@@ -195,7 +196,7 @@ TEST_F(Cdt, SameBitsForAnyNumberOfThreads)
 
 TEST_F(Cdt, UncleanCubesHoldTheirVolume)
 {
-  TriangleMesh gap = test::cube(); // the top is separate, 1e-3 above
+  TriangleMesh gap = test::cube(); // the top is a separate square, 1e-3 above the cube
   gap.points.conservativeResize(12, 3);
   for (int v = 0; v < 4; ++v)
   {
@@ -233,8 +234,8 @@ TEST_F(Cdt, UncleanCubesHoldTheirVolume)
     EXPECT_EQ(outcome.method(), "cdt");
     EXPECT_NEAR(outcome.volume(), c.volume, c.tolerance);
   }
-  // The reversed top is detected and turned. Otherwise the winding number would be 0 next to it and
-  // 2/3 at the center.
+  // The reversed top is detected and reversed again. Otherwise the winding number would be 0 next
+  // to it and 2/3 at the center.
   const Outcome outcome = run(flipped_top);
   EXPECT_EQ(outcome.number("counts.turned_triangles"), 2);
   ASSERT_EQ(outcome.status.warnings.size(), 1u);
@@ -244,8 +245,8 @@ TEST_F(Cdt, UncleanCubesHoldTheirVolume)
 
 TEST_F(Cdt, ManyPartsMostlyInsideOutOthersTouchOneIsOpen)
 {
-  // Every second cube of 4 x 4 x 4, which touch at edges and vertices. Below them are 16 separate
-  // cubes, most of them inside out, and next to them a cube without a top.
+  // The first part is every second cube of 4 x 4 x 4; they touch at edges and vertices. Below are
+  // 16 separate cubes, most of them inside out. Next to them is a cube without a top.
   TriangleMesh mesh = test::translated(test::open_cube(), Vec3(8.0, 0.0, 0.0));
   Index turned = 0;
   for (int k = 0; k < 64; ++k)
@@ -283,14 +284,15 @@ TEST_F(Cdt, CrossingSurfacesKeepTheirVerticesAndTriangles)
   EXPECT_GT(outcome.number("counts.self_intersections"), 0);
   EXPECT_LT(boundary_distance(outcome.result.mesh, spheres), 1e-9);
   // The union of two balls of radius 1 at distance d has the volume 8/3 pi - pi (4 + d) (2 - d)^2 /
-  // 12. The subdivided spheres are a little smaller.
+  // 12. The subdivided spheres are a little smaller than the balls.
   const double d = Vec3(0.7, 0.31, 0.17).norm();
   const double pi = 3.14159265358979;
   const double balls = 8.0 / 3.0 * pi - pi * (4.0 + d) * (2.0 - d) * (2.0 - d) / 12.0;
   const double shrink = signed_volume(spheres.points, spheres.triangles) / (8.0 / 3.0 * pi);
   EXPECT_NEAR(outcome.volume(), balls * shrink, 0.003 * balls);
   EXPECT_EQ(test::euler_characteristic(outcome.result.mesh), 1);
-  // The winding number is 2 in the overlap, so only the lens is kept with a threshold of 1.5.
+  // The winding number is 2 in the overlap, so a threshold of 1.5 keeps only the overlap, which is
+  // a lens.
   EXPECT_NEAR(outcome.result.winding_numbers.maxCoeff(), 2.0, 1e-9);
   TetrahedralizeOptions lens;
   lens.winding_threshold = 1.5;
@@ -356,7 +358,7 @@ TEST_F(Cdt, ElephantWithHoles)
   EXPECT_NEAR(outcome.volume() / outcome.number("winding_volume"), 1.0, 0.05);
   EXPECT_GT(outcome.number("counts.kept_vertices"), 0.97 * elephant.points.rows());
   EXPECT_GE(outcome.result.winding_numbers.minCoeff(), 0.3);
-  // The elephant without holes.
+  // Compare with the elephant before triangles were removed.
   const TriangleMesh whole = test::demo_mesh("elephant.off");
   EXPECT_NEAR(
     outcome.volume(), signed_volume(whole.points, whole.triangles), 0.02 * outcome.volume());
@@ -364,8 +366,7 @@ TEST_F(Cdt, ElephantWithHoles)
 
 TEST_F(Cdt, TooManyCrossingsAreLeftAtOnce)
 {
-  // Bars that all cross each other. Refinement would cut them into several hundred thousand
-  // triangles.
+  // All bars cross each other. Refinement would cut them into several hundred thousand triangles.
   constexpr int bars = 100;
   TriangleMesh mesh;
   for (int i = 0; i < 2 * bars; ++i)

@@ -1,4 +1,4 @@
-// Handles become vertices of the tets.
+// Handles become vertices of the tets: points, bones and cage faces inside of the surface.
 #include "inside/tetrahedralize.h"
 
 #include "core/inside/tet_outcome.h"
@@ -45,7 +45,7 @@ TEST_F(Cdt, PointsOfHandlesBecomeVertices)
   const TriangleMesh ball = test::sphere(3);
   TetrahedralizeOptions options;
   options.method = TetMethod::cdt;
-  // Inside, at a vertex of the surface, outside, and at the center of a triangle.
+  // The handles are inside, at a vertex of the surface, outside, and at the center of a triangle.
   const Vec3 vertex = ball.points.row(7);
   const Vec3 middle =
     (ball.points.row(ball.triangles(5, 0)) + ball.points.row(ball.triangles(5, 1)) +
@@ -94,7 +94,7 @@ TEST_F(Cdt, BonesAndCagesGetVerticesAtTheLocalEdgeLength)
   {
     EXPECT_LT((on[i] - on[i - 1]) * (tail - head).norm(), 1.01 * largest);
   }
-  // Every point of the cage's face is near a vertex on the face.
+  // Every point of the cage's face is near a mesh vertex on the face.
   std::vector<Vec3> face;
   const Vec3 normal = (b - a).cross(c - a).normalized();
   for (Index v = 0; v < mesh.points.rows(); ++v)

@@ -1,5 +1,5 @@
-// Method cdt: segmentation of the hull's tets into inside and outside, by a graph cut or by the
-// threshold.
+// Method cdt: the tets of the convex hull are labeled as inside or outside, by a graph cut or by
+// the threshold.
 #include "inside/tetrahedralize.h"
 
 #include "inside/tet_quality.h"
@@ -16,7 +16,7 @@ using Outcome = test::TetOutcome;
 
 namespace
 {
-/// Remove every fifth triangle.
+/// Remove every fifth triangle of a surface.
 TriangleMesh ragged(TriangleMesh mesh)
 {
   Index kept = 0;
@@ -52,7 +52,7 @@ TEST_F(Cdt, AnOpenSurfaceIsCutWithLessEnergy)
   ASSERT_TRUE(plain.status.ok()) << plain.status.message;
   EXPECT_EQ(plain.status.report.text("segmentation"), "threshold");
   EXPECT_EQ(plain.status.report.find("energy"), nullptr);
-  // The boundary of the cut is smaller because it is not ragged across the holes.
+  // The boundary of the graph cut has a smaller area, because it is not ragged across the holes.
   const auto skin = [](const Outcome& outcome) {
     return surface_area(outcome.result.mesh.points, boundary_triangles(outcome.result.mesh.tets));
   };
@@ -61,7 +61,7 @@ TEST_F(Cdt, AnOpenSurfaceIsCutWithLessEnergy)
 
 TEST_F(Cdt, TheWholeHullCanBeKept)
 {
-  // Two boxes with a gap between them. A fifth of their hull is outside.
+  // Two boxes with a gap between them. The gap is a fifth of their convex hull.
   const TriangleMesh closed =
     test::join(test::cube(0.0, 1.0), test::translated(test::cube(0.0, 1.0), Vec3(1.5, 0, 0)));
   TriangleMesh open = closed;
@@ -110,7 +110,8 @@ TEST_F(Cdt, ACutThatLosesTheVolumeIsLeftForTheThreshold)
   const Outcome plain = run(mesh, options);
   ASSERT_TRUE(plain.status.ok()) << plain.status.message;
   options.segmentation = SegmentationMethod::graph_cut;
-  options.cut_smoothness = 1e6; // so much smoothness that all tets of the hull, or none, are inside
+  // With this large smoothness, either all tets of the hull or none are inside.
+  options.cut_smoothness = 1e6;
   options.cut_sigma = 10.0;
   const Outcome smooth = run(mesh, options);
   ASSERT_TRUE(smooth.status.ok()) << smooth.status.message;

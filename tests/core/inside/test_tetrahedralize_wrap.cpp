@@ -1,4 +1,5 @@
-// Method wrap: tets that contain any surface.
+// Method wrap: tets of an alpha wrap, which contain the surface even if it is open or crosses
+// itself.
 #include "inside/tetrahedralize.h"
 
 #include "surface/triangle_tree.h"
@@ -93,9 +94,9 @@ TEST_F(Wrap, HoldsAnySurface)
     EXPECT_EQ(outcome.number("counts.kept_vertices"), 0.0);
     EXPECT_EQ(outcome.result.original_vertices.front(), -1);
     EXPECT_NEAR(outcome.number("winding_volume"), c.enclosed, 0.01 * c.enclosed);
-    // Every boundary point is at least the offset away from the surface, and some are exactly that
-    // far. In concave corners the distance is larger, because the ball of alpha does not reach into
-    // them.
+    // Every boundary point is at least the offset away from the surface, and some are exactly at
+    // the offset. In concave corners the distance is larger, because the alpha ball does not fit
+    // into them.
     EXPECT_GE(outcome.number("distance_max"), 100.0 * options.wrap_offset * 0.99);
     EXPECT_LE(outcome.number("distance_max"), 100.0 * (options.wrap_alpha + options.wrap_offset));
     const auto& warnings = outcome.status.warnings;
@@ -120,8 +121,9 @@ TEST_F(Wrap, AnOpenSurfaceIsWarnedOfWithBothVolumes)
   const std::string& warning = outcome.status.warnings.back();
   EXPECT_THAT(warning, HasSubstr("4 boundary edges"));
   EXPECT_THAT(warning, HasSubstr("the winding number encloses 8"));
-  // Five sides of area 4, two offsets thick. At each of the eight inner edges of length 2, the ball
-  // of alpha leaves out a fillet whose cross section is smaller than the square of its radius.
+  // The open cube has five faces of area 4, wrapped in a shell that is two offsets thick. The alpha
+  // ball does not reach into the eight inner edges of length 2. The cross section that remains
+  // filled at each edge is smaller than the square of the ball's radius.
   const double diagonal = std::sqrt(12.0);
   const double shell = 20.0 * 2.0 * options.wrap_offset * diagonal;
   const double fillets = 16.0 * std::pow((options.wrap_alpha + options.wrap_offset) * diagonal, 2);

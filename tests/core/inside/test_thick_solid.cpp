@@ -1,3 +1,4 @@
+// Closed surfaces around shapes with parts that are thinner than a lattice cube.
 #include "inside/thick_solid.h"
 
 #include "support/meshes.h"
@@ -32,7 +33,7 @@ Made make(const TriangleMesh& mesh, const ThickSolidOptions& options, int thread
   return made;
 }
 
-/// Return the size of a lattice cube for a mesh with the longest side `longest`.
+/// Return the size of a lattice cube if the longest side of the mesh's bounding box is `longest`.
 double cube_of(const Made& made, double longest)
 {
   return longest / made.status.report.number("resolution", 0.0);
@@ -56,7 +57,8 @@ TEST(ThickSolid, ASheetBecomesAPlateOfTwiceTheLayer)
   const Made made = make(sheet, {});
   EXPECT_EQ(made.parts, 1);
   const double layer = 0.6 * cube_of(made, 1.0);
-  // A plate with a half cylinder at each of its four edges and a quarter ball at each corner.
+  // The expected solid is a plate with a half cylinder at each of its four edges and a quarter ball
+  // at each corner.
   const double pi = std::acos(-1.0);
   const double expected =
     2.0 * layer + 2.0 * pi * layer * layer + 4.0 / 3.0 * pi * layer * layer * layer;
@@ -65,7 +67,7 @@ TEST(ThickSolid, ASheetBecomesAPlateOfTwiceTheLayer)
 
 TEST(ThickSolid, ThinWallsStay)
 {
-  // The distance between the sides of the plate is a hundredth of a lattice cube.
+  // The two large faces of the plate have a distance of a hundredth of a lattice cube.
   const TriangleMesh plate = test::box(Vec3(0.0, 0.0, 0.0), Vec3(1.0, 1.0, 1e-4));
   const Made made = make(plate, {});
   EXPECT_EQ(made.parts, 1);
@@ -92,7 +94,7 @@ TEST(ThickSolid, AnOpenCubeIsFilled)
 {
   const Made made = make(test::open_cube(), {});
   EXPECT_EQ(made.parts, 1);
-  // The walls at the opening have a layer around them.
+  // The walls next to the opening are thickened by a layer.
   EXPECT_NEAR(made.volume, 8.0, 0.8);
 }
 

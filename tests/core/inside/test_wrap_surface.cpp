@@ -1,4 +1,4 @@
-// Alpha wraps are closed and near, and contain the whole surface.
+// Alpha wraps (CGAL) of any triangles are closed, contain the whole surface, and are close to it.
 #include "inside/wrap_surface.h"
 
 #include "surface/triangle_tree.h"
@@ -55,14 +55,14 @@ TriangleMesh loose_triangles(int count)
   return soup;
 }
 
-/// Return vertices - edges + triangles.
+/// Return vertices - edges + triangles: the Euler characteristic of the surface.
 Index surface_characteristic(const TriangleMesh& mesh)
 {
   return mesh.points.rows() - count_edges(mesh.triangles).edges + mesh.triangles.rows();
 }
 
 /// Expect that the wrap is closed and oriented outwards, that each edge has two triangles, and that
-/// nothing crosses.
+/// no triangles cross.
 void expect_clean(const TriangleMesh& wrap)
 {
   ASSERT_GT(wrap.triangles.rows(), 0);
@@ -79,8 +79,8 @@ void expect_clean(const TriangleMesh& wrap)
   EXPECT_GT(signed_volume(wrap.points, wrap.triangles), 0.0);
 }
 
-/// Expect that every vertex and triangle center of the surface is inside of the wrap, or on it as
-/// may happen at corners, and that the vertices of the wrap are at the offset from the surface.
+/// Expect that every vertex and triangle center of the surface is inside of the wrap or, at
+/// corners, on it. Expect that the vertices of the wrap are at the offset from the surface.
 void expect_around(const TriangleMesh& wrap, const TriangleMesh& mesh, double offset)
 {
   ExecutionContext context;
@@ -156,8 +156,8 @@ TEST_F(WrapSurface, IsClosedAndAroundWhateverItIsGiven)
 
 TEST_F(WrapSurface, VolumesAreWhatAlphaAndOffsetSay)
 {
-  // The volume of the wrap of a convex body is between that of the body and that of all points
-  // within the offset.
+  // The volume of the wrap of a convex body is larger than that of the body. It is smaller than
+  // that of all points within the offset from the body.
   const WrapOptions options{ 0.05, 0.004, 60.0, 0 };
   TriangleMesh wrap;
   ASSERT_TRUE(run(test::cube(), options, wrap).ok());
@@ -165,7 +165,8 @@ TEST_F(WrapSurface, VolumesAreWhatAlphaAndOffsetSay)
   const double volume = signed_volume(wrap.points, wrap.triangles);
   EXPECT_GT(volume, 8.0);
   EXPECT_LT(volume, 8.0 + 24.0 * offset + 6.0 * M_PI * offset * offset + 5.0 * std::pow(offset, 3));
-  // The wrap of a sheet is two offsets thick, except where triangles cut its round rim.
+  // The wrap of a sheet is two offsets thick. Its volume differs a little, because triangles
+  // approximate its round rim.
   ASSERT_TRUE(run(test::grid(4, 4), options, wrap).ok());
   const TriangleMesh sheet = test::grid(4, 4);
   const double thickness = 2.0 * options.offset * bounding_box(sheet.points).diagonal();
@@ -173,7 +174,7 @@ TEST_F(WrapSurface, VolumesAreWhatAlphaAndOffsetSay)
     (surface_area(sheet.points, sheet.triangles) * thickness);
   EXPECT_GT(ratio, 0.95);
   EXPECT_LT(ratio, 1.1);
-  // The wrap enters a hole only if the ball of alpha fits through it.
+  // The wrap enters a hole only if the alpha ball fits through it.
   TriangleMesh holed = test::sphere(2);
   holed.triangles.conservativeResize(holed.triangles.rows() - 1, 3);
   ASSERT_TRUE(run(holed, { 0.1, 0.002, 60.0, 0 }, wrap).ok());
@@ -203,7 +204,7 @@ TEST_F(WrapSurface, PlaceAndScaleDoNotMatter)
 
 TEST_F(WrapSurface, TimeMemoryAndCancelEndIt)
 {
-  // About a million triangles.
+  // The complete wrap would have about a million triangles.
   WrapOptions options{ 0.0005, 0.0001, 0.5, 0 };
   TriangleMesh wrap;
   const auto start = std::chrono::steady_clock::now();

@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_core_inside_tet_outcome_h
 #define bindpose_tests_core_inside_tet_outcome_h
 
-// Shared by the tests of tetrahedralize(): a run, and the invariants of every result.
+// Functions that the tests of tetrahedralize() share: a run, and the invariants of every result.
 
 #include "inside/tetrahedralize.h"
 
@@ -28,10 +28,10 @@ struct TetOutcome
 TetOutcome run(const TriangleMesh& mesh, TetrahedralizeOptions options = {}, int threads = 0);
 TetOutcome run(const TriangleMesh& mesh, TetMethod method);
 
-/// Expect the invariants of the results of all methods.
+/// Expect the invariants that the results of all methods have.
 void expect_valid(const TetOutcome& outcome, const TriangleMesh& surface);
 
-/// Return point handles.
+/// Return the given points as point handles.
 HandlePlaces places_of(const std::vector<Vec3>& points);
 
 /// Tests of method cdt.

@@ -1,4 +1,4 @@
-// A file is written completely or not at all.
+// AtomicFile writes a file completely or not at all.
 #include "io/atomic_file.h"
 #include "io/text_scanner.h"
 
@@ -39,7 +39,7 @@ TEST(AtomicFile, IsTheSameWhenItWaitsForTheDisk)
   ASSERT_TRUE(file.commit_synced_as(folder / "named").ok());
   EXPECT_EQ(folder.read("named"), "named");
   EXPECT_EQ(folder.number_of_files(), 2u);
-  // Another process has removed the temporary file.
+  // The temporary file disappears, as if another process had removed it.
   ASSERT_TRUE(file.open(folder / "out", true).ok());
   std::filesystem::remove(file.temporary());
   EXPECT_THAT(file.commit_synced().message, HasSubstr("cannot write"));

@@ -1,4 +1,4 @@
-// DMAT: values column by column, as text and as raw doubles.
+// The matrix format DMAT of libigl: column-major values, as text and as raw doubles.
 #include "io/dmat.h"
 
 #include "support/files.h"

@@ -1,4 +1,4 @@
-// Skins as glTF: round trips, files of other programs according to the standard, and one sentence
+// Skins as glTF: round trips, files of other programs that follow the standard, and one sentence
 // for each defect.
 #include "io/gltf_skin.h"
 #include "io/gltf_transform.h"
@@ -100,7 +100,8 @@ json json_of(const std::string& glb)
   return json::parse(glb.substr(20, length));
 }
 
-/// Return a file of another program: a triangle on two joints, as text with its numbers in base64.
+/// Return a small file as another program would write it: a triangle on two joints, as JSON with
+/// the binary data in base64.
 json foreign()
 {
   return json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
@@ -135,7 +136,7 @@ TEST(GltfTransform, AMapWithoutShearInItsAxesIsKept)
     }
     EXPECT_LT(difference(nearest_trs(trs.affine()).affine(), trs.affine()), 1e-13);
   }
-  // A mirror image is a half turn and a point reflection.
+  // A mirror image is a rotation by 180 degrees and a point reflection.
   Eigen::Affine3d mirror = Eigen::Affine3d::Identity();
   mirror(0, 0) = -1.0;
   EXPECT_LT(difference(nearest_trs(mirror).affine(), mirror), 1e-13);
@@ -148,7 +149,7 @@ TEST(GltfTransform, AShearGivesTheNearestRotation)
   const Eigen::Matrix3d held = nearest_trs(shear).affine().linear();
   const double error = (held - shear.linear()).norm();
   EXPECT_GT(error, 0.1);
-  for (double turn = -0.5; turn < 0.5; turn += 0.01) // no other rotation is nearer
+  for (double turn = -0.5; turn < 0.5; turn += 0.01) // no other rotation is closer to the shear
   {
     const Eigen::Matrix3d r = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
     EXPECT_GE((r - shear.linear()).norm(),
@@ -212,8 +213,9 @@ TEST(GltfSkin, RowsInTheFileSumToOne)
   ASSERT_TRUE(status.ok());
   EXPECT_EQ(status.report.text("rest_joint"), "yes");
   const json written = json_of(folder.read("rig.glb"));
-  EXPECT_EQ(written["skins"][0]["joints"].size(), 7u); // an additional joint that stays at rest
-  // Read the sums from the bytes of the file.
+  // Includes an additional joint that stays at rest.
+  EXPECT_EQ(written["skins"][0]["joints"].size(), 7u);
+  // Read the sums of the weights of each vertex from the bytes of the file.
   const std::string glb = folder.read("rig.glb");
   std::uint32_t length = 0;
   std::memcpy(&length, glb.data() + 12, 4);
@@ -236,7 +238,7 @@ TEST(GltfSkin, RowsInTheFileSumToOne)
   {
     EXPECT_NEAR(sum, 1.0, float_step);
   }
-  // Reading removes the additional joint, and the rows have their original sums below 1.
+  // Reading removes the additional joint. The sums of the rows are below 1 again, as before.
   GltfSkin back;
   ASSERT_TRUE(read_gltf_skin(folder / "rig.glb", back).ok());
   ASSERT_EQ(back.joints.size(), 6u);
@@ -274,7 +276,7 @@ TEST(GltfSkin, TheLargestWeightsAndWhatThatCosts)
     posed.push_back(joint.posed);
   }
   EXPECT_NEAR(status.report.number("dropped_share", 0), share, 1e-12);
-  // The reported error equals that of the weights that were read.
+  // The reported error equals the error that the weights in the file produce.
   GltfSkin cut = skin;
   cut.weights = back.weights;
   const double error = (skinned(cut, posed) - skinned(skin, posed)).rowwise().norm().maxCoeff() /
@@ -382,7 +384,7 @@ TEST(GltfSkin, AnAnimationOfShapes)
   ASSERT_EQ(read.warnings.size(), 1u);
   EXPECT_THAT(read.warnings[0], HasSubstr("does not keep 1 animation and 3 morph targets"));
   EXPECT_TRUE(back.frames.empty());
-  // A mesh without joints may also have such an animation.
+  // A mesh without joints may also have an animation by shapes.
   skin.joints.clear();
   skin.weights.resize(0, 0);
   EXPECT_TRUE(write_gltf_skin(folder / "mesh.glb", skin, options).ok());
@@ -446,18 +448,20 @@ TEST(GltfSkin, AFileOfAnotherProgram)
   ASSERT_EQ(skin.joints.size(), 2u);
   EXPECT_EQ(skin.joints[1].name, "arm");
   EXPECT_EQ(skin.joints[1].parent, 0);
-  // The node of a skinned mesh has no effect, and the transforms of the joints' nodes compose.
+  // The transform of a skinned mesh's node is ignored, and the transforms of the joints' nodes are
+  // multiplied along the chain.
   EXPECT_EQ(Vec3(skin.points.row(1)), Vec3(1, 0, 0));
   EXPECT_LT((skin.joints[1].posed * Vec3(1, 0, 0) - Vec3(0, 4, 0)).norm(), 1e-12);
   EXPECT_EQ(skin.joints[1].rest.matrix(), Eigen::Matrix4d::Identity());
-  EXPECT_NEAR(skin.weights(1, 0), 0.5, 1e-12); // 64 and 64 of 255; rows are normalized to the sum 1
-  // In a strip of three triangles every second one has the opposite orientation.
+  // The raw weights are 64 and 64 of 255; rows are normalized to the sum 1.
+  EXPECT_NEAR(skin.weights(1, 0), 0.5, 1e-12);
+  // In a triangle strip of three triangles, the second one has the opposite orientation.
   file["nodes"][0].erase("skin");
   ASSERT_TRUE(read_gltf_skin(folder.write("f.gltf", file.dump()), skin).ok());
-  // The node of a mesh without a skin has an effect.
+  // The transform of the node of a mesh without a skin is applied.
   EXPECT_EQ(Vec3(skin.points.row(0)), Vec3(9, 9, 9));
   EXPECT_TRUE(skin.joints.empty());
-  // The numbers may be in a separate file.
+  // The binary data may be in a separate file.
   const std::string bytes = folder.read("f.gltf");
   file["buffers"][0]["uri"] = "no such.bin";
   status = read_gltf_skin(folder.write("f.gltf", file.dump()), skin);
@@ -509,7 +513,7 @@ TEST(GltfSkin, ErrorsAreNamed)
   EXPECT_THAT(error([](json& f) { f["extensionsRequired"] = { "KHR_draco_mesh_compression" }; }),
     HasSubstr("KHR_draco"));
   json deep = "x";
-  // With sanitizers, the JSON writer of this test overflows the stack for deeper nesting.
+  // With sanitizers, the JSON writer that this test uses overflows the stack for deeper nesting.
   for (int k = 0; k < (test::sanitized ? 500 : 5000); ++k)
   {
     deep = json::array({ deep });

@@ -1,5 +1,5 @@
-// OFF, OBJ, PLY and MEDIT. Round trips preserve all bits, and variants of other programs are
-// accepted. Any other input gives one sentence with the line and never a crash.
+// The mesh formats OFF, OBJ, PLY and MEDIT. Round trips preserve all bits, and variants of other
+// programs are accepted. Any other input gives one sentence with the line, and never a crash.
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"
@@ -29,7 +29,7 @@ struct Format
   Read read;
   Write write;
 
-  /// Print a format in the names of tests.
+  /// Print the name of a format in the names of tests.
   friend void PrintTo(const Format& format, std::ostream* out) { *out << format.extension; }
 };
 
@@ -39,7 +39,7 @@ protected:
   test::Folder folder;
 };
 
-/// Return a mesh with coordinates that need a printer of shortest exact decimals.
+/// Return a mesh with coordinates that are exact only if the writer prints enough digits.
 PolygonMesh awkward_mesh()
 {
   PolygonMesh mesh = to_polygons(
@@ -76,8 +76,8 @@ TEST_P(PolygonFiles, EveryTruncationIsAnErrorOrAMesh)
     const Status status = GetParam().read(this->folder.write("part", whole.substr(0, size)), mesh);
     if (status.ok())
     {
-      // A truncated file is accepted only if the last digits are missing, or whole faces of a
-      // format without counts.
+      // A truncated file is accepted in two cases: only digits of the last value are missing, or
+      // the format has no counts and whole faces are missing.
       for (const Index corner : mesh.corners)
       {
         EXPECT_LT(corner, mesh.points.rows());
@@ -155,8 +155,10 @@ TEST_F(TextFiles, OffVariantsOfTheWild)
 {
   const Points corners = (Points(4, 3) << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0).finished();
   for (const std::string& text : { "OFF\n4 2 0\n" + square + "3 0 1 2\n3 0 2 3\n",
-         "OFF 4 2 5\n" + square + "3 0 1 2\n3 0 2 3\n", // counts on the first line
-         "OFF\n4 2\n" + square + "3 0 1 2\n3 0 2 3", // no edge count, no newline at the end
+         // The vertex and face counts are on the first line.
+         "OFF 4 2 5\n" + square + "3 0 1 2\n3 0 2 3\n",
+         // The edge count and the last newline are missing.
+         "OFF\n4 2\n" + square + "3 0 1 2\n3 0 2 3",
          "# made by hand\nOFF # really\n\n4 2 0 # counts\n" + square + "3 0 1 2 # lower\n3 0 2 3\n",
          std::string("COFF\r\n4 2 0\r\n0 0 0 255 0 0 255\r\n1 0 0 0 0 0 0\r\n1 1 0 1 1 1 1\r\n"
                      "0 1 0 1 1 1 1\r\n3 0 1 2\r\n3 0 2 3\r\n"),
@@ -165,7 +167,8 @@ TEST_F(TextFiles, OffVariantsOfTheWild)
          std::string("STCNOFF\n4 2 0\n0 0 0 0 0 1 0 0 0 0 .5 .5\n1 0 0 0 0 1 0 0 0 0 1 1\n"
                      "1 1 0 0 0 1 0 0 0 0 .5 .5\n0 1 0 0 0 1 0 0 0 0 1 1\n3 0 1 2\n3 0 2 3\n"),
          "OFF\n4 2 0\n" + square + "3 0 1 2 255 0 0\n3 0 2 3 0.5 0.5 0.5\ntrailing words\n",
-         "OFF\n4 3 0\n" + square + "3 0 1 2\n2 0 1\n3 0 2 3\n" }) // an edge as a face is skipped
+         // The face with two corners is skipped.
+         "OFF\n4 3 0\n" + square + "3 0 1 2\n2 0 1\n3 0 2 3\n" })
   {
     ASSERT_EQ(this->off_error(text), "") << text;
     EXPECT_EQ(this->mesh.points, corners);
@@ -228,7 +231,7 @@ TEST_F(TextFiles, PlyAsciiAndBigEndian)
               this->mesh)
               .message,
     "");
-  EXPECT_EQ(this->mesh.points(2, 2), 0.1); // text is parsed as double for every type
+  EXPECT_EQ(this->mesh.points(2, 2), 0.1); // text is parsed as double for every declared type
   EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2 }));
 
   std::string text = "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty float x\n"
@@ -254,7 +257,8 @@ TEST_F(TextFiles, PlyHeadersThatContradictThemselves)
   {
     numbers += "1 2 3\n";
   }
-  // The second count must not overwrite the size of the arrays that the first one allocates.
+  // The second element count must not overwrite the size of the arrays that were allocated for the
+  // first one.
   EXPECT_THAT(read_ply(this->folder.write("t.ply",
                          "ply\nformat ascii 1.0\nelement vertex 90" + vertex + "element vertex 2" +
                            vertex + face + numbers),

@@ -1,4 +1,4 @@
-// TGF: nodes and edges survive the round trip, and errors are reported with their line.
+// TGF (trivial graph format): nodes and edges survive the round trip, and errors name their line.
 #include "io/tgf.h"
 
 #include "support/files.h"

@@ -1,5 +1,6 @@
-// OpenVDB reads the files back. Every voxel is compared with its sample, the band with its
-// brute-force definition, and the isosurface of a narrow band with that of the full grid.
+// Sampled fields written as OpenVDB files. OpenVDB reads the files back. Every voxel is compared
+// with its sample, the narrow band with its brute-force definition, and the isosurface of a narrow
+// band with that of the full grid.
 #include "io/vdb.h"
 
 #include "support/files.h"
@@ -71,7 +72,8 @@ std::function<double(const Vec3&)> soft_ball(const Vec3& center, double radius)
   { return std::clamp(0.5 + 3.0 * (1.0 - (p - center).norm() / radius), 0.0, 1.0); };
 }
 
-/// Return a ball within the grid. Some indices are negative, and the sizes are not multiples of 8.
+/// Return a ball inside of the grid. Some indices are negative, and the sizes are not multiples of
+/// 8.
 Field ball()
 {
   const Field frame({ -21, 24, -5, 13, 3, 60 }, [](const Vec3&) { return 0.0; });
@@ -140,7 +142,8 @@ TEST_F(Vdb, FloatsAndDoublesGiveTheSameFile)
 {
   const Field field = ball();
   const std::vector<float> floats(field.values.begin(), field.values.end());
-  this->options.tolerance = 0.0; // a nonzero tolerance would apply to the double values
+  // A positive tolerance would be applied to doubles before the conversion to float.
+  this->options.tolerance = 0.0;
   ASSERT_TRUE(this->write(field).ok());
   ExecutionContext context;
   ASSERT_TRUE(
@@ -164,7 +167,7 @@ TEST_F(Vdb, FinePointsFarAwayStayWhereTheyAre)
   ASSERT_TRUE(this->write(field).ok());
   const openvdb::Vec3d at = this->read()->indexToWorld(openvdb::Vec3d(1e6, 1e6, 1e6));
   const Vec3 expected = field.grid.point(1000000, 1000000, 1000000);
-  // Up to the last bits of the coordinates.
+  // The positions are equal up to the last bits of the coordinates.
   EXPECT_LT((Vec3(at.x(), at.y(), at.z()) - expected).norm(), 1e-9);
 }
 
@@ -190,7 +193,8 @@ TEST_F(Vdb, RegionsOfOneValueAreTiles)
   EXPECT_EQ(grid->activeVoxelCount(), 128u * 128u * 128u);
 
   this->options.overwrite = true;
-  ASSERT_TRUE(this->write(Field({ 0, 8, 0, 7, 0, 7 }, one)).ok()); // one layer more than the tile
+  // One layer of voxels in addition to the tile.
+  ASSERT_TRUE(this->write(Field({ 0, 8, 0, 7, 0, 7 }, one)).ok());
   grid = this->read();
   EXPECT_EQ(grid->tree().leafCount(), 1u);
   EXPECT_EQ(grid->tree().activeTileCount(), 1u);
@@ -234,7 +238,8 @@ TEST_F(Vdb, TheBackgroundMayBeTheInside)
   this->options.overwrite = true;
   ASSERT_TRUE(this->write(field).ok());
   grid = this->read();
-  // Voxels on the other side of the band have the opposite value.
+  // Voxels outside of the band that are on the other side of the threshold have the value 1 -
+  // background.
   EXPECT_EQ(grid->tree().getValue(coord(2, 4, 31)), 0.0f);
   EXPECT_EQ(grid->tree().getValue(coord(-21, -5, 3)), 1.0f);
   EXPECT_FALSE(grid->tree().isValueOn(coord(2, 4, 31)));
@@ -243,8 +248,8 @@ TEST_F(Vdb, TheBackgroundMayBeTheInside)
 TEST_F(Vdb, ANarrowBandIsWhatItsDefinitionSays)
 {
   test::Random random(7);
-  // A few random samples have the other side's value, some of them at the ends. The value outside
-  // of the extent is 0.
+  // A few random samples are above the isovalue, some of them at the ends of the extent. The value
+  // outside of the extent is 0.
   const Field field({ -9, 9, -2, 14, 5, 17 },
     [&](const Vec3&) { return random.below(300) == 0 ? 0.8 : 0.3 * random.uniform(); });
   for (const double background : { 0.0, 1.0 })
@@ -297,7 +302,7 @@ TEST_F(Vdb, ANarrowBandIsWhatItsDefinitionSays)
 
 TEST_F(Vdb, ANarrowBandHasTheSameIsosurface)
 {
-  // A ball within the grid, and one that the boundary of the grid cuts.
+  // The first ball is inside of the grid. The second ball is cut by the boundary of the grid.
   const Field frame({ -21, 42, -5, 34, 3, 90 }, [](const Vec3&) { return 0.0; });
   for (const Vec3& center : { frame.grid.point(10, 15, 46), frame.grid.point(-21, 15, 46) })
   {
@@ -320,7 +325,7 @@ TEST_F(Vdb, ANarrowBandHasTheSameIsosurface)
       std::vector<openvdb::Vec3s> points;
       std::vector<openvdb::Vec4I> quads;
       openvdb::tools::volumeToMesh(grid, points, quads, 0.5);
-      // The same quads in another order form the same surface.
+      // A sorted set of quads does not depend on their order.
       std::multiset<std::array<float, 12>> corners;
       double volume = 0.0;
       for (const openvdb::Vec4I& quad : quads)
@@ -341,7 +346,8 @@ TEST_F(Vdb, ANarrowBandHasTheSameIsosurface)
     EXPECT_TRUE(surface(*narrow) == expected);
     if (center == frame.grid.point(10, 15, 46))
     {
-      // The radius is where the linear ramp is 1/2. OpenVDB orients its quads the opposite way.
+      // The linear ramp has the value 1/2 at the radius of the ball. OpenVDB orients the quads
+      // inwards here.
       EXPECT_NEAR(std::abs(expected.second), 4.0 / 3.0 * M_PI * std::pow(2.4, 3), 0.6);
     }
   }
@@ -368,7 +374,7 @@ TEST_F(Vdb, TheSameBytesForAnyNumberOfThreads)
   other.values[20000] += 0.25;
   ASSERT_TRUE(this->write(other, "other.vdb").ok());
   EXPECT_EQ(tag("one.vdb"), tag("two.vdb"));
-  // Programs detect by this tag that a file has changed.
+  // Programs use this tag to detect that a file has changed.
   EXPECT_NE(tag("one.vdb"), tag("other.vdb"));
   EXPECT_EQ(tag("one.vdb").size(), 36u);
   EXPECT_EQ(tag("one.vdb")[14], '8');

@@ -1,4 +1,4 @@
-// vdb.cpp compiled without OpenVDB.
+// The VDB writer compiled without OpenVDB reports that it is not available.
 #include "io/vdb.h"
 
 #include "support/files.h"

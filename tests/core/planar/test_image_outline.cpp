@@ -1,4 +1,5 @@
-// Outlines of images are closed, never cross, and are within a pixel of the depicted shape.
+// Outlines traced around the pixels of an image are closed, never cross, and are within a pixel of
+// the depicted shape.
 #include "planar/image_outline.h"
 
 #include "support/sanitized.h"
@@ -54,7 +55,8 @@ Picture noise(Index columns, Index rows, unsigned seed, bool binary)
     columns, rows, [&](double, double) { return binary ? std::round(any(random)) : any(random); });
 }
 
-/// Return the signed area. Every vertex must be the end of one segment and the start of one.
+/// Return the signed area of an outline. Expect that every vertex is the end of one segment and the
+/// start of another one.
 double area_of(const ImageOutline& outline)
 {
   std::vector<int> balance(outline.points.rows(), 0);
@@ -76,7 +78,7 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c)
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// Count the pairs of segments that meet without a common vertex, by brute force.
+/// Count the pairs of segments that cross or touch without a common vertex, by brute force.
 int crossings(const ImageOutline& outline)
 {
   int count = 0;
@@ -172,7 +174,7 @@ TEST(ImageOutline, DiscWithinAPixel)
           largest = std::max(largest, std::abs((p - center).norm() - radius));
         }
       }
-      // Pixels with the values 0 and 1 determine the boundary only up to half a pixel.
+      // Pixels with only the values 0 and 1 determine the boundary to an accuracy of half a pixel.
       const double of_contour = smooth ? 0.15 : 0.71;
       EXPECT_LE(largest, of_contour + simplify);
       if (simplify <= 0.5)
@@ -231,7 +233,7 @@ TEST(ImageOutline, OneComponentALoop)
 
 TEST(ImageOutline, ContourIsWhereAlphaPasses)
 {
-  // A ramp along x, whose outline is where the ramp passes 1/2.
+  // The values are a ramp along x. The outline is where the ramp has the value 1/2.
   const Picture picture = paint(11, 5, [](double x, double) { return 1.0 - x / 10.0; });
   ImageOutline outline;
   ASSERT_TRUE(outline_of(picture, outline, 0.0).ok());
@@ -253,7 +255,7 @@ TEST(ImageOutline, SaddlesByBilinearInterpolation)
     EXPECT_TRUE(status.ok());
     return status.report.number("counts.loops", -1);
   };
-  EXPECT_EQ(loops(1.0f, 0.0f), 1); // the value at the saddle is 1/2: inside
+  EXPECT_EQ(loops(1.0f, 0.0f), 1); // the value at the saddle is 1/2, which counts as inside
   EXPECT_EQ(loops(0.9f, 0.0f), 2);
   EXPECT_EQ(loops(0.9f, 0.2f), 1);
   EXPECT_EQ(loops(0.0f, 0.9f), 2);
@@ -281,7 +283,8 @@ TEST(ImageOutline, OpaqueImageReachesHalfAPixelOutside)
   EXPECT_EQ(outline.points.col(0).minCoeff(), -0.5);
   EXPECT_EQ(outline.points.col(0).maxCoeff(), 39.5);
   EXPECT_EQ(outline.points.col(1).maxCoeff(), 29.5);
-  EXPECT_NEAR(area_of(outline), 40 * 30, 4 * 0.125 + 0.5 * 140); // half a pixel on all sides
+  // The tolerance is half a pixel on all sides.
+  EXPECT_NEAR(area_of(outline), 40 * 30, 4 * 0.125 + 0.5 * 140);
 }
 
 TEST(ImageOutline, OnePixel)
@@ -343,6 +346,6 @@ TEST(ImageOutline, HugeImageInSeconds)
   ASSERT_TRUE(status.ok());
   EXPECT_NEAR(area_of(outline) / (M_PI * 3900.0 * 3900.0), 1.0, 1e-3);
   EXPECT_LT(outline.points.rows(), 3000);
-  // Measured: 1 s on an idle machine, 21 s with sanitizers.
+  // The measured time is 1 s on an idle machine and 21 s with sanitizers.
   EXPECT_LT(seconds.count(), test::sanitized ? 120.0 : 20.0);
 }

@@ -1,4 +1,5 @@
-// Triangulations of the inside of curves: exact areas, angles, edges, handles, and bad input.
+// Triangulations of the region that planar curves enclose: exact areas, angles, edges, handles, and
+// bad input.
 #include "planar/planar_shape.h"
 
 #include "support/environment.h"
@@ -61,7 +62,7 @@ double cross(const Vec2& a, const Vec2& b)
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Return the sum of the triangles' areas, each of which must be positive.
+/// Return the sum of the triangles' areas. Expect that each area is positive.
 double area_of(const PlanarShape& shape)
 {
   double area = 0.0;
@@ -100,7 +101,7 @@ double smallest_angle(const PlanarShape& shape, const std::vector<Vec2>& except 
   return smallest;
 }
 
-/// Return the length of the mesh's edges on the segment from a to b.
+/// Return the total length of the mesh edges that are on the segment from a to b.
 double covered(const PlanarShape& shape, const Vec2& a, const Vec2& b)
 {
   const double length = (b - a).norm();
@@ -168,7 +169,7 @@ protected:
     EXPECT_TRUE(status.ok()) << status.message;
     expect_mesh(shape);
     const double sum = area_of(shape);
-    // The report contains the area before the positions of new points were rounded.
+    // The area in the report was computed before the positions of new points were rounded.
     const double rounding = 0x1p-50 * curves.points.cwiseAbs().maxCoeff();
     EXPECT_NEAR(status.report.number("area", -1), sum, 1e-12 * sum + 100.0 * rounding);
     return sum;
@@ -187,13 +188,13 @@ protected:
   Status status;
 };
 
-/// Return the five tips of the star {5/2}, drawn in one stroke.
+/// Return the five tips of the star {5/2} in the order in which one closed line visits them.
 std::vector<Vec2> pentagram()
 {
   return ring(5, 1.0, 2.0);
 }
 
-/// Return the area of the inner pentagon, or of the whole star.
+/// Return the area of the whole star, or of its inner pentagon.
 double pentagram_area(bool all)
 {
   const double inner_radius = std::cos(2.0 * M_PI / 5.0) / std::cos(M_PI / 5.0);
@@ -258,7 +259,7 @@ TEST_F(PlanarShapeTest, PentagramByThreshold)
   EXPECT_EQ(shape.winding_numbers.maxCoeff(), 2.0);
   EXPECT_EQ(shape.winding_numbers.minCoeff(), 1.0);
   EXPECT_GE(smallest_angle(shape), 30.0 - 1e-9); // the angles at its tips are 36 degrees
-  for (int k = 0; k < 5; ++k) // strokes continue through the middle as edges
+  for (int k = 0; k < 5; ++k) // the lines of the star remain edges inside of the pentagon
   {
     const Vec2 a = star.points.row(k);
     const Vec2 b = star.points.row((k + 1) % 5);
@@ -283,7 +284,7 @@ TEST_F(PlanarShapeTest, FigureEight)
   // One loop is counter-clockwise and one clockwise: their winding numbers are 1 and -1.
   const Curves eight = Curves().add({ { 0, 0 }, { 3, 3 }, { 3, 0 }, { 0, 3 } });
   const Curves larger = Curves().add({ { 0, 0 }, { 4, 4 }, { 4, 0 }, { 0, 2 } });
-  // The lines y = x and y = 2 - x / 2 meet at x = 4/3.
+  // The lines y = x and y = 2 - x / 2 intersect at x = 4/3.
   const double right = 0.5 * 4.0 * (4.0 - 4.0 / 3.0);
   const double left = 0.5 * 2.0 * 4.0 / 3.0;
   EXPECT_NEAR(area(eight), 2.25, 1e-12);
@@ -304,7 +305,8 @@ TEST_F(PlanarShapeTest, OverlapsAndDoubledCurves)
   std::vector<Vec2> moved;
   for (const Vec2& p : square)
   {
-    moved.emplace_back(p + Vec2(0.5, 0.0)); // overlaps parts of two sides
+    // This square overlaps parts of two sides of the first one.
+    moved.emplace_back(p + Vec2(0.5, 0.0));
   }
   const Curves two = Curves().add(square).add(moved);
   EXPECT_NEAR(area(two), 1.5, 1e-14);
@@ -313,7 +315,7 @@ TEST_F(PlanarShapeTest, OverlapsAndDoubledCurves)
   const Curves doubled = Curves().add(square).add(square);
   EXPECT_NEAR(area(doubled), 1.0, 1e-14);
   EXPECT_TRUE((shape.winding_numbers.array() == 2.0).all());
-  EXPECT_EQ(shape.original_vertices[3], 3); // the first of equal vertices is kept
+  EXPECT_EQ(shape.original_vertices[3], 3); // of equal vertices the first one is kept
   EXPECT_EQ(shape.original_vertices[4], -1);
 }
 
@@ -423,8 +425,8 @@ TEST_F(PlanarShapeTest, ScaleAndPlaceDoNotMatter)
 
 TEST_F(PlanarShapeTest, CurvesThatAlmostTouch)
 {
-  // Corners of a coarse lattice with errors of up to 1e-14, closer to each other than doubles allow
-  // to refine.
+  // These are corners of a coarse lattice with errors of up to 1e-14. They are closer to each other
+  // than the spacing of doubles allows refining.
   std::mt19937 random(11);
   std::uniform_real_distribution<double> any(0.0, 1.0);
   std::vector<Vec2> corners;
@@ -492,7 +494,7 @@ TEST_F(PlanarShapeTest, Refuses)
   Curves wrong = Curves().add(square);
   wrong.segments(2, 1) = 4;
   refuses(wrong, "segment 2 has vertex 4");
-  // Between the two arms the winding number is below 1/2.
+  // The winding number between the two arms is below 1/2.
   Curves arms;
   arms.add({ { 0, 0 }, { 1, 0 } }, false).add({ { 1, 2 }, { 0, 2 } }, false);
   refuses(arms, "enclose nothing");

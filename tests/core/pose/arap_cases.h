@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_core_pose_arap_cases_h
 #define bindpose_tests_core_pose_arap_cases_h
 
-// Poses shared by the tests of reduced ARAP.
+// Poses and checks that the tests of reduced as-rigid-as-possible (ARAP) deformation share.
 
 #include "pose/transform_parts.h"
 #include "pose/reduced_arap.h"
@@ -43,20 +43,21 @@ inline Pose posed(const Handles& handles, HandleMode mode, const Affine& t = ide
   return pose;
 }
 
-/// Return options for iterations in double precision without acceleration, started from rest.
+/// Return options for iterations in double precision without acceleration, which start from the
+/// rest shape.
 constexpr ReducedArap::SolveOptions iterations_from_rest(Index count)
 {
   return { 0.0, count, ReducedArap::Start::rest, 0, 0.0, false };
 }
 
-/// Return options for iterations in double precision, started from the guess.
+/// Return options for iterations in double precision, which start from the guess.
 constexpr ReducedArap::SolveOptions iterations(Index count)
 {
   return { 0.0, count, ReducedArap::Start::guess, 5, 0.0, false };
 }
 
-/// Return a pose that bends a bar: the left end is fixed, the right end turns and moves, the middle
-/// has the given mode.
+/// Return a pose that bends a bar: the left end is fixed, the right end rotates and moves, the
+/// middle handle has the given mode.
 inline Pose bend(HandleMode middle)
 {
   Pose pose(3);
@@ -67,8 +68,8 @@ inline Pose bend(HandleMode middle)
   return pose;
 }
 
-/// Expect that extra weights keep the rest shape, do not move handles, and lower the energy (SPEC
-/// D37). Return the status of the bind.
+/// Expect that extra weights keep the rest shape, do not move handles, and lower the energy. Return
+/// the status of the bind.
 inline Status expect_that_extra_weights_help(ExtraWeights kind)
 {
   const Rig rig = bar();
@@ -95,7 +96,8 @@ inline Status expect_that_extra_weights_help(ExtraWeights kind)
     EXPECT_TRUE(plain.solve(context, bend(middle), iterations(300)).ok());
     EXPECT_TRUE(wide.solve(context, bend(middle), iterations(300)).ok());
     EXPECT_LT(wide.energies().back(), plain.energies().back());
-    // Extra weights vanish at the handles, so vertices with a full weight do not move.
+    // Extra weights are zero at the handles, so vertices on which one handle has the weight 1 do
+    // not move.
     EXPECT_TRUE(wide.deform(context, rig.mesh.points, result).ok());
     for (Index v = 0; v < rig.mesh.points.rows(); ++v)
     {

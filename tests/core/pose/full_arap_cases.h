@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_core_pose_full_arap_cases_h
 #define bindpose_tests_core_pose_full_arap_cases_h
 
-// Meshes and handles shared by the tests of full ARAP.
+// Meshes and handles that the tests of full as-rigid-as-possible (ARAP) deformation share.
 
 #include "pose/full_arap.h"
 #include "support/handles.h"
@@ -20,8 +20,8 @@ struct Held
   std::vector<Index> labels; ///< region of each vertex, #V
 };
 
-/// Return the bar [0, 4] x [0, 1] x [0, 1]. Regions 1, 2 and 3 are the whole cross sections at x =
-/// 0, 2 and 4.
+/// Return the bar [0, 4] x [0, 1] x [0, 1]. Regions 1, 2 and 3 are the cross sections at x = 0, 2
+/// and 4.
 inline Held held_bar(int cells)
 {
   Held bar;

@@ -1,4 +1,4 @@
-// Anderson acceleration on a linear iteration with a known solution.
+// Anderson acceleration of a linear fixed-point iteration with a known solution.
 #include "pose/anderson.h"
 
 #include "support/meshes.h"
@@ -60,7 +60,7 @@ TEST(Anderson, FindsALinearFixedPointInAboutAsManyStepsAsItHasUnknowns)
     {
       x = g;
     }
-    // The dependent values remain the same function of x.
+    // The dependent values remain the same linear function of x.
     EXPECT_LT((x.tail<2>() - problem.c * x.head<4>()).norm(), 1e-9 * (1.0 + x.norm()));
   }
   const Eigen::Vector4d goal = problem.fixed_point();
@@ -100,7 +100,7 @@ TEST(Anderson, AnIterateThatStandsStillStaysFinite)
   Problem::Iterate x = Problem::Iterate::Constant(1.0);
   for (int step = 0; step < 20; ++step)
   {
-    const Problem::Iterate g = x; // already the fixed point
+    const Problem::Iterate g = x; // x is already the fixed point
     anderson.next(g.data(), x.data());
     ASSERT_EQ(x, g);
   }

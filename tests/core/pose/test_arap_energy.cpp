@@ -1,4 +1,4 @@
-// Energies of deformations with known values.
+// As-rigid-as-possible (ARAP) energies of deformations with known values, for triangles and tets.
 #include "pose/arap_energy.h"
 
 #include "pose/rotation_fit.h"
@@ -49,13 +49,15 @@ double energy_of(const Mesh& mesh, ArapEnergy energy, const Eigen::Matrix3d& map
 }
 } // namespace
 
-// SPEC D30
+// The energy of an affine map is half the integral of its squared distance from the optimal
+// rotation.
 TEST(ArapEnergy, AffineMapsCostHalfTheIntegralOfTheDifferenceToTheirRotation)
 {
   TriangleMesh square = test::grid(5, 4);
   TetMesh cube = test::tet_box(3, 2, 2);
   test::Random random(3);
-  for (Index v = 0; v < square.points.rows(); ++v) // no special angles; cotangents of both signs
+  // Avoid special angles; the cotangents have both signs.
+  for (Index v = 0; v < square.points.rows(); ++v)
   {
     const Vec3 p = square.points.row(v);
     if (p.x() > 0 && p.x() < 1 && p.y() > 0 && p.y() < 1)
@@ -98,7 +100,8 @@ TEST(ArapEnergy, SpokesCostTheSameForACommonRotationAndForSimilarities)
   const Eigen::Matrix3d stretch = turn * Vec3(1.5, 1, 1).asDiagonal();
   EXPECT_NEAR(energy_of(square, ArapEnergy::spokes, stretch), 0.125, 1e-12);
   EXPECT_NEAR(energy_of(cube, ArapEnergy::spokes, stretch), 0.125, 1e-12);
-  // The energy of any map with one common rotation. Separate rotations can only lower the energy.
+  // Compute the energy of an affine map with one rotation for all groups. Optimal rotations per
+  // group can only lower it.
   Eigen::Matrix3d map;
   map << 1.5, 0.2, 0.1, -0.3, 0.8, 0.4, 0.2, 0.1, 1.1;
   const RotationGroups groups =
@@ -128,7 +131,7 @@ TEST(ArapEnergy, SpokesLeaveOutEdgesOfNegativeWeight)
   EXPECT_TRUE(left_out_warning(0).empty());
   arap_stiffness(kite.points, kite.triangles, ArapEnergy::spokes_and_rims, &left_out);
   EXPECT_EQ(left_out, 0);
-  // The rest shape has the lowest energy that optimal rotations give.
+  // The rest shape has the energy 0, which is the minimum.
   EXPECT_LT(std::abs(energy_of(kite, ArapEnergy::spokes, Eigen::Matrix3d::Identity())), 1e-28);
 }
 
@@ -197,8 +200,8 @@ TEST(ArapEnergy, ElementsTakeTheLabelOfMostVertices)
   tets << 0, 1, 2, 3, 2, 3, 4, 5, 4, 5, 6, 7;
   const RotationGroups groups =
     rotation_groups(ArapEnergy::elements, tets, 4, { 3, 3, 1, 3, 1, 0, 0, 0 });
-  // The most frequent label is 3 (three of four), then 1 (1 1 3 0), then 0 (1 0 0 0). Groups are
-  // numbered in order of first appearance.
+  // The elements take label 3 (three of four vertices), label 1 (vertices 1 1 3 0) and label 0 (1 0
+  // 0 0). Groups are numbered in the order of their first appearance.
   EXPECT_EQ(groups.of_element, (std::vector<Index>{ 0, 1, 2 }));
   EXPECT_EQ(groups.count, 3);
   // A vertex takes the group of most of its elements, and the lowest group if two are equally

@@ -1,4 +1,4 @@
-// A crowd gives the result of ReducedArap for each instance.
+// A crowd poses many instances of one shape. Each instance equals the result of ReducedArap.
 #include "pose/crowd.h"
 
 #include "core/pose/arap_cases.h"
@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Return the poses of the instances at a time, all of them different.
+/// Return the poses of the instances at the given time. All poses are different.
 std::vector<Pose> poses_at(const Handles& handles, int time)
 {
   std::vector<Pose> poses;
@@ -82,7 +82,7 @@ TEST(Crowd, ComesAndGoesAndSaysWhichPoseIsBad)
   Status status = crowd.solve(context, poses);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_THAT(status.message, HasSubstr("instance 3: "));
-  // Solve the first poses again after the failure.
+  // Solve the first poses again after the failed call.
   poses = poses_at(rig.handles, 0);
   poses.resize(2);
   ASSERT_TRUE(crowd.solve(context, poses).usable());
@@ -92,7 +92,7 @@ TEST(Crowd, ComesAndGoesAndSaysWhichPoseIsBad)
   poses = poses_at(rig.handles, 0);
   ASSERT_TRUE(crowd.solve(context, poses).usable());
   EXPECT_EQ(crowd.transforms()[4], first[4]);
-  // Instances that did not converge are counted.
+  // The report counts the instances that did not converge.
   ReducedSolveOptions few;
   few.tolerance = 1e-15;
   few.max_iterations = 1;
@@ -108,7 +108,7 @@ TEST(Crowd, ComesAndGoesAndSaysWhichPoseIsBad)
 
 TEST(Crowd, StandsWhereItIsPlaced)
 {
-  // A placement maps the posed points, for any row sum of the weights.
+  // A placement transforms the posed points, for any row sum of the weights.
   for (const double share : { 1.0, 0.7 })
   {
     Rig rig = bar();
@@ -149,8 +149,8 @@ TEST(Crowd, NormalsFollow)
   Crowd crowd;
   ASSERT_TRUE(
     crowd.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).usable());
-  // The handles share one map. The normals are transformed by its inverse transpose, then by that
-  // of the placement.
+  // All handles have the same map. The normals are transformed by the inverse transpose of the map,
+  // then by the inverse transpose of the placement.
   Eigen::Matrix3d map, place;
   map << 1.2, 0.3, 0, 0, 0.9, -0.2, 0.1, 0, 1.1;
   place << 0, -2, 0, 1, 0, 0.4, 0, 0, 1.5;

@@ -1,4 +1,5 @@
-// Stretches of elements against known gradients and against singular values of Eigen.
+// Stretches of elements (singular values of the deformation gradient), compared with known
+// gradients and with singular values from Eigen.
 #include "pose/element_stretch.h"
 
 #include "support/meshes.h"
@@ -92,7 +93,7 @@ TEST(ElementStretch, AffineMapsHaveTheirSingularValuesEverywhere)
   EXPECT_NEAR(report.number("smallest_stretch", 0), 0.25, 1e-12);
   EXPECT_EQ(report.number("counts.stretched_elements", 0), box.tets.rows());
   EXPECT_EQ(report.number("counts.inverted_elements", -1), 0);
-  // Only the first two columns of the map matter for a square in the plane z = 0.
+  // The square is in the plane z = 0, so only the first two columns of the map matter.
   const TriangleMesh square = test::grid(4, 4);
   const Eigen::Matrix3d in_plane = Vec3(1.5, 0.75, 9.0).asDiagonal();
   const Report flat = report_of(
@@ -121,7 +122,7 @@ TEST(ElementStretch, TheLimitSaysWhatIsStretched)
 
 TEST(ElementStretch, OneReflectedTetIsFoundAndNamed)
 {
-  // Two tets share a triangle. The apex of the second tet moves through it.
+  // Two tets share a triangle. The apex of the second tet moves through this triangle.
   Points rest(5, 3);
   rest << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1;
   Tets tets(2, 4);
@@ -138,7 +139,7 @@ TEST(ElementStretch, OneReflectedTetIsFoundAndNamed)
   EXPECT_NEAR(stretch.smallest[0], 1.0, 1e-15);
   EXPECT_NEAR(stretch.smallest[1], -1.0, 1e-15);
   EXPECT_NEAR(stretch.largest[1], 1.0, 1e-15);
-  // A mirror image inverts all tets. A tet that is inside out at rest is inverted if its
+  // A mirror image inverts all tets. A tet that is inside out at rest counts as inverted if its
   // orientation changes.
   EXPECT_EQ(report_of(rest, Points(-rest), tets).number("counts.inverted_elements", 0), 2);
   Tets other = tets;
@@ -169,7 +170,7 @@ TEST(ElementStretch, TrianglesFlipInAPlaneOnly)
   const Points turned = moved(square.points, rotation(180, Vec3(0, 0, 1)));
   EXPECT_EQ(
     report_of(square.points, turned, square.triangles).number("counts.inverted_elements", -1), 0);
-  // Triangles of a closed surface have no common plane that defines an orientation.
+  // No common plane defines an orientation for the triangles of a closed surface.
   const TriangleMesh ball = test::sphere(1);
   EXPECT_EQ(report_of(ball.points, Points(-ball.points), ball.triangles)
               .number("counts.inverted_elements", -1),
@@ -178,7 +179,8 @@ TEST(ElementStretch, TrianglesFlipInAPlaneOnly)
 
 TEST(ElementStretch, AreThoseOfEigenForRandomPoses)
 {
-  const TetMesh box = test::tet_box(9, 9, 9); // several blocks; the last block is partially filled
+  // The elements fill several blocks; the last block is partially filled.
+  const TetMesh box = test::tet_box(9, 9, 9);
   const Points posed = shaken(box.points, 0.06);
   ElementStretch stretch;
   const Status status = measure(box.points, posed, box.tets, stretch);
@@ -218,7 +220,7 @@ TEST(ElementStretch, AreThoseOfEigenForRandomTriangles)
   measure(ball.points, posed, ball.triangles, stretch);
   for (Index t = 0; t < ball.triangles.rows(); ++t)
   {
-    // Extend the gradient by the normal, which is mapped to the normal with a stretch of 1.
+    // Extend the gradient by the normal: it is mapped to the posed normal with a stretch of 1.
     Eigen::Matrix3d rest_edges, posed_edges;
     for (int k = 0; k < 2; ++k)
     {
@@ -229,7 +231,7 @@ TEST(ElementStretch, AreThoseOfEigenForRandomTriangles)
     rest_edges.col(2) = Vec3(rest_edges.col(0)).cross(Vec3(rest_edges.col(1))).normalized();
     posed_edges.col(2) = Vec3(posed_edges.col(0)).cross(Vec3(posed_edges.col(1))).normalized();
     Eigen::Matrix3d f = posed_edges * rest_edges.inverse();
-    // Remove the normal, which gives rank 2.
+    // Remove the part along the normal, which leaves a matrix of rank 2.
     f -= posed_edges.col(2) * rest_edges.col(2).transpose();
     const Vec3 sigma = Eigen::JacobiSVD<Eigen::Matrix3d>(f).singularValues();
     ASSERT_NEAR(stretch.largest[static_cast<std::size_t>(t)], sigma[0], 1e-12 * sigma[0]);
@@ -247,7 +249,7 @@ TEST(ElementStretch, DoNotDependOnThreadsSizeOrPlace)
   EXPECT_EQ(one.largest, many.largest);
   EXPECT_EQ(one.smallest, many.smallest);
   EXPECT_EQ(serial.warnings, parallel.warnings);
-  // Powers of two scale without rounding.
+  // Scaling by a power of two does not round.
   for (const double scale : { 0x1p-200, 0x1p200 })
   {
     ElementStretch scaled;

@@ -1,3 +1,4 @@
+// Modes for methods that find rotations: handles that are only translated get mode `position`.
 #include "pose/found_rotations.h"
 
 #include "pose/handle_hierarchy.h"
@@ -8,7 +9,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Return a chain of two bones, a region, and a point on the forearm.
+/// Return two bones in a chain, a region, and a point on the second bone, the forearm.
 Handles arm()
 {
   Handles handles(4);

@@ -1,5 +1,5 @@
-// Full as-rigid-as-possible: equality with the reduced method in the full space, rigid motions, and
-// properties of the energy.
+// Full as-rigid-as-possible deformation: equality with the reduced method in the full space, rigid
+// motions, and properties of the energy.
 #include "pose/full_arap.h"
 
 #include "core/pose/arap_cases.h"
@@ -32,7 +32,7 @@ Eigen::MatrixXd gradient(const Points& rest, const Elements& elements, const Ful
 }
 } // namespace
 
-// SPEC D32
+// With one handle per vertex, the reduced method has the same iterates as the full method.
 TEST(FullArap, IsTheReducedMethodInTheWholeSpaceIterateByIterate)
 {
   TetMesh mesh = test::tet_box(2, 2, 2);
@@ -89,13 +89,13 @@ TEST(FullArap, IsTheReducedMethodInTheWholeSpaceIterateByIterate)
   }
 }
 
-// SPEC D33
+// If all handles move by one rigid motion, the mesh moves rigidly.
 TEST(FullArap, RigidHandlesMoveTheMeshRigidly)
 {
   const Held bar = held_bar(6);
   const TriangleMesh ball = test::sphere(3);
   Handles poles;
-  for (const Index v : { 0, 1, 2, 3 }) // vertices of the icosahedron
+  for (const Index v : { 0, 1, 2, 3 }) // these are vertices of the icosahedron
   {
     poles.push_back(point_handle("p" + std::to_string(v), ball.points.row(v)));
   }
@@ -125,7 +125,8 @@ TEST(FullArap, RigidHandlesMoveTheMeshRigidly)
   }
 }
 
-// SPEC D31
+// Neither the local nor the global step raises the energy. The last energy equals the sum over the
+// edges.
 TEST(FullArap, NoHalfStepRaisesTheEnergyAndTheLastIsTheEdgeSum)
 {
   const Held bar = held_bar(6);
@@ -167,7 +168,7 @@ TEST(FullArap, AtTheEndNoFreeVertexIsPulled)
     options.tolerance = 0.0;
     options.max_iterations = 600;
     ASSERT_TRUE(arap.solve(context, bend(HandleMode::free), options).ok());
-    // One more local step, for rotations that are optimal for these points.
+    // Perform one more local step, which makes the rotations optimal for these points.
     const Points last = arap.posed();
     options.max_iterations = 1;
     options.anderson_window = 0;
@@ -215,7 +216,7 @@ TEST(FullArap, AccelerationReachesTheSameEnergyInFewerIterations)
       std::to_string(slow) + " plain iterations, " + std::to_string(quick) + " accelerated");
     EXPECT_LT(2 * quick, slow);
     EXPECT_NEAR(fast.back(), plain_energies.back(), 1e-6 * least);
-    // After equally many iterations the energy with acceleration is never higher.
+    // After the same number of iterations, the energy with acceleration is never higher.
     for (std::size_t i = 0; i < fast.size(); i += 2)
     {
       EXPECT_LE(fast[i], plain_energies[i] + 1e-12 * arap.rest_energy()) << i;
@@ -223,7 +224,7 @@ TEST(FullArap, AccelerationReachesTheSameEnergyInFewerIterations)
   }
 }
 
-// Reduction raises the energy (SPEC 3.9).
+// The reduced method has fewer degrees of freedom, so its energy is not lower.
 TEST(FullArap, CostsNoMoreThanTheReducedMethodWithTheSameHandles)
 {
   const test::Rig rig = test::bar();

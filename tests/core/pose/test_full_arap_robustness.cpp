@@ -1,5 +1,5 @@
-// Full as-rigid-as-possible: constraints, unconstrained parts of the mesh, degenerate meshes, and
-// independence of position, scale and threads.
+// Full as-rigid-as-possible deformation: constraints, unconstrained parts of the mesh, degenerate
+// meshes, and independence of position, scale and threads.
 #include "pose/full_arap.h"
 
 #include "core/pose/arap_cases.h"
@@ -25,7 +25,7 @@ struct Cloth
 };
 } // namespace
 
-// SPEC D36
+// A pivot inside of an element constrains the point of the mesh at this position.
 TEST(FullArapRobustness, APivotInsideAnElementIsThatPointOfTheMesh)
 {
   Held bar = held_bar(8);
@@ -42,7 +42,8 @@ TEST(FullArapRobustness, APivotInsideAnElementIsThatPointOfTheMesh)
   {
     FullArap arap;
     ASSERT_TRUE(bind(arap, bar, energy).usable());
-    // With a constrained part, and with the points alone, which then determine the pose of the bar.
+    // First the ends of the bar are constrained, then only the points, which determine the pose of
+    // the bar.
     for (const HandleMode ends : { HandleMode::full, HandleMode::position, HandleMode::free })
     {
       for (const HandleMode mode : { HandleMode::full, HandleMode::position })
@@ -121,7 +122,7 @@ TEST(FullArapRobustness, PointsThatNearlyMeetAndArePulledApartNeverRaiseTheEnerg
       {
         ASSERT_LE(energies[i], energies[i - 1] * (1.0 + 1e-9)) << apart << " " << i;
       }
-      // The final points belong to the last energy.
+      // The final points are those for which the last energy was computed.
       EXPECT_NEAR(arap_energy(cloth.mesh.points, cloth.mesh.triangles, arap.groups(), arap.posed(),
                     arap.rotations()),
         energies.back(), 1e-6 * energies.back());
@@ -155,7 +156,7 @@ TEST(FullArapRobustness, TheMiddleOfARegionGoesWhereItsPositionIs)
       middle += arap.posed().row(v).transpose();
       count += 1.0;
     }
-    else if (bar.labels[v] == 1) // full, at rest
+    else if (bar.labels[v] == 1) // mode full, at rest
     {
       EXPECT_EQ(arap.posed().row(v), bar.mesh.points.row(v));
     }
@@ -187,7 +188,8 @@ TEST(FullArapRobustness, ABoneTakesTheVerticesAlongIt)
       EXPECT_LT((arap.posed().row(v).transpose() - target).norm(), 1e-14);
     }
   }
-  // The bone misses the vertices, so points along the bone are constrained inside of elements.
+  // The bone passes between the vertices, so points along the bone are constrained inside of
+  // elements.
   handles[0].head += Vec3(0.03, 0.11, 0.07);
   handles[0].tail += Vec3(-0.03, 0.12, 0.09);
   handles.resize(1);
@@ -202,8 +204,9 @@ TEST(FullArapRobustness, ABoneTakesTheVerticesAlongIt)
 TEST(FullArapRobustness, RedundantAndContradictingHandlesAreNamed)
 {
   Cloth cloth;
-  // All three points are in the triangle of (0, 0), (1/6, 0) and a third corner. Together with the
-  // handle at (0, 0) they are more positions than a triangle can satisfy independently.
+  // All three points are in the triangle of (0, 0), (1/6, 0) and a third corner. With the handle at
+  // (0, 0), the triangle has four constrained positions, but only three can be chosen
+  // independently.
   cloth.handles.push_back(point_handle("e", Vec3(0.06, 0.01, 0)));
   cloth.handles.push_back(point_handle("f", Vec3(0.10, 0.02, 0)));
   cloth.handles.push_back(point_handle("g", Vec3(0.12, 0.01, 0)));
@@ -224,7 +227,7 @@ TEST(FullArapRobustness, RedundantAndContradictingHandlesAreNamed)
   EXPECT_THAT(status.warnings[1], HasSubstr("contradict"));
   EXPECT_THAT(status.warnings[1], HasSubstr("'f'"));
   EXPECT_TRUE(arap.posed().allFinite());
-  // Two handles of mode full constrain one vertex: the result is the mean of their targets.
+  // Two handles of mode full constrain the same vertex. The result is the mean of their targets.
   Held bar = held_bar(4);
   Handle corner = point_handle("corner", Vec3(0, 0, 0));
   bar.handles.push_back(corner);
@@ -244,7 +247,7 @@ TEST(FullArapRobustness, RedundantAndContradictingHandlesAreNamed)
 
 TEST(FullArapRobustness, WhatNothingHoldsStays)
 {
-  // Two squares and an unused point. Only the first square has handles.
+  // The mesh has two squares and an unused point. Only the first square has handles.
   TriangleMesh two =
     test::join(test::grid(3, 3), test::translated(test::grid(3, 3), Vec3(5, 0, 0)));
   two.points.conservativeResize(two.points.rows() + 1, Eigen::NoChange);
@@ -256,11 +259,11 @@ TEST(FullArapRobustness, WhatNothingHoldsStays)
     FullArap arap;
     const Handles handles{ point_handle("a", Vec3(0, 0, 0)), point_handle("b", Vec3(1, 0, 0)) };
     ASSERT_TRUE(arap.bind(context, two.points, two.triangles, handles, { energy, {} }).ok());
-    // No constraints.
+    // No handle is constrained.
     ASSERT_TRUE(arap.solve(context, posed(handles, HandleMode::free)).ok());
     EXPECT_LT((arap.posed() - two.points).cwiseAbs().maxCoeff(), 1e-12);
-    // Pose and return to rest. Two points do not determine the rotation around their connecting
-    // line; the guess takes it from their transforms.
+    // Pose the handles and return them to rest. Two points do not determine the rotation around the
+    // line between them; the guess takes this rotation from the transforms of the points.
     arap.forget();
     Pose pose = posed(handles, HandleMode::full, rigid(90, Vec3(0, 0, 1), Vec3(1, 1, 1)));
     ASSERT_TRUE(arap.solve(context, pose).ok());
@@ -272,7 +275,7 @@ TEST(FullArapRobustness, WhatNothingHoldsStays)
     options.start = FullArap::Start::guess;
     ASSERT_TRUE(arap.solve(context, posed(handles, HandleMode::full), options).ok());
     EXPECT_LT((arap.posed() - two.points).cwiseAbs().maxCoeff(), 1e-9);
-    // A single position translates the square.
+    // A single constrained position translates the square.
     pose = posed(handles, HandleMode::free);
     pose[0].mode = HandleMode::position;
     pose[0].transform.col(3) << 0, 0, 2;
@@ -289,7 +292,7 @@ TEST(FullArapRobustness, FlatAndNeedleTrianglesDoNoHarm)
   Cloth cloth;
   TriangleMesh& mesh = cloth.mesh;
   const Index n = mesh.points.rows(), f = mesh.triangles.rows();
-  // A triangle without area at a separate vertex, a needle, and a triangle with a repeated corner.
+  // Add a triangle without area at a new vertex, a needle, and a triangle with a repeated corner.
   mesh.points.conservativeResize(n + 2, Eigen::NoChange);
   mesh.points.row(n) << 2, 0, 0;
   mesh.points.row(n + 1) << 1.0 + 1e-13, 0.5, 0;
@@ -312,7 +315,7 @@ TEST(FullArapRobustness, FlatAndNeedleTrianglesDoNoHarm)
     ASSERT_TRUE(status.usable());
     EXPECT_TRUE(arap.posed().allFinite());
     EXPECT_LT(arap.posed().cwiseAbs().maxCoeff(), 3.0);
-    // The vertex that only the degenerate triangle uses moves like its neighbor.
+    // The vertex that only the degenerate triangle uses moves like a vertex next to it.
     EXPECT_LT(
       ((arap.posed().row(n) - mesh.points.row(n)) - (arap.posed().row(5) - mesh.points.row(5)))
         .norm(),
@@ -351,7 +354,7 @@ TEST(FullArapRobustness, TheSameBitsForAnyNumberOfThreadsAndOneFactorizationForA
   }
 }
 
-// Results do not depend on the unit of length, the position or the direction (SPEC B22 for poses).
+// Results do not depend on the unit of length, the position or the direction of the mesh.
 TEST(FullArapRobustness, ScaleAndPlaceOfTheWorldDoNotMatter)
 {
   const Held bar = held_bar(6);

@@ -1,5 +1,6 @@
-// Moving least squares: rigid poses are exact, handles are interpolated, results are invariant.
-// Comparisons with the paper's formulas evaluated directly, and with known integrals.
+// Deformation by moving least squares (Schaefer, McPhail, Warren 2006). Rigid poses are exact,
+// handles are interpolated, and results are invariant. Results are compared with the paper's
+// formulas evaluated directly, and with known integrals.
 #include "pose/moving_least_squares.h"
 
 #include "support/handles.h"
@@ -106,8 +107,8 @@ double difference(const Points& a, const Points& b)
   return (a - b).rowwise().norm().maxCoeff();
 }
 
-/// Evaluate the paper's formulas for one point. A bone is replaced by very many points, each with
-/// the weight of its part of the bone's length in units of the handles' extent.
+/// Evaluate the paper's formulas for one point. A bone is replaced by very many points. The weight
+/// of each point is the length of its part of the bone, in units of the extent of all handles.
 Vec3 plain_warp(const Vec3& v, const Handles& handles, const Pose& pose, double exponent, bool flat)
 {
   double extent = 0.0;
@@ -156,7 +157,7 @@ Vec3 plain_warp(const Vec3& v, const Handles& handles, const Pose& pose, double 
   }
   if (flat)
   {
-    moment(2, 2) = 1e3; // keeps the plane
+    moment(2, 2) = 1e3; // the large value forces the rotation to keep the plane
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Vec3 signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0 ? 1 : -1);
@@ -254,7 +255,7 @@ TEST(MovingLeastSquares, MotionsAndScalesGoThrough)
     const Handles handles = mixed_handles(flat);
     const Pose pose = mixed_pose(flat);
     const Points posed = warped(rest, handles, pose);
-    // If rest shape and pose are transformed by the same similarity, the result is, too.
+    // A similarity of both rest shape and pose transforms the result by the same similarity.
     const Affine change = affine(
       1000.0 * rotation(40, flat ? Vec3(0, 0, 1) : Vec3(1, 0, 1)), Vec3(70, -20, flat ? 0 : 9));
     Handles changed = handles;
@@ -271,7 +272,7 @@ TEST(MovingLeastSquares, MotionsAndScalesGoThrough)
     }
     const Points after = warped(moved(rest, change), changed, conjugate);
     EXPECT_LT(difference(after, moved(posed, change)), 1e-8);
-    // The pose alone is moved, even far away.
+    // Translate only the pose, even by large distances.
     const Affine shift = affine(Eigen::Matrix3d::Identity(), Vec3(1e3, 2e3, flat ? 0 : -5e2));
     Pose shifted = pose;
     for (HandlePose& one : shifted)
@@ -286,19 +287,19 @@ TEST(MovingLeastSquares, OneHandleTellsOnlyWhatItCan)
 {
   const Points rest = random_points(50, false);
   const Affine motion = affine(rotation(60, Vec3(0, 0, 1)), Vec3(1, 2, 3));
-  // The motion of a single point translates everything.
+  // The translation of a single point handle translates all points.
   const Handles one{ point(Vec3(0.3, 0.2, 0.1), 0) };
   const Vec3 step = motion.leftCols<3>() * one[0].head + motion.col(3) - one[0].head;
   EXPECT_LT(difference(warped(rest, one, pose_of({ motion })),
               moved(rest, affine(Eigen::Matrix3d::Identity(), step))),
     1e-14);
-  // A bone in its plane determines the whole motion.
+  // In the plane, one bone determines the whole motion.
   const Points flat = random_points(50, true);
   const Handles stick{ bone(Vec3(0, 0, 0), Vec3(1, 0, 0), 0) };
   const Affine in_plane = affine(rotation(60, Vec3(0, 0, 1)), Vec3(1, 2, 0));
   EXPECT_LT(difference(warped(flat, stick, pose_of({ in_plane })), moved(flat, in_plane)), 1e-12);
-  // In space, the smallest rotation is used: it reproduces a rotation of the bone's direction, and
-  // it ignores a rotation around the bone.
+  // In space, the smallest rotation is used. It reproduces a rotation of the bone's direction, and
+  // ignores a rotation around the bone.
   EXPECT_LT(difference(warped(rest, stick, pose_of({ in_plane })), moved(rest, in_plane)), 1e-12);
   const Affine roll = affine(rotation(70, Vec3(1, 0, 0)), Vec3::Zero());
   EXPECT_LT(difference(warped(rest, stick, pose_of({ roll })), rest), 1e-12);
@@ -309,7 +310,8 @@ TEST(MovingLeastSquares, AMirroredPoseInThePlaneDoesNotLeaveIt)
   const Points rest = random_points(100, true);
   const Handles handles{ point(Vec3(-0.5, 0, 0), 0), point(Vec3(0.5, 0, 0), 1),
     point(Vec3(0, 0.6, 0), 2) };
-  // In space a half turn would fit better, but points in a plane must stay in the plane.
+  // In space, a rotation by 180 degrees would fit better, but points in a plane must stay in the
+  // plane.
   const Pose mirror = pose_of({ affine(Eigen::Matrix3d::Identity(), Vec3::Zero()),
     affine(Eigen::Matrix3d::Identity(), Vec3::Zero()),
     affine(Eigen::Matrix3d::Identity(), Vec3(0, -1.2, 0)) });
@@ -321,8 +323,9 @@ TEST(MovingLeastSquares, ModesPositionAndFree)
   const Points rest = random_points(100, false);
   const Handles handles = mixed_handles(false);
   Pose pose = mixed_pose(false);
-  // A free handle has no effect, even on a point at its position. It is located between the other
-  // handles, so that the handles' extent, which is the unit of length of bones, is the same.
+  // A handle of mode free has no effect, even on a point at its position. This handle is between
+  // the others, so the extent of the handles, which is the unit of length of bones, does not
+  // change.
   Handles more = handles;
   more.push_back(point(Vec3(0.1, 0, 0), 4));
   Pose with_free = pose;
@@ -331,14 +334,14 @@ TEST(MovingLeastSquares, ModesPositionAndFree)
   Points on = rest;
   on.row(0) << 0.1, 0, 0;
   EXPECT_LT(difference(warped(on, more, with_free), warped(on, handles, pose)), 1e-12);
-  // Mode position uses only the translation of the pivot.
+  // Mode position uses only the translation of the handle's pivot.
   Pose position = pose;
   position[2].mode = HandleMode::position;
   const Vec3 head = handles[2].head;
   const Vec3 goes = pose[2].transform.leftCols<3>() * head + pose[2].transform.col(3);
   pose[2].transform = affine(Eigen::Matrix3d::Identity(), goes - head);
   EXPECT_EQ(difference(warped(rest, handles, position), warped(rest, handles, pose)), 0.0);
-  // All handles are free: the result is the rest shape, with a warning.
+  // If all handles have mode free, the result is the rest shape, with a warning.
   for (HandlePose& one : pose)
   {
     one.mode = HandleMode::free;
@@ -355,10 +358,10 @@ TEST(MovingLeastSquares, ModesPositionAndFree)
 
 TEST(MovingLeastSquares, SharesOfABoneAreTheIntegrals)
 {
-  // v is at distance d above the point a of the unit bone on the x axis. For exponent 1, the
-  // integral of 1 / (d^2 + s^2) from -a to 1 - a is (atan((1 - a) / d) + atan(a / d)) / d. Its
-  // first moment is 1/2 log((d^2 + (1 - a)^2) / (d^2 + a^2)). Its second moment is 1 - d^2 times
-  // the integral.
+  // The point v is at distance d above the point a of the unit bone on the x axis. The exponent is
+  // 1. The integral of 1 / (d^2 + s^2) from -a to 1 - a is (atan((1 - a) / d) + atan(a / d)) / d.
+  // Its first moment is 1/2 log((d^2 + (1 - a)^2) / (d^2 + a^2)). Its second moment is 1 - d^2
+  // times the integral.
   ExecutionContext context;
   for (const double d : { 1e-9, 1e-4, 0.1, 1.0, 50.0 })
   {
@@ -383,7 +386,8 @@ TEST(MovingLeastSquares, SharesOfABoneAreTheIntegrals)
       }
     }
   }
-  // A point beyond the bone's end on its line: the integral of 1 / s^2 from d to d + 1.
+  // The point is on the line of the bone, beyond its end. The weight is the integral of 1 / s^2
+  // from d to d + 1.
   const Handles handles{ bone(Vec3(0, 0, 0), Vec3(1, 0, 0), 0) };
   Points rest(1, 3);
   rest << 1.25, 0.0, 0.0;

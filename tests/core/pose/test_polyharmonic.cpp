@@ -1,5 +1,6 @@
-// Mixed finite elements for Laplace's equation of order 1, 2 and 3: polynomial solutions, plates
-// with known deflections, and the complete mixed system, solved by LU.
+// Mixed finite elements for the equations Laplacian^k u = 0 with k = 1, 2 and 3. They are compared
+// with polynomial solutions, plates with known deflections, and the complete mixed system solved by
+// LU.
 #include "pose/polyharmonic.h"
 
 #include "support/meshes.h"
@@ -21,14 +22,14 @@ namespace
 using Rows = Polyharmonic::Rows;
 using Function = std::function<double(double, double)>;
 
-/// A square of n x n cells. The vertices of the given number of layers at its border have given
-/// values.
+/// A square of n x n cells. The values are given at the vertices of the first `layers` layers from
+/// the border.
 struct Square
 {
   TriangleMesh mesh;
   Components parts;
   std::vector<Index> given;
-  Rows values, flux, load, x; ///< `values` has one row per given vertex
+  Rows values, flux, load, x; ///< `values` has one row per vertex in `given`
 
   Square(int n, int layers, const Vec3& corner, const Function& u = {})
     : mesh(translated(grid(n, n), corner)),
@@ -68,7 +69,7 @@ struct Square
     return status;
   }
 
-  /// Return the largest difference from u, as a fraction of the largest value of u.
+  /// Return the largest difference from u, divided by the largest value of u.
   double error(const Function& u) const
   {
     double largest = 0.0, difference = 0.0;
@@ -103,8 +104,8 @@ double plate(int n, PatchBoundary boundary)
   return square.x((n / 2) * (n + 1) + n / 2, 0);
 }
 
-/// Solve the complete mixed system of u, v and, for order 3, w on all vertices, with a band of
-/// given values.
+/// Solve the complete mixed system of u, its Laplacian v and, for order 3, its second Laplacian w
+/// on all vertices. The values in a band are given.
 Eigen::VectorXd mixed_solution(const Square& square, int order)
 {
   const SparseMatrix k = stiffness_matrix(square.mesh.points, square.mesh.triangles);
@@ -120,8 +121,8 @@ Eigen::VectorXd mixed_solution(const Square& square, int order)
     given[square.given[i]] = 1;
     right[square.given[i]] = square.values(static_cast<Index>(i), 0);
   }
-  // Row block 0 contains u at given vertices and the equation of the last Laplacian at free ones.
-  // Row block q contains M unknown_q = K unknown_(q - 1).
+  // Row block 0 fixes u at the given vertices and contains the equation of the last Laplacian at
+  // the others. Row block q contains M unknown_q = K unknown_(q - 1).
   for (Index column = 0; column < n; ++column)
   {
     for (SparseMatrix::InnerIterator it(k, column); it; ++it)
@@ -151,7 +152,7 @@ Eigen::VectorXd mixed_solution(const Square& square, int order)
 }
 } // namespace
 
-// SPEC 3.2.4, B21
+// The method reproduces polynomials that solve the equation.
 TEST(Polyharmonic, PolynomialsThatSolveItAreReproduced)
 {
   for (const Harmonic& polynomial : polynomials)
@@ -182,7 +183,7 @@ TEST(Polyharmonic, AFundamentalSolutionIsApproached)
   EXPECT_LT(last, 3e-6);
 }
 
-// Values of Timoshenko: 0.00126532 and 0.00406235.
+// The exact values for clamped and supported plates are 0.00126532 and 0.00406235 (Timoshenko).
 TEST(Polyharmonic, PlatesBendAsTheyShould)
 {
   const int n[] = { 8, 16, 32, 48 };
@@ -198,7 +199,7 @@ TEST(Polyharmonic, PlatesBendAsTheyShould)
 
 TEST(Polyharmonic, DerivativesAcrossTheEdgeAreMet)
 {
-  // u = r^2 x, with du/dn on the sides of the square.
+  // The function is u = r^2 x; its normal derivative du/dn is given on the sides of the square.
   const Function u = polynomials[2].u;
   double last = 1.0;
   for (const int n : { 8, 16, 32 })
@@ -208,7 +209,8 @@ TEST(Polyharmonic, DerivativesAcrossTheEdgeAreMet)
     Polyharmonic system;
     system.bind(square.mesh.points, square.mesh.triangles, 2, PatchBoundary::tangent);
     ASSERT_TRUE(system.prepare(context, square.parts, square.given, {}).ok());
-    // The integrals of two sides add up at a corner, so each side is tested alone.
+    // At a corner the integrals along two sides of the square add up, so each side is tested
+    // separately.
     const Index size = square.mesh.points.rows();
     const auto side = [&](int axis, double sign)
     {
@@ -222,7 +224,7 @@ TEST(Polyharmonic, DerivativesAcrossTheEdgeAreMet)
         }
       }
       Rows flux = system.flux_of_derivatives(g);
-      // At a corner, the part of the other side is subtracted.
+      // At a corner, subtract the integral along the other side.
       const double h = 1.0 / n;
       for (Index v = 0; v < size; ++v)
       {

@@ -1,4 +1,4 @@
-// Pose files: their meaning, the errors, and round trips.
+// Pose files in JSON: their meaning, hierarchies of handles, error messages, and round trips.
 #include "pose/handle_hierarchy.h"
 #include "pose/pose_file.h"
 #include "pose/skinning.h"
@@ -17,8 +17,8 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Return a point, and a chain of two bones along x. The parent of the first bone is the second
-/// one.
+/// Return a point, and a chain of two bones along x. The second bone in the list is the parent of
+/// the first one.
 Handles rig()
 {
   Handles handles{ test::point_handle("p", Vec3(1, 2, 3)),
@@ -58,7 +58,7 @@ TEST(PoseFile, HandlesMoveAboutTheirPivots)
     "p": {"mode": "position", "translate": [1, 0, 0],
           "rotate": {"axis": [0, 0, 5], "degrees": 90}, "scale": 2}}})");
   EXPECT_EQ(pose[0].mode, HandleMode::position);
-  // x -> c + t + R S (x - c) with c = (1, 2, 3).
+  // The expected map is x -> c + t + R S (x - c) with c = (1, 2, 3).
   EXPECT_LT((apply(pose[0].transform, Vec3(1, 2, 3)) - Vec3(2, 2, 3)).norm(), 1e-15);
   EXPECT_LT((apply(pose[0].transform, Vec3(2, 2, 4)) - Vec3(2, 4, 5)).norm(), 1e-15);
   EXPECT_EQ(pose[1].transform, identity_affine());
@@ -93,11 +93,11 @@ TEST(PoseFile, WhatIsNotMentionedKeepsTheBase)
   EXPECT_EQ(pose[0].transform, base[0].transform);
   EXPECT_EQ(pose[1].twist, base[1].twist);
   EXPECT_EQ(pose[1].stretch, 1.5);
-  // Edits are absolute, not relative to the base.
+  // Edits in a pose file are absolute, not relative to the base pose.
   base[1].transform(1, 3) = 100.0;
   EXPECT_EQ(
     read(R"({"handles": {"fore": {"translate": [0, 1, 0]}}})", base)[1].transform(1, 3), 1.0);
-  // An edit of the mode alone keeps the transform.
+  // An edit that contains only a mode keeps the transform.
   EXPECT_EQ(read(R"({"handles": {"fore": {"mode": "free"}}})", base)[1].transform(1, 3), 100.0);
 }
 
@@ -105,17 +105,18 @@ TEST(PoseFile, InVersionOneParentsComposeOnlyWhenAsked)
 {
   const std::string upper = R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})";
   const std::string fore = R"("fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90})";
-  // World space: the bone rotates around its own rest head.
+  // In world space, the bone rotates around its own head at rest.
   Pose pose = read("{\"handles\": {" + fore + "}, " + upper + "}}");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
-  // Parent space: the rotation of the parent around the origin is applied afterward.
+  // In parent space, the rotation of the parent around the origin is applied after that of the
+  // bone.
   pose = read("{\"handles\": {" + fore + ", \"space\": \"parent\"}, " + upper + "}}");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(-1, 1, 0)).norm(), 1e-15);
-  // The parent of a root is the world.
+  // A handle without a parent has the world as its parent.
   pose = read(R"({"handles": {"upper": {"space": "parent", "translate": [1, 1, 1]}}})");
   EXPECT_EQ(pose[2].transform.col(3), Vec3(1, 1, 1));
-  // A handle without an edit keeps its transform.
+  // A handle that the file does not mention keeps its transform.
   EXPECT_EQ(read("{\"handles\": {" + upper + "}}")[1].transform, identity_affine());
 }
 
@@ -129,14 +130,14 @@ TEST(PoseFile, AMissingVersionWarnsIfChildrenWouldFollow)
     return status.warnings;
   };
   const std::string upper = R"("upper": {"scale": 2})";
-  // One warning, also for a sequence.
+  // There is one warning, also for a sequence of poses.
   ASSERT_EQ(warnings("{\"handles\": {" + upper + "}}").size(), 1u);
   EXPECT_THAT(warnings("{\"handles\": {" + upper + "}}")[0], HasSubstr("\"version\": 2"));
   EXPECT_EQ(
     warnings("{\"frames\": [{\"handles\": {" + upper + "}}, {\"handles\": {" + upper + "}}]}")
       .size(),
     1u);
-  // No warning if both versions have the same meaning.
+  // There is no warning if the file has the same meaning in both versions of the format.
   EXPECT_EQ(warnings("{\"version\": 1, \"handles\": {" + upper + "}}").size(), 0u);
   EXPECT_EQ(warnings("{\"version\": 2, \"handles\": {" + upper + "}}").size(), 0u);
   EXPECT_EQ(warnings(R"({"handles": {"fore": {"scale": 2}, "p": {"scale": 2}}})").size(), 0u);
@@ -148,32 +149,33 @@ TEST(PoseFile, ChildrenFollowTheirParents)
   const auto read_new = [](const std::string& handles, const Pose& base = Pose(3))
   { return read("{\"version\": 2, \"handles\": {" + handles + "}}", base); };
   const std::string upper = R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})";
-  // A quarter turn about the origin rotates the bone and its child.
+  // A rotation by 90 degrees about the origin rotates the bone and its child.
   Pose pose = read_new(upper);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(0, 2, 0)).norm(), 1e-15);
   EXPECT_EQ(pose[0].transform, identity_affine());
-  // The child's own quarter turn is applied first.
+  // The child's own rotation by 90 degrees is applied first.
   pose = read_new(upper + R"(, "fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(-1, 1, 0)).norm(), 1e-15);
-  // In world space the child does not follow, with or without its own transform.
+  // In world space the child does not follow its parent, with or without a transform of its own.
   pose = read_new(
     upper + R"(, "fore": {"space": "world", "rotate": {"axis": [0, 0, 1], "degrees": 90}})");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
   pose = read_new(upper + R"(, "fore": {"space": "world", "mode": "free"})");
   EXPECT_EQ(pose[1].transform, identity_affine());
   EXPECT_EQ(pose[1].mode, HandleMode::free);
-  // A child at the tail moves with the stretch and rotates with the twist at the tail.
+  // A child at the tail of a bone moves with the stretch, and rotates with the twist at the tail.
   pose = read_new(R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}, "stretch": 3})");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(0, 4, 0)).norm(), 1e-15);
   pose = read_new(R"("upper": {"twist": [0, 90]})");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 1, 0)) - Vec3(2, 0, 1)).norm(), 1e-15);
-  // A given end is a world position; the other end follows the parent.
+  // An end that the file specifies is a world position. The other end follows the parent.
   pose = read_new(upper + R"(, "fore": {"tail": [2, 1, 0]})");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
   EXPECT_DOUBLE_EQ(pose[1].stretch, 2.0);
-  pose = read_new(upper + R"(, "fore": {"tail": [0, 1, 0]})"); // at the position of its head
+  // The tail is at the position of its own head.
+  pose = read_new(upper + R"(, "fore": {"tail": [0, 1, 0]})");
   EXPECT_EQ(pose[1].stretch, 1.0);
   EXPECT_TRUE(pose[1].transform.allFinite());
 }
@@ -197,7 +199,7 @@ TEST(PoseFile, FollowersKeepTheirPlaceRelativeToTheParent)
     base[2].twist << 20, 50;
     const Pose pose = read(
       R"({"version": 2, "handles": {"upper": {"translate": [0, 2, 0], "stretch": 0.5}}})", base);
-    // The transform relative to the parent's tail has not changed.
+    // The transform relative to the tail of the parent has not changed.
     Affine back, back_then;
     ASSERT_TRUE(invert(transform_for_child(rig()[2], pose[2], Vec3(1, 0, 0)), back));
     ASSERT_TRUE(invert(transform_for_child(rig()[2], base[2], Vec3(1, 0, 0)), back_then));
@@ -205,7 +207,7 @@ TEST(PoseFile, FollowersKeepTheirPlaceRelativeToTheParent)
                 .cwiseAbs()
                 .maxCoeff(),
       1e-13);
-    // If the parent does not move, no bit changes.
+    // If the parent does not move, the transform keeps its bits.
     EXPECT_EQ(
       read(R"({"version": 2, "handles": {"p": {"translate": [0, 2, 0]}}})", base)[1].transform,
       base[1].transform);
@@ -217,7 +219,7 @@ TEST(PoseFile, FollowersKeepTheirPlaceRelativeToTheParent)
     flat[1].transform);
 }
 
-// A child moves like the skin at its attachment point.
+// A child moves like the skin at the point where it is attached to its parent.
 TEST(HandleHierarchy, ChildrenGoWithTheSkinWhereTheyAreAttached)
 {
   test::Random random(6);
@@ -257,7 +259,7 @@ TEST(HandleHierarchy, ParentsComeFirst)
   handles[3].parent = 4;
   handles[1].parent = 0;
   EXPECT_EQ(parents_first(handles), (std::vector<Index>{ 4, 3, 0, 1, 2 }));
-  handles[4].parent = 1; // a cycle
+  handles[4].parent = 1; // this creates a cycle
   std::vector<Index> order = parents_first(handles);
   std::sort(order.begin(), order.end());
   EXPECT_EQ(order, (std::vector<Index>{ 0, 1, 2, 3, 4 }));
@@ -272,10 +274,11 @@ TEST(PoseFile, BonesGoWhereTheirEndsAreSent)
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(5, 5, 6)).norm(), 1e-14);
   EXPECT_DOUBLE_EQ(pose[1].stretch, 3.0);
   EXPECT_EQ(pose[1].twist, Eigen::Vector2d(10, 20));
-  // The minimal rotation keeps vectors perpendicular to both directions.
+  // The bone's rotation is the minimal one, which keeps vectors perpendicular to the old and the
+  // new direction.
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 1, 0)) - Vec3(5, 6, 5)).norm(), 1e-14);
   EXPECT_EQ(read(R"({"handles": {"fore": {"tail": [1, 2, 0], "stretch": 1}}})")[1].stretch, 1.0);
-  // If one end is given, the other one is at its rest position.
+  // If the file specifies one end, the other end stays at its rest position.
   const Pose aimed = read(R"({"handles": {"fore": {"tail": [1, 4, 0]}}})");
   EXPECT_LT((apply(aimed[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
   EXPECT_DOUBLE_EQ(aimed[1].stretch, 4.0);
@@ -309,7 +312,8 @@ TEST(PoseFile, SequencesHaveFramesAndARate)
   EXPECT_EQ(apply_edits(sequence.frames[1], rig(), Pose(3))[0].transform(0, 3), 1.0);
 }
 
-// The caller evaluates expressions; here 't', 'twice t' and 'never'.
+// The caller evaluates the expressions. The expressions of this test are 't', 'twice t' and
+// 'never'.
 TEST(PoseFile, TextsAreExpressionsInTime)
 {
   const PoseExpression expression = [](const std::string& text, double t, double& value)
@@ -327,7 +331,7 @@ TEST(PoseFile, TextsAreExpressionsInTime)
   EXPECT_EQ(pose[0].transform.col(3), Vec3(90, 1, 180));
   EXPECT_LT((apply(pose[2].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-14);
   EXPECT_EQ(pose[2].stretch, 90.0);
-  // In a sequence, t is the time of the frame.
+  // In a sequence, the variable t is the time of the frame.
   const std::string frame = R"({"handles": {"p": {"translate": ["t", 0, 0]}}})";
   ASSERT_TRUE(parse_pose_file(
     R"({"fps": 4, "frames": [)" + frame + "," + frame + "]}", rig(), sequence, expression, 90.0)
@@ -347,7 +351,7 @@ TEST(PoseFile, TextsAreExpressionsInTime)
     HasSubstr("handle 'p'.scale is 'never', which is not a finite number at t = 0.5"));
   EXPECT_THAT(wrong(R"("mode": "t")"), HasSubstr("must be one of full, position, free"));
   EXPECT_THAT(wrong(R"("rotate": "t")"), HasSubstr("it must be an object"));
-  // Without an evaluator of expressions, a text is an error.
+  // Without a function that evaluates expressions, a text is an error.
   EXPECT_THAT(message(text), HasSubstr("it must be a number"));
 }
 
@@ -483,7 +487,7 @@ TEST(PoseFile, WhatIsWrittenCanBeRead)
   pose = Pose(3);
   pose[0].transform(0, 0) = 1e308;
   EXPECT_TRUE(format_pose_file({ pose }, 24.0, rig(), text).ok());
-  pose[0].transform(1, 1) = 1e308; // moves its pivot to 2e308
+  pose[0].transform(1, 1) = 1e308; // this moves the pivot of the handle to 2e308
   EXPECT_THAT(format_pose_file({ pose }, 24.0, rig(), text).message, HasSubstr("'p'"));
   // The squares of these lengths overflow or underflow, but their ratio is representable.
   EXPECT_EQ(
@@ -495,8 +499,8 @@ TEST(PoseFile, WhatIsWrittenCanBeRead)
 
 TEST(PoseFile, ScalesUnevenByRoundoffAreEven)
 {
-  // Rotations with uniform scale, rounded to single precision, are recognized for matrices of any
-  // scale.
+  // Rotations with uniform scale that were rounded to single precision are recognized, for matrices
+  // of any scale.
   for (const double scale : { 0.01, 1.0, 100.0 })
   {
     Pose pose(3);
@@ -509,7 +513,7 @@ TEST(PoseFile, ScalesUnevenByRoundoffAreEven)
     ASSERT_TRUE(status.ok());
     EXPECT_TRUE(status.warnings.empty()) << status.warnings[0];
     EXPECT_LT((read(text)[0].transform - pose[0].transform).cwiseAbs().maxCoeff(), 1e-5 * scale);
-    // A deliberate non-uniform scale of 1.001 is not recognized as one.
+    // A scale that is intentionally non-uniform by a factor of 1.001 is not recognized as uniform.
     pose[0].transform.leftCols<3>() = turn * Vec3(scale, scale, 1.001 * scale).asDiagonal();
     status = format_pose_file({ pose }, 24.0, rig(), text);
     EXPECT_EQ(status.warnings.size(), 1u);
@@ -527,7 +531,7 @@ TEST(PoseFile, WhatAFileCannotHoldIsSaid)
   EXPECT_THAT(status.warnings[0], HasSubstr("'p'"));
   EXPECT_FALSE(read(text).empty());
 
-  // One warning for all handles and poses.
+  // There is one warning for all handles and poses.
   Pose sheared = pose;
   sheared[1].transform(1, 1) = 1.5;
   Status grouped = format_pose_file({ pose, Pose(3), sheared, sheared }, 24.0, rig(), text);

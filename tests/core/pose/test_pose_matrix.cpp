@@ -1,4 +1,4 @@
-// Poses from libigl's matrices: the formulas of its transforms and of its forward kinematics.
+// Poses from libigl's matrices: the formulas of libigl's transforms and of its forward kinematics.
 #include "pose/pose_matrix.h"
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Return a point, and three bones in a chain.
+/// Return one point, and three bones in a chain.
 Handles chain()
 {
   Handles handles(4);
@@ -63,11 +63,11 @@ TEST(PoseMatrix, RotationsAddUpAlongAChain)
     Handles handles = chain();
     for (Handle& handle : handles)
     {
-      // Without parents, the joints determine the hierarchy.
+      // If no parents are given, the hierarchy follows from the joints that bones share.
       handle.parent = known ? handle.parent : -1;
     }
-    // Each bone rotates by a quarter turn about z, which gives a square for quaternions of any
-    // length.
+    // Each bone rotates by 90 degrees about z, so the chain becomes three sides of a square.
+    // Quaternions may have any length.
     Weights matrix(12, 1);
     for (int b = 0; b < 3; ++b)
     {

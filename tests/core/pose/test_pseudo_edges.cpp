@@ -1,5 +1,5 @@
-// Rotations from translations of handles: common motions, degenerate edges, and trees of edges
-// along the shape.
+// Pseudo-edges connect neighboring handles. Rotations of handles are computed from the translations
+// of these edges: common motions, degenerate edges, and trees of edges along the shape.
 #include "pose/pseudo_edges.h"
 
 #include "pose/skinning.h"
@@ -42,7 +42,7 @@ Eigen::Matrix3d rotation(double degrees, const Vec3& axis)
   return Eigen::AngleAxisd(degrees * pi / 180.0, axis.normalized()).toRotationMatrix();
 }
 
-/// Return a pose that moves each pivot with the motion but rotates no handle.
+/// Return a pose that translates each pivot as the rigid motion would, but rotates no handle.
 Pose translations(
   const Handles& handles, const Eigen::Matrix3d& turn, const Vec3& by = Vec3::Zero())
 {
@@ -140,7 +140,7 @@ TEST(PseudoEdges, AnEdgeDoesNotSeeATurnAboutItself)
 
 TEST(PseudoEdges, OppositeDirectionsTurnAboutAFixedAxis)
 {
-  // The axis is perpendicular to a plane z = const that contains both directions.
+  // The axis is perpendicular to the plane z = const, which contains both directions.
   EXPECT_LT(difference(
               least_rotation(Vec3(1, 0, 0), Vec3(-2, 0, 0)).matrix(), rotation(180, Vec3(0, 0, 1))),
     1e-15);
@@ -170,8 +170,8 @@ TEST(PseudoEdges, OppositeDirectionsTurnAboutAFixedAxis)
 
 TEST(PseudoEdges, EdgesOfAHandleCountAlike)
 {
-  // The edges of the middle handle rotate by 0 and by 60 degrees. It rotates by 30 degrees, and its
-  // neighbors by the rotation of their only edge.
+  // The two edges of the middle handle rotate by 0 and by 60 degrees, so the handle rotates by 30
+  // degrees. Each neighbor has one edge and rotates with it.
   const Handles row = points({ Vec3(-1, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(5, 5, 5) });
   Pose pose(4);
   const Vec3 end = rotation(60, Vec3(0, 0, 1)) * Vec3(1, 0, 0);
@@ -195,7 +195,8 @@ TEST(PseudoEdges, TurnWhatTheUserTurnedAndScaleWhenAsked)
   pose[0].mode = HandleMode::full;
   pose[0].transform.leftCols<3>() = twist;
   pose[0].transform.col(3) = turn * pair[0].head - twist * pair[0].head;
-  pose[1].transform.col(3) += 2.0 * (turn * Vec3(2, 0, 0)); // three times as long
+  // This makes the edge three times as long.
+  pose[1].transform.col(3) += 2.0 * (turn * Vec3(2, 0, 0));
   const Vec3 before = pose[0].transform * pair[0].head.homogeneous();
   Pose scaled = pose;
   turn_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
@@ -210,7 +211,7 @@ TEST(PseudoEdges, FreeAndCollapsedEndsSayNothing)
   const Handles pair = points({ Vec3(0, 0, 0), Vec3(1, 0, 0) });
   Pose pose(2);
   pose[0].mode = pose[1].mode = HandleMode::position;
-  pose[1].transform.col(3) = Vec3(-1, 0, 0); // at the position of the other handle
+  pose[1].transform.col(3) = Vec3(-1, 0, 0); // the handle is at the position of the other one
   turn_by_pseudo_edges(pair, { { 0, 1 } }, true, pose);
   EXPECT_EQ(linear(pose, 0), Eigen::Matrix3d::Identity());
   EXPECT_EQ(pose[1].mode, HandleMode::position);
@@ -223,8 +224,8 @@ TEST(PseudoEdges, FreeAndCollapsedEndsSayNothing)
 
 TEST(PseudoEdges, AutomaticOnesFollowTheShape)
 {
-  // A strip bent to a U. Its ends are near each other in space, but far from each other along the
-  // strip.
+  // The shape is a strip bent to a U. Its ends are close in space, but far from each other along
+  // the strip.
   TriangleMesh strip = test::grid(60, 4, 6.0, 0.4);
   const auto bent = [](const Vec3& p)
   {
@@ -267,14 +268,14 @@ TEST(PseudoEdges, AutomaticOnesAreAMinimumSpanningTreeOfShortestWays)
   {
     places.emplace_back(box.points.row(random.below(box.points.rows())));
   }
-  places.push_back(places[3] + Vec3(0.01, 0, 0)); // two handles at one vertex
+  places.push_back(places[3] + Vec3(0.01, 0, 0)); // two handles are at one vertex
   const Handles handles = points(places);
   ExecutionContext context;
   PseudoEdges edges;
   ASSERT_TRUE(automatic_pseudo_edges(context, box.points, TetsView(box.tets), handles, edges).ok());
   EXPECT_EQ(edges.size(), handles.size() - 1);
-  // Reference: Floyd-Warshall over all vertices, then Prim's algorithm. The total length is the
-  // same.
+  // Compute the reference by Floyd-Warshall over all vertices, then Prim's algorithm. The total
+  // length of the tree must be equal.
   const Index n = box.points.rows();
   Eigen::MatrixXd way = Eigen::MatrixXd::Constant(n, n, 1e300);
   for (Index t = 0; t < box.tets.rows(); ++t)

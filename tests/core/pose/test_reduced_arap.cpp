@@ -1,5 +1,5 @@
-// Reduced as-rigid-as-possible: comparisons with a dense implementation and with the full method,
-// and properties of the energy.
+// Reduced as-rigid-as-possible deformation: comparisons with a dense implementation and with the
+// full method, and properties of the energy.
 #include "pose/reduced_arap.h"
 
 #include "core/pose/arap_cases.h"
@@ -22,8 +22,8 @@ Eigen::Matrix3d svd_rotation(const Eigen::Matrix3d& s)
   return svd.matrixV() * flip * svd.matrixU().transpose();
 }
 
-/// Compute the method with plain dense matrices: M, L and K by their definitions, constraints by
-/// one KKT system, and rotations by SVD.
+/// Compute reduced ARAP with plain dense matrices. M, L and K follow their definitions, a KKT
+/// system satisfies the constraints, and rotations are computed by SVD.
 Points dense_twin(const test::Rig& rig, const RotationGroups& groups, const Pose& pose, Index count)
 {
   const Index n = rig.mesh.points.rows(), m = rig.weights.cols(), r = groups.count;
@@ -117,8 +117,8 @@ test::Rig whole_space()
   return rig;
 }
 
-/// Compute full as-rigid-as-possible with fixed vertices: one linear system and one rotation per
-/// group.
+/// Compute full as-rigid-as-possible with fixed vertices. An iteration solves one linear system and
+/// fits one rotation per group.
 Points full_arap(const TetMesh& mesh, const RotationGroups& groups, const std::vector<Index>& fixed,
   const Points& targets, Index count)
 {
@@ -192,7 +192,7 @@ TEST(ReducedArap, EveryIterateIsThatOfTheDenseTwin)
   }
 }
 
-// SPEC D32
+// In the space of all vertices, the reduced method has the same iterates as the full method.
 TEST(ReducedArap, TheWholeSpaceIsFullArapIterateByIterate)
 {
   const test::Rig rig = whole_space();
@@ -227,7 +227,8 @@ TEST(ReducedArap, TheWholeSpaceIsFullArapIterateByIterate)
   }
 }
 
-// SPEC D31
+// Neither the local nor the global step raises the energy. The last energy equals the sum over the
+// edges.
 TEST(ReducedArap, NoHalfStepRaisesTheEnergyAndTheLastIsTheEdgeSum)
 {
   const test::Rig rig = test::bar();
@@ -266,7 +267,7 @@ TEST(ReducedArap, NoHalfStepRaisesTheEnergyAndTheLastIsTheEdgeSum)
   }
 }
 
-// Acceleration finds the same minimum as plain iterations, in fewer iterations.
+// Acceleration finds the same minimum as plain iterations, with fewer iterations.
 TEST(ReducedArap, AccelerationReachesTheSameMinimumInFewerIterations)
 {
   const test::Rig rig = test::bar();
@@ -299,7 +300,7 @@ TEST(ReducedArap, AccelerationReachesTheSameMinimumInFewerIterations)
   }
 }
 
-// SPEC D33
+// If all targets belong to one rigid motion, the mesh moves rigidly to the targets.
 TEST(ReducedArap, RigidTargetsAreReached)
 {
   const test::Rig rig = test::box();
@@ -327,7 +328,7 @@ TEST(ReducedArap, RigidTargetsAreReached)
   EXPECT_LT((result - moved(rig.mesh.points, t)).cwiseAbs().maxCoeff(), 1e-10);
 }
 
-// SPEC D34
+// With one cluster, its rotation solves the orthogonal Procrustes problem.
 TEST(ReducedArap, OneClusterIsOneProcrustesRotation)
 {
   const test::Rig rig = test::bar();
@@ -341,13 +342,13 @@ TEST(ReducedArap, OneClusterIsOneProcrustesRotation)
   ASSERT_TRUE(arap.solve(context, bend(HandleMode::position), iterations(3000)).ok());
   Points result;
   ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
-  // With a single rotation the covariance is V^T L V', without edge lists.
+  // With a single rotation, the covariance is V^T L V' and can be computed without lists of edges.
   const SparseMatrix l = stiffness_matrix(rig.mesh.points, rig.mesh.tets);
   const Eigen::Matrix3d s = rig.mesh.points.transpose() * (l * result);
   EXPECT_LT((svd_rotation(s) - arap.rotations()[0]).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-// Fewer rotations or fewer transforms raise the energy (SPEC D34, 3.9).
+// Fewer rotations or fewer degrees of freedom raise the energy.
 TEST(ReducedArap, ReductionCostsEnergy)
 {
   const test::Rig rig = test::bar();
@@ -366,8 +367,8 @@ TEST(ReducedArap, ReductionCostsEnergy)
   EXPECT_EQ(own, energy_of(10 * rig.mesh.points.rows()));
   EXPECT_LT(own, energy_of(6));
   EXPECT_LT(energy_of(6), energy_of(1));
-  // The full method, with the handles' vertices fixed at the result of the reduced method and all
-  // others free.
+  // Compare with the full method. It fixes the handles' vertices at the positions that the reduced
+  // method found, and all other vertices are free.
   ReducedArap arap;
   ASSERT_TRUE(arap
                 .bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles,
@@ -397,7 +398,7 @@ TEST(ReducedArap, ReductionCostsEnergy)
     arap.energies().back());
 }
 
-// SPEC D35
+// If all handles have mode full, the result equals linear blend skinning bit for bit.
 TEST(ReducedArap, AllHandlesFullIsLinearBlendSkinningToTheBit)
 {
   const test::Rig rig = test::box();

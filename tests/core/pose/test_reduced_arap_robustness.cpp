@@ -1,5 +1,5 @@
-// Reduced as-rigid-as-possible: constraints, extra weights, difficult weights, and independence of
-// position, scale and threads.
+// Reduced as-rigid-as-possible deformation: constraints, extra weights, difficult weights, and
+// independence of position, scale and threads.
 #include "pose/full_arap.h"
 #include "pose/reduced_arap.h"
 
@@ -14,7 +14,7 @@ using namespace bindpose;
 using namespace bindpose::test;
 using testing::HasSubstr;
 
-// SPEC D36
+// Constrained positions are satisfied after every iteration.
 TEST(ReducedArapRobustness, PositionsAreMetAfterEveryIteration)
 {
   const test::Rig rig = test::box();
@@ -54,7 +54,7 @@ TEST(ReducedArapRobustness, APivotInsideATetIsThatPointOfTheMesh)
   ASSERT_TRUE(arap.solve(context, bend(HandleMode::position)).usable());
   Points result;
   ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
-  // Interpolate the posed point in its tet.
+  // Interpolate the posed position of the point in the tet that contains it.
   for (Index e = 0; e < rig.mesh.tets.rows(); ++e)
   {
     Eigen::Matrix4d corners;
@@ -72,7 +72,8 @@ TEST(ReducedArapRobustness, APivotInsideATetIsThatPointOfTheMesh)
   }
 }
 
-// SPEC D36, second half
+// Redundant constraints are reported, and contradictory ones are satisfied in the sense of least
+// squares.
 TEST(ReducedArapRobustness, RedundantAndContradictingPositionsAreNamed)
 {
   test::Rig rig = test::bar();
@@ -102,11 +103,11 @@ TEST(ReducedArapRobustness, RedundantAndContradictingPositionsAreNamed)
   EXPECT_THAT(status.warnings[1], HasSubstr("'right', 'tail bone'"));
   Points result;
   ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
-  // Least squares give the mean of the two targets.
+  // In the sense of least squares, the result is the mean of the two targets.
   EXPECT_LT((result.rowwise() - Eigen::RowVector3d(4, 2.0, 0.5)).rowwise().norm().minCoeff(), 1e-9);
 }
 
-// SPEC D37
+// Extra weights are zero at rest and lower the energy.
 TEST(ReducedArapRobustness, ExtraWeightsRestAtZeroAndLowerTheEnergy)
 {
   const Status bound = expect_that_extra_weights_help(ExtraWeights::bumps);
@@ -129,7 +130,7 @@ TEST(ReducedArapRobustness, RestStaysAtRestWhateverTheWeights)
     }
   }
   cases.push_back(dense);
-  Weights ill = rig.weights; // two columns that differ by 1e-12
+  Weights ill = rig.weights; // two columns of the weights differ by 1e-12
   ill.col(0) = 0.5 * (rig.weights.col(0) + rig.weights.col(1));
   ill.col(1) = ill.col(0) + 1e-12 * dense.col(0);
   cases.push_back(ill);
@@ -152,7 +153,7 @@ TEST(ReducedArapRobustness, RestStaysAtRestWhateverTheWeights)
       ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
       EXPECT_LT((result - rig.mesh.points).cwiseAbs().maxCoeff(), 1e-9);
     }
-    // A drag displaces vertices by about as much as the handle.
+    // Vertices move by about as much as the dragged handle.
     Pose pose = posed(rig.handles, HandleMode::position);
     pose[1].transform.col(3) << 0.3, 0.2, 0.1;
     pose[2].mode = HandleMode::free;
@@ -163,7 +164,7 @@ TEST(ReducedArapRobustness, RestStaysAtRestWhateverTheWeights)
   }
 }
 
-// Random modes and transforms, including reflections and collapses (SPEC F52 on a small mesh).
+// The modes and transforms are random, including reflections and collapses.
 TEST(ReducedArapRobustness, RandomDragsStayFiniteAndNearTheirHandles)
 {
   const test::Rig rig = test::box(3);
@@ -311,7 +312,8 @@ TEST(ReducedArapRobustness, TheOrderOfHandlesDoesNotMatter)
     a.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options).ok());
   ASSERT_TRUE(
     b.bind(context, rig.mesh.points, rig.mesh.tets, other.weights, other.handles, options).ok());
-  // No acceleration, because extrapolation amplifies round-off until it converges.
+  // The iterations are not accelerated, because extrapolation amplifies round-off until it
+  // converges.
   ASSERT_TRUE(a.solve(context, pose, iterations_from_rest(30)).ok());
   ASSERT_TRUE(b.solve(context, permuted, iterations_from_rest(30)).ok());
   Points first, second;
@@ -407,7 +409,7 @@ TEST(ReducedArapRobustness, ATimeBudgetIsReplayedByItsIterations)
   ASSERT_TRUE(timed.deform(context, rig.mesh.points, first).ok());
   ASSERT_TRUE(counted.deform(context, rig.mesh.points, second).ok());
   EXPECT_EQ(first, second);
-  // Even the smallest budget allows one iteration in each precision.
+  // Even the smallest time budget permits one iteration in each precision.
   options.max_iterations = 100;
   options.budget_microseconds = 1e-9;
   EXPECT_EQ(timed.solve(context, pose, options).report.number("iterations", 0.0), 2.0);
@@ -415,11 +417,10 @@ TEST(ReducedArapRobustness, ATimeBudgetIsReplayedByItsIterations)
   EXPECT_EQ(timed.solve(context, pose, options).report.number("iterations", 0.0), 1.0);
 }
 
-// Single precision only speeds up the solve: the last digits of the result are those of double
-// precision.
+// Single precision only makes the solve faster. The result has the accuracy of double precision.
 TEST(ReducedArapRobustness, MixedPrecisionComesToTheSameShape)
 {
-  // The last two exceed the range of float.
+  // The last two sizes exceed the range of float.
   for (const double size : { 1.0, 1e-15, 1e15, 1e-60, 1e60 })
   {
     test::Rig rig = test::bar();
@@ -558,7 +559,7 @@ TEST(ReducedArapRobustness, EndsOfBonesAreHeldOneByOne)
     EXPECT_EQ((without.row(bar.head).transpose() - head).norm() < 1e-9, holds_pivot(mode));
     EXPECT_EQ((without.row(bar.tail).transpose() - tail).norm() < 1e-9, holds_tail(mode));
   }
-  // Constraints raise the energy, and constraining both ends raises it most.
+  // Each constraint raises the energy. It is highest if both ends are constrained.
   EXPECT_LT(energies[0], energies[1]);
   EXPECT_LT(energies[0], energies[2]);
   EXPECT_LT(energies[1], energies[3]);
@@ -567,7 +568,7 @@ TEST(ReducedArapRobustness, EndsOfBonesAreHeldOneByOne)
 
 TEST(ReducedArapRobustness, RigidTargetsOfEndsAreReached)
 {
-  // Constrained ends of bones that are not collinear determine a rigid motion.
+  // Bones with constrained ends determine a rigid motion if they are not collinear.
   BoneInABar bar;
   test::Rig& rig = bar.rig;
   rig.handles[2].kind = HandleKind::bone;

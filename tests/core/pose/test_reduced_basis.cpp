@@ -1,5 +1,5 @@
-// The fast and the robust construction of the basis give the same space. The fast one declines if a
-// rank is in doubt.
+// Basis of the reduced space that satisfies the constraints. A fast and a robust construction give
+// the same space. The fast construction fails if the rank of the constraints is in doubt.
 #include "pose/reduced_basis.h"
 
 #include "support/bars.h"
@@ -35,7 +35,7 @@ test::Rig many_handles()
   return rig;
 }
 
-/// The reduced space of a rig, with the constraints of one choice of modes.
+/// The reduced space of a rig, with the constraints for one choice of modes.
 struct Case
 {
   explicit Case(const test::Rig& rig)
@@ -50,7 +50,8 @@ struct Case
     this->choose({}, {});
   }
 
-  /// Choose the handles of mode full, and the constrained ends of handles (rows of pivot_rows).
+  /// Choose which handles have mode full, and which ends of handles are constrained (rows of
+  /// pivot_rows).
   void choose(const std::vector<Index>& full, const std::vector<Index>& held_rows)
   {
     this->given = Coordinates::Zero(4 * this->space.columns, 3);
@@ -78,8 +79,8 @@ struct Case
     }
   }
 
-  /// Modify the space as if the third coordinate were constant, so that some unknowns have no
-  /// effect.
+  /// Modify the space as if the third coordinate of all points were constant. Some unknowns then
+  /// have no effect.
   void flatten()
   {
     for (Index i = 2; i < 4 * this->space.columns; i += 4)
@@ -100,7 +101,7 @@ struct Case
   }
   bool quickly(ReducedBasis& basis) const { return this->quickly(this->space.stiffness, basis); }
 
-  /// Return the basis B column by column, without the particular solution D*.
+  /// Return the columns of the basis B, without the particular solution D*.
   Eigen::MatrixXd columns(const Eigen::MatrixXd& stiffness, const ReducedBasis& basis) const
   {
     const Coordinates nothing = Coordinates::Zero(4 * this->space.columns, 3);
@@ -116,7 +117,7 @@ struct Case
     return b;
   }
 
-  /// Check the defining properties of one basis. Return C, its covariance.
+  /// Check the defining properties of one basis. Return C, its covariance matrix.
   Eigen::MatrixXd check(const Eigen::MatrixXd& stiffness, ReducedBasis& basis) const
   {
     const Eigen::MatrixXd b = this->columns(stiffness, basis);
@@ -131,7 +132,7 @@ struct Case
     return c;
   }
 
-  /// Compare the fast and the robust construction.
+  /// Compare the results of the fast and the robust construction.
   void compare(const Eigen::MatrixXd& stiffness, const Coordinates& load) const
   {
     ReducedBasis quick, sturdy;
@@ -190,7 +191,7 @@ TEST(ReducedBasis, BothWaysLeadToTheSame)
       one.compare(one.space.stiffness, nothing);
       one.compare(with_mass, load);
     }
-    // Without constraints the system is nonsingular only with a mass.
+    // Without constraints the system is nonsingular only if it contains the mass.
     one.choose({}, {});
     one.compare(with_mass, load);
     ReducedBasis basis;
@@ -220,18 +221,18 @@ TEST(ReducedBasis, TheQuickWayDeclinesWhatIsInDoubt)
   same.held.row(1) = same.held.row(0);
   basis.make(same.space, same.space.stiffness, same.open, same.held);
   EXPECT_EQ(basis.redundant().size(), 1u);
-  // Afterward the fast construction works again.
+  // After the failure the fast construction works again.
   same.choose({}, { 0, 1 });
   EXPECT_TRUE(same.quickly(basis));
   EXPECT_TRUE(basis.redundant().empty());
 
-  // Too many constraints for the fast construction.
+  // There are too many constraints for the fast construction.
   Case many(rig);
   many.choose({ 0, 1, 2, 3, 4 }, { 5, 6, 7, 8, 9 });
   ReducedBasis few;
   EXPECT_FALSE(many.quickly(few));
 
-  // Two almost equal columns.
+  // The weights have two almost equal columns.
   test::Rig doubled = rig;
   for (const double apart : { 0.0, 1e-12, 1e-6 })
   {

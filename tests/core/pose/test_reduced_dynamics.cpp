@@ -1,4 +1,4 @@
-// Reduced dynamics: laws of mechanics, step by step.
+// Reduced dynamics (time steps of implicit Euler in the reduced space) obeys the laws of mechanics.
 #include "pose/reduced_dynamics.h"
 
 #include "core/pose/arap_cases.h"
@@ -54,7 +54,7 @@ private:
   const test::Rig& rig_;
 };
 
-/// Return the pose with the left end fixed and the right end displaced, before its release.
+/// Return the pose before the release: the left end is fixed and the right end is displaced.
 Pose drawn()
 {
   return bend(HandleMode::free);
@@ -68,7 +68,7 @@ Pose let_go()
 }
 } // namespace
 
-// Implicit Euler falls by g h^2 N (N + 1) / 2 without deformation (SPEC 3.9.8).
+// With implicit Euler, a body falls by g h^2 N (N + 1) / 2 in N steps, without deformation.
 TEST(ReducedDynamics, FallsFreely)
 {
   const test::Rig rig = test::bar();
@@ -118,8 +118,8 @@ TEST(ReducedDynamics, WithoutGravityMomentumStays)
   ReducedDynamicsOptions options;
   options.time_step = 0.01;
   options.stiffness = 50.0;
-  // The bar is fixed at one end and swings. Then it is released completely and moves away, rotating
-  // and vibrating.
+  // The bar is fixed at one end and swings. Then it is released and moves away, rotating and
+  // vibrating.
   ASSERT_TRUE(body.dynamics.start(body.context, drawn()).usable());
   for (int n = 0; n < 20; ++n)
   {
@@ -133,7 +133,7 @@ TEST(ReducedDynamics, WithoutGravityMomentumStays)
     body.step(nothing, options);
     ASSERT_LT((body.dynamics.momentum() - momentum).norm(), 1e-10 * momentum.norm()) << n;
   }
-  // The momentum of the kernel equals that of the vertices.
+  // The momentum that the solver reports equals the sum over the vertices.
   const Vec3 before = body.middle();
   body.step(nothing, options);
   const Vec3 velocity = (body.middle() - before) / options.time_step;
@@ -164,7 +164,7 @@ TEST(ReducedDynamics, SwingsAreWavesThatLoseEnergy)
   }
   EXPECT_GT(largest_kinetic, 0.1 * start); // the bar did vibrate
   EXPECT_LT(energy, 0.9 * start);
-  // A body at rest stays at rest without drift.
+  // A body at rest stays at rest and does not drift.
   ASSERT_TRUE(body.dynamics.start(body.context, posed(rig.handles, HandleMode::free)).usable());
   for (int n = 0; n < 100; ++n)
   {
@@ -212,7 +212,7 @@ TEST(ReducedDynamics, AReleasedDragKeepsItsVelocity)
   {
     for (HandlePose& handle : pose)
     {
-      // Moves with the speed 2.5 lengths per second.
+      // The handle moves with the speed 2.5 lengths per second.
       handle.transform.col(3) = Vec3(0.0, 0.05 * n, 0.0);
     }
     body.step(pose, options);
@@ -225,7 +225,8 @@ TEST(ReducedDynamics, AReleasedDragKeepsItsVelocity)
   }
 }
 
-// One hour at 24 frames per second: random drags and releases under gravity, with large steps.
+// Simulate one hour at 24 frames per second, with random drags and releases under gravity and large
+// time steps.
 TEST(ReducedDynamics, AnHourOfFramesStaysFinite)
 {
   const test::Rig rig = test::bar(6);
@@ -274,7 +275,7 @@ TEST(ReducedDynamics, ReplaysAreTheSameBitsOnAnyNumberOfThreads)
   }
   const Points at_end = first.points();
   EXPECT_EQ(at_end, second.points());
-  // The same from a state saved on the way.
+  // Repeat the second half of the simulation from a state that was saved on the way.
   first.dynamics.set_state(half);
   EXPECT_NE(first.points(), at_end);
   for (int n = 30; n < 60; ++n)

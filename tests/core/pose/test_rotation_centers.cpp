@@ -1,5 +1,5 @@
-// Centers of rotation: comparisons with the paper's sums. Skinning with them: exact rigid motions,
-// and twisted joints that keep their width.
+// Optimized centers of rotation (Le, Hodgins 2016), compared with the paper's sums. Skinning with
+// these centers reproduces rigid motions exactly, and twisted joints keep their width.
 #include "pose/rotation_centers.h"
 
 #include "pose/skinning.h"
@@ -163,7 +163,7 @@ struct Tube
 
   Tube()
   {
-    // Close the tube: the last column of points is the first one.
+    // Close the tube: the last column of points is replaced by the first one.
     for (Index t = 0; t < this->mesh.triangles.size(); ++t)
     {
       Index& v = this->mesh.triangles.data()[t];
@@ -179,7 +179,7 @@ struct Tube
     }
   }
 
-  /// Return the smallest and largest radius of the posed ring at z = 0.
+  /// Return the smallest and the largest radius of the ring at z = 0 after posing.
   std::pair<double, double> ring(const Points& posed) const
   {
     double least = 1e300, most = 0.0;
@@ -231,7 +231,8 @@ TEST(RotationCenters, GroupsMoveThemLittle)
   Points centers;
   const Status few =
     rotation_centers(context, coarse, bar.points, TetsView(bar.tets), weights, centers);
-  EXPECT_LT(few.report.number("counts.groups", 0), bar.tets.rows() / 10); // over all ten pairs
+  // Counted over all ten pairs of handles.
+  EXPECT_LT(few.report.number("counts.groups", 0), bar.tets.rows() / 10);
   EXPECT_EQ(few.report.number("counts.centers", 0), bar.points.rows());
 }
 

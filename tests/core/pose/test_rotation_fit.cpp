@@ -1,4 +1,5 @@
-// Optimal rotations: comparisons with Eigen's SVD, and cases with several optima.
+// Optimal rotations for covariance matrices: comparisons with Eigen's SVD, and cases with several
+// optima.
 #include "pose/rotation_fit.h"
 
 #include "support/meshes.h"
@@ -26,7 +27,7 @@ Eigen::Matrix3d random_rotation(test::Random& random)
   return Eigen::AngleAxisd(random.uniform(-3.0, 3.0), axis).toRotationMatrix();
 }
 
-/// Return the largest tr(R S) over rotations R.
+/// Return the largest value of tr(R S) over all rotations R.
 double best_trace(const Eigen::Matrix3d& s)
 {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(s, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -34,7 +35,7 @@ double best_trace(const Eigen::Matrix3d& s)
   return svd.singularValues()[0] + svd.singularValues()[1] + sign * svd.singularValues()[2];
 }
 
-/// Expect an orthogonal matrix with determinant +1 that is as good as the result of the SVD.
+/// Expect that r is orthogonal with determinant +1, and that tr(R S) is as large as for the SVD.
 void expect_best(const Eigen::Matrix3d& s, const Eigen::Matrix3d& r)
 {
   ASSERT_LT((r * r.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-13);
@@ -43,7 +44,7 @@ void expect_best(const Eigen::Matrix3d& s, const Eigen::Matrix3d& r)
 }
 } // namespace
 
-// SPEC D38
+// The fitted rotations of 100,000 random matrices are as good as those of an SVD.
 TEST(RotationFit, HundredThousandRandomMatricesAreAsGoodAsTheirSvd)
 {
   constexpr Index count = 100000;
@@ -52,15 +53,15 @@ TEST(RotationFit, HundredThousandRandomMatricesAreAsGoodAsTheirSvd)
   for (Index k = 0; k < count; ++k)
   {
     Eigen::Matrix3d matrix = random_matrix(random);
-    if (k % 4 == 1) // close to a reflection
+    if (k % 4 == 1) // the matrix is close to a reflection
     {
       matrix = random_rotation(random) * Vec3(1.0, 0.9, -0.5).asDiagonal() * matrix;
     }
-    if (k % 4 == 2) // magnitudes from 1e-20 to 1e20
+    if (k % 4 == 2) // the magnitudes are from 1e-20 to 1e20
     {
       matrix *= std::pow(10.0, random.uniform(-20.0, 20.0));
     }
-    if (k % 4 == 3) // singular values differ by factors of up to 1e12
+    if (k % 4 == 3) // the singular values differ by factors of up to 1e12
     {
       matrix = random_rotation(random) *
         Vec3(1.0, std::pow(10.0, random.uniform(-6.0, 0.0)),
@@ -123,7 +124,8 @@ TEST(RotationFit, ReflectionsGiveTheBestRotation)
     Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
     fit_rotation(s, r);
     expect_best(s, r);
-    // With two singular values of equal magnitude the optima form a circle, with three a sphere.
+    // If two singular values have equal magnitude, the optima form a circle; if all three do, a
+    // sphere.
     s = random_rotation(random) * Vec3(3, 1, -1).asDiagonal();
     fit_rotation(s, r);
     expect_best(s, r);
@@ -152,11 +154,11 @@ TEST(RotationFit, RankOneTakesTheNearestOfTheBest)
   {
     const Eigen::Matrix3d before = random_rotation(random);
     const Vec3 rest = random.in_box(-Vec3::Ones(), Vec3::Ones());
-    // A previous rotation that is optimal is kept.
+    // The previous rotation is kept if it is optimal.
     Eigen::Matrix3d r = before;
     fit_rotation(rest * (before * rest).transpose(), r);
     ASSERT_LT((r - before).cwiseAbs().maxCoeff(), 1e-12);
-    // Otherwise the nearest optimum is the previous rotation followed by the minimal rotation to
+    // Otherwise the nearest optimum is the previous rotation, followed by the minimal rotation to
     // the posed edge.
     const Vec3 posed = random.in_box(-Vec3::Ones(), Vec3::Ones());
     fit_rotation(rest * posed.transpose(), r);
@@ -166,7 +168,7 @@ TEST(RotationFit, RankOneTakesTheNearestOfTheBest)
   }
 }
 
-// Counts that do or do not fill groups of lanes. Every third matrix has rank one, for which the
+// Some counts fill whole groups of SIMD lanes, others do not. Every third matrix has rank one. Its
 // result depends on the previous rotation.
 TEST(RotationFit, BatchesAndSinglesAgreeToTheBit)
 {
@@ -203,7 +205,7 @@ TEST(RotationFit, BatchesAndSinglesAgreeToTheBit)
         EXPECT_EQ(single(e / 3, e % 3), r[e * stride + k]) << k << " of " << count;
       }
     }
-    for (int e = 0; e < 9; ++e) // values between the planes are unchanged
+    for (int e = 0; e < 9; ++e) // the padding between the planes is unchanged
     {
       for (Index k = count; k < stride; ++k)
       {

@@ -1,4 +1,5 @@
-// Skinning: identity, common motions, joints, and signs of quaternions.
+// Linear blend, dual quaternion and stretchable-bone skinning: identity, common motions, joints,
+// and signs of quaternions.
 #include "pose/skinning.h"
 
 #include "pose/pose_file.h"
@@ -75,7 +76,7 @@ Points ring()
 }
 } // namespace
 
-// SPEC C24
+// If all transforms are the identity, the points keep their bits.
 TEST(Skinning, IdentityMovesNoBit)
 {
   const test::Rig rig = test::box();
@@ -91,7 +92,7 @@ TEST(Skinning, IdentityMovesNoBit)
   }
 }
 
-// SPEC C24
+// If all handles move by the same motion, all points move by it.
 TEST(Skinning, ACommonMotionMovesTheWhole)
 {
   const test::Rig rig = test::box();
@@ -142,7 +143,8 @@ TEST(Skinning, LinearBlendIsLinearInTheTransforms)
   EXPECT_LT((ps - (0.25 * pa + 0.75 * pb)).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-// SPEC C25
+// A twisted ring with equal weights shrinks by a cosine under linear blend skinning, and keeps its
+// radius under dual quaternion skinning.
 TEST(Skinning, ATwistedRingShrinksByTheCosineUnderLinearBlendAndNotUnderDual)
 {
   const Weights half = Weights::Constant(16, 2, 0.5);
@@ -156,13 +158,13 @@ TEST(Skinning, ATwistedRingShrinksByTheCosineUnderLinearBlendAndNotUnderDual)
       EXPECT_NEAR(posed.linear.row(i).norm(), radius, 1e-14);
       EXPECT_NEAR(posed.dual.row(i).norm(), 1.0, 1e-14);
     }
-    // Dual quaternions rotate by half the angle.
+    // Dual quaternion skinning rotates by half the angle.
     const Points exact = moved(ring(), turn(0.5 * degrees, Vec3(1, 0, 0)));
     EXPECT_LT((posed.dual - exact).cwiseAbs().maxCoeff(), 1e-14);
   }
 }
 
-// SPEC C27
+// Rotations that differ by full turns give the same points.
 TEST(Skinning, ARotationAndItsFullTurnsAreOne)
 {
   const Weights half = Weights::Constant(16, 2, 0.5);
@@ -171,13 +173,14 @@ TEST(Skinning, ARotationAndItsFullTurnsAreOne)
   const Points pivots = Points::Zero(2, 3);
   for (const double degrees : { 10.0, 170.0, -170.0, 190.0 })
   {
-    // q and -q: equal matrices up to round-off, from angles that differ by a full turn.
+    // The quaternions are q and -q: the angles differ by a full turn, and the matrices are equal up
+    // to round-off.
     const Posed a = pose_with(ring(), half, { base, turn(degrees, axis) }, pivots);
     const Posed b = pose_with(ring(), half, { base, turn(degrees + 360.0, axis) }, pivots);
     EXPECT_LT((a.dual - b.dual).cwiseAbs().maxCoeff(), 1e-12);
     for (Index i = 0; i < 16; ++i)
     {
-      // Blending along the shorter path is also a rotation.
+      // The blend along the shorter path is also a rotation, so it keeps the radius.
       EXPECT_NEAR(a.dual.row(i).norm(), 1.0, 1e-13);
     }
   }
@@ -219,7 +222,7 @@ TEST(Skinning, DualQuaternionsCommuteWithMovesOfTheWorld)
 
 TEST(Skinning, NormalsStayNormalToPosedPlanes)
 {
-  // A common affine map moves a plane, and the transformed normals must remain normal to it.
+  // A common affine map moves a plane. The transformed normals must remain normal to it.
   const Weights ones = Weights::Ones(3, 1);
   Affine affine = turn(35, Vec3(3, 1, 2), Vec3::Zero(), Vec3(1, 2, 3));
   affine.leftCols<3>() *= Vec3(3.0, 0.5, 1.0).asDiagonal();
@@ -251,7 +254,7 @@ TEST(Skinning, NormalsAreUnitVectorsAtAnyScale)
   {
     std::vector<Affine> transforms{ identity_affine() };
     transforms[0].leftCols<3>() *= scale;
-    transforms[0](2, 2) *= 2.0; // twice as long along z, so the normal tilts
+    transforms[0](2, 2) *= 2.0; // the shape becomes twice as long along z, so the normal tilts
     const Vec3 expected = Vec3(0.6, 0.0, 0.4).normalized();
     Points posed;
     ASSERT_TRUE(skinning.linear_blend_normals(context, normals, transforms, posed).ok());
@@ -327,8 +330,8 @@ TEST(Skinning, ModesReadAsTranslationsAndIdentity)
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("'c'"));
 
-  // Bones with constrained ends: with mode tail the bone is translated with its tail, with mode
-  // ends it has its transform.
+  // The bones have constrained ends. With mode tail the bone is translated with its tail; with mode
+  // ends it has its own transform.
   handles[1].kind = handles[2].kind = HandleKind::bone;
   handles[1].tail = Vec3(3, 0, 0);
   pose[1].mode = HandleMode::tail;
@@ -360,7 +363,7 @@ Points stretched(const Points& points, const Weights& weights,
 const BoneChange unit_bone{ Vec3::Zero(), Vec3::UnitX() };
 } // namespace
 
-// SPEC C28
+// Points beyond the tail of a stretched bone are translated, not scaled.
 TEST(StretchableBones, WhatIsBeyondTheTailIsMovedNotScaled)
 {
   Points points(4, 3);
@@ -383,7 +386,7 @@ TEST(StretchableBones, ATwistTurnsByTheEndpointWeightAndKeepsTheRadius)
   Points quarter = moved(points, turn(90.0, Vec3::UnitX()));
   Points posed = stretched(points, ones, { identity_affine() }, { bone });
   EXPECT_LT((posed - quarter).cwiseAbs().maxCoeff(), 1e-15);
-  // A painted endpoint weight replaces the computed one. NaN means not painted.
+  // A painted endpoint weight replaces the computed weight. NaN means not painted.
   Weights painted = Weights::Constant(16, 1, 0.25);
   painted(3, 0) = std::numeric_limits<double>::quiet_NaN();
   posed = stretched(points, ones, { identity_affine() }, { bone }, painted);
@@ -392,7 +395,7 @@ TEST(StretchableBones, ATwistTurnsByTheEndpointWeightAndKeepsTheRadius)
   EXPECT_LT((posed.row(4) - quarter.row(4)).norm(), 1e-15);
 }
 
-// SPEC C28
+// Bones without stretch and twist give linear blend skinning bit for bit.
 TEST(StretchableBones, WithoutAChangeAreLinearBlendBitForBit)
 {
   const test::Rig rig = test::box();
@@ -410,7 +413,7 @@ TEST(StretchableBones, WithoutAChangeAreLinearBlendBitForBit)
   const Points posed = stretched(rig.mesh.points, rig.weights, transforms, bones, Weights(), 1);
   EXPECT_NE(posed, linear);
   EXPECT_EQ(stretched(rig.mesh.points, rig.weights, transforms, bones, Weights(), 3), posed);
-  // A rigid motion of all handles is applied afterward.
+  // A rigid motion of all handles is applied after stretch and twist.
   const Affine rigid = turn(75.0, Vec3(-1, 1, 3), Vec3(2, 0, 1), Vec3(5, 6, 7));
   const Points here =
     stretched(rig.mesh.points, rig.weights, std::vector<Affine>(5, identity_affine()), bones);
@@ -421,7 +424,7 @@ TEST(StretchableBones, WithoutAChangeAreLinearBlendBitForBit)
 
 namespace
 {
-/// Evaluate the definition point by point and weight by weight.
+/// Evaluate the definition of stretchable bones, point by point and weight by weight.
 Points stretched_one_by_one(const Points& points, const Weights& weights,
   const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
   const Weights& endpoints)
@@ -460,7 +463,7 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
   const auto between = [&](double lower, double upper) { return random.uniform(lower, upper); };
   for (int trial = 0; trial < 60; ++trial)
   {
-    // The numbers of vertices include incomplete tiles.
+    // Some numbers of vertices do not fill the last tile.
     const Index vertices = 1 + random.below(70), handles = 1 + random.below(6);
     Points points(vertices, 3);
     Weights weights(vertices, handles), painted(vertices, handles);
@@ -485,7 +488,7 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
       transforms.back().leftCols<3>() *= between(0.5, 2.0);
       BoneChange bone{ Vec3(3, -2, 1) + random.in_box(-ones, ones), random.in_box(-ones, ones) };
       bone.stretch = random.below(3) == 0 ? 1.0 : between(-1.0, 3.0);
-      // No twist, up to one turn, multiples of half turns, or many turns.
+      // The twist is zero, up to one turn, a multiple of half turns, or many turns.
       const double sizes[] = { 0.0, 360.0, 180.0, 3600.0 };
       const auto size = static_cast<std::size_t>(random.below(4));
       for (double& angle : bone.twist.reshaped())
@@ -495,7 +498,7 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
       }
       if (random.below(8) == 0)
       {
-        bone.vector.setZero(); // no direction for stretch and twist
+        bone.vector.setZero(); // this bone has no direction for stretch and twist
       }
       bones.push_back(bone);
     }
@@ -510,7 +513,7 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
     ASSERT_TRUE(floats.bind(context, weights, options).ok());
     Points posed;
     ASSERT_TRUE(floats.stretchable_bones(context, points, transforms, bones, painted, posed).ok());
-    // Ten turns with a precision of 2^-24 turns.
+    // Ten turns are resolved to 2^-24 turns in single precision.
     EXPECT_LT((posed - expected).cwiseAbs().maxCoeff(), 2e-4);
   }
 }
@@ -527,7 +530,7 @@ TEST(StretchableBones, WholeTurnsAndLanesWithoutWeightChangeNothing)
     weights(v, v % 2) = 0.0;
   }
   std::vector<BoneChange> bones(2, unit_bone);
-  bones[0].twist = { 720.0, -1080.0 }; // three turns at the endpoint weight 1
+  bones[0].twist = { 720.0, -1080.0 }; // three turns at points with endpoint weight 1
   bones[1].twist = { 0.0, 90.0 };
   for (const bool single : { false, true })
   {
@@ -543,7 +546,7 @@ TEST(StretchableBones, WholeTurnsAndLanesWithoutWeightChangeNothing)
     {
       EXPECT_EQ(posed.row(v) == points.row(v), weights(v, 0) == 1.0) << v;
     }
-    // Huge twists rotate by an arbitrary angle with finite results.
+    // Huge twists rotate by an arbitrary angle, but the results are finite.
     bones[1].twist = { -1e300, 1e200 };
     ASSERT_TRUE(skinning.stretchable_bones(context, points, still, bones, Weights(), posed).ok());
     ASSERT_TRUE(posed.allFinite());
@@ -667,7 +670,8 @@ TEST(Skinning, SinglePrecisionIsRightToAMillionthOfTheDiagonal)
       std::vector<Affine> transforms = wild_transforms(random, shears);
       for (Affine& t : transforms)
       {
-        t.col(3) += place - t.leftCols<3>() * place; // the same motion at this position
+        // The transform has the same effect at this position.
+        t.col(3) += place - t.leftCols<3>() * place;
       }
       const Blends exact = blends_of(points, rig.weights, transforms, centers, {});
       const Blends fast = blends_of(points, rig.weights, transforms, centers, single);
@@ -688,7 +692,7 @@ TEST(Skinning, SinglePrecisionIsRightToAMillionthOfTheDiagonal)
 
 TEST(Skinning, ManyInstancesAreEachLikeOne)
 {
-  const test::Rig rig = test::box(5); // not a multiple of the tile size
+  const test::Rig rig = test::box(5); // the number of vertices is not a multiple of the tile size
   const Points& rest = rig.mesh.points;
   const double diagonal = bounding_box(rest).diagonal();
   SkinningOptions single;
@@ -796,8 +800,8 @@ TEST(Skinning, DroppedWeightsAreCountedAndTheirErrorIsBounded)
 
 TEST(Skinning, SignsOfQuaternionsAreEachVertexsOwn)
 {
-  // Vertices of a tile have different reference quaternions. Each vertex alone must give the same
-  // result.
+  // The vertices of a tile have different reference quaternions. A vertex that is posed alone must
+  // give the same result.
   const test::Rig rig = test::box();
   const Points pivots = handle_pivots(rig.handles);
   test::Random random(13);

@@ -1,4 +1,5 @@
-// Skinning eigenmodes: analytic eigenvalues of a bar, orthogonality, and determinism.
+// Skinning eigenmodes as extra weights: analytic eigenvalues of a bar, orthogonality, and
+// determinism.
 #include "pose/skinning_eigenmodes.h"
 
 #include "core/pose/arap_cases.h"
@@ -33,8 +34,8 @@ struct Held
 };
 } // namespace
 
-// A thin bar fixed at one end: w = sin((k - 1/2) pi x / l), and lambda is the square of the wave
-// number.
+// The bar is thin and fixed at one end. Its modes are w = sin((k - 1/2) pi x / l). The eigenvalue
+// lambda is the square of the wave number (k - 1/2) pi / l.
 TEST(SkinningEigenmodes, OfABarHeldAtOneEndAreSines)
 {
   const Held bar(tet_box(48, 2, 2, Vec3::Zero(), Vec3(6.0, 0.25, 0.25)));
@@ -57,7 +58,7 @@ TEST(SkinningEigenmodes, OfABarHeldAtOneEndAreSines)
 
 TEST(SkinningEigenmodes, SolveTheProblemAndAreOrthogonal)
 {
-  // The box is as wide as high, so its eigenvalues come in pairs.
+  // The box is as wide as high, so its eigenvalues occur in pairs.
   const Held box(tet_box(6, 5, 5));
   ExecutionContext context;
   Eigenmodes found;
@@ -78,13 +79,14 @@ TEST(SkinningEigenmodes, SolveTheProblemAndAreOrthogonal)
       found.eigenvalues[k] * (box.mass.asDiagonal() * unit.col(k)).eval();
     for (const Index v : box.zero)
     {
-      residual[v] = 0.0; // reaction force at a fixed vertex
+      residual[v] = 0.0; // ignore the reaction force at a fixed vertex
     }
     EXPECT_LT(residual.norm(), 1e-8 * found.eigenvalues[k]) << k;
   }
   const Eigen::MatrixXd gram = unit.transpose() * box.mass.asDiagonal() * unit;
   EXPECT_LT((gram - Eigen::MatrixXd::Identity(15, 15)).cwiseAbs().maxCoeff(), 1e-8);
-  // The dense solver gives the same result. The large number of modes makes the function choose it.
+  // The dense solver gives the same result. The function uses it because the number of modes is
+  // large.
   Eigenmodes dense;
   ASSERT_TRUE(skinning_eigenmodes(
     context, box.stiffness, box.mass, box.zero, box.mesh.points.rows() / 2, dense)
@@ -142,7 +144,7 @@ TEST(SkinningEigenmodes, NothingFreeGivesNoModesAndCancelEnds)
     StatusCode::canceled);
 }
 
-// SPEC D37 with eigenmodes instead of bumps.
+// Eigenmodes as extra weights are zero at rest and lower the energy, like spline bumps.
 TEST(SkinningEigenmodes, AsExtraWeightsTheyRestAtZeroAndLowerTheEnergy)
 {
   const Status bound = expect_that_extra_weights_help(ExtraWeights::eigenmodes);

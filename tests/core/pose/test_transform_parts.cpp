@@ -1,4 +1,5 @@
-// Decomposition and composition of transforms, and comparisons with known rotations and scales.
+// Decomposition of transforms into rotation, scale and translation, and composition. The parts are
+// compared with known rotations and scales.
 #include "pose/transform_parts.h"
 
 #include "support/meshes.h"
@@ -35,7 +36,7 @@ TEST(TransformParts, ARotationVectorIsTheAxisTimesTheAngle)
     const Vec3 vector =
       rotation_vector(Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, axis).toRotationMatrix());
     EXPECT_NEAR(vector.norm(), degrees, 1e-6);
-    // The axis of a half turn may have either direction.
+    // The axis of a rotation by 180 degrees may have either direction.
     EXPECT_LT(std::min((vector - degrees * axis).norm(),
                 degrees < 180.0 ? 1e9 : (vector + degrees * axis).norm()),
       1e-6);
@@ -47,7 +48,7 @@ TEST(TransformParts, ComeBackTogether)
   test::Random random(5);
   for (int k = 0; k < 200; ++k)
   {
-    const Affine transform = random_affine(random); // half of the transforms include a reflection
+    const Affine transform = random_affine(random); // half of these transforms include a reflection
     const Vec3 pivot = random_vector(random);
     const TransformParts parts = parts_of(transform, pivot);
     EXPECT_LT((affine_of(parts, pivot) - transform).norm(), 1e-12);

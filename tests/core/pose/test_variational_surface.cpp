@@ -1,4 +1,5 @@
-// Smooth surfaces between handles and fixed vertices: known results, invariances, and errors.
+// Smooth surfaces between handles and fixed vertices (variational modeling): known results,
+// invariances, and errors.
 #include "pose/variational_surface.h"
 
 #include "core/pose/full_arap_cases.h"
@@ -36,7 +37,7 @@ std::vector<char> band(const TriangleMesh& square, int layers)
   return fixed;
 }
 
-/// A square with a fixed band of three layers. A region in its middle moves up.
+/// A square with a fixed band of three layers at its border. A region in its middle moves up.
 struct Bump
 {
   TriangleMesh mesh = grid(squares, squares);
@@ -147,7 +148,7 @@ TEST(VariationalSurface, AMotionOfAllThatIsHeldMovesAll)
   {
     bool bent, fair;
     // Rotation in radians. It is 0 for displacements on a bent mesh, because the displacements of a
-    // rotation are only as smooth as the mesh.
+    // rotation are only as smooth as the mesh there.
     double angle;
   };
   for (const Case& c :
@@ -208,7 +209,7 @@ TEST(VariationalSurface, MovingAHandleDoesNotFactorAgain)
   bump.pose[0].transform(2, 3) = 0.8;
   ASSERT_TRUE(bump.surface.solve(bump.context, bump.pose).ok());
   const Points flat = bump.mesh.points;
-  // The solution is linear in the pose.
+  // The result is a linear function of the pose.
   EXPECT_LT(difference(bump.surface.posed() - flat, 2.0 * (once - flat)), 1e-13);
   EXPECT_EQ(bump.surface.factorizations(), 1);
   bump.pose[0].mode = HandleMode::free;
@@ -259,7 +260,8 @@ TEST(VariationalSurface, AFlatPatchFairedOnItsOwnPlaneIsItself)
 
 TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
 {
-  // Fair the plane itself with its own derivatives dx/dn.
+  // Fair the flat square. The tangents at the border are the derivatives of the plane itself,
+  // dx/dn.
   Bump bump;
   bump.handles.clear();
   bump.pose.clear();
@@ -270,7 +272,7 @@ TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
   bump.options.tangent_source = PatchTangents::clamped;
   ASSERT_TRUE(bump.solve().ok());
   EXPECT_GT(difference(bump.surface.posed(), around), 1e-3); // clamped tangents make a cusp
-  // For displacements, clamped tangents are those of the rest shape.
+  // If displacements are smoothed, clamped tangents keep those of the rest shape.
   bump.options.fair = false;
   bump.handles = { point_handle("p", Vec3(0.5, 0.5, 0.0)) };
   bump.pose = { HandlePose() };
@@ -366,7 +368,7 @@ TEST(VariationalSurface, WhatCannotBeIsRefused)
 TEST(VariationalSurface, DefectsAwayFromThePatchDoNotMatter)
 {
   Bump bump;
-  // Coincides with a vertex in a corner, three layers away from free vertices.
+  // This vertex coincides with a vertex in a corner, three layers away from the free vertices.
   bump.mesh.points.row(0) = bump.mesh.points.row(1);
   bump.options.order = 2;
   EXPECT_TRUE(bump.solve().ok());

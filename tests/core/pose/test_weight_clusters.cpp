@@ -1,4 +1,4 @@
-// Clusters, farthest points and bumps in weight space.
+// Points in weight space (rows of the weights): clusters, farthest rows, and bumps around them.
 #include "pose/weight_clusters.h"
 
 #include "support/bars.h"
@@ -32,7 +32,8 @@ TEST(WeightClusters, GroupsAreFound)
 {
   Weights centers(4, 2);
   centers << 0, 0, 1, 0, 0, 1, 1, 1;
-  for (const Index each : { 50, 5000 }) // 5000 rows per group are clustered on a sample
+  // With 5000 rows per group, the clusters are computed from a sample.
+  for (const Index each : { 50, 5000 })
   {
     ExecutionContext context;
     Clusters clusters;
@@ -98,12 +99,12 @@ TEST(WeightClusters, FarthestPointsSpread)
   std::vector<Index> seeds;
   farthest_rows(context, line, 3, seeds);
   EXPECT_EQ(seeds, (std::vector<Index>{ 10, 0, 5 }));
-  farthest_rows(context, line, 100, seeds); // returns all rows once
+  farthest_rows(context, line, 100, seeds); // all rows are returned once
   EXPECT_EQ(seeds.size(), 11u);
   EXPECT_EQ(std::set<Index>(seeds.begin(), seeds.end()).size(), 11u);
 }
 
-// SPEC F51
+// Bumps are splines in weight space that are zero at the handles.
 TEST(WeightClusters, BumpsAreSplinesThatVanishAtTheHandles)
 {
   const test::Rig rig = test::box(6);
@@ -113,7 +114,8 @@ TEST(WeightClusters, BumpsAreSplinesThatVanishAtTheHandles)
   EXPECT_GE(bumps.minCoeff(), 0.0);
   for (Index e = 0; e < bumps.cols(); ++e)
   {
-    EXPECT_NEAR(bumps.col(e).maxCoeff(), 1.0, 1e-14); // 1.5 * 2/3 at the seed
+    // The spline's maximum 2/3 at the seed is scaled by 1.5.
+    EXPECT_NEAR(bumps.col(e).maxCoeff(), 1.0, 1e-14);
   }
   for (const Index v : handle_rows(rig.weights))
   {

@@ -1,5 +1,5 @@
-// Back sides of triangles: found on patches that enclose a volume, for any order and orientation of
-// the copies, and nowhere else.
+// Back sides of triangles: copies with the opposite orientation. They are found on patches that
+// enclose a volume, for any order and orientation of the copies, and only there.
 #include "surface/back_sides.h"
 
 #include "surface/surface_repair.h"
@@ -83,7 +83,7 @@ TEST(BackSides, AreNotThereWhereNothingIsEnclosed)
   const TriangleMesh leaf = test::grid(4, 4);
   const TriangleMesh two_leaves = welded(test::join(leaf, test::flipped(leaf)));
   EXPECT_TRUE(back_sides(two_leaves.points, two_leaves.triangles).empty());
-  // Triangles that occur once, or twice in the same orientation.
+  // Triangles that occur once, or twice in the same orientation, have no back sides.
   const TriangleMesh ball = test::sphere(2);
   EXPECT_TRUE(back_sides(ball.points, ball.triangles).empty());
   const TriangleMesh same_way = welded(test::join(ball, ball));

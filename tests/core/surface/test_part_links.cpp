@@ -1,5 +1,5 @@
-// Links between parts of a surface: comparisons with a minimum spanning forest over all pairs of
-// triangles.
+// Links: short connections between the parts of a surface. They are compared with a minimum
+// spanning forest over all pairs of triangles.
 #include "surface/part_links.h"
 
 #include "base/disjoint_sets.h"
@@ -32,7 +32,7 @@ Corners corners(const TriangleMesh& mesh, Index f)
     mesh.points.row(mesh.triangles(f, 2)) };
 }
 
-/// The parts of one mesh, one after the other.
+/// A mesh that is made of several parts.
 struct Shape
 {
   TriangleMesh mesh;
@@ -57,8 +57,8 @@ std::vector<PartLink> links_of(
   return links;
 }
 
-/// Return the total length of the shortest links that connect every part to a fixed one, from all
-/// pairs of triangles.
+/// Return the total length of the shortest links that connect every part to a fixed part (`held`),
+/// computed from all pairs of triangles.
 double shortest_forest(const Shape& shape, const std::vector<char>& held)
 {
   struct Edge

@@ -1,3 +1,4 @@
+// Defects of surfaces: every defect is found, and each is listed with its triangles or edges.
 #include "surface/surface_defects.h"
 
 #include "support/meshes.h"
@@ -57,7 +58,7 @@ void expect_the_counts(const Listed& listed)
   EXPECT_EQ(count(Defect::inward_component) == 0, found.inward_components == 0);
 }
 
-/// Return the mesh with separate corners for every triangle.
+/// Return the mesh with separate vertices for every triangle.
 TriangleMesh soup(const TriangleMesh& mesh)
 {
   TriangleMesh result;
@@ -123,7 +124,8 @@ TEST(SurfaceDefects, TrianglesOfNoUse)
   ASSERT_EQ(unreferenced.size(), 1u);
   EXPECT_THAT(unreferenced[0].vertices, ElementsAre(8));
   EXPECT_EQ(unreferenced[0].component, -1);
-  EXPECT_EQ(found.of(Defect::nonmanifold_edge).size(), 3u); // the edges of the duplicate triangle
+  // The three edges of the duplicate triangle are non-manifold.
+  EXPECT_EQ(found.of(Defect::nonmanifold_edge).size(), 3u);
 }
 
 TEST(SurfaceDefects, MisorientedEdgesAreThoseOfTheInputEvenWhenRepaired)
@@ -167,7 +169,7 @@ TEST(SurfaceDefects, CrossingTrianglesNameEachOther)
   {
     EXPECT_EQ(met.count(t), 1u);
   }
-  // The number of triangles in the crossing pairs is the same.
+  // The pairs of crossing triangles contain the same number of triangles.
   std::map<Index, int> in_pairs;
   for (const auto& [s, t] : found.repaired.crossings)
   {

@@ -1,4 +1,4 @@
-// Distances along surfaces with known distances.
+// Points within a distance along a surface, on shapes with known distances.
 #include "support/meshes.h"
 #include "surface/surface_disc.h"
 
@@ -49,7 +49,7 @@ TEST(SurfaceDisc, OnAFlatGridDistancesAreThoseOfThePlane)
     }
   }
   EXPECT_GT(found.size(), 400u);
-  // Each call starts from scratch.
+  // A call does not depend on the calls before it.
   EXPECT_EQ(disc.within(place, triangle, radius).size(), found.size());
 }
 
@@ -66,14 +66,15 @@ TEST(SurfaceDisc, OnASphereDistancesAreArcs)
     EXPECT_NEAR(distance, arc, 0.02 * arc + 0.01);
     ++count;
   }
-  // The area of the cap divided by that of the sphere.
+  // The fraction of the points that are found equals the area of the spherical cap divided by that
+  // of the sphere.
   EXPECT_NEAR(static_cast<double>(count) / static_cast<double>(ball.points.rows()),
     0.5 * (1.0 - std::cos(2.0)), 0.02);
 }
 
 TEST(SurfaceDisc, TheOtherSideOfAThinPlateIsFarAway)
 {
-  // Two unconnected grids at a small distance.
+  // The two grids are close to each other but not connected.
   const TriangleMesh flat = test::grid(20, 20);
   const TriangleMesh two = test::join(flat, test::translated(flat, Vec3(0, 0, 1e-3)));
   const SurfaceDisc disc(two.points, two.triangles);

@@ -1,4 +1,4 @@
-// Picking on a surface: thickness and nearest points of known shapes.
+// Picking on a surface with a ray: thickness along the ray and nearest points, for known shapes.
 #include "support/meshes.h"
 #include "surface/surface_probe.h"
 
@@ -48,8 +48,8 @@ TEST(SurfaceProbe, EdgesAndVerticesCountOnce)
 {
   const TriangleMesh cube = test::cube(-1.0, 1.0);
   const SurfaceProbe probe(cube.points, cube.triangles);
-  // The rays pass through the diagonal of a side, through the middle of an edge, and through
-  // corners.
+  // The rays pass through the diagonal of a face of the cube, through the middle of an edge, and
+  // through corners.
   for (const Vec3& origin : { Vec3(-5, 0, 0), Vec3(-5, -5, 0), Vec3(-5, -5, -5) })
   {
     EXPECT_EQ(probe.hits(origin, -origin).size(), 2u) << origin.transpose();

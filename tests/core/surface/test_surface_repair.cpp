@@ -1,3 +1,5 @@
+// Repair of surfaces: welding, orientation, duplicates, crossings, and the exact predicates behind
+// them.
 #include "surface/surface_repair.h"
 
 #include "surface/triangle_predicates.h"
@@ -81,8 +83,9 @@ TEST(SurfaceRepair, DropsWhatHasNoAreaAndStrayVertices)
 {
   TriangleMesh mesh = test::cube();
   mesh.points.conservativeResize(10, 3);
-  mesh.points.row(8) << 0.0, 0.0, -1.0; // between vertices 0 and 3, on the diagonal
-  mesh.points.row(9).setConstant(std::numeric_limits<double>::quiet_NaN()); // unused
+  mesh.points.row(8) << 0.0, 0.0, -1.0; // on the diagonal of a face, between vertices 0 and 3
+  // No triangle uses this vertex.
+  mesh.points.row(9).setConstant(std::numeric_limits<double>::quiet_NaN());
   mesh.triangles.conservativeResize(14, 3);
   mesh.triangles.row(12) << 0, 8, 3;
   mesh.triangles.row(13) << 5, 5, 7;
@@ -136,7 +139,7 @@ TEST(SurfaceRepair, TurnsTheSmallerPartOfAPatch)
 
 TEST(SurfaceRepair, OneSidedPatchesStay)
 {
-  // A Moebius strip of 12 squares.
+  // The surface is a Moebius strip of 12 squares.
   TriangleMesh strip;
   const int n = 12;
   strip.points.resize(2 * n, 3);
@@ -171,7 +174,7 @@ TEST(SurfaceRepair, InsideOutComponentsAreTurnedWithWhatLiesInThem)
   EXPECT_EQ(repaired.found.inward_components, 1);
   EXPECT_EQ(repaired.turned_components, 1);
   EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), shell, 1e-12);
-  // Two solids, one of them inside out.
+  // There are two separate solids. One of them is inside out.
   const TriangleMesh far = test::translated(inner, Vec3(9, 0, 0));
   const RepairedSurface two = repair(test::join(outer, test::flipped(far)));
   EXPECT_EQ(two.turned_components, 1);
@@ -201,7 +204,7 @@ TEST(SurfaceRepair, SolidsThatTouchAreTurnedOneByOne)
 
 TEST(SurfaceRepair, ACavityThatTouchesStaysACavity)
 {
-  // A tet inside of a cube that touches the cube's inside at a vertex, then at an edge.
+  // A tet is inside of a cube. It touches the cube's surface at a vertex, then at an edge.
   for (const double top : { 0.0, 1.0 })
   {
     TriangleMesh tet;
@@ -241,8 +244,8 @@ TEST(SurfaceRepair, SnappingWeldsWhatNearlyCoincides)
 
 TEST(SurfaceRepair, CountsCrossingsOfCubes)
 {
-  // A corner of one cube is inside of the other, so three squares cross three squares in six pairs.
-  // Brute force finds the crossing triangles of all pairs.
+  // A corner of each cube is inside of the other cube, so three squares cross three squares in six
+  // pairs. Brute force over all pairs of triangles finds the same crossings.
   const TriangleMesh two =
     test::join(test::cube(), test::translated(test::cube(), Vec3(1.03, 0.9, 0.85)));
   Index pairs = 0;
@@ -255,8 +258,8 @@ TEST(SurfaceRepair, CountsCrossingsOfCubes)
   }
   EXPECT_GE(pairs, 6);
   EXPECT_EQ(diagnose(two).self_intersections, pairs);
-  // The cubes touch in a square without shared vertices. Each triangle of one square meets both
-  // triangles of the other.
+  // The cubes touch in a square without shared vertices. Each triangle of one square touches both
+  // triangles of the other square.
   TriangleMesh touching =
     test::join(test::cube(), test::translated(test::cube(), Vec3(2.0, 0.25, 0.25)));
   EXPECT_GE(diagnose(touching).self_intersections, 4);
@@ -266,8 +269,8 @@ TEST(SurfaceRepair, CountsCrossingsOfCubes)
 
 TEST(SurfaceRepair, CrossingsAreThoseOfThePlaneEquations)
 {
-  // Reference: random triangles in general position cross if an edge of one passes through the
-  // other. The intersection point is computed in double precision.
+  // Two triangles in general position cross if an edge of one passes through the other. The
+  // reference computes the intersection point in double precision.
   test::Random random(11);
   const auto passes = [](const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c)
   {
@@ -309,20 +312,21 @@ TEST(SurfaceRepair, SharedVerticesAndEdgesAreNoCrossing)
   mesh.triangles.resize(2, 3);
   mesh.triangles << 0, 1, 2, 0, 1, 3; // two triangles with a common edge
   EXPECT_FALSE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
-  mesh.triangles << 0, 1, 2, 0, 1, 4; // folded onto each other
+  mesh.triangles << 0, 1, 2, 0, 1, 4; // the triangles are folded onto each other
   EXPECT_TRUE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
-  // The only contact is the common vertex, at which the second triangle stands on the first one.
+  // The only contact is the common vertex. The second triangle is perpendicular to the first one.
   mesh.triangles << 0, 1, 2, 0, 3, 5;
   EXPECT_FALSE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
-  mesh.triangles << 0, 1, 2, 0, 4, 5; // touches along a segment from the vertex
+  // The triangles touch along a segment that begins at the vertex.
+  mesh.triangles << 0, 1, 2, 0, 4, 5;
   EXPECT_TRUE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
-  mesh.triangles << 0, 1, 2, 3, 4, 5; // a vertex inside of the other triangle
+  mesh.triangles << 0, 1, 2, 3, 4, 5; // a vertex of one triangle is inside of the other
   EXPECT_TRUE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
 }
 
 TEST(SurfaceRepair, ExactSigns)
 {
-  // The fourth point is exactly on the plane, or off by the last bit.
+  // The fourth point is exactly on the plane, or off it by the last bit.
   const Vec3 a(0.1, 0.2, 0.3), b(1.1, 0.2, 0.3), c(0.1, 1.2, 0.3);
   const double z = 0.3;
   EXPECT_EQ(orientation_3d(a, b, c, Vec3(0.7, 0.6, z)), 0);
@@ -342,7 +346,8 @@ TEST(SurfaceRepair, ExactSigns)
     {
       q = random.in_box(Vec3::Zero(), Vec3::Ones());
     }
-    p[3] = p[0] + (p[1] - p[0]) * 0.25 + (p[2] - p[0]) * 0.5; // next to the plane
+    // Next to the plane of the first three points.
+    p[3] = p[0] + (p[1] - p[0]) * 0.25 + (p[2] - p[0]) * 0.5;
     const int sign = orientation_3d(p[0], p[1], p[2], p[3]);
     EXPECT_EQ(orientation_3d(p[1], p[2], p[0], p[3]), sign);
     EXPECT_EQ(orientation_3d(p[1], p[0], p[3], p[2]), sign);
@@ -366,7 +371,7 @@ TEST(SurfaceRepair, TreeDistancesAreBruteForce)
       const Vec3 b = mesh.points.row(mesh.triangles(t, 1));
       const Vec3 c = mesh.points.row(mesh.triangles(t, 2));
       nearest = std::min(nearest, (closest_point(p, a, b, c) - p).norm());
-      // No point of the triangle is nearer than its closest point.
+      // No sample of the triangle is nearer than its closest point.
       const double s = random.uniform(), r = random.uniform();
       const Vec3 q = s + r < 1 ? Vec3(a + s * (b - a) + r * (c - a)) : a;
       EXPECT_GE((q - p).norm() + 1e-12, (closest_point(p, a, b, c) - p).norm());
@@ -410,8 +415,8 @@ TEST(SurfaceRepair, SegmentsMeetTrianglesAsBruteForceSays)
   }
   EXPECT_GT(met, 400);
   EXPECT_LT(met, 1600);
-  // Touching counts as meeting. Missing by an ulp does not, and triangles without area meet
-  // nothing.
+  // A segment that touches a triangle intersects it. A segment that misses it by an ulp does not,
+  // and triangles without area intersect no segment.
   const Vec3 p(0, 0, 0), q(1, 0, 0), r(0, 1, 0);
   EXPECT_TRUE(segment_meets_triangle(Vec3(0.25, 0.25, 1), Vec3(0.25, 0.25, 0), p, q, r));
   EXPECT_TRUE(segment_meets_triangle(Vec3(0.5, 0.5, 1), Vec3(0.5, 0.5, -1), p, q, r));
@@ -464,8 +469,8 @@ TEST(SurfaceRepair, SameForAnyNumberOfThreads)
 
 TEST(SurfaceRepair, ClosestPointOfTrianglesThatAreLines)
 {
-  // Three corners on a line in any order, or two or three equal corners. The result is the nearest
-  // point of the longest edge, which is always on the line.
+  // The three corners are on a line in any order, or two or three corners are equal. The result is
+  // the nearest point of the longest edge, which contains all corners.
   test::Random random(11);
   const auto anywhere = [&] { return random.in_box(Vec3::Constant(-1.0), Vec3::Constant(1.0)); };
   for (int round = 0; round < 3000; ++round)

@@ -1,5 +1,6 @@
-// Nested shells: reversed shells are compared with a reference that uses the known solids. Also
-// measures the growth of the time on surfaces with many non-manifold edges and duplicate triangles.
+// Orientation of nested shells. The shells that are reversed are compared with a reference that
+// uses the known solids. The growth of the time is measured on surfaces with many non-manifold
+// edges and duplicate triangles.
 #include "surface/surface_repair.h"
 
 #include "support/meshes.h"
@@ -54,8 +55,9 @@ TriangleMesh mesh_of(const std::vector<Cube>& cubes)
   return mesh;
 }
 
-/// Return the triangles of random unit voxels of a lattice with shared vertices. Voxels may share
-/// edges and vertices, and shared faces occur twice. A fraction of the triangles is repeated.
+/// Return the triangles of random unit voxels with shared vertices. Voxels may share edges and
+/// vertices, and the faces that they share occur twice. A fraction `doubled` of the triangles is
+/// repeated.
 TriangleMesh voxels(int along, double fill, double doubled)
 {
   test::Random random(17);
@@ -124,8 +126,8 @@ TEST(SurfaceShells, TurnedShellsAreThoseOfATwinThatKnowsTheSolids)
   test::Random random(5);
   for (int round = 0; round < 6; ++round)
   {
-    // Cubes in the cells of a lattice. Half of them contain a smaller cube, and half of these
-    // contain a third one.
+    // The cubes are in the cells of a lattice. Half of them contain a smaller cube, and half of
+    // these contain a third one.
     std::vector<Cube> cubes;
     const int along = 2 + 2 * round;
     for (int i = 0; i < along * along * along; ++i)
@@ -152,15 +154,15 @@ TEST(SurfaceShells, TurnedShellsAreThoseOfATwinThatKnowsTheSolids)
         cube.size *= 0.6;
       }
     }
-    // A large cube that contains some of the cubes. Others only overlap its bounding box.
+    // A large cube contains some of the cubes. Other cubes only overlap its bounding box.
     cubes.push_back({ { -0.3, -0.2, -0.1 }, 0.5 * along, round % 2 == 0 });
     // Shuffle the order of the cubes.
     for (std::size_t i = cubes.size(); i > 1; --i)
     {
       std::swap(cubes[i - 1], cubes[static_cast<std::size_t>(random.below(static_cast<Index>(i)))]);
     }
-    // Reference: an outermost cube with inward orientation is reversed together with all cubes
-    // inside of it. Cubes that cross the large one are not inside of it.
+    // Compute the reference: an outermost cube with inward orientation is reversed together with
+    // all cubes inside of it. Cubes that cross the large cube are not inside of it.
     std::vector<bool> turned(cubes.size(), false);
     for (std::size_t i = 0; i < cubes.size(); ++i)
     {
@@ -199,7 +201,8 @@ TEST(SurfaceShells, TurnedShellsAreThoseOfATwinThatKnowsTheSolids)
 
 TEST(SurfaceShells, AFineShellAroundManySolids)
 {
-  // Enough triangles and solids that the container's winding numbers are computed by ray crossings.
+  // There are enough triangles and solids that the winding numbers of the container are computed by
+  // ray crossings.
   TriangleMesh mesh = test::flipped(test::sphere(6, 10.0));
   const Index outer = mesh.triangles.rows();
   std::vector<Cube> cubes;
@@ -208,7 +211,7 @@ TEST(SurfaceShells, AFineShellAroundManySolids)
     const double lower[3] = { i % 5 - 2.5, i / 5 % 5 - 2.5, i / 25 - 2.5 };
     cubes.push_back({ { lower[0], lower[1], lower[2] }, 0.5, i % 3 == 0 });
   }
-  // Inside of the sphere's bounding box, outside of the sphere.
+  // This cube is inside of the sphere's bounding box but outside of the sphere.
   cubes.push_back({ { 9.0, 9.0, 9.0 }, 0.5, false });
   mesh = test::join(mesh, mesh_of(cubes));
   ExecutionContext context;

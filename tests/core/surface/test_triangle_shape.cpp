@@ -1,3 +1,4 @@
+// Smallest angles of triangles, and counts of needles and caps.
 #include "surface/triangle_shape.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ TEST(TriangleShape, NeedlesAndCapsAreCounted)
   Points points(6, 3);
   points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 20, 0, 0.5, 0.01, 0, 3, 0, 0;
   Triangles triangles(4, 3);
-  triangles << 0, 1, 2, // 45 degrees
+  triangles << 0, 1, 2, // smallest angle 45 degrees
     0, 1, 3, // a needle: 2.9 degrees
     0, 1, 4, // a cap: 1.1 degrees
     0, 1, 5; // on one line: 0 degrees

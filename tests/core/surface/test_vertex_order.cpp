@@ -1,4 +1,4 @@
-// Order of vertices by their coordinates.
+// Order of vertices by their coordinates, and vertices at equal positions.
 #include "surface/vertex_order.h"
 
 #include <gmock/gmock.h>

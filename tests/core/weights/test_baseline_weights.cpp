@@ -1,5 +1,5 @@
-// Baseline weights for comparisons: closed forms, limits in which two methods agree, and their
-// differences.
+// Baseline weights (simple methods for comparisons): closed forms, limits in which two methods
+// agree, and differences between the methods.
 #include "weights/baseline_weights.h"
 #include "weights/weight_methods.h"
 
@@ -64,7 +64,7 @@ double difference(const WeightsResult& a, const WeightsResult& b)
   return (a.weights - b.weights).cwiseAbs().maxCoeff();
 }
 
-/// Return the domain without unused vertices.
+/// Return the domain without vertices that no element uses.
 Domain without_stray(const Domain& domain)
 {
   std::vector<Index> id(static_cast<std::size_t>(domain.points.rows()), -1);
@@ -89,7 +89,7 @@ Domain without_stray(const Domain& domain)
   return result;
 }
 
-/// Return the unit square without (.4, .6) x (.3, 1].
+/// Return the unit square without the slot (.4, .6) x (.3, 1].
 Domain slotted_square(int n)
 {
   const TriangleMesh square = test::grid(n, n);
@@ -151,8 +151,8 @@ TEST(LinearSubspace, OnClosedSurfacesItIsBiharmonic)
 
 TEST(GraphBiharmonic, DependsOnTheMesh)
 {
-  // Half of the strip has a four times finer mesh. The integral of (w'')^2 does not depend on it,
-  // but the sum of squares does.
+  // Half of the strip has a four times finer mesh. The integral of (w'')^2 does not depend on the
+  // mesh, but a plain sum of squares does.
   test::Bar strip = test::bar(40, { 0.0, 1.0 });
   const auto uneven = [](double x) { return x < 0.8 ? 0.5 * x / 0.8 : 0.5 + 2.5 * (x - 0.8); };
   test::Bar warped = strip;
@@ -189,7 +189,7 @@ TEST(InverseDistance, IsShepards)
       EXPECT_NEAR(straight.weights(v, 0), 0.1552, 5e-5) << "across the slot, known";
     }
   }
-  // Brute-force check with a bone, a region and a point.
+  // Compare with brute force, for a bone, a region and a point.
   const TetMesh box = test::tet_box(4, 4, 4);
   handles = { test::point_handle("p", Vec3(0.1, 0.9, 0.6)),
     test::bone_handle("b", Vec3(0.25, 0.25, 0.25), Vec3(0.75, 0.25, 0.5)),
@@ -293,7 +293,8 @@ TEST(BoneHeat, HandlesHideBehindWalls)
   };
   EXPECT_GT(at_probe(test::to_domain(test::grid(20, 20))), 0.99) << "the nearest";
   EXPECT_LT(at_probe(slotted_square(20)), 0.01) << "the nearest is behind the slot";
-  // The same in a volume: a bone in one leg of a U is not visible from the other leg.
+  // Visibility also matters in a volume: a bone in one leg of a U is not visible from the other
+  // leg.
   const TetMesh box = test::tet_box(10, 10, 2, Vec3::Zero(), Vec3(1.0, 1.0, 0.2));
   Domain u;
   u.points = box.points;

@@ -1,4 +1,4 @@
-// Cut meshes: Euler characteristic, edges, and sides of vertices.
+// Meshes cut open along bones: Euler characteristic, edges, and the side of each vertex.
 #include "weights/bone_cut.h"
 
 #include "weights_shapes.h"
@@ -11,7 +11,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Return used vertices - edges + triangles.
+/// Return the Euler characteristic: used vertices - edges + triangles.
 Index euler(const Triangles& triangles)
 {
   std::vector<bool> used(static_cast<std::size_t>(triangles.maxCoeff() + 1), false);
@@ -23,7 +23,7 @@ Index euler(const Triangles& triangles)
     static_cast<Index>(mesh_edges(triangles).size()) + triangles.rows();
 }
 
-/// Return 8 x 8 squares on the unit square.
+/// Return the unit square, divided into 8 x 8 cells.
 TriangleMesh square()
 {
   return test::grid(8, 8);
@@ -37,7 +37,7 @@ BoneCut cut(const TriangleMesh& mesh, const Handles& bones)
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(
     status.report.number("counts.doubled_vertices", -1), result.points.rows() - mesh.points.rows());
-  // The triangles keep their positions.
+  // The corners of the triangles keep their positions.
   for (Index i = 0; i < mesh.triangles.size(); ++i)
   {
     const Index original = result.original[static_cast<std::size_t>(result.triangles.data()[i])];
@@ -50,7 +50,7 @@ BoneCut cut(const TriangleMesh& mesh, const Handles& bones)
   return result;
 }
 
-/// Return the number of points on this side.
+/// Return the number of points on one side of the bones.
 Index count(const BoneCut& cut, Index side)
 {
   return std::count(cut.side.begin(), cut.side.end(), side);
@@ -68,7 +68,7 @@ TEST(BoneCut, ASlitInsideIsAHole)
   EXPECT_EQ(euler(result.triangles), 0);
   EXPECT_EQ(count(result, 1), 3);
   EXPECT_EQ(count(result, 2), 3);
-  // The left side of a bone along +x is +y, so triangles with left vertices are above it.
+  // The left side of a bone along +x is toward +y, so triangles with left vertices are above it.
   for (Index t = 0; t < result.triangles.rows(); ++t)
   {
     for (int k = 0; k < 3; ++k)
@@ -102,15 +102,16 @@ TEST(BoneCut, ABoneFromEdgeToEdgeMakesTwoPieces)
 TEST(BoneCut, BonesThatMeetAndCross)
 {
   const TriangleMesh mesh = square();
-  // A cross that touches no boundary makes one hole, and its middle becomes four points.
+  // The cross touches no boundary, so it makes one hole. The vertex in its middle becomes four
+  // points.
   const Handles cross{ test::bone_handle("a", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)),
     test::bone_handle("b", Vec3(0.5, 0.25, 0), Vec3(0.5, 0.75, 0)) };
   const BoneCut crossed = cut(mesh, cross);
   EXPECT_EQ(crossed.points.rows() - mesh.points.rows(), 2 + 2 + 3);
   EXPECT_EQ(euler(crossed.triangles), 0);
-  EXPECT_EQ(count(crossed, 1), 2 + 2); // the middle belongs to the first bone of the list
+  EXPECT_EQ(count(crossed, 1), 2 + 2); // the middle belongs to the first bone in the list
   EXPECT_EQ(count(crossed, 3), 2);
-  // A closed square separates its inside.
+  // Four bones that form a closed square separate its inside from the rest.
   const Vec3 corners[4] = { Vec3(0.25, 0.25, 0), Vec3(0.75, 0.25, 0), Vec3(0.75, 0.75, 0),
     Vec3(0.25, 0.75, 0) };
   Handles ring;
@@ -142,10 +143,11 @@ TEST(BoneCut, BonesOfOneEdgeEachOpenTogether)
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(result.points.rows() - mesh.points.rows(), 4);
   EXPECT_EQ(connected_components(result.points.rows(), result.triangles).count, 2);
-  // The four vertices belong to the first of their two bones, so the last bone has none.
+  // Each of the four corners belongs to the first of its two bones, so the last bone has no
+  // vertices.
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_NE(status.warnings[0].find("'r3'"), std::string::npos);
-  // As one curve the bones have four vertices on each side.
+  // If the bones are treated as one curve, the curve has four vertices on each side.
   const Status whole =
     cut_along_bones(mesh.points, mesh.triangles, ring, { 0, 0, 0, 0 }, context, result);
   EXPECT_TRUE(whole.ok() && whole.warnings.empty());
@@ -187,8 +189,8 @@ TEST(BoneCut, WhatCannotBeCutIsOneSentence)
   };
   const auto bone = [](const Vec3& head, const Vec3& tail)
   { return Handles{ test::bone_handle("oblique", head, tail) }; };
-  // Bones across cells, through vertices without a common edge, outside of the mesh, and too short
-  // to open.
+  // The bones cross cells, pass through vertices that have no common edge, are outside of the mesh,
+  // or are too short to open a slit.
   EXPECT_NE(
     message(mesh, bone(Vec3(0.1, 0.2, 0), Vec3(0.8, 0.7, 0))).find("'oblique'"), std::string::npos);
   EXPECT_NE(

@@ -1,6 +1,7 @@
-// The quadratic programs are compared with projected Gauss-Seidel, and the certificate with its
-// definition. The stopping criterion is the certificate, results agree from any start, and their
-// bits do not depend on the number of threads.
+// Quadratic programs with bounds, by an interior-point method. They are compared with projected
+// Gauss-Seidel. The optimality certificate (duality gap and residual) is compared with its
+// definition and is the stopping criterion. Results do not depend on the start, and their bits do
+// not depend on the number of threads.
 #include "weights/box_qp.h"
 
 #include "base/memory.h"
@@ -56,7 +57,7 @@ BoxQpColumn column_of(std::initializer_list<double> values)
   return column;
 }
 
-/// Compute the minimizer by sweeps over single vertices: a slow, simple and independent method.
+/// Compute the minimizer by sweeps over single vertices: a slow but simple and independent method.
 Eigen::VectorXd gauss_seidel(
   const SparseMatrix& q, const std::vector<Index>& fixed, const Eigen::VectorXd& values, int sweeps)
 {
@@ -129,7 +130,7 @@ TEST(BoxQp, MinimizersWithoutBoundsHaveNoGradient)
       }
     }
     EXPECT_LE((w.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-7);
-    // The inverse of the block times the block is the identity.
+    // The inverse of the block times the block must be the identity.
     SplitForm form(q, fixed);
     Eigen::MatrixXd some = Eigen::MatrixXd::Zero(form.a.rows(), 2);
     some(5, 0) = some(100, 1) = 1.0;
@@ -169,7 +170,8 @@ TEST(BoxQp, CertificateBoundsTheTrueGap)
 
 TEST(BoxQp, OrderedPairsHoldAndTheirMultipliersProveIt)
 {
-  // A strip ordered along x. The unconstrained minimizer overshoots, the ordered one must not.
+  // The values on a strip are ordered along x. The unconstrained minimizer overshoots; the ordered
+  // one must not.
   const int n = 24;
   const TriangleMesh mesh = test::grid(n, 1, 1.0, 1.0 / n);
   const SparseMatrix q = energy(mesh, 2);
@@ -194,7 +196,7 @@ TEST(BoxQp, OrderedPairsHoldAndTheirMultipliersProveIt)
   }
   EXPECT_GE(least, 0.0) << "exactly";
   EXPECT_GE(ordered.multipliers.minCoeff(), 0.0);
-  // More constraints raise the energy.
+  // With fewer constraints the energy is lower.
   column.pairs.clear();
   const BoxQpSolution bounded = qp.solve(column, context);
   EXPECT_GT(ordered.certificate.energy, bounded.certificate.energy * (1.0 + 1e-6));
@@ -220,7 +222,7 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   const Eigen::VectorXd minimizer = qp.unconstrained(column.fixed_values);
   EXPECT_GT(minimizer.maxCoeff(), 0.8);
   EXPECT_LT((free.w - minimizer).cwiseAbs().maxCoeff(), 1e-9);
-  // Bounds on a part of the vertices only.
+  // Only a part of the vertices has bounds.
   BoxQpColumn some = unbounded;
   some.bounds.lower.head(n).setZero();
   some.bounds.upper.head(n).setConstant(0.8);
@@ -228,7 +230,7 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   ASSERT_TRUE(half.status.ok());
   EXPECT_LE(half.w.head(n).maxCoeff(), 0.8);
   EXPECT_GT(half.w.maxCoeff(), 0.8);
-  // An order between given values has the effect of bounds.
+  // If the values at both ends are given, an order between them has the effect of bounds.
   for (Index row = 0; row < 2; ++row)
   {
     for (Index i = 0; i < n; ++i)
@@ -282,8 +284,8 @@ TEST(BoxQp, EveryStartEndsAtTheSameWeights)
 namespace
 {
 /// Return two boxes of tets with perturbed vertices.
-/// @param slivers Insert a layer of almost flat tets into the first box, with 1e-3 of the height of
-/// the others.
+/// @param slivers Insert a layer of almost flat tets into the first box. Its height is 1e-3 of the
+/// height of the other layers.
 TetMesh two_boxes(bool slivers)
 {
   TetMesh first = test::tet_box(7, 6, 5);
@@ -342,9 +344,9 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
   for (const double scale : { 1.0, 1e6, 1e-6 })
   {
     const SparseMatrix scaled = scale * q;
-    // Each of the two solutions has an error of 1.5e-6 or 5e-9 (box_qp_workspace.h) on any
-    // processor. Columns with a given start use the interior-point method, the others do not.
-    // Slivers alone cause round-off errors of 1e-7.
+    // The two solutions have errors of 1.5e-6 or 5e-9 each (box_qp_workspace.h), on any processor.
+    // A column with a given start uses the interior-point method, the others do not. Slivers alone
+    // cause round-off errors of 1e-7.
     for (const auto& [tolerance, same] :
       { std::pair{ 1e-6, 3e-6 }, std::pair{ 1e-9, GetParam() ? 1e-6 : 1e-8 } })
     {
@@ -403,7 +405,8 @@ TEST(BoxQp, ThreadsDoNotChangeABit)
     ASSERT_TRUE(qp.prepare(context).ok());
     const std::vector<BoxQpSolution> solutions = qp.solve_all(columns, context);
     EXPECT_EQ(qp.analyses(), 1);
-    // One factorization of Q, one for the starts of all columns, and the others for the columns.
+    // Q is factored once, the starts of all columns need one factorization, and the columns need
+    // the others.
     Index factorizations = SparseSolver::has_cholmod() ? 2 : 1;
     for (const BoxQpSolution& solution : solutions)
     {
@@ -427,7 +430,7 @@ TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
 {
   if (test::sanitized)
   {
-    return; // the sanitizer's own memory is a multiple of the measured one
+    return; // the memory of the sanitizer is a multiple of the measured memory
   }
   const TetMesh box = test::tet_box(20, 20, 20);
   const SparseMatrix q = energy(box, 2);
@@ -436,7 +439,7 @@ TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
   for (const int threads : { 1, 2 })
   {
     ::malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << "5"; // resets the peak
+    std::ofstream("/proc/self/clear_refs") << "5"; // this resets the peak memory
     const double before = resident_memory();
     BoxQp qp(q, fixed, {});
     ExecutionContext context;
@@ -458,7 +461,8 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
   const std::vector<BoxQpColumn> columns = unit_columns(3);
   ExecutionContext context;
   BoxQpOptions options;
-  options.solver.memory_limit = 1; // less than the process already uses
+  // This limit is less than the memory that the process already uses.
+  options.solver.memory_limit = 1;
   BoxQp none(q, fixed, options);
   const Status refused = none.prepare(context, columns);
   EXPECT_EQ(refused.code, StatusCode::internal_error);
@@ -468,7 +472,7 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
   EXPECT_GT(none.memory_estimate(), resident_memory());
 
   std::vector<BoxQpSolution> reference;
-  double needed[2]; // by one thread and by two threads
+  double needed[2]; // memory for one thread and for two threads
   for (const int threads : { 2, 1 })
   {
     ExecutionContext some;
@@ -480,7 +484,7 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
     needed[threads - 1] = qp.memory_estimate() - before;
     reference = qp.solve_all(columns, some);
   }
-  // Not enough memory for two threads.
+  // The limit is too small for two threads.
   ASSERT_GT(needed[1], needed[0] + 8 * mebibyte);
   ::malloc_trim(0);
   options.solver.memory_limit = static_cast<Index>((resident_memory() + needed[0]) / mebibyte) + 4;

@@ -1,4 +1,5 @@
-// Cages: weights are linear along cage edges and faces, for any energy inside.
+// Cages as handles: weights are linear along cage edges and faces, for any energy inside of the
+// cage.
 #include "weights/bounded_biharmonic_weights.h"
 #include "base/simplex_locator.h"
 #include "weights/monotone_weights.h"
@@ -68,8 +69,8 @@ WeightsResult bounded(const WeightsProblem& problem)
   return result;
 }
 
-/// Expect barycentric coordinates as weights along the element from corner a to corner b (and c).
-/// Return the number of vertices on the element.
+/// Expect that the weights along the element from corner a to corner b (and c) are barycentric
+/// coordinates. Return the number of vertices on the element.
 Index expect_linear_along(
   const WeightsProblem& problem, const Weights& weights, const CageElement& element)
 {
@@ -101,8 +102,8 @@ Index expect_linear_along(
 
 TEST(Cages, AreLinearAlongEdgesInThePlane)
 {
-  // A closed triangle inside a square. Its corners and edges are at arbitrary positions relative to
-  // the mesh.
+  // The cage is a closed triangle inside of a square mesh. Its corners and edges are at arbitrary
+  // positions relative to the mesh.
   const Handles handles =
     polyline({ { 0.21, 0.18, 0 }, { 0.83, 0.31, 0 }, { 0.44, 0.87, 0 } }, true);
   const WeightsProblem problem = problem_of(test::to_domain(test::grid(20, 20)), handles);
@@ -164,7 +165,7 @@ TEST(Cages, AreLinearOnFacesInSpace)
 
 TEST(Cages, ThatAreTheWholeBoundaryAddNothing)
 {
-  // All vertices of the boundary are already on the cage.
+  // All boundary vertices of the mesh are already on the cage.
   const TetMesh box = test::tet_box(4, 4, 4, Vec3::Constant(-1.0), Vec3::Constant(1.0));
   const WeightsProblem problem = problem_of(test::to_domain(box), cube_cage(1.0));
   EXPECT_TRUE(problem.mesh.inserted.empty());
@@ -190,8 +191,8 @@ TEST_F(CagesInTets, AroundASurfaceAreItsDomain)
   EXPECT_EQ(status.report.text("transfer"), "exact") << "the points are vertices of the tets";
   EXPECT_TRUE(status.warnings.empty()) << status.warnings.front();
   EXPECT_LT((result.weights.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
-  // The weights are linear on the faces, so inside they are nearly coordinates: the corners
-  // approximately reproduce the ball's points.
+  // The weights are linear on the faces, so inside they are almost generalized barycentric
+  // coordinates. The cage corners approximately reproduce the ball's points.
   const Handles cage = cube_cage(1.0);
   double farthest = 0.0;
   for (Index v = 0; v < ball.points.rows(); ++v)
@@ -225,9 +226,9 @@ TEST_F(CagesInTets, OfEdgesAroundAFlatShapeAreItsDomain)
     [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
   { return bounded_biharmonic_weights(problem, {}, of_method, weights); };
   TriangleMesh shape = test::grid(10, 10, 0.8, 0.8);
-  shape.points.leftCols(2).array() += 0.1; // inside of a cage of size one
+  shape.points.leftCols(2).array() += 0.1; // the shape is inside of a cage of size one
   Handles cage = polyline({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, true);
-  // Edges may have either direction.
+  // The edges of a cage may have either direction.
   cage[1].cage.clear();
   cage[2].cage = { { 2, 1, -1 }, { 2, 3, -1 } };
   const Eigen::Matrix3d turn =

@@ -1,5 +1,6 @@
-// The depth is the weighted mean of the layers: constant for equal layers, and the handle's own
-// layer at a handle. For equal depths the later handle is in front.
+// Depth order of overlapping parts. The depth is the weighted mean of the handles' layers: constant
+// if all layers are equal, and the handle's own layer at a handle. If depths are equal, the part of
+// the later handle is in front.
 #include "weights/depth_order.h"
 
 #include "weights_shapes.h"

@@ -1,4 +1,5 @@
-// Persistence on a path with known values, and on a grid compared with brute force.
+// Local extrema and their persistence, on a path with known values and on a grid compared with
+// brute force.
 #include "weights/extrema.h"
 
 #include "weights_shapes.h"
@@ -30,8 +31,8 @@ VertexGraph path(Index count)
   return graph;
 }
 
-/// Return the climb from v to an exempt or lower vertex over the lowest pass, found with a queue
-/// ordered by height.
+/// Return the climb from v over the lowest pass to a lower or exempt vertex. It is found with a
+/// queue that is ordered by height.
 double climb(
   const VertexGraph& graph, const Eigen::VectorXd& f, const std::vector<char>& exempt, Index from)
 {
@@ -66,14 +67,13 @@ double climb(
 TEST(Extrema, PersistenceOnAPathCanBeReadOff)
 {
   Eigen::VectorXd f(9);
-  //   handle                 handle
+  // Vertices 0 and 5 are handles.
   f << 0.0, 0.5, 0.3, 0.9, 0.85, 1.0, 0.2, 0.4, 0.4;
   std::vector<char> exempt{ 1, 0, 0, 0, 0, 1, 0, 0, 0 };
   const auto found = interior_extrema(path(9), f, exempt);
-  // Minima: 0.2 (vertex 6) climbs to the handle at 1, 0.3 (vertex 2) over 0.5, and 0.85 (vertex 4)
-  // over 0.9.
-  // Maxima: 0.4 (vertices 7 and 8) descends to 0.2, 0.9 (vertex 3) to 0.85, and 0.5 (vertex 1) to
-  // 0.3.
+  // Minima: 0.2 (vertex 6) climbs over 1 at the handle, 0.3 (vertex 2) over 0.5, and 0.85 (vertex
+  // 4) over 0.9. Maxima: 0.4 (vertices 7 and 8) descends to 0.2, 0.9 (vertex 3) to 0.85, and 0.5
+  // (vertex 1) to 0.3.
   ASSERT_EQ(found.size(), 6u);
   EXPECT_EQ(found[0].vertex, 6);
   EXPECT_FALSE(found[0].maximum);
@@ -93,11 +93,12 @@ TEST(Extrema, HandlesWinTiesAndPlateausAreOne)
   Eigen::VectorXd f(7);
   f << 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0;
   EXPECT_TRUE(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }).empty());
-  // A dip of round-off size next to a handle is ignored and is not the global minimum.
+  // A minimum of round-off size next to a handle is ignored. It is not reported as the global
+  // minimum.
   f[0] = -1e-10;
   EXPECT_TRUE(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }).empty());
   EXPECT_EQ(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }, 0.0).size(), 1u);
-  // Without handles both ends of the path count once, with their full persistence.
+  // Without handles each of the two ends of the path counts once, with its full persistence.
   const auto all = interior_extrema(path(7), f, std::vector<char>(7, 0));
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].persistence, 1.0);

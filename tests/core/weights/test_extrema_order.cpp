@@ -1,4 +1,4 @@
-// Vertex orders with given extrema, from any values.
+// Orders of vertices that have exactly the listed extrema, computed from arbitrary values.
 #include "weights/extrema_order.h"
 
 #include "weights_shapes.h"
@@ -12,8 +12,8 @@ using Eigen::VectorXd;
 
 namespace
 {
-/// Expect that an unlisted vertex has neighbors on both sides, and that all unlisted neighbors of a
-/// listed vertex are on one side.
+/// Expect that an unlisted vertex has neighbors before and after it. Expect that all unlisted
+/// neighbors of a listed vertex are on one side of it in the order.
 void expect_order(const VertexGraph& graph, const ExtremaList& list, const std::vector<Index>& rank)
 {
   for (std::size_t v = 0; v < list.size(); ++v)

@@ -1,4 +1,4 @@
-// Farthest points: comparisons with the definition, and too few points.
+// Farthest-point sampling: comparisons with the definition, and meshes with too few points.
 #include "weights/farthest_points.h"
 
 #include "support/meshes.h"
@@ -43,7 +43,7 @@ TEST(FarthestPoints, BoxCornersComeFirst)
   std::vector<Index> chosen;
   ASSERT_TRUE(farthest_points(mesh.points, mesh.triangles, 8, context, chosen).ok());
   EXPECT_EQ(chosen[0], 0); // all corners are equally far, so the smallest id is chosen
-  EXPECT_EQ(chosen[1], 7); // the opposite corner
+  EXPECT_EQ(chosen[1], 7); // this is the opposite corner
   std::sort(chosen.begin(), chosen.end());
   EXPECT_EQ(chosen, (std::vector<Index>{ 0, 1, 2, 3, 4, 5, 6, 7 }));
 }
@@ -52,7 +52,7 @@ TEST(FarthestPoints, TooFewPlacesAndCancel)
 {
   TriangleMesh mesh = test::cube();
   mesh.points.conservativeResize(9, 3);
-  mesh.points.row(8) << 100, 100, 100; // used by no triangle
+  mesh.points.row(8) << 100, 100, 100; // no triangle uses this vertex
   ExecutionContext context;
   std::vector<Index> chosen;
   const Status few = farthest_points(mesh.points, mesh.triangles, 9, context, chosen);

@@ -28,7 +28,8 @@ Handle bone(const std::string& name, const Vec3& head, const Vec3& tail, Index p
   return handle;
 }
 
-// Return the chain upper - lower - hand, a point as a child of the hand, and another point.
+// Return the chain of bones upper - lower - hand, a point that is a child of the hand, and another
+// point.
 Handles arm()
 {
   Handles handles = { bone("upper.L", Vec3(1, 0, 0), Vec3(2, 0, 0)),
@@ -40,7 +41,7 @@ Handles arm()
   return handles;
 }
 
-// Return an open cage a - b - c and a face a b c.
+// Return an open cage with the edges a - b - c and a face a b c.
 Handles cage()
 {
   Handles handles = { make("a.L", HandleKind::cage_vertex, Vec3(1, 0, 0)),

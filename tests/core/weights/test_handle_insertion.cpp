@@ -1,5 +1,5 @@
-// Handles become vertices. Volumes, orientations and original ids are kept, new vertices are at the
-// handles, and every degenerate position has a defined result.
+// Handles become vertices of the domain. Volumes, orientations and original vertex ids are kept,
+// new vertices are at the handles, and every degenerate position has a defined result.
 #include "weights/handle_constraints.h"
 
 #include "weights_shapes.h"
@@ -23,7 +23,7 @@ HandleInsertion inserted(
   return result;
 }
 
-/// Expect the invariants of every insertion.
+/// Expect the invariants that every insertion has.
 void expect_sound(const Domain& before, const HandleInsertion& after)
 {
   const Index n = before.points.rows();
@@ -42,7 +42,7 @@ void expect_sound(const Domain& before, const HandleInsertion& after)
       sums[after.parent_element[t]] += volumes[t];
     }
     EXPECT_LT((sums - old_volumes).cwiseAbs().maxCoeff(), 1e-12 * old_volumes.maxCoeff());
-    // The boundary is the same surface.
+    // The boundary encloses the same volume.
     EXPECT_NEAR(signed_volume(after.domain.points, boundary_triangles(after.domain.tets)),
       old_volumes.sum(), 1e-12 * old_volumes.sum());
   }
@@ -79,7 +79,7 @@ Vec3 place(const HandleInsertion& mesh, Index handle)
 TEST(HandleInsertion, PointsInsideCellsFacesAndEdgesBecomeVertices)
 {
   const Domain box = test::to_domain(test::tet_box(3, 3, 3));
-  // In a cell, in the interior of a face, in the middle of an edge, and at a vertex.
+  // The points are in a cell, in the interior of a face, in the middle of an edge, and at a vertex.
   const Handles handles = test::point_handles({ Vec3(0.55, 0.62, 0.41), Vec3(0.2, 0.1, 0.0),
     Vec3(0.5, 1.0, 1.0), Vec3(1.0 / 3.0, 2.0 / 3.0, 1.0 / 3.0) });
   const HandleInsertion mesh = inserted(box, handles);
@@ -164,7 +164,7 @@ TEST(HandleInsertion, BonesAreSampledAtTheLocalEdgeLength)
     }
     EXPECT_GE(at.size(), 3u);
   }
-  // The joint is one vertex of both bones.
+  // The joint is one vertex that belongs to both bones.
   std::vector<Index> joint;
   std::set_intersection(mesh.handles[0].vertices.begin(), mesh.handles[0].vertices.end(),
     mesh.handles[1].vertices.begin(), mesh.handles[1].vertices.end(), std::back_inserter(joint));
@@ -212,7 +212,8 @@ TEST(HandleInsertion, KeepMeshTakesTheCorners)
   EXPECT_EQ(same.code, StatusCode::invalid_input) << "all corners shared: nothing is p1's own";
   EXPECT_NE(same.message.find("'p1'"), std::string::npos);
 
-  // Joints of a rig: the first one is skipped, and the second one owns the corners.
+  // The handles are now joints of a rig. The first joint is skipped, and the second one owns the
+  // corners.
   Handles joints = handles;
   joints.push_back(test::point_handle("p3", Vec3(0.6, 0.2, 0.1)));
   for (Handle& joint : joints)
@@ -307,7 +308,8 @@ TEST(HandleConstraints, PartsWithoutHandlesFollowTheNearest)
 
 TEST(HandleConstraints, OneWarningPerKind)
 {
-  // Five parts, two of which have handles. The others follow two different handles.
+  // The mesh has five parts, two of which have handles. The other parts use the weights of the
+  // nearest handles, p1 or p2.
   TriangleMesh mesh = test::grid(3, 3);
   for (const double x : { 3.0, 6.0, 9.0, 12.0 })
   {
@@ -322,7 +324,7 @@ TEST(HandleConstraints, OneWarningPerKind)
   EXPECT_EQ(constraints.warnings[0],
     "3 connected parts without a handle follow the nearest handles 'p1', 'p2'");
 
-  // Six handles in one tet give fifteen pairs with shared corners.
+  // Six handles in one tet form fifteen pairs that share corners.
   const Domain box = test::to_domain(test::tet_box(1, 1, 1));
   HandleInsertionOptions options;
   options.keep_mesh = true;
@@ -351,7 +353,7 @@ TEST(HandleConstraints, FlatTrianglesFollowTheirNeighbors)
   mesh.points.conservativeResize(n + 3, 3);
   mesh.points.row(n) << 0.5, 0.0, 0.0; // used by a triangle without area, on the edge 1-2
   mesh.points.row(n + 1) << 9.0, 9.0, 9.0; // used by no triangle
-  // Used by another degenerate triangle, with the first vertex.
+  // This vertex is used by another degenerate triangle, together with the first new vertex.
   mesh.points.row(n + 2) << 0.6, 0.0, 0.0;
   mesh.triangles.conservativeResize(mesh.triangles.rows() + 2, 3);
   mesh.triangles.row(mesh.triangles.rows() - 2) << n, n + 2, n;

@@ -1,5 +1,6 @@
-// Smoothing with given extrema: comparisons with isotonic regression, a dense quadratic program and
-// monotone weights. The result has exactly the listed extrema, and it does not depend on units.
+// Smoothing of functions with given extrema, compared with isotonic regression, a dense quadratic
+// program and monotone weights. The result has exactly the listed extrema, and it does not depend
+// on units.
 #include "weights/monotone_smoothing.h"
 
 #include "base/laplacian.h"
@@ -99,7 +100,7 @@ void expect_only_listed(const Domain& domain, const Smoothed& result, double tol
   }
 }
 
-/// Compute isotonic regression by pooling adjacent violators.
+/// Compute isotonic regression with the pool-adjacent-violators algorithm.
 std::vector<double> isotonic(const std::vector<double>& f, const std::vector<double>& mass)
 {
   struct Block
@@ -130,9 +131,9 @@ std::vector<double> isotonic(const std::vector<double>& f, const std::vector<dou
 }
 } // namespace
 
-// A strip of triangles (i, i + 1, i + 2). In an order along the strip, the value of vertex i is
-// between those of i - 2 and i + 2. If the energy contains only the fit to the data, this is
-// isotonic regression of the even and of the odd vertices.
+// The strip has the triangles (i, i + 1, i + 2). In an order along the strip, the value of vertex i
+// is between the values of vertices i - 2 and i + 2. If the energy contains only the fit to the
+// data, the problem is isotonic regression of the even and of the odd vertices.
 TEST(MonotoneSmoothing, IsIsotonicRegressionAlongAStrip)
 {
   constexpr Index n = 41;
@@ -202,7 +203,8 @@ TEST(MonotoneSmoothing, AgreesWithADenseTwin)
       const Smoothed result = smooth(domain, f, options);
       expect_only_listed(domain, result, 1e-9);
 
-      // The same program in dense form, solved by Hildreth's coordinate ascent in the multipliers.
+      // Compute the reference with the same program in dense form, solved by Hildreth's coordinate
+      // ascent in the multipliers.
       const ScaledMesh scaled = scale_mesh(domain, std::vector<char>(std::size_t(n), 1));
       const double unit = scaled.mass_unit;
       const Eigen::RowVector3d centroid =
@@ -376,7 +378,7 @@ TEST(MonotoneSmoothing, UnitsDoNotMatter)
   options.extrema = hills_list(domain);
   const VectorXd plain = smooth(domain, f, options).values;
   const double range = f.maxCoeff() - f.minCoeff();
-  // Powers of two cause no rounding.
+  // Scaling by a power of two does not round.
   for (const double scale : { 1048576.0, 1.0 / 1048576.0 })
   {
     const VectorXd scaled = scale * f;
@@ -483,7 +485,8 @@ TEST(MonotoneSmoothing, PartsAreSmoothedEachForItself)
   MonotoneSmoothingOptions options;
   options.extrema = hills_list(alone);
   options.extrema.resize(static_cast<std::size_t>(2 * n + 2), 0);
-  // The second part has no listed extremum, so its result is constant: the mean.
+  // The second part of the mesh has no listed extremum, so its result is constant: the mean of the
+  // data.
   const Smoothed half = smooth(both, twice, options);
   ASSERT_TRUE(half.status.ok()) << half.status.message;
   EXPECT_EQ(half.status.warnings.size(), 2u);
@@ -493,7 +496,7 @@ TEST(MonotoneSmoothing, PartsAreSmoothedEachForItself)
   EXPECT_NEAR(half.values.segment(n, n).minCoeff(), mean, 1e-12);
   EXPECT_TRUE(std::isnan(half.values[2 * n]));
   EXPECT_EQ(half.values[2 * n + 1], 7.0);
-  // A maximum in the second part requires a minimum in it.
+  // If a maximum is listed in the second part, a minimum must be listed there too.
   options.extrema[static_cast<std::size_t>(n) + 40] = 1;
   EXPECT_EQ(smooth(both, twice, options).status.code, StatusCode::invalid_input);
   // Automatic extrema are chosen separately in each part.
@@ -506,7 +509,7 @@ TEST(MonotoneSmoothing, PartsAreSmoothedEachForItself)
     EXPECT_EQ(chosen.list[v], chosen.list[n + v]);
     EXPECT_NEAR(chosen.values[v], chosen.values[n + v], 1e-6);
   }
-  // If the data of the second part are constant, it has no extrema to list.
+  // If the data of the second part are constant, no extrema are chosen there.
   twice.segment(n, n).setConstant(0.125);
   const Smoothed flat = smooth(both, twice, options);
   ASSERT_TRUE(flat.status.ok()) << flat.status.message;
@@ -526,7 +529,7 @@ TEST(MonotoneSmoothing, WhatAnExtremumClosesOffNeedsOneOfTheOtherKind)
   }
   Domain domain = test::to_domain(mesh);
   VectorXd f = domain.points.col(0) + domain.points.col(1);
-  f = (f.array() - 2.0).abs().matrix(); // a minimum at the shared corner
+  f = (f.array() - 2.0).abs().matrix(); // this function has a minimum at the shared corner
   f[97] += 0.5;
   MonotoneSmoothingOptions options;
   options.extrema_count = 2;
@@ -584,7 +587,7 @@ TEST(MonotoneSmoothing, BadInputIsSaid)
   EXPECT_NE(message(f, options).find("no minimum"), std::string::npos);
   options.extrema[3] = -1;
   EXPECT_NE(message(f, options).find("no maximum"), std::string::npos);
-  // A minimum with a larger value than the maximum next to it.
+  // The listed minimum has a larger value than the listed maximum next to it.
   options.extrema[3] = 1;
   options.extrema[4] = -1;
   options.keep_values = true;

@@ -1,5 +1,5 @@
-// Previews are compared with biharmonic weights from a separate factorization, and their
-// certificate is checked.
+// Preview weights (clamped biharmonic weights, shown while better ones are computed). They are
+// compared with biharmonic weights from a separate factorization, and their certificate is checked.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/preview_weights.h"
 #include "weights/unconstrained_weights.h"
@@ -95,8 +95,8 @@ TEST(PreviewWeights, CertificateBoundsTheDistanceFromBoundedWeights)
 
 TEST(PreviewWeights, OfPartsAndOfVerticesThatAreAllFixed)
 {
-  // A second box without a handle follows the nearest handle. If all vertices are handles, the
-  // weights are the given values.
+  // A second box without a handle gets the weights of the nearest handle. If all vertices belong to
+  // handles, the weights are the given values.
   TetMesh two = test::tet_box(3, 3, 3);
   const TetMesh other = test::tet_box(2, 2, 2, Vec3(3, 0, 0), Vec3(4, 1, 1));
   const Index n = two.points.rows(), t = two.tets.rows();

@@ -1,5 +1,5 @@
-// Smoothing along a surface: known factor for an eigenfunction, comparison with a dense solve, and
-// triangles on which a plain factorization fails.
+// Smoothing of weights along a surface: the known factor for an eigenfunction, a comparison with a
+// dense solve, and triangles for which a plain factorization fails.
 #include "weights/surface_smoothing.h"
 
 #include "base/laplacian.h"
@@ -38,7 +38,7 @@ TEST(SurfaceSmoothing, IsTheMinimizerWithFixedPoints)
   sheet.points.col(2) = 0.1 * sheet.points.col(0).array().sin();
   const Index n = sheet.points.rows();
   const std::vector<Index> few{ 0, 17 };
-  std::vector<Index> many; // some of them are neighbors
+  std::vector<Index> many; // some of these vertices are neighbors
   for (Index v = 0; v < n; v += 1 + v % 3)
   {
     many.push_back(v);
@@ -71,7 +71,7 @@ TEST(SurfaceSmoothing, IsTheMinimizerWithFixedPoints)
 
 TEST(SurfaceSmoothing, SurvivesNeedleTriangles)
 {
-  // Rows of points are 1e-9 apart, which gives cotangents of 1e9.
+  // Two rows of points are 1e-9 apart, which gives cotangents of 1e9.
   TriangleMesh sheet = test::grid(12, 12, 1.0, 1.0);
   for (Index v = 0; v < sheet.points.rows(); ++v)
   {
@@ -81,7 +81,7 @@ TEST(SurfaceSmoothing, SurvivesNeedleTriangles)
   const Eigen::MatrixXd w = smoothed(sheet, {}, 0.2, given);
   ASSERT_TRUE(w.allFinite());
   EXPECT_GT((w - given).norm(), 0.0);
-  // The overshoot of a step is bounded for any triangles.
+  // The overshoot at a step function is bounded for any triangles.
   EXPECT_GT(w.minCoeff(), -0.5);
   EXPECT_LT(w.maxCoeff(), 1.5);
   const Eigen::MatrixXd constant = Eigen::MatrixXd::Constant(given.rows(), 1, 0.25);
@@ -90,8 +90,8 @@ TEST(SurfaceSmoothing, SurvivesNeedleTriangles)
 
 TEST(SurfaceSmoothing, TrianglesWithAlmostNoHeightChangeLittle)
 {
-  // A vertex is almost on the opposite edge of one of its triangles, which gives cotangents of both
-  // signs.
+  // One vertex is almost on the opposite edge of one of its triangles, which gives cotangents of
+  // both signs.
   const TriangleMesh sheet = test::grid(12, 12, 1.0, 1.0);
   Eigen::MatrixXd given(sheet.points.rows(), 3);
   given.col(0) = (sheet.points.col(0).array() > 0.5).cast<double>();

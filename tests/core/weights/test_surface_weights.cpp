@@ -1,5 +1,6 @@
-// Weights of surfaces by their volume and by a lattice: comparisons with the separate stages and
-// with each other, parts that are near but not connected, and the automatic choice of the domain.
+// Weights of surfaces, computed on tets of their volume or on an embedding lattice. They are
+// compared with the separate stages and with each other. Other tests check parts that are close but
+// not connected, and the automatic choice of the domain.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/embedded_surface.h"
 #include "weights/surface_weights.h"
@@ -132,8 +133,8 @@ TEST(SurfaceWeights, OfTheEmbeddingAreNearThoseOfAFineVolume)
 
 TEST(SurfaceWeights, ProngsThatAreNearButNotConnectedDoNotShareWeights)
 {
-  // Two prongs of a fork, 1/20 apart, in a lattice with cubes of 1/3. They are joined only at their
-  // base.
+  // The shape is a fork with two prongs, 1/20 apart, in a lattice with cubes of 1/3. The prongs are
+  // joined only at their base.
   TriangleMesh fork =
     test::join(TriangleMesh{ test::tet_box(32, 4, 4, Vec3::Zero(), Vec3(4, 0.5, 0.5)).points,
                  boundary_triangles(test::tet_box(32, 4, 4).tets) },
@@ -161,7 +162,7 @@ TEST(SurfaceWeights, ProngsThatAreNearButNotConnectedDoNotShareWeights)
 
 TEST(SurfaceWeights, BonesInPartsThatShareTetsFindTheirOwn)
 {
-  // Two slabs in the same tets of the lattice, with one bone each.
+  // Two slabs with one bone each are in the same tets of the lattice.
   const TriangleMesh below{ test::tet_box(16, 16, 1, Vec3::Zero(), Vec3(4, 4, 0.1)).points,
     boundary_triangles(test::tet_box(16, 16, 1).tets) };
   const TriangleMesh slabs = test::join(below, test::translated(below, Vec3(0, 0, 0.15)));
@@ -178,8 +179,8 @@ TEST(SurfaceWeights, BonesInPartsThatShareTetsFindTheirOwn)
 
 TEST(SurfaceWeights, APartWithoutAHandleFollowsTheHandleNearestToItsSurface)
 {
-  // A knob between two bars with one handle each. It is 3 % nearer to the handle of the right bar,
-  // which is less than the lattices of this test resolve.
+  // A knob is between two bars with one handle each. The knob is nearer to the handle of the right
+  // bar by 3 %, which is less than the lattices of this test resolve.
   const auto box = [](const Vec3& lower, const Vec3& upper)
   {
     const TetMesh tets = test::tet_box(4, 4, 4, lower, upper);
@@ -208,8 +209,8 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsTheHandleNearestToItsSurface)
 
 TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
 {
-  // A bar with a handle at each end. A knob 0.004 above the bar is nearest to the left handle. A
-  // seat spans the gap between the bar and a second bar that has another handle.
+  // A bar has a handle at each end. A knob 0.004 above the bar is nearest to the left handle. A
+  // seat spans the gap between this bar and a second bar, which has another handle.
   const auto box = [](int n, const Vec3& lower, const Vec3& upper)
   {
     const TetMesh tets = test::tet_box(n, 4, 4, lower, upper);
@@ -238,7 +239,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
     for (Index v = bar.points.rows(); v < end_of_knob; ++v)
     {
       const Vec3 p = shape.points.row(v);
-      // The weights of the bar below the knob.
+      // Find the weights of the bar below the knob.
       double nearest = 1e300;
       Index below = 0;
       for (Index u = 0; u < bar.points.rows(); ++u)
@@ -253,7 +254,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
     for (Index v = end_of_knob; v < end_of_seat; ++v)
     {
       const double y = shape.points(v, 1);
-      if (y < 0.5 || y > 1.5) // next to a bar: follows this bar
+      if (y < 0.5 || y > 1.5) // next to a bar the seat has the weights of this bar
       {
         EXPECT_GT(result.weights(v, y < 0.5 ? 1 : 2), 0.6) << y << " at " << resolution;
       }
@@ -329,7 +330,8 @@ TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
   expect_weights(result.weights, sheet.points.rows(), 2);
 
   status = solve(sheet, { handles[0], handles[1] }, in(WeightsDomain::volume), result);
-  // Otherwise the tets miss too much of the volume where the sheet's winding number is high.
+  // The status may be a failure: then the tets miss too much of the volume where the sheet's
+  // winding number is high.
   if (status.usable())
   {
     expect_weights(result.weights, sheet.points.rows(), 2);
@@ -450,7 +452,7 @@ TEST(SurfaceWeights, RawOnesAreCarriedOnlyWhenAskedForAndChangeNothing)
   EXPECT_EQ(with.weights, without.weights);
   ASSERT_EQ(with.raw.rows(), mesh.points.rows());
   ASSERT_EQ(with.raw.cols(), 3);
-  // Each column has separate bounds, so the rows sum only approximately to 1.
+  // Each column has its own bounds, so the sums of the rows are only approximately 1.
   const Eigen::VectorXd sums = with.raw.rowwise().sum();
   EXPECT_GT((sums.array() - 1.0).abs().maxCoeff(), 1e-12);
   EXPECT_LT((sums.array() - 1.0).abs().maxCoeff(), 0.5);

@@ -1,5 +1,6 @@
-// Transfer is exact at vertices, reproduces linear functions inside, and uses the nearest point for
-// points outside. Its search agrees with a brute-force search over all elements.
+// Transfer of weights from a mesh to points. It is exact at vertices, reproduces linear functions
+// inside, and uses the nearest point of the mesh for points outside. The search agrees with brute
+// force over all elements.
 #include "base/simplex_locator.h"
 #include "weights/transfer.h"
 

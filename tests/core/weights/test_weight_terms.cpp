@@ -1,6 +1,7 @@
-// Terms of bounded and monotone weights: comparisons with dense solvers without interior points,
-// convergence rates, exact equalities, and certificates recomputed from the quadratic form and the
-// weights.
+// Additional terms of bounded and monotone weights (bounds and pins, rigidity, rigid sets, mirror
+// symmetry, few influences, columns that sum to 1). They are compared with dense solvers without
+// interior points, convergence rates, exact equalities, and certificates recomputed from the
+// quadratic form and the weights.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/unconstrained_weights.h"
@@ -61,8 +62,8 @@ Eigen::MatrixXd no_values(const Domain& domain, const Handles& handles)
     domain.points.rows(), static_cast<Index>(handles.size()), std::nan(""));
 }
 
-/// Minimize 1/2 w'Qw in a box by coordinate descent, which converges to the minimizer. lower =
-/// upper marks given values.
+/// Minimize 1/2 w'Qw within bounds by coordinate descent, which converges to the minimizer. At
+/// given values, lower = upper.
 Eigen::VectorXd coordinate_descent(const Eigen::MatrixXd& q, const Eigen::VectorXd& lower,
   const Eigen::VectorXd& upper, Eigen::VectorXd w)
 {
@@ -89,8 +90,8 @@ Eigen::VectorXd coordinate_descent(const Eigen::MatrixXd& q, const Eigen::Vector
   return w;
 }
 
-/// Return the relative gap of one column from its gradient, values and bounds. lower = upper marks
-/// given values.
+/// Return the relative duality gap of one column, from its gradient, values and bounds. At given
+/// values, lower = upper.
 double relative_gap(const SparseMatrix& q, const Eigen::VectorXd& w, const Eigen::VectorXd& lower,
   const Eigen::VectorXd& upper)
 {
@@ -123,8 +124,8 @@ void expect_error(const Status& status, const std::vector<std::string>& words)
   }
 }
 
-/// Return the mirror images of the vertices of a square grid, left to right. The grid's diagonals
-/// are not symmetric.
+/// Return the mirror image of each vertex of a square grid, left to right. The diagonals of the
+/// grid are not symmetric.
 std::vector<Index> mirrored(int n)
 {
   std::vector<Index> mirror;
@@ -376,7 +377,7 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
   {
     const Eigen::VectorXd w = solved.result.raw.col(j);
     const Eigen::VectorXd g = q * w;
-    double total = 0.0; // gradient with respect to the common value of the set
+    double total = 0.0; // gradient with respect to the common value of the rigid set
     double value = -1.0;
     double gap = 0.0;
     for (Index v = 0; v < w.size(); ++v)
@@ -397,11 +398,11 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
       }
     }
     gap += std::max(total * value, -total * (1.0 - value));
-    // This bound is weaker than the certified one, which is 1e-9.
+    // The bound computed here is weaker than the certified gap, which is 1e-9.
     EXPECT_LE(gap / (0.5 * w.dot(g)), 5e-8);
   }
-  // A rigid set that contains vertices of a part without a handle connects it to a part with
-  // handles.
+  // A rigid set may contain vertices of a part without a handle. It then connects this part to one
+  // with handles.
   TriangleMesh two = test::grid(4, 4);
   const Index count = two.points.rows();
   Points points(2 * count, 3);
@@ -454,7 +455,8 @@ TEST(WeightTerms, MonotoneWeightsTakeThem)
   }
   options.terms.upper(3 * 21 + 9, 0) = std::nan("");
   options.terms.lower = no_values(domain, handles);
-  options.terms.lower(0, 0) = 0.999; // above the upper bound of vertices nearer to the handle
+  // This exceeds the upper bound of vertices nearer to the handle.
+  options.terms.lower(0, 0) = 0.999;
   options.terms.upper.col(0).setConstant(0.99);
   options.terms.upper(0, 0) = std::nan("");
   for (const Index v : solved.problem.fixed)
@@ -489,8 +491,8 @@ TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
     EXPECT_NEAR(solved.result.raw(v, 3), free.result.raw(v, 3), 1e-5);
   }
   EXPECT_GT(free_difference, 1e-3) << "the fourth handle and the diagonals are not symmetric";
-  // The energy is not below that without the constraint, and not above that of the mean of the two
-  // solutions, which satisfies the constraint.
+  // The energy is at least that without the symmetry constraint. It is at most that of the mean of
+  // the solution and its mirror image, because the mean satisfies the constraint.
   const SparseMatrix q = solved.problem.energy(2);
   const auto energy = [&](const Eigen::VectorXd& a) { return 0.5 * a.dot(q * a); };
   const double pair = energy(solved.result.raw.col(0)) + energy(solved.result.raw.col(1));
@@ -544,8 +546,8 @@ TEST(WeightTerms, CoupledColumnsAreTheDenseMinimizer)
   options.partition = PartitionOfUnity::coupled;
   const Solved solved = solve(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
-  // Reference: descent steps that shift weight between two columns of one vertex, for all pairs of
-  // columns in turn.
+  // Compute the reference by descent steps that shift weight between two columns of one vertex, for
+  // all pairs of columns in turn.
   const Eigen::MatrixXd q = Eigen::MatrixXd(solved.problem.energy(2));
   const Index count = domain.points.rows();
   Eigen::MatrixXd w = Eigen::MatrixXd::Constant(count, 4, 0.25);
@@ -604,9 +606,9 @@ TEST(WeightTerms, CoupledColumnsSumToOne)
   EXPECT_LE(solved.result.row_sum_error, 1e-12);
   EXPECT_GT(alone.result.row_sum_error, 0.01);
   EXPECT_LE((w - solved.result.weights).cwiseAbs().maxCoeff(), 1e-12);
-  // The second bound of the certificate from the gradients alone, valid for any multipliers; here
-  // the mean gradients of the rows. It is 1/2 r' A^-1 r for weights inside of their bounds, and the
-  // linear bound for the others.
+  // Compute the second bound of the certificate from the gradients alone. It is valid for any
+  // multipliers; here they are the mean gradients of the rows. The bound is 1/2 r' A^-1 r for
+  // weights inside of their bounds, and the linear bound for the others.
   const Eigen::MatrixXd g = q * w;
   std::vector<Index> free;
   for (Index v = 0; v < w.rows(); ++v)
@@ -711,8 +713,8 @@ TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
     first = threads == 1 ? result.weights : first;
     EXPECT_EQ((result.weights - first).cwiseAbs().maxCoeff(), 0.0);
   }
-  // With too few iterations the result is the best rows so far. They sum to 1, and the report
-  // contains their gap.
+  // With too few iterations, the result is the best rows so far. They sum to 1, and the report
+  // contains their duality gap.
   options.maximum_iterations = 3;
   ExecutionContext context;
   WeightsResult result;
@@ -721,7 +723,7 @@ TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
   EXPECT_NE(late.message.find("not certified"), std::string::npos) << late.message;
   EXPECT_LE(result.row_sum_error, 1e-12);
   EXPECT_GT(late.report.number("relative_gap", 0.0), 1e-6);
-  // Cancel during the coupled part.
+  // Cancel while the coupled columns are solved.
   options.maximum_iterations = 100;
   std::atomic<bool> stop{ false };
   ExecutionContext canceled([&](double, const std::string& phase)

@@ -1,5 +1,5 @@
-// Colors are blended by the formula, in linear light or as numbers. Bounded weights stay within the
-// handles' colors, and points outside of the gamut are counted.
+// Colors blended by weights, in linear light or in encoded values. Bounded weights keep colors
+// within the range of the handles' colors, and points outside of the gamut are counted.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/unconstrained_weights.h"
@@ -31,7 +31,7 @@ WeightedColors blend(const Weights& weights, const Colors& colors, bool linear_l
   return result;
 }
 
-/// A bar with handles at 0, 1/2 and 1. The first handle is white, the others are black.
+/// A bar with handles at 0, 1/2 and 1. The first handle is white, the other two are black.
 struct BlackAndWhite
 {
   static constexpr int n = 96;
@@ -65,7 +65,8 @@ TEST(WeightedColors, UnconstrainedWeightsLeaveTheGamutByANinth)
     EXPECT_NEAR(result.colors(at, 1), expected, 2e-4);
     EXPECT_NEAR(report.number("largest_gamut_violation", -1), 1.0 / 9.0, 1e-4);
     EXPECT_NEAR(report.number("largest_overshoot", -1), 1.0 / 9.0, 1e-4);
-    // The expected points by definition: exactly the half beyond the middle.
+    // The points out of gamut follow from the definition: exactly the half of the bar beyond its
+    // middle.
     Index outside = 0;
     for (Index v = 0; v < solved.weights.rows(); ++v)
     {
@@ -147,7 +148,7 @@ TEST(WeightedColors, HalfBlackHalfWhiteIsHalfTheLight)
   const Weights half = Weights::Constant(1, 2, 0.5);
   Colors colors = Colors::Zero(2, 3);
   colors.row(1).setOnes();
-  // IEC 61966-2-1 encodes half of the light as 188 of 255.
+  // Half of the light of white is encoded as 188 of 255 (IEC 61966-2-1).
   EXPECT_EQ(std::lround(255.0 * blend(half, colors, true, true).colors(0, 0)), 188);
   EXPECT_EQ(blend(half, colors, false, true).colors(0, 0), 0.5);
 }
@@ -156,7 +157,7 @@ TEST(WeightedColors, LightAndNumbersAreInverseAndOdd)
 {
   for (double x = -1.5; x <= 1.5; x += 0.001)
   {
-    // The standard's two branches do not meet exactly.
+    // The two branches of the standard's formula have a small jump between them.
     EXPECT_NEAR(from_linear_light(to_linear_light(x)), x, 1e-7);
     EXPECT_EQ(to_linear_light(-x), -to_linear_light(x));
   }

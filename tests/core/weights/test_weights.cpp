@@ -1,5 +1,5 @@
-// Weights: closed forms in one dimension, published values on the square and the slotted square,
-// and invariance under units, rotation, threads and domains.
+// Bounded biharmonic and monotone weights: closed forms in one dimension, published values on the
+// square and the slotted square, and invariance under units, rotation, threads and domains.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/unconstrained_weights.h"
@@ -54,7 +54,8 @@ WeightsResult unconstrained(const WeightsProblem& problem, int order)
   return result;
 }
 
-/// Expect the properties of every bounded result (SPEC B11, B14).
+/// Expect the properties of every bounded result: bounds, row sums of 1, constrained values, and a
+/// certificate.
 void expect_certified(
   const WeightsProblem& problem, const WeightsResult& result, double tolerance = 1e-6)
 {
@@ -88,9 +89,9 @@ void expect_certified(
   EXPECT_EQ(result.analyses, 1);
 }
 
-/// Return the integral of (w'')^2 on a bar of length 1 and width 1 from the certificate of the
-/// strip, which has the width 2 / n. The certificate contains 1/2 w'Qw with the mass divided by its
-/// maximum.
+/// Return the integral of (w'')^2 on a bar of length 1 and width 1. It is computed from the
+/// certificate of the strip, which has the width 2 / n. The certificate contains 1/2 w'Qw, where
+/// the mass is divided by its maximum.
 double bar_energy(const Certificate& certificate, int n)
 {
   const double width = 4.0 / n * 0.5; // two rows of height 1/n
@@ -216,7 +217,8 @@ TEST(Weights, FivePointsOnASquareHaveTheKnownExtrema)
 
 TEST(Weights, EnergiesOnTheFineSquareAreTheKnownOnes)
 {
-  // One of five handles on 160 x 160 squares: ratios to the energy without bounds.
+  // Weights of one of five handles on 160 x 160 cells. Energies are compared as ratios to the
+  // energy without bounds.
   const WeightsProblem problem =
     problem_of(test::to_domain(test::grid(160, 160)), test::five_points());
   ExecutionContext context;
@@ -232,9 +234,10 @@ TEST(Weights, EnergiesOnTheFineSquareAreTheKnownOnes)
   ASSERT_TRUE(monotone_guide(problem, group, {}, context, guide).ok());
   const BoxQpSolution mono = solver.solve(group.columns[2], context);
   ASSERT_TRUE(box.status.ok() && mono.status.ok());
-  // The same ratios hold for the other handles, except for monotone weights of the last handle.
-  // There the ratio is 1.8634, because the guide uses weights of at least 1e-3 on the grid's
-  // diagonals. With their cotangent of 0 it would be 1.8643.
+  // The ratios for the other handles are the same, except for monotone weights of the last handle.
+  // There the ratio is 1.8634, because the guide function, which defines the order of the vertices,
+  // uses edge weights of at least 1e-3 on the grid's diagonals. With their cotangent of 0 the ratio
+  // would be 1.8643.
   EXPECT_NEAR(box.certificate.energy / free, 1.2611, 2e-4);
   EXPECT_NEAR(mono.certificate.energy / free, 1.2645, 2e-4);
   EXPECT_EQ(solver.analyses(), 1) << "bounds and monotone rows share one analysis";
@@ -242,7 +245,7 @@ TEST(Weights, EnergiesOnTheFineSquareAreTheKnownOnes)
 
 TEST(Weights, TheSlotIsGoneAroundNotAcross)
 {
-  // The unit square without (.4, .6) x (.3, 1].
+  // The domain is the unit square without the slot (.4, .6) x (.3, 1].
   const int n = 60;
   TriangleMesh square = test::grid(n, n);
   std::vector<Index> kept;
@@ -266,7 +269,7 @@ TEST(Weights, TheSlotIsGoneAroundNotAcross)
   square.triangles = triangles;
   const Vec3 a(0.3, 0.9, 0.0);
   const Vec3 b(0.8, 0.9, 0.0);
-  const Index probe = 54 * (n + 1) + 39; // (.65, .9)
+  const Index probe = 54 * (n + 1) + 39; // this vertex is at (.65, .9)
   const WeightsProblem problem = problem_of(test::to_domain(square), test::point_handles({ a, b }));
   EXPECT_GT(problem.status.report.number("counts.unreferenced_vertices", 0), 0);
   const WeightsResult free = unconstrained(problem, 2);
@@ -277,7 +280,7 @@ TEST(Weights, TheSlotIsGoneAroundNotAcross)
   EXPECT_NEAR(mono.columns[0].certificate.energy / e, 1.1640, 1e-4);
   EXPECT_NEAR(box.raw(probe, 0), 2.69e-3, 2e-5);
   EXPECT_NEAR(mono.raw(probe, 0), 2.63e-3, 2e-5);
-  // Inverse distances ignore the slot.
+  // Inverse-distance weights ignore the slot.
   const double da = 1.0 / (0.35 * 0.35);
   const double db = 1.0 / (0.15 * 0.15);
   EXPECT_NEAR(da / (da + db), 0.1552, 1e-4);
@@ -308,7 +311,8 @@ TEST(Weights, VolumesWithHandlesAnywhereAreCertified)
   {
     EXPECT_EQ(column.extrema.size(), 0u);
   }
-  // Locality: bounded weights are nearly zero far away from their handle, harmonic ones are not.
+  // Bounded weights are local: they are nearly zero far away from their handle. Harmonic weights
+  // are not.
   const WeightsResult harmonic = unconstrained(problem, 1);
   EXPECT_GT((result.raw.array() < 1e-6).count(), 2 * (harmonic.raw.array().abs() < 1e-6).count());
   for (const int threads : { 1, 2 })
@@ -436,7 +440,7 @@ TEST(Weights, OneHandleIsOneEverywhere)
 
 TEST(Weights, PartsAndStrayVerticesHaveDefinedRows)
 {
-  // Two squares with handles, one without, and an unused vertex.
+  // The mesh has two squares with handles, one square without a handle, and an unused vertex.
   TriangleMesh mesh = test::join(test::grid(8, 8),
     test::join(test::translated(test::grid(8, 8), Vec3(2, 0, 0)),
       test::translated(test::grid(3, 3), Vec3(4, 0, 0))));
@@ -502,7 +506,7 @@ TEST(Weights, BudgetCancelAndBadOptions)
               .code,
     StatusCode::invalid_input);
 
-  // Cancel after various numbers of polls of the flag; both methods must return the status
+  // Cancel after various numbers of checks of the cancel flag. Both methods must return the status
   // canceled.
   for (const int looks : { 0, 1, 3, 10, 40 })
   {
@@ -521,7 +525,7 @@ TEST(Weights, BudgetCancelAndBadOptions)
 
 TEST(Weights, AHelperJointWithoutAVertexHasNoWeights)
 {
-  // Two joints of a rig with the same nearest vertex. The first one, a helper joint, is skipped.
+  // Two joints of a rig have the same nearest vertex. The first one, a helper joint, is skipped.
   Handles joints{ test::point_handle("helper", Vec3(-0.2, -0.2, -0.2)),
     test::point_handle("hip", Vec3(-0.1, -0.1, -0.1)),
     test::bone_handle("spine", Vec3(0.5, 0.5, 0.1), Vec3(0.5, 0.5, 0.8)) };
@@ -543,7 +547,7 @@ TEST(Weights, AHelperJointWithoutAVertexHasNoWeights)
   const WeightsResult harmonic = unconstrained(problem, 1);
   EXPECT_EQ(harmonic.weights.col(0).cwiseAbs().maxCoeff(), 0.0);
 
-  // A control bone is skipped even if it has vertices, and it inserts no vertices into the mesh.
+  // A control bone is skipped even if vertices are on it, and no vertices are inserted for it.
   joints[0].head = joints[0].tail = Vec3(0.9, 0.1, 0.3);
   joints[0].ownership = Ownership::none;
   const WeightsProblem controlled = problem_of(box, joints);

@@ -1,7 +1,7 @@
 #ifndef weights_shapes_h
 #define weights_shapes_h
 
-// Domains and handles shared by the tests of weights.
+// Domains and handles that the tests of weights share.
 
 #include "weights/weights_problem.h"
 
@@ -33,7 +33,7 @@ inline Domain to_domain(const TetMesh& mesh)
   return domain;
 }
 
-/// Make a problem, and expect success.
+/// Make a problem from a domain and handles. Expect success.
 inline WeightsProblem problem_of(const Domain& domain, const Handles& handles,
   const std::vector<Index>& regions = {}, const WeightsOptions& options = {})
 {
@@ -44,7 +44,7 @@ inline WeightsProblem problem_of(const Domain& domain, const Handles& handles,
   return problem;
 }
 
-/// Return points named p1, p2, …
+/// Return point handles with the names p1, p2, …
 inline Handles point_handles(const std::vector<Vec3>& places)
 {
   Handles handles;
@@ -55,15 +55,16 @@ inline Handles point_handles(const std::vector<Vec3>& places)
   return handles;
 }
 
-/// Return the five points on the unit square for which extrema and energies are known.
+/// Return the five point handles on the unit square for which extrema and energies of weights are
+/// known.
 inline Handles five_points()
 {
   return point_handles({ Vec3(0.2, 0.2, 0.0), Vec3(0.8, 0.2, 0.0), Vec3(0.5, 0.5, 0.0),
     Vec3(0.25, 0.8, 0.0), Vec3(0.8, 0.75, 0.0) });
 }
 
-/// A strip of n squares and two rows on [0, 1], so thin that weights depend only on x. The columns
-/// of vertices at the given positions have the labels 1, 2, …
+/// A strip on [0, 1] with n squares along x and two rows, so thin that weights depend only on x.
+/// The columns of vertices at the given positions have the labels 1, 2, …
 struct Bar
 {
   Domain domain;

@@ -1,4 +1,4 @@
-// Caps close an open surface and are as small as necessary.
+// Caps are triangles that close an open surface along its boundary. They are as small as necessary.
 #include "winding/boundary_caps.h"
 
 #include "support/meshes.h"
@@ -29,7 +29,7 @@ Triangles stacked(const Triangles& a, const Triangles& b)
   return both;
 }
 
-/// Return the sum of the squares of the triangles' longest edges.
+/// Return the sum over the triangles of the squared longest edge.
 double size_of(const Points& points, const Triangles& triangles)
 {
   double sum = 0.0;
@@ -56,7 +56,7 @@ TEST(BoundaryCaps, CloseAllOfSeveralParts)
   EXPECT_TRUE(open_edges(stacked(both.triangles, caps)).empty());
   EXPECT_EQ(caps.rows(), (130 - 2) + 2);
 
-  // The caps of the strip cover it, and those of the cube are its lid.
+  // The caps of the strip cover all of it, and those of the open cube are its lid.
   const Triangles smaller = smaller_caps(both.points, both.triangles, caps);
   EXPECT_TRUE(open_edges(stacked(both.triangles, smaller)).empty());
   EXPECT_EQ(smaller.rows(), strip.triangles.rows() + 2);

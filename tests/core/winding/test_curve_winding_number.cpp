@@ -1,5 +1,5 @@
-// Winding numbers of plane curves with known values: integers, angles and symmetries. The plain sum
-// of angles is the reference.
+// Winding numbers of plane curves: known integers, angles and symmetries. The plain sum of angles
+// is the reference.
 #include "winding/curve_winding_number.h"
 
 #include "support/meshes.h"
@@ -21,7 +21,7 @@ struct Curve
   PlanePoints points{ 0, 2 };
   Segments segments{ 0, 2 };
 
-  /// Append segments along the vertices, and back to the first one if closed.
+  /// Append segments along the vertices. If closed, append a segment back to the first vertex.
   void add(const std::vector<Vec2>& vertices, bool closed)
   {
     const Index first = this->points.rows();
@@ -126,9 +126,10 @@ TEST(CurveWindingNumber, SegmentSeenUnderARightAngleIsAQuarter)
   const Curve segment = curve_of({ { 1, -1 }, { 1, 1 } }, false);
   expect_winding(segment, Vec2::Zero(), 0.25);
   expect_winding(segment, Vec2(2, 0), -0.25);
-  // The same angle for a segment behind the point, which crosses the negative x axis.
+  // The angle is the same for a segment behind the point, which crosses the negative x axis.
   expect_winding(curve_of({ { -1, 1 }, { -1, -1 } }, false), Vec2::Zero(), 0.25);
-  // The third corner of an equilateral triangle sees the opposite side at an angle of 60 degrees.
+  // At the third corner of an equilateral triangle, the opposite side subtends an angle of 60
+  // degrees.
   expect_winding(
     curve_of({ { 0, 0 }, { 1, 0 } }, false), Vec2(0.5, 0.5 * std::sqrt(3.0)), 1.0 / 6.0);
 }
@@ -161,7 +162,7 @@ TEST(CurveWindingNumber, PartsAddUp)
   Curve overlapping = curve_of(square());
   overlapping.add(square(0.0, 2.0), true);
   expect_winding(overlapping, Vec2(0.5, 0.5), 2.0, 0.0);
-  // The top side is repeated, or reversed.
+  // The top side of the square is repeated, or reversed.
   Curve doubled = curve_of(square());
   doubled.add_segment(2, 3);
   expect_winding(doubled, Vec2::Zero(), 1.25);
@@ -185,17 +186,19 @@ TEST(CurveWindingNumber, PrincipalValueOnTheCurve)
     winding.evaluate_at(p + Vec2(1e-6, 2e-6), &on_curve);
     EXPECT_FALSE(on_curve) << p.transpose();
   }
-  // Corners of a regular polygon, far from the origin: (n - 2) / (2 n).
+  // At a corner of a regular polygon with n corners the winding number is (n - 2) / (2 n), also far
+  // from the origin.
   std::vector<Vec2> vertices;
   for (int i = 0; i < 7; ++i)
   {
     vertices.emplace_back(1e4 + std::cos(2.0 * pi * i / 7.0), std::sin(2.0 * pi * i / 7.0) - 3e4);
   }
   const Curve heptagon = curve_of(vertices);
-  expect_winding(heptagon, vertices[3], 5.0 / 14.0, 1e-10); // coordinates are rounded
+  // The tolerance allows for rounded coordinates.
+  expect_winding(heptagon, vertices[3], 5.0 / 14.0, 1e-10);
   expect_winding(heptagon, 0.5 * (vertices[1] + vertices[2]), 0.5, 1e-10);
   expect_winding(heptagon, 0.3 * vertices[6] + 0.7 * vertices[0], 0.5, 1e-10);
-  // At an open end, and on a segment repeated in the opposite direction.
+  // The points are at an open end, and on a segment that is repeated in the opposite direction.
   expect_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 1, 1 } }, false), Vec2(0, 0), 0.125);
   expect_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 0, 0 } }, false), Vec2(0.5, 0), 0.0);
 }
@@ -213,8 +216,8 @@ TEST(CurveWindingNumber, JumpsByOneAcrossTheCurveAndNotAcrossChords)
     const double behind = winding.evaluate_at(Vec2(-1.0 - e, 0.25));
     EXPECT_NEAR(before - behind, 0.0, e);
   }
-  // No jump and no contact on the chord itself, on the line through it, or at the height of its
-  // ends.
+  // The points are on the missing side, on the line through it, or at the height of its ends. The
+  // winding number has no jump there, and no contact is reported.
   bool on_curve = true;
   EXPECT_NEAR(winding.evaluate_at(Vec2(-1, 0.25), &on_curve),
     curve_winding_number_direct(curve.points, curve.segments, Vec2(-1, 0.25)), 1e-15);
@@ -225,8 +228,9 @@ TEST(CurveWindingNumber, JumpsByOneAcrossTheCurveAndNotAcrossChords)
 
 TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnHeapsOnALattice)
 {
-  // Vertices and points on a small lattice. Points are on segments, at vertices, collinear with
-  // them or at their height. Many segments are repeated, opposite, branching or collinear.
+  // Vertices and query points are on a small lattice. The points are on segments, at vertices,
+  // collinear with segments, or at the height of vertices. Many segments are repeated, opposite,
+  // branching or collinear.
   for (std::uint64_t seed = 1; seed <= 60; ++seed)
   {
     test::Random random(seed);
@@ -274,7 +278,7 @@ TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnLongCurves)
 {
   Curve curve = curve_of(flower(3000, 0.3, 9));
   curve.add(flower(500, 0.1, 40), false);
-  for (Index i = 0; i < 200; ++i) // short scattered curves
+  for (Index i = 0; i < 200; ++i) // add short scattered curves
   {
     test::Random random(static_cast<std::uint64_t>(i) + 99);
     const Vec2 at(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
@@ -284,7 +288,7 @@ TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnLongCurves)
   EXPECT_EQ(winding.status().report.number("counts.open_ends", -1), 202);
   EXPECT_EQ(winding.status().report.number("counts.components", -1), 202);
   PlanePoints queries = random_points(2000, 1.6, 5);
-  for (Index i = 0; i < 600; ++i) // at vertices, at midpoints of segments, and next to them
+  for (Index i = 0; i < 600; ++i) // points at vertices, at midpoints of segments, and next to them
   {
     const Index e = (37 * i) % curve.segments.rows();
     const Vec2 a = curve.points.row(curve.segments(e, 0));
@@ -324,8 +328,9 @@ TEST(CurveWindingNumber, FlowerIsInsideWhereItsRadiusSays)
 
 TEST(CurveWindingNumber, GradientIsThatOfTheField)
 {
-  // A point in front of a segment from (1, -1) to (1, 1). On the x axis the angle is 2 atan(1 / (1
-  // - x)), and its derivative is 2 / ((1 - x)^2 + 1). At 0 this gives the gradient 1 / (2 pi).
+  // The point is in front of a segment from (1, -1) to (1, 1). On the x axis the angle is 2 atan(1
+  // / (1 - x)), and its derivative is 2 / ((1 - x)^2 + 1). At x = 0 this gives the gradient 1 / (2
+  // pi).
   const Curve segment = curve_of({ { 1, -1 }, { 1, 1 } }, false);
   ExecutionContext context;
   PlanePoints query(1, 2);
@@ -372,7 +377,8 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
   ASSERT_TRUE(CurveWindingNumber(segment.points, segment.segments)
                 .evaluate_gradient(special, context, at.data())
                 .ok());
-  // At (1, 1), which is one end, only the other end contributes. It is 2 below.
+  // The point (1, 1) is one end of the curve, so only the other end contributes. That end is 2
+  // below.
   EXPECT_NEAR(at[0], 0.25 / pi, 1e-15);
   EXPECT_NEAR(at[1], 0.0, 1e-15);
   EXPECT_EQ(at[2], 0.0);
@@ -407,7 +413,7 @@ TEST(CurveWindingNumber, ShiftsScalesAndOrderDoNotMatter)
   }
   PlanePoints shuffled = curve.points;
   Segments renamed = curve.segments;
-  const Index n = shuffled.rows(); // 494 is not divisible by 101
+  const Index n = shuffled.rows(); // 494 is not divisible by 101, so the permutation below is valid
   for (Index v = 0; v < n; ++v)
   {
     shuffled.row((v * 101) % n) = curve.points.row(v);
@@ -433,8 +439,8 @@ TEST(CurveWindingNumber, HugeAndTinyCurvesAreNoExceptions)
 
 TEST(CurveWindingNumber, ReportTellsWhatTheCurveIs)
 {
-  // The sides have separate ends. Later a side is repeated, and two segments have no length, by id
-  // and by position.
+  // Each side of the square has its own vertices at its ends. Later a side is repeated, and two
+  // segments have length zero: one with equal ids, one with equal positions.
   Curve curve;
   const std::vector<Vec2> corners = square();
   for (int i = 0; i < 4; ++i)
@@ -456,7 +462,7 @@ TEST(CurveWindingNumber, ReportTellsWhatTheCurveIs)
 
   curve.add_segment(1, 0);
   curve.add_segment(2, 2);
-  curve.add_segment(0, 7); // vertices with equal coordinates
+  curve.add_segment(0, 7); // the vertices have different ids but equal coordinates
   curve.add({ { 5, 5 }, { 6, 5 } }, false);
   report = winding.build(curve.points, curve.segments, context).report;
   EXPECT_EQ(report.number("counts.duplicate_segments", -1), 1);
@@ -465,7 +471,7 @@ TEST(CurveWindingNumber, ReportTellsWhatTheCurveIs)
   EXPECT_EQ(report.number("counts.nonmanifold_vertices", -1), 2);
   EXPECT_EQ(report.number("counts.open_ends", -1), 4);
   EXPECT_EQ(report.number("counts.components", -1), 2);
-  // The repeated lower side cancels, so the curve is open there.
+  // The lower side and its repetition cancel, so the curve is open there.
   EXPECT_NEAR(winding.evaluate_at(Vec2(0, 0)),
     0.75 + (std::atan2(5.0, 6.0) - std::atan2(5.0, 5.0)) / (2.0 * pi), 1e-15);
 }
@@ -476,7 +482,7 @@ TEST(CurveWindingNumber, NothingWindsAroundNothing)
   EXPECT_TRUE(empty.status().ok());
   EXPECT_EQ(empty.status().warnings.size(), 1u);
   EXPECT_EQ(empty.evaluate_at(Vec2(1, 2)), 0.0);
-  EXPECT_EQ(CurveWindingNumber().evaluate_at(Vec2(1, 2)), 0.0); // not built
+  EXPECT_EQ(CurveWindingNumber().evaluate_at(Vec2(1, 2)), 0.0); // nothing was built
   const Curve dot = curve_of({ { 3, 3 }, { 3, 3 } });
   const CurveWindingNumber degenerate(dot.points, dot.segments);
   EXPECT_EQ(degenerate.status().warnings.size(), 1u);

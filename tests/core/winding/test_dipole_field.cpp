@@ -1,5 +1,6 @@
-// The dipole field equals the winding number within its tolerance, for all triangles and points.
-// Its bits do not depend on how it is evaluated.
+// Dipole fields approximate the winding number of many small triangles. They are accurate to their
+// tolerance for all triangles and points, and their bits do not depend on how the field is
+// evaluated.
 #include "winding/dipole_field.h"
 
 #include "winding/winding_number.h"
@@ -41,7 +42,7 @@ TriangleMesh bumpy(int levels)
   return mesh;
 }
 
-/// Return fans over small scattered loops on a sphere, and over one large loop.
+/// Return fans of triangles over small scattered loops on a sphere, and over one large loop.
 TriangleMesh caps(int loops)
 {
   test::Random random(17);
@@ -128,7 +129,8 @@ std::vector<Case> all_cases()
   return cases;
 }
 
-/// Return the value of the plain sum, evaluated per triangle if multiplicities differ from 1.
+/// Return the plain sum over the triangles. Triangles with multiplicities other than 1 are
+/// evaluated one by one.
 double expected_at(const Case& c, const Vec3& p)
 {
   if (std::all_of(c.multiplicities.begin(), c.multiplicities.end(), [](int m) { return m == 1; }))
@@ -156,7 +158,7 @@ DipoleField make(const Case& c, double tolerance, int threads = 1)
   return field;
 }
 
-/// Return points in and around the box, far away, and near triangles, but on none of them.
+/// Return points in and around the box, far away, and near triangles, but not on triangles.
 std::vector<Vec3> points_for(const TriangleMesh& mesh, int count, test::Random& random)
 {
   std::vector<Vec3> points;
@@ -222,7 +224,7 @@ TEST(DipoleField, TouchingTrianglesCountNothing)
     EXPECT_NEAR(field.evaluate(Vec3(1.0001, 0, 0), &on_surface), 0.0, tolerance);
     EXPECT_FALSE(on_surface);
 
-    // Vertices with many triangles, some of which were subdivided.
+    // The vertices have many triangles, some of which were subdivided.
     for (const Case& c : { once("bumpy", bumpy(3)), once("slivers", test::grid(1, 300)) })
     {
       const DipoleField other = make(c, tolerance);
@@ -313,8 +315,8 @@ TEST(DipoleField, GradientIsTheSlope)
     for (int i = 0; i < 200; ++i)
     {
       const Vec3 p = (i % 4 ? 1.0 : 6.0) * random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
-      // Differences of the exact sum, which are not affected by cells; points with steep slopes are
-      // skipped.
+      // Compute finite differences of the exact sum, which does not use cells. Points with steep
+      // slopes are skipped.
       const double step = 1e-5;
       Vec3 slope, second;
       for (int k = 0; k < 3; ++k)
@@ -343,7 +345,7 @@ TEST(DipoleField, NothingGivesNothing)
   Case uncounted = once("uncounted", test::cube());
   std::fill(uncounted.multiplicities.begin(), uncounted.multiplicities.end(), 0);
   EXPECT_EQ(make(uncounted, 1e-3).evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
-  // Triangles without area, all at one position.
+  // All triangles have no area and are at one position.
   Case flat = once("flat", soup(50));
   flat.mesh.points.setConstant(0.25);
   const DipoleField field = make(flat, 1e-3);
@@ -351,8 +353,8 @@ TEST(DipoleField, NothingGivesNothing)
   EXPECT_EQ(field.evaluate(Vec3::Constant(0.25)), 0.0);
 }
 
-// Errors of coincident triangles and of single-precision sums accumulate, but must not exceed the
-// tolerance.
+// Errors from coincident triangles and from sums in single precision accumulate. They must not
+// exceed the tolerance.
 TEST(DipoleField, ManyTrianglesAtOnePlace)
 {
   for (const Index count : { 200, 1000 })

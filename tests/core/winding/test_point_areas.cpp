@@ -1,4 +1,5 @@
-// Areas of samples with known Voronoi cells.
+// Areas of oriented point samples, computed from local Voronoi cells. The cells of these samples
+// are known.
 #include "winding/point_areas.h"
 
 #include "support/meshes.h"
@@ -48,7 +49,7 @@ TEST(PointAreas, LatticesHaveTheirCells)
       EXPECT_NEAR(areas[12 * y + x], 0.25, 1e-14);
     }
   }
-  // A lattice of rhombi, rotated: the cells are hexagons of area sqrt(3) / 2.
+  // The samples are a rotated lattice of rhombi. Their cells are hexagons of area sqrt(3) / 2.
   square_lattice(12, 1.0, points, normals);
   for (Index i = 0; i < points.rows(); ++i)
   {
@@ -64,16 +65,16 @@ TEST(PointAreas, LatticesHaveTheirCells)
 
 TEST(PointAreas, CellsAreClippedToTheDiscOfHalfTheFarthestNeighbor)
 {
-  // Collinear points: their cells are strips, clipped by the disc.
+  // The samples are collinear. Their cells are strips, clipped by a disc around each sample.
   Points points(3, 3), normals(3, 3);
   points << -1, 0, 0, 0, 0, 0, 1, 0, 0;
   normals << 0, 0, 1, 0, 0, 1, 0, 0, 1;
   const Eigen::VectorXd areas = areas_of(points, normals);
   EXPECT_NEAR(areas[1], 0.25 * pi, 1e-14); // the bisectors touch the disc of radius 1/2
-  // A disc of radius 1, cut at the distance 1/2: the disc without a circular segment of 120
-  // degrees.
+  // The cell is a disc of radius 1, cut by a line at the distance 1/2. This removes a circular
+  // segment of 120 degrees.
   EXPECT_NEAR(areas[0], pi - (pi / 3.0 - std::sqrt(3.0) / 4.0), 1e-14);
-  // Two points: discs with half their distance as the radius.
+  // For two samples, the cells are discs whose radius is half of the distance between the samples.
   EXPECT_NEAR(areas_of(points.topRows(2), normals.topRows(2))[0], 0.25 * pi, 1e-14);
 }
 
@@ -82,8 +83,8 @@ TEST(PointAreas, SharedPlacesAndSidesOfASheet)
   Points points, normals;
   square_lattice(9, 1.0, points, normals);
   const Index n = points.rows();
-  // If each point occurs twice, it has half of the area. A second side of the sheet nearby has no
-  // effect.
+  // If each sample occurs twice, each copy has half of the area. Samples with opposite normals, at
+  // the same position or nearby, have no effect.
   Points twice(2 * n, 3), same(2 * n, 3), other(2 * n, 3), below(2 * n, 3);
   twice << points, points;
   same << normals, normals;
@@ -93,7 +94,7 @@ TEST(PointAreas, SharedPlacesAndSidesOfASheet)
   EXPECT_NEAR(areas_of(twice, other, 24)[40], 1.0, 1e-13);
   EXPECT_NEAR(areas_of(below, other, 24)[40], 1.0, 1e-13);
   EXPECT_NEAR(areas_of(below, other, 24)[40 + n], 1.0, 1e-13);
-  // The areas are zero if all points coincide, or have no normal.
+  // The areas are zero if all samples coincide, or if they have no normals.
   EXPECT_EQ(areas_of(Points::Zero(5, 3), normals.topRows(5)).sum(), 0.0);
   EXPECT_EQ(areas_of(points, Points::Zero(n, 3)).sum(), 0.0);
   EXPECT_EQ(areas_of(points.topRows(1), normals.topRows(1)).sum(), 0.0);
@@ -115,7 +116,7 @@ TEST(PointAreas, SpheresHaveTheirArea)
       const double r = std::sqrt(1.0 - z * z);
       points.row(i) << r * std::cos(angle), r * std::sin(angle), z;
     }
-    // Cells of random samples may extend beyond the 12 nearest neighbors.
+    // The cells of random samples may extend beyond their 12 nearest neighbors.
     const auto error = [&](Index neighbors)
     { return std::abs(areas_of(points, points, neighbors).sum() / (4.0 * pi) - 1.0); };
     EXPECT_LT(error(12), even ? 1e-3 : 0.05);

@@ -1,5 +1,5 @@
-// Winding numbers of oriented points: the formula, known solid angles, and comparisons with the
-// plain sum.
+// Winding numbers of oriented points (point clouds with normals and areas): the formula, known
+// solid angles, and comparisons with the plain sum.
 #include "winding/point_cloud_winding_number.h"
 
 #include "support/meshes.h"
@@ -23,8 +23,8 @@ struct Cloud
   Eigen::VectorXd areas;
 };
 
-/// Return points on the unit sphere, on a spiral with even spacing or at random, each with an equal
-/// part of the area.
+/// Return points on the unit sphere, evenly spaced on a spiral or at random. Each point has an
+/// equal fraction of the area.
 Cloud sphere(Index count, bool even = true, std::uint64_t seed = 5)
 {
   test::Random random(seed);
@@ -43,7 +43,7 @@ Cloud sphere(Index count, bool even = true, std::uint64_t seed = 5)
   return cloud;
 }
 
-/// Return scattered points with random directions and areas, so that nothing cancels
+/// Return scattered points with random normals and areas, so that contributions do not cancel
 /// systematically.
 Cloud heap(Index count, std::uint64_t seed)
 {
@@ -66,7 +66,7 @@ double dipole(const Vec3& p, const Vec3& n, double area, const Vec3& q)
   return area * n.dot(d) / (4.0 * pi * d.squaredNorm() * d.norm());
 }
 
-/// Evaluate the definition point by point.
+/// Evaluate the definition as a plain sum over the samples.
 double plain_sum(const Cloud& cloud, const Vec3& q)
 {
   double sum = 0.0;
@@ -95,7 +95,7 @@ PointCloudWindingNumber built(const Cloud& cloud, WindingMethod method = Winding
   return winding;
 }
 
-/// Return points in and around the box, at samples, and some spacings away from samples.
+/// Return query points in and around the box, at samples, and some spacings away from samples.
 Points queries_around(const Cloud& cloud, Index count, std::uint64_t seed)
 {
   test::Random random(seed);
@@ -131,7 +131,8 @@ TEST(PointCloudWindingNumber, OneDipoleIsItsFormula)
       EXPECT_NEAR(winding.evaluate_exactly_at(q), expected, 1e-14 * std::abs(expected));
     }
   }
-  // On the axis at distance d the value is area / (4 pi d^2). Normals may have any length.
+  // At distance d on the axis of a single sample, the value is area / (4 pi d^2). Normals may have
+  // any length.
   cloud.points << 0, 0, 1;
   cloud.normals << 0, 0, 1e-200;
   EXPECT_NEAR(built(cloud).evaluate_exactly_at(Vec3(0, 0, -1)), 2.5 / (16.0 * pi), 1e-16);
@@ -171,30 +172,33 @@ TEST(PointCloudWindingNumber, SpheresWindOnceInsideAndTheErrorShrinks)
 TEST(PointCloudWindingNumber, HalfASphereIsItsSolidAngle)
 {
   Cloud cloud = sphere(40000);
-  const Index half = 20000; // the points with z > 0
+  const Index half = 20000; // these are the points with z > 0
   cloud = { cloud.points.topRows(half), cloud.normals.topRows(half), cloud.areas.head(half) };
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-6);
-  // From below on the axis, the cap equals the disc of its rim: (1 - cos) / 2.
+  // The cap, evaluated below its rim on the axis, has the same value as the disc of its rim: (1 -
+  // cos) / 2.
   for (const double z : { 0.0, -0.3, -1.0, -4.0 })
   {
     const double expected = 0.5 * (1.0 + z / std::sqrt(1.0 + z * z));
     EXPECT_NEAR(winding.evaluate_at(Vec3(0, 0, z)), expected, 5e-5) << z;
   }
-  // Inside, above the plane of the rim: the whole sphere minus this disc.
+  // At a point inside of the sphere and above the plane of the rim, the value is that of the whole
+  // sphere minus that of the disc.
   EXPECT_NEAR(winding.evaluate_at(Vec3(0, 0, 0.5)), 0.5 * (1.0 + 0.5 / std::sqrt(1.25)), 5e-5);
-  EXPECT_NEAR(winding.evaluate_at(Vec3(0.6, 0, 0)), 0.5, 5e-4); // in the plane of the rim
+  // This point is in the plane of the rim.
+  EXPECT_NEAR(winding.evaluate_at(Vec3(0.6, 0, 0)), 0.5, 5e-4);
 }
 
 TEST(PointCloudWindingNumber, FastKeepsItsTolerance)
 {
   std::vector<Cloud> clouds{ sphere(20000), sphere(6000, false), heap(8000, 3) };
-  // A flat square, with boxes without thickness, and a line.
+  // The clouds are a flat square, whose boxes have no thickness, and a line.
   Cloud flat = heap(5000, 4);
   flat.points.col(2).setZero();
   clouds.push_back(flat);
   flat.points.col(1).setZero();
   clouds.push_back(flat);
-  // Many points at few positions.
+  // Many samples are at a few positions.
   Cloud stacked = heap(4000, 5);
   stacked.points = (2.0 * stacked.points.array()).round() * 0.5;
   clouds.push_back(stacked);
@@ -224,7 +228,7 @@ TEST(PointCloudWindingNumber, FastKeepsItsTolerance)
 
 TEST(PointCloudWindingNumber, FastKeepsItsToleranceWhereErrorsAddUp)
 {
-  // At the center of a sphere all boxes are equally far away, so their errors have the same sign.
+  // At the center of a sphere all boxes have the same distance, so their errors have the same sign.
   const Cloud cloud = sphere(100000);
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-4);
   test::Random random(3);
@@ -237,7 +241,7 @@ TEST(PointCloudWindingNumber, FastKeepsItsToleranceWhereErrorsAddUp)
 
 TEST(PointCloudWindingNumber, PlainSumIsTheDefinition)
 {
-  const Cloud cloud = heap(3001, 9); // not a multiple of eight
+  const Cloud cloud = heap(3001, 9); // 3001 is not a multiple of eight
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::direct);
   EXPECT_EQ(winding.method(), WindingMethod::direct);
   const Points queries = queries_around(cloud, 500, 11);
@@ -264,7 +268,7 @@ TEST(PointCloudWindingNumber, PointsOnSamplesCountTheOthers)
       EXPECT_EQ(flags[i], 1);
       ASSERT_NEAR(values[i], plain_sum(cloud, cloud.points.row(i)), 1e-3);
     }
-    // A sample on a sphere has the principal value, about 1/2, from the other samples.
+    // At a sample on a sphere, the other samples give the principal value, which is about 1/2.
     EXPECT_NEAR(values[2500], 0.5, 0.05);
     bool on_surface = true;
     winding.evaluate_at(Vec3(cloud.points.row(3)) * (1.0 + 1e-9), &on_surface);
@@ -299,7 +303,7 @@ TEST(PointCloudWindingNumber, ShiftsAndScalesDoNotMatter)
     {
       Cloud moved = cloud;
       moved.points.array() += shift;
-      // The tolerance of touching is larger far from the origin. Except for points on samples, the
+      // The tolerance for touching a sample is larger far from the origin. Except at samples, the
       // values are the same.
       const Eigen::VectorXd there = values(moved, queries.array() + shift, method);
       const double tolerance = method == WindingMethod::fast ? 2e-6 : 1e-11;
@@ -325,7 +329,8 @@ TEST(PointCloudWindingNumber, EstimatedAreasDoForEvenSamples)
     ASSERT_NEAR(winding.evaluate_at(0.9 * u), 1.0, 5e-3);
     ASSERT_NEAR(winding.evaluate_at(1.1 * u), 0.0, 5e-3);
   }
-  // Estimated areas scale with the square of the unit and do not depend on the position.
+  // Areas are estimated from the samples. They scale with the square of the unit of length and do
+  // not depend on the position.
   Cloud moved = cloud;
   moved.points = Points((0x1p10 * cloud.points).array() + 0x1p12);
   const PointCloudWindingNumber large = built(moved, WindingMethod::automatic, 1e-4, &no_areas);
@@ -372,7 +377,7 @@ TEST(PointCloudWindingNumber, NothingWindsAroundNothing)
   const PointCloudWindingNumber winding = built(nothing);
   EXPECT_EQ(winding.status().warnings.size(), 1u);
   EXPECT_EQ(winding.evaluate_at(Vec3(1, 2, 3)), 0.0);
-  EXPECT_EQ(PointCloudWindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0); // not built
+  EXPECT_EQ(PointCloudWindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0); // nothing was built
 }
 
 TEST(PointCloudWindingNumber, BadInputIsNamed)
@@ -636,14 +641,14 @@ TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
     ASSERT_TRUE(winding.evaluate_gradient(odd, context, at_odd.data()).ok());
     EXPECT_EQ(Points(at_odd.topRows(1)), Points(Points::Zero(1, 3)));
     EXPECT_TRUE(at_odd.row(1).array().isNaN().all());
-    EXPECT_LE(at_odd.row(2).norm(), 1e-3); // at the center of the sphere
+    EXPECT_LE(at_odd.row(2).norm(), 1e-3); // the point is at the center of the sphere
   }
   EXPECT_EQ(values[0], values[1]);
   const PointCloudWindingNumber winding = built(cloud);
   ExecutionContext canceled(nullptr, [] { return true; });
   Points gradients(grid.count(), 3);
   EXPECT_EQ(winding.evaluate_gradient(grid, canceled, gradients.data()).code, StatusCode::canceled);
-  // At eight times the size, the gradient is an eighth.
+  // If the cloud is eight times as large, the gradient is an eighth.
   Cloud larger = cloud;
   larger.points *= 8.0;
   larger.areas *= 64.0;

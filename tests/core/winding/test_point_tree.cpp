@@ -1,4 +1,4 @@
-// The tree contains every point once, and its searches agree with brute force.
+// Search tree of points: it contains every point once, and its searches agree with brute force.
 #include "winding/point_tree.h"
 
 #include "support/meshes.h"
@@ -21,7 +21,7 @@ Points random_points(Index count, std::uint64_t seed, bool on_lattice)
     Vec3 p = random.in_box(Vec3::Constant(-1.0), Vec3::Constant(1.0));
     if (on_lattice)
     {
-      p = (4.0 * p).array().round(); // many equal points and equal distances
+      p = (4.0 * p).array().round(); // creates many equal points and equal distances
     }
     points.row(i) = p.transpose();
   }

@@ -1,5 +1,6 @@
-// Ray crossings agree with known integer winding numbers on surfaces whose vertices, edges and
-// faces are on the rays. Winding numbers do not depend on the expected number of points.
+// Integer winding numbers of closed surfaces by ray crossings. They agree with known values for
+// surfaces whose vertices, edges and faces are on the rays, and they do not depend on the expected
+// number of points.
 #include "winding/ray_crossings.h"
 
 #include "winding/exact_frame.h"
@@ -17,8 +18,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Return tetrahedra with corners on the lattice of 1/4 in a box of side 2. The surface is closed,
-/// and some tetrahedra are inside out.
+/// Return tetrahedra whose corners are on a lattice of spacing 1/4 in a box of side 2. The surface
+/// is closed, and some tetrahedra are inside out.
 TriangleMesh lattice_tets(test::Random& random, Index tets)
 {
   TriangleMesh mesh{ Points(4 * tets, 3), Triangles(4 * tets, 3) };
@@ -37,8 +38,8 @@ TriangleMesh lattice_tets(test::Random& random, Index tets)
   return mesh;
 }
 
-/// Return the lattice of 1/8 around this box. Its rays pass through vertices, along edges and in
-/// faces.
+/// Return the lattice of spacing 1/8 around this box. Its rays pass through vertices, along edges
+/// and in faces of the tetrahedra.
 SampleGrid lattice_grid()
 {
   SampleGrid grid;
@@ -102,7 +103,7 @@ TEST(RayCrossings, RaysThroughVerticesEdgesAndFaces)
     SCOPED_TRACE(tets);
     const TriangleMesh mesh = lattice_tets(random, tets);
     const ExactFrame frame(bounding_box(mesh.points, mesh.triangles));
-    // The frame scales by powers of two and does not move the box, so coordinates remain exact.
+    // The frame scales by a power of two and does not move the box, so coordinates remain exact.
     Points framed = mesh.points;
     for (Index v = 0; v < framed.rows(); ++v)
     {
@@ -123,8 +124,8 @@ TEST(RayCrossings, RaysThroughVerticesEdgesAndFaces)
     {
       bool touches = false;
       const double sum = winding_number_direct(mesh.points, mesh.triangles, points[i], &touches);
-      // Degenerate triangles may also be reported as touched, but they belong to no surface and the
-      // rays may ignore them.
+      // Degenerate triangles may also be reported as touched. They do not contribute to the
+      // surface, and the rays may ignore them.
       if (touches)
       {
         EXPECT_FALSE(resolved[i]) << points[i].transpose();
@@ -134,7 +135,7 @@ TEST(RayCrossings, RaysThroughVerticesEdgesAndFaces)
         EXPECT_NEAR(counts[i], sum, 1e-9) << points[i].transpose();
       }
     }
-    // Rows of the grid give the same counts.
+    // Evaluation by rows of the grid gives the same counts.
     RayCrossings::Grid rows;
     for (Index i = 0; i < 21; ++i)
     {
@@ -205,7 +206,7 @@ TEST(RayCrossings, FewAndManyPointsOfACurvedSurface)
 
 TEST(RayCrossings, TrianglesAsLargeAsTheSurfaceAreNotListedInEveryLayer)
 {
-  // Tets that span the whole box, so each face crosses about half of the layers.
+  // Each tet spans the whole box, so its faces cross about half of the layers.
   test::Random random(19);
   constexpr Index tets = 3000;
   TriangleMesh heap = lattice_tets(random, tets);
@@ -294,7 +295,7 @@ TEST(WindingExpectedQueries, FastKeepsItsToleranceForAnyNumber)
           std::abs(values[i] - winding_number_direct(mesh.points, mesh.triangles, points.row(i))));
       }
       EXPECT_LE(worst, tolerance);
-      // Single points and any number of threads give the same bits.
+      // Single points give the same bits as batches, on any number of threads.
       EXPECT_EQ(winding.evaluate_at(points.row(3)), values[3]);
       ExecutionContext one;
       one.set_threads(1);

@@ -1,4 +1,5 @@
-// Winding numbers with known values: closed forms, symmetries and identities.
+// Generalized winding numbers of surfaces with known values: closed forms, symmetries and
+// identities.
 #include "winding/winding_number.h"
 
 #include "support/meshes.h"
@@ -16,7 +17,8 @@ constexpr double pi = 3.14159265358979323846;
 constexpr WindingMethod methods[] = { WindingMethod::exact, WindingMethod::direct,
   WindingMethod::hierarchical, WindingMethod::crossings };
 
-/// Return all methods, each with small leaves so that the trees have several levels.
+/// Return the winding number by each method, with small leaves so that the trees have several
+/// levels.
 std::vector<WindingNumber> all_ways(const TriangleMesh& mesh)
 {
   std::vector<WindingNumber> ways;
@@ -44,7 +46,7 @@ void expect_winding(const TriangleMesh& mesh, const Vec3& p, double expected, do
   }
 }
 
-/// Return the mesh with the given triangles only.
+/// Return the mesh with only the given triangles.
 TriangleMesh part(const TriangleMesh& mesh, const std::vector<Index>& triangles)
 {
   TriangleMesh result;
@@ -128,7 +130,8 @@ TEST(WindingNumber, GradientIsTheKnownOneAndThatOfTheField)
 
 TEST(WindingNumber, FlagsTellWhatTouchesTheSurface)
 {
-  // Samples on the faces of the cube and of the open cube, on both sides of the missing lid.
+  // The samples are on the faces of the cube and of the open cube, and on both sides of the missing
+  // lid.
   for (const TriangleMesh& mesh : { test::cube(), test::open_cube() })
   {
     for (const WindingMethod method : { WindingMethod::direct, WindingMethod::crossings,
@@ -226,7 +229,8 @@ TEST(WindingNumber, DiscsConvergeToTheirCap)
   EXPECT_NEAR(cap, 0.146446609407, 1e-12);
   expect_winding(disc(32), Vec3::Zero(), cap - 5.685e-4, 5e-8);
   expect_winding(disc(64), Vec3::Zero(), cap - 1.420e-4, 5e-8);
-  // On the axis dw/dz is 1/4 sqrt(1/2) at this height. The error of the polygon is below 1e-5.
+  // On the axis of a disc, dw/dz is 1/4 sqrt(1/2) at this height. The polygon differs from the disc
+  // by less than 1e-5.
   const TriangleMesh fine = disc(512);
   const double h = 1e-5;
   const double up = winding_number_direct(fine.points, fine.triangles, Vec3(0, 0, h));
@@ -260,7 +264,7 @@ TEST(WindingNumber, JumpsByOneAcrossTheSurface)
     EXPECT_NEAR(jump(1e-3), 0.9999000826, 1e-10) << to_string(way.method());
     EXPECT_NEAR(jump(1e-6), 0.9999999001, 1e-10) << to_string(way.method());
     EXPECT_NEAR(jump(1e-9), 0.9999999999, 1e-10) << to_string(way.method());
-    // Below a tolerance of about 1e-12 the jump is still exact and not noise.
+    // At a tolerance below about 1e-12, the jump is still exact and not noise.
     EXPECT_NEAR(jump(1e-14), 1.0, 1e-12) << to_string(way.method());
   }
 }
@@ -287,7 +291,7 @@ TEST(WindingNumber, PrincipalValueOnTheSurface)
 {
   const TriangleMesh cube = test::cube();
   const std::vector<std::pair<Vec3, double>> cases{ { Vec3(0.2, 0.3, 1), 0.5 },
-    { Vec3(0, 0, 1), 0.5 }, // on the diagonal of the face
+    { Vec3(0, 0, 1), 0.5 }, // this point is on the diagonal of the face
     { Vec3(1, 0.25, -0.5), 0.5 }, { Vec3(1, 1, 0.1), 0.25 }, { Vec3(-1, 0.7, -1), 0.25 },
     { Vec3(1, 1, 1), 0.125 }, { Vec3(-1, 1, -1), 0.125 } };
   for (const auto& [p, expected] : cases)
@@ -306,7 +310,8 @@ TEST(WindingNumber, PrincipalValueOnTheSurface)
 
 TEST(WindingNumber, PrincipalValueOnSlantedSurfacesFarFromTheOrigin)
 {
-  // A regular tetrahedron has known angles. Rounding moves the midpoints off its faces.
+  // The solid angles of a regular tetrahedron are known. Rounding moves the midpoints off its
+  // faces.
   TriangleMesh mesh = triangles_of({ Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(1, 1, 1),
     Vec3(-1, 1, -1), Vec3(-1, -1, 1), Vec3(1, 1, 1), Vec3(-1, -1, 1), Vec3(1, -1, -1),
     Vec3(1, -1, -1), Vec3(-1, -1, 1), Vec3(-1, 1, -1) });
@@ -317,7 +322,8 @@ TEST(WindingNumber, PrincipalValueOnSlantedSurfacesFarFromTheOrigin)
     TriangleMesh moved = mesh;
     moved.points = mesh.points * turn.transpose();
     moved = test::translated(moved, Vec3(shift, -2.0 * shift, 0.5 * shift));
-    const double far = shift == 0.0 ? 1e-14 : 1e-10; // rounding of the translated corners
+    // The larger tolerance allows for the rounding of the translated corners.
+    const double far = shift == 0.0 ? 1e-14 : 1e-10;
     const auto v = [&](int i) -> Vec3 { return moved.points.row(i); };
     expect_winding(moved, v(0), std::acos(23.0 / 27.0) / (4.0 * pi), far);
     expect_winding(moved, 0.5 * (v(0) + v(1)), std::acos(1.0 / 3.0) / (2.0 * pi), far);
@@ -368,7 +374,7 @@ TEST(WindingNumber, ShiftsScalesAndOrderDoNotMatter)
   std::vector<Index> to(static_cast<std::size_t>(mesh.points.rows()));
   for (Index v = 0; v < mesh.points.rows(); ++v)
   {
-    to[v] = (v * 101) % mesh.points.rows(); // #V is not divisible by 101
+    to[v] = (v * 101) % mesh.points.rows(); // #V is not divisible by 101, so this is a permutation
     shuffled.points.row(to[v]) = mesh.points.row(v);
   }
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
@@ -388,7 +394,7 @@ TEST(WindingNumber, FlatTrianglesCountNothing)
   mesh.points.conservativeResize(n + 3, 3);
   mesh.points.row(n) = mesh.points.row(0); // coincides with another vertex
   mesh.points.row(n + 1) << 0, 0, 0; // the midpoint of vertices 0 and 7
-  mesh.points.row(n + 2) << 5, 5, 5; // used by no triangle
+  mesh.points.row(n + 2) << 5, 5, 5; // no triangle uses this vertex
   mesh.triangles.conservativeResize(15, 3);
   mesh.triangles.row(12) << 0, 0, 1;
   mesh.triangles.row(13) << 0, n, 3;
@@ -402,7 +408,7 @@ TEST(WindingNumber, FlatTrianglesCountNothing)
     EXPECT_EQ(report.number("counts.vertices", -1), 11);
   }
   expect_winding(mesh, Vec3(0.1, 0.2, 0.3), 1.0, 1e-14);
-  expect_winding(mesh, Vec3(0.5, 0.5, 0.5), 1.0, 1e-14); // on a degenerate triangle
+  expect_winding(mesh, Vec3(0.5, 0.5, 0.5), 1.0, 1e-14); // the point is on a degenerate triangle
   expect_winding(mesh, Vec3(1.5, 0.2, 0.3), 0.0, 1e-14);
   const TriangleMesh flat = part(mesh, { 12, 13, 14 });
   expect_winding(flat, Vec3(0.5, 0.25, 0.125), 0.0, 1e-15);
@@ -411,7 +417,8 @@ TEST(WindingNumber, FlatTrianglesCountNothing)
 
 TEST(WindingNumber, ReportTellsWhatTheSurfaceIs)
 {
-  // The sides have separate corners, so there are six components until equal vertices are merged.
+  // Each side of the cube has its own vertices. There are six components until equal vertices are
+  // merged.
   const TriangleMesh cube = test::cube();
   std::vector<Vec3> corners;
   for (Index t = 0; t < 12; ++t)
@@ -443,8 +450,8 @@ TEST(WindingNumber, ReportTellsWhatTheSurfaceIs)
 
 TEST(WindingNumber, BoundaryTellsEdgesAndComponents)
 {
-  // A cube without its top, a flipped copy far away, a closed cube inside out, and two copies of
-  // one triangle whose edges have multiplicity 2.
+  // The mesh has a cube without its top, a flipped copy far away, a closed cube inside out, and two
+  // copies of one triangle whose edges have multiplicity 2.
   TriangleMesh twice;
   twice.points.resize(3, 3);
   twice.points << 0, 0, 50, 1, 0, 50, 0, 1, 50;
@@ -479,8 +486,8 @@ TEST(WindingNumber, BoundaryTellsEdgesAndComponents)
     EXPECT_EQ(part.open_edges, 4);
     const bool flipped = from[0] > 1e5;
     EXPECT_NEAR(part.volume, flipped ? -8.0 : 8.0, 1e-9);
-    // Seen from above, the walls run clockwise around the hole, so a lid would run
-    // counter-clockwise.
+    // Viewed from above, the directed edges of the walls run clockwise around the hole. The
+    // triangles of a lid would run counter-clockwise.
     const Vec3 middle = flipped ? far_away : Vec3::Zero();
     EXPECT_EQ(from[2], 1.0);
     EXPECT_NEAR((from - middle).cross(to - middle)[2], flipped ? 2.0 : -2.0, 1e-9);
@@ -505,7 +512,7 @@ TEST(WindingNumber, EmptyMeshWindsAroundNothing)
     ASSERT_EQ(way.status().warnings.size(), 1u);
   }
   EXPECT_EQ(winding_number_direct(nothing.points, nothing.triangles, Vec3::Zero()), 0.0);
-  EXPECT_EQ(WindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0); // not built
+  EXPECT_EQ(WindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0); // nothing was built
 }
 
 TEST(WindingNumber, BadInputIsNamed)

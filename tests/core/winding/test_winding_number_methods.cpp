@@ -1,5 +1,5 @@
-// The methods agree with each other and with independent references on difficult soups. They also
-// support threads, extents and cancel.
+// All methods for winding numbers agree with each other and with independent references on
+// difficult triangle soups. Threads, extents and cancel are tested too.
 #include "winding/winding_number.h"
 
 #include "support/meshes.h"
@@ -35,8 +35,9 @@ WindingNumber make(const TriangleMesh& mesh, WindingMethod method, Index leaf = 
 
 using Lattice = Eigen::Matrix<std::int64_t, 3, 1>;
 
-/// Evaluate a point on the lattice of 1/8: exact integer decisions of sides, and a sum in long
-/// double over the triangles whose plane does not contain the point.
+/// Evaluate the winding number at a point on the lattice of spacing 1/8. Sides of planes are exact
+/// integer decisions. The sum in long double contains the triangles whose plane does not contain
+/// the point.
 double lattice_twin(const TriangleMesh& mesh, const Vec3& p)
 {
   using Long3 = Eigen::Matrix<long double, 3, 1>;
@@ -63,8 +64,8 @@ double lattice_twin(const TriangleMesh& mesh, const Vec3& p)
   return static_cast<double>(sum / 6.283185307179586476925286766559L);
 }
 
-/// Return random triangles on a lattice of 1/4 in a box of side 2: coplanar, crossing, touching,
-/// degenerate, repeated and flipped ones.
+/// Return random triangles with corners on a lattice of spacing 1/4 in a box of side 2. They are
+/// coplanar, crossing, touching, degenerate, repeated and flipped.
 TriangleMesh lattice_soup(test::Random& random, Index triangles)
 {
   TriangleMesh mesh;
@@ -102,7 +103,8 @@ TriangleMesh lattice_soup(test::Random& random, Index triangles)
   return mesh;
 }
 
-/// Return a point on the lattice of 1/8. Many are at, below or above vertices, edges and faces.
+/// Return a point on the lattice of spacing 1/8. Many points are at, below or above vertices, edges
+/// and faces.
 Vec3 lattice_point(test::Random& random)
 {
   return Vec3(static_cast<double>(random.below(21)), static_cast<double>(random.below(21)),
@@ -111,7 +113,7 @@ Vec3 lattice_point(test::Random& random)
     Vec3::Constant(1.25);
 }
 
-/// Return a bumpy closed surface with holes and a second sheet through it.
+/// Return a bumpy closed surface with holes, and a second sheet that passes through it.
 TriangleMesh unclean_surface(int levels, double hole)
 {
   TriangleMesh mesh = test::sphere(levels);
@@ -208,7 +210,7 @@ TEST(WindingMethods, AgreeOnRandomSoups)
 TEST(WindingMethods, AgreeOnUncleanSurfaces)
 {
   test::Random random(5);
-  for (const double hole : { -1.0, 0.1, 0.6 }) // -1: no holes
+  for (const double hole : { -1.0, 0.1, 0.6 }) // -1 means no holes
   {
     const TriangleMesh mesh = unclean_surface(4, hole);
     std::vector<Vec3> points;
@@ -234,7 +236,7 @@ TEST(WindingMethods, AgreeOnUncleanSurfaces)
 
 TEST(WindingMethods, RaysThroughVerticesAndEdgesOfClosedSurfaces)
 {
-  // Directly above and below vertices and midpoints of edges, along every axis.
+  // The points are directly above and below vertices and midpoints of edges, along every axis.
   TriangleMesh mesh = test::sphere(2);
   for (int turn = 0; turn < 3; ++turn)
   {
@@ -263,8 +265,8 @@ TEST(WindingMethods, RaysThroughVerticesAndEdgesOfClosedSurfaces)
 
 TEST(WindingMethods, ThinTrianglesDoNotFlip)
 {
-  // A box of thickness 1e-7. Its long sides are slivers, and the point is nearer to them than their
-  // width.
+  // The shape is a box of thickness 1e-7. Its long, narrow faces consist of slivers, and the point
+  // is nearer to them than their width.
   TriangleMesh mesh = test::cube();
   mesh.points.col(0) *= 1e-7;
   mesh.points.col(1) *= 1e-4;
@@ -285,10 +287,10 @@ TEST(WindingMethods, ThinTrianglesDoNotFlip)
 
 TEST(WindingMethods, SliversAreSeenUnderTheAngleOfTheirRectangle)
 {
-  // A point at height h above a corner of a rectangle x by y sees the rectangle at the solid angle
-  // atan(x y / (h sqrt(x^2 + y^2 + h^2))). Four such rectangles form one rectangle below any point.
-  // If h is about the width, this is a large part of the full solid angle for any width. A width of
-  // 1e-14 is five tolerances.
+  // At height h above a corner of a rectangle x by y, the rectangle subtends the solid angle atan(x
+  // y / (h sqrt(x^2 + y^2 + h^2))). A rectangle below any point consists of four such rectangles.
+  // If h is about the width of the rectangle, the angle is a large fraction of the full solid
+  // angle, for any width. A width of 1e-14 is five tolerances.
   const double xs[2] = { -0.7, 1.3 };
   for (const double width : { 1e-3, 1e-8, 1e-12, 1e-13, 1e-14 })
   {
@@ -321,7 +323,7 @@ TEST(WindingMethods, WhatIsNoTriangleCannotBeTouched)
 {
   TriangleMesh mesh = test::cube();
   mesh.triangles.conservativeResize(13, 3);
-  mesh.triangles.row(12) << 0, 7, 0; // a segment between opposite corners
+  mesh.triangles.row(12) << 0, 7, 0; // this triangle is a segment between opposite corners
   for (const WindingMethod method : ways)
   {
     bool touches = true;
@@ -336,8 +338,9 @@ TEST(WindingMethods, WhatIsNoTriangleCannotBeTouched)
 
 TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
 {
-  // At 1e9 the tolerance of touching, 2^-49 of the coordinates, is 2e-6, while single precision
-  // resolves 1e-7 here. The closed sphere tests the cells, the loose triangles test the blocks.
+  // At coordinates of 1e9 the tolerance for touching, 2^-49 of the coordinates, is 2e-6, while
+  // single precision resolves 1e-7 here. The closed sphere exercises the search cells, the loose
+  // triangles exercise the blocks of triangles.
   const TriangleMesh sphere = test::sphere(2);
   TriangleMesh loose{ Points(3 * sphere.triangles.rows(), 3), sphere.triangles };
   for (Index t = 0; t < sphere.triangles.rows(); ++t)
@@ -376,9 +379,9 @@ TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
 
 TEST(WindingMethods, AsSmallAsDoublesGet)
 {
-  // A sphere on an integer lattice, and the same sphere with the smallest positive double as its
-  // unit, give the same results. Products of three such lengths underflow to 0 in single precision,
-  // even if scaled.
+  // A sphere on an integer lattice is scaled so that the smallest positive double is its unit. The
+  // results are the same. Products of three such lengths underflow to 0 in single precision, even
+  // if scaled.
   constexpr double unit = std::numeric_limits<double>::denorm_min();
   const TriangleMesh sphere = test::sphere(2);
   TriangleMesh mesh = sphere, tiny = sphere;
@@ -407,9 +410,9 @@ TEST(WindingMethods, AsSmallAsDoublesGet)
 
 TEST(WindingMethods, FastNextToALongTriangleThatIsCut)
 {
-  // One triangle as long as the box among many small ones. It is bisected to their size at points
-  // that are rounded by about 1e-17. At a distance of a few 1e-15 from its edge, this is a large
-  // part of the angle.
+  // One triangle is as long as the box, among many small ones. It is bisected to their size, at
+  // points that are rounded by about 1e-17. At a distance of a few 1e-15 from the edge of the
+  // triangle, this error is a large fraction of the angle.
   TriangleMesh mesh;
   test::Random random(3);
   for (int i = 0; i < 80; ++i)
@@ -452,7 +455,8 @@ TEST(WindingMethods, AutomaticChoosesByCounts)
   EXPECT_EQ(make(test::open_cube(), WindingMethod::automatic).method(), WindingMethod::direct);
   EXPECT_EQ(make(test::sphere(3), WindingMethod::automatic).method(), WindingMethod::crossings);
   EXPECT_EQ(make(test::sphere(3), WindingMethod::fast).method(), WindingMethod::crossings);
-  // Groups of triangles with separate corners, moved apart: a soup of triangles or of patches.
+  // Groups of triangles get separate corners and are moved apart. With one triangle per group the
+  // result is a soup, with 256 a set of patches.
   for (const Index group : { 1, 256 })
   {
     const TriangleMesh sphere = test::sphere(group == 1 ? 5 : 6);
@@ -480,7 +484,7 @@ TEST(WindingMethods, AutomaticChoosesByCounts)
 
 TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
 {
-  // Tets that span the whole box, so each face would be in hundreds of cells.
+  // Each tet spans the whole box, so its faces would be in hundreds of cells.
   test::Random random(19);
   constexpr Index tets = 3000;
   TriangleMesh heap{ Points(4 * tets, 3), Triangles(4 * tets, 3) };
@@ -498,8 +502,8 @@ TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
   }
   const WindingNumber winding = make(heap, WindingMethod::automatic);
   EXPECT_EQ(winding.method(), WindingMethod::crossings);
-  // At most 16 entries per triangle and 100,000 more, of 30 bytes each, in blocks that may be half
-  // empty.
+  // The memory contains at most 16 entries per triangle and 100,000 additional ones, of 30 bytes
+  // each. They are in blocks that may be half empty.
   EXPECT_LT(static_cast<double>(winding.memory()), 64.0 * (16.0 * 4 * tets + 1e5));
   for (int i = 0; i < 20; ++i)
   {
@@ -511,7 +515,8 @@ TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
 
 TEST(WindingMethods, FastKeepsItsTolerance)
 {
-  // Unclean surfaces and a soup; points in the box, far outside, and close to the triangles.
+  // The surfaces are unclean surfaces and a soup. The points are in the box, far outside, and close
+  // to the triangles.
   const TriangleMesh sphere = test::sphere(4);
   TriangleMesh holes = sphere;
   Index kept = 0;
@@ -553,7 +558,7 @@ TEST(WindingMethods, FastKeepsItsTolerance)
         EXPECT_NEAR(winding.evaluate_exactly_at(queries.row(i)), exact, 1e-11);
       }
       EXPECT_LE(worst, tolerance);
-      // On the surface the value is the exact principal value.
+      // On the surface, the value is the exact principal value (the mean of both sides).
       bool on_surface = false;
       const Vec3 vertex = mesh.points.row(mesh.triangles(5, 1));
       EXPECT_NEAR(winding.evaluate_at(vertex, &on_surface),
@@ -621,8 +626,8 @@ TEST(WindingMethods, SameBitsForAnyThreadsAndExtent)
 
 TEST(WindingMethods, FineSurfacesOnRowsAndAtPoints)
 {
-  // 164,000 triangles of very different sizes, so that cells are subdivided several times: a torus
-  // that is thin on one side, around a small sphere that is inside out.
+  // The mesh has 164,000 triangles of very different sizes, so that cells are subdivided several
+  // times. It is a torus that is thin at one end, around a small sphere that is inside out.
   TriangleMesh ring = test::torus(320, 128, 1.0, 0.45);
   for (Index v = 0; v < ring.points.rows(); ++v)
   {
@@ -636,7 +641,7 @@ TEST(WindingMethods, FineSurfacesOnRowsAndAtPoints)
   const TriangleMesh mesh = test::join(ring, test::flipped(ball));
   const WindingNumber winding = make(mesh, WindingMethod::crossings);
 
-  // In the small sphere the torus contributes 1 and the sphere -1.
+  // Inside of the small sphere, the torus contributes 1 and the sphere -1.
   EXPECT_EQ(winding.evaluate_at(Vec3(1.0, 0.0, 0.2)), 0.0);
   EXPECT_EQ(winding.evaluate_at(Vec3(1.0, 0.0, -0.2)), 1.0);
   EXPECT_EQ(winding.evaluate_at(Vec3(-1.0, 0.001, 0.0003)), 1.0);
@@ -655,7 +660,7 @@ TEST(WindingMethods, FineSurfacesOnRowsAndAtPoints)
     ASSERT_EQ(rows[i], winding.evaluate_at(p)) << p.transpose();
     ASSERT_EQ(rows[i], std::round(rows[i]));
   }
-  // Comparison with the plain sum at points that are mostly very close to the surface.
+  // Compare with the plain sum at points that are mostly very close to the surface.
   test::Random random(7);
   for (int i = 0; i < 300; ++i)
   {

@@ -65,8 +65,8 @@ std::string Monkey::story() const
   return story;
 }
 
-/// Return a random position in the picture, sometimes one outside. Half of the positions are on
-/// handles.
+/// Return a random position in the picture, or sometimes outside of it. Half of the positions are
+/// on handles.
 QPoint Monkey::anywhere()
 {
   const Handles& handles = this->window_->document()->handles();
@@ -112,10 +112,10 @@ void Monkey::drag()
     QApplication::processEvents();
     if (this->pick(25) == 0)
     {
-      this->any_key(); // during the drag
+      this->any_key(); // press a key during the drag
     }
   }
-  if (this->pick(12) != 0) // otherwise the button stays down for a while
+  if (this->pick(12) != 0) // otherwise the mouse button stays down for a while
   {
     this->hand_.release(from + by, button, held);
   }
@@ -160,7 +160,7 @@ void Monkey::any_option()
   this->hand_.choose(option.key, value);
 }
 
-/// Click a random visible button, unless it opens a file dialog.
+/// Click a random visible button. Buttons that open a file dialog are excluded.
 void Monkey::any_button_of_panels()
 {
   QStringList texts;
@@ -266,7 +266,8 @@ void Monkey::act()
       break;
     case 24:
     {
-      const QSize size(640 + this->pick(300), 480 + this->pick(200)); // software rendering is slow
+      // Keep the window small, because software rendering is slow.
+      const QSize size(640 + this->pick(300), 480 + this->pick(200));
       this->note("resize", QString("%1 x %2").arg(size.width()).arg(size.height()));
       this->window_->resize(size);
       break;
@@ -305,7 +306,7 @@ void Monkey::act()
 
 void Monkey::play(int events)
 {
-  QTimer watch; // runs in a dialog's own event loop, too
+  QTimer watch; // the timer also runs in the event loop of a dialog
   QObject::connect(&watch, &QTimer::timeout, &watch,
     []
     {
@@ -334,7 +335,7 @@ void Monkey::rest()
       this->hand_.release(this->hand_.place(0.5, 0.5), button);
     }
   }
-  this->hand_.press_key("Esc"); // ends drags without a button
+  this->hand_.press_key("Esc"); // Esc ends a drag that was started by a key
   this->window_->binding()->cancel();
   this->window_->inspection()->cancel();
   this->window_->weights()->cancel();

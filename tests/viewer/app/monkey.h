@@ -12,25 +12,25 @@
 namespace bindpose::test
 {
 
-/// Sends random events to a window: clicks, drags, keys, the wheel, menu entries, options, panels,
-/// buttons, binds and cancels, undo and redo, other sizes, other files; everything except quitting
-/// the program. The same seed gives the same events, except where timing decides. Dialogs are
-/// closed.
+/// Monkey test of a window: sends random clicks, drags, keys, wheel events, menu entries, options,
+/// panels, buttons, binds, cancels, undo, redo, sizes and files. It does not quit the program, and
+/// it closes dialogs. The same seed gives the same events, except if their effect depends on
+/// timing.
 class Monkey
 {
 public:
   Monkey(MainWindow* window, unsigned seed, std::vector<QString> files);
 
-  /// Send this number of random events and process their effects.
+  /// Send `events` random events and process their effects.
   void play(int events);
-  /// Release the buttons, stop playback and cancel all computations, so that the window can be
-  /// inspected.
+  /// Release the mouse buttons, stop playback and cancel all computations, so that the window can
+  /// be inspected.
   void rest();
 
   long long events() const { return this->events_; }
   /// Return the number of events of each kind.
   const std::map<std::string, long long>& counts() const { return this->counts_; }
-  /// Return the last events, the latest at the end.
+  /// Return a text that lists the last events, the latest at the end.
   std::string story() const;
 
 private:

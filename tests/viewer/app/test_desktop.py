@@ -1,5 +1,6 @@
-"""The window among other windows, under a window manager. Keys, menus, dialogs and the mouse use the X server, as for a
-user. The results are read from saved sessions."""
+"""The window under a window manager, among other windows. Keys, menus, dialogs and the mouse are operated through the X
+server, as by a user. The tests read the results from saved sessions.
+"""
 
 import json
 import os
@@ -12,7 +13,7 @@ import pytest
 
 PROGRAM = os.environ["BINDPOSE_PROGRAM"]
 DATA = pathlib.Path(__file__).resolve().parents[3] / "examples" / "tours" / "data"
-SECONDS = 60  # time limit for a busy machine
+SECONDS = 60  # time limit in seconds, for a busy machine
 
 
 def wait_for(condition, what):
@@ -53,7 +54,7 @@ class Desktop:
         return process
 
     def start_program(self, *words):
-        """Start Bindpose with its standard error in a file."""
+        """Start Bindpose with its standard error redirected to a file."""
         with open(self.home / "said.txt", "ab") as said:
             return self.start(PROGRAM, *words, stderr=said)
 
@@ -78,7 +79,7 @@ class Desktop:
                               check=False).returncode == 0
 
     def window(self, name):
-        """Return the topmost window whose title contains this expression, or None."""
+        """Return the topmost window whose title matches this expression, or None."""
         found = self.tool("search", "--onlyvisible", "--name", name, check=False).split()
         return found[-1] if found else None
 
@@ -110,7 +111,7 @@ def desktop(tmp_path):
     there = Desktop(tmp_path)
     yield there
     there.end()
-    # Qt warns of problems that may terminate it, such as a second thread that is used as the application's.
+    # Qt warns of problems that may terminate the program, such as GUI calls from a second thread.
     said = tmp_path / "said.txt"
     assert not said.exists() or "thread" not in said.read_text(errors="replace"), said.read_text(errors="replace")
 
@@ -135,7 +136,7 @@ class App:
         self.desktop.activate(self.window)
 
     def save_as(self, path):
-        """Save with the dialog, which asks for a name."""
+        """Save with the dialog, which asks for a file name."""
         self.desktop.keys("ctrl+shift+s")
         self.desktop.wait_for_window("Save the session")
         self.desktop.keys("ctrl+a")
@@ -148,7 +149,7 @@ class App:
         return self.desktop.wait_for(lambda: path.exists() and json.loads(path.read_text()), f"{path}")
 
     def save(self, path):
-        """Save again, over the existing file."""
+        """Save again and replace the existing file."""
         before = path.stat().st_mtime_ns
         self.desktop.keys("ctrl+s")
         self.desktop.wait_for(lambda: path.stat().st_mtime_ns != before, "the session, saved again")
@@ -166,7 +167,7 @@ def move_all(desktop, app, *keys):
     app.mouse(300, 250)
     desktop.keys("ctrl+a", "g")
     for step in range(1, 6):
-        time.sleep(0.1)  # as fast as a user
+        time.sleep(0.1)  # wait as long as a fast user would
         app.mouse(300 + 8 * step, 250 - 4 * step)
     time.sleep(0.1)
     desktop.keys(*keys)
@@ -178,19 +179,19 @@ def test_keys_dialogs_undo_and_escape(desktop, tmp_path):
     path = tmp_path / "work.bindpose"
     rest = app.save_as(path)
     assert all(move == [0, 0, 0] for move in translations(rest))
-    # Typed number: 0.25 along x, for all handles.
+    # Type a number during the move: all handles move by 0.25 along x.
     move_all(desktop, app, "x", "0", "period", "2", "5", "Return")
     moved = translations(app.save(path))
     assert all(move == pytest.approx([0.25, 0, 0]) for move in moved), moved
-    # Esc during a drag restores every bit.
+    # Esc during a move restores the pose bit by bit.
     move_all(desktop, app, "Escape")
-    desktop.keys("k")  # a change, so that there is something to save
+    desktop.keys("k")  # change the work, so that there is something to save
     assert translations(app.save(path)) == moved
     desktop.keys("ctrl+z", "ctrl+z")
     assert translations(app.save(path)) == translations(rest)
     desktop.keys("ctrl+shift+z")
     assert translations(app.save(path)) == moved
-    # Without typed numbers, the mouse alone moves the handles.
+    # If no number is typed, the mouse determines the move.
     move_all(desktop, app, "Return")
     assert translations(app.save(path)) != moved
 
@@ -202,10 +203,11 @@ def test_menus_and_the_window_manager(desktop, tmp_path):
     app.activate()
     desktop.keys("alt+v", "o")
     assert app.save(path)["options"]["show.outlines"] is False
-    # The window manager changes the size; the work does not change.
+    # If the window manager changes the size of the window, the work does not change.
     desktop.tool("windowsize", "--sync", app.window, 900, 700)
     desktop.wait_for(lambda: "Geometry: 900x700" in desktop.tool("getwindowgeometry", app.window), "another size")
-    # Closing the window asks about unsaved changes. Esc keeps the window; then the changes are discarded.
+    # Closing the window asks about unsaved changes. Esc keeps the window open. The second time, the changes are
+    # discarded.
     app.activate()
     desktop.keys("k")
     desktop.wait_for(lambda: "*" in app.title(), "a mark of what is not saved")
@@ -230,7 +232,7 @@ def test_a_killed_window_leaves_its_work_to_the_next(desktop, tmp_path):
         for file in recovery.glob("*/work.bindpose"):
             try:
                 session = json.loads(file.read_text())
-            except FileNotFoundError:  # a newer file has replaced it
+            except FileNotFoundError:  # a newer backup has replaced the file
                 continue
             if all(move == pytest.approx([0.5, 0, 0]) for move in translations(session)):
                 return file
@@ -251,8 +253,9 @@ def test_a_killed_window_leaves_its_work_to_the_next(desktop, tmp_path):
 
 @pytest.mark.parametrize("content, words", [("once upon a time\n", "line 1"), (None, "No such file")])
 def test_a_bad_file_from_an_icon_opens_a_window(desktop, tmp_path, content, words):
-    """A desktop starts the program without a terminal. The window stays open and empty until it is closed.
-    bindpose_app_tests checks the text of its error bar."""
+    """If a desktop starts the program with a bad file, there is no terminal. The window stays open and empty until it
+    is closed. bindpose_app_tests checks the text of its error bar.
+    """
     path = tmp_path / "bad.off"
     if content:
         path.write_text(content)

@@ -1,5 +1,5 @@
-// The exports of the menu File: when they are enabled, the content of the files, and the messages
-// about them. An error disappears when an action of its kind succeeds.
+// Exports of the menu File: when they are enabled, the content of the files, and the messages about
+// them. An error message disappears when an action of the same kind succeeds.
 #include "opened_folders.h"
 #include "window_test.h"
 
@@ -83,7 +83,7 @@ protected:
     EXPECT_NE(entry, nullptr) << name;
     return entry && entry->isEnabled();
   }
-  /// Choose the entry and answer its dialogs, as a user does with the keyboard.
+  /// Choose a menu entry and answer its dialogs, as a user does with the keyboard.
   void export_by_menu(const char* name, const std::string& path)
   {
     int answered = 0;
@@ -224,7 +224,7 @@ TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
   this->press("Show the timeline");
   EXPECT_TRUE(this->window.strip()->isVisible());
   EXPECT_EQ(this->said(), QString());
-  // With two keys a film can be exported. A pose file needs no other program.
+  // Two keys are enough for the export of a film. The export of a pose file needs no other program.
   EXPECT_EQ(this->hand.press_key("K"), QString());
   this->hand.scrub(0.25);
   this->bend();
@@ -258,7 +258,7 @@ TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
   EXPECT_EQ(this->said(), QString());
   ASSERT_TRUE(this->window.exports()->save_shape(text(this->folder / "ball.ply")));
   EXPECT_EQ(this->window.error(), QString());
-  // Success of another kind of action does not remove the error.
+  // If an action of another kind succeeds, the error message stays.
   EXPECT_FALSE(this->window.editing()->commands()->rename(0, "top"));
   const QString refused = this->window.error();
   EXPECT_FALSE(refused.isEmpty());
@@ -267,7 +267,7 @@ TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
   EXPECT_EQ(this->window.error(), refused);
   EXPECT_TRUE(this->window.editing()->commands()->rename(0, "foot"));
   EXPECT_EQ(this->window.error(), QString());
-  // An export of key frames that cannot be written, then one that can.
+  // The first export of key frames cannot be written, the second one can.
   EXPECT_EQ(this->hand.press_key("K"), QString());
   this->window.posing()->export_to("/no/such/folder/ball.json");
   ASSERT_TRUE(wait_for([this] { return !this->window.error().isEmpty(); }));

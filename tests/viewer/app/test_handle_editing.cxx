@@ -1,5 +1,5 @@
-// Interactive editing of handles by Qt mouse and key events on the picture: the effect on the
-// document, and bit-exact undo and redo.
+// Interactive editing of handles with Qt mouse and key events on the picture. The tests check the
+// effect on the document, and that undo and redo restore all bits.
 #include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
@@ -72,7 +72,7 @@ protected:
     this->render();
   }
 
-  /// Open a bound pole with two points and a bone between them.
+  /// Open a bound pole with two point handles and a bone between them.
   void open_bound()
   {
     const Handles list{ test::point_handle("left", Vec3(-0.3, 0, 0.5)),
@@ -218,8 +218,8 @@ protected:
     }
     return out.str();
   }
-  /// Expect that the edit is one step of this name, and that undo and redo restore the exact
-  /// states.
+  /// Expect that the edit is one undo step with this name, and that undo and redo restore all bits
+  /// of the states.
   template <typename Edit>
   void check(const QString& name, const Edit& edit)
   {
@@ -341,7 +341,8 @@ TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
   EXPECT_EQ(this->window.panel()->selected_handle(), 2);
   this->key(Qt::Key_Escape);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
-  // The bind is offered, but not started. After it, the handles bend the shape.
+  // A bar offers a bind, but the bind does not start by itself. After the bind, the handles bend
+  // the shape.
   EXPECT_FALSE(this->window.is_bound());
   this->window.binding()->start();
   ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
@@ -383,7 +384,7 @@ TEST_F(HandleWindow, BonesAreDrawnAsAChain)
   EXPECT_EQ(this->handle("b2").parent, this->number("b1"));
   EXPECT_EQ(this->handle("b2").head, this->handle("b1").tail);
   EXPECT_NEAR((this->handle("b2").tail - this->handle("b2").head).norm(), 0.8, 0.1);
-  // A click adds no bone. Esc discards an unfinished bone.
+  // A click does not add a bone. Esc discards an unfinished bone.
   const std::string before = this->state();
   const int steps = this->history()->count();
   this->click(this->pixel(Vec3(0.1, 0, 0.3)));
@@ -423,7 +424,7 @@ TEST_F(HandleWindow, CagesAreClosedLeftOpenAndTakenBackVertexByVertex)
   {
     this->history()->undo();
   }
-  // One cage by three clicks and a fourth one on the first vertex.
+  // Three clicks add cage vertices. A fourth click on the first vertex closes the cage.
   this->key(Qt::Key_C);
   for (const Vec3& corner : corners)
   {
@@ -488,7 +489,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
     }
   }
   EXPECT_LT((this->handle("r1").head - middle).norm(), 1e-12);
-  // The next stroke extends the region; a new region has another label.
+  // The next stroke extends the region. A new region has another label.
   this->check("paint region r1", [&] { this->drag(top, top + QPoint(0, 40)); });
   EXPECT_GT(labeled(1), first);
   for (QPushButton* button : this->window.findChild<ModeBar*>()->findChildren<QPushButton*>())
@@ -502,7 +503,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   this->check("paint region r2", [&] { this->drag(low, low + QPoint(5, 0)); });
   EXPECT_EQ(this->handle("r2").region_id, 2);
   EXPECT_GT(labeled(2), 0);
-  // A stroke that Esc cancels has no effect, and the mode continues.
+  // A stroke that is canceled with Esc has no effect, and the edit mode continues.
   const std::string before = this->state();
   this->press(low, low + QPoint(0, -60));
   this->key(Qt::Key_Escape);
@@ -513,7 +514,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   this->editing()->select({ this->number("r2") });
   this->check("delete r2", [&] { this->key(Qt::Key_Delete); });
   EXPECT_EQ(labeled(2), 0);
-  // The brush's size changes by key and by slider.
+  // A key and a slider change the size of the brush.
   auto* brush = this->viewport()->brush_widget()->GetRegionBrushRepresentation();
   const double radius = brush->GetDiscRadius();
   this->key(Qt::Key_BracketRight);
@@ -531,7 +532,7 @@ TEST_F(HandleWindow, WhatCannotBePlacedIsOneSentence)
   const QPoint at = this->pixel(Vec3(0, 0, 0.5));
   this->click(at);
   const int steps = this->history()->count();
-  this->click(at); // at the same position
+  this->click(at); // click again at the same position
   EXPECT_EQ(this->history()->count(), steps);
   EXPECT_TRUE(this->editing()->is_warning());
   EXPECT_TRUE(this->hint().contains("p1")) << this->hint().toStdString();
@@ -558,11 +559,12 @@ TEST_F(HandleWindow, ANewPointMovesNumbersAndNothingElse)
   ASSERT_EQ(this->names(), QStringList({ "left", "right", "p1", "spine" }));
   EXPECT_EQ(this->document()->pose()[3].mode, HandleMode::ends);
   EXPECT_EQ(this->document()->pose()[3].transform, pose[2].transform);
-  EXPECT_EQ(this->window.panel()->shown_column(), 3); // still the column of spine
+  // The column of the bone "spine" is still shown.
+  EXPECT_EQ(this->window.panel()->shown_column(), 3);
   this->editing()->set_mode(HandleEditing::pose);
   EXPECT_LT((this->points() - posed).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_FALSE(this->window.rebind_bar()->isHidden()); // a new bind is offered
-  // Undo and redo keep the selection by name.
+  EXPECT_FALSE(this->window.rebind_bar()->isHidden()); // the bar offers a new bind
+  // After undo and redo, the handles with the same names are selected.
   this->editing()->select({ 3 });
   this->history()->undo();
   ASSERT_EQ(this->names().size(), 3);
@@ -583,14 +585,14 @@ TEST_F(HandleWindow, RestPlacesAreMovedAndARebindIsOffered)
   const Points rest = to_points(this->surface).view();
   this->key(Qt::Key_M);
   this->render();
-  EXPECT_EQ(this->points(), rest); // shown at rest
+  EXPECT_EQ(this->points(), rest); // the shape is shown at rest
   const QPoint at = this->pixel(this->handle("left").head);
   EXPECT_TRUE(this->window.rebind_bar()->isHidden());
   this->check("move at rest left", [&] { this->drag(at, at + QPoint(0, 30)); });
   EXPECT_GT((this->handle("left").head - Vec3(-0.3, 0, 0.5)).norm(), 0.02);
   EXPECT_FALSE(this->window.rebind_bar()->isHidden());
-  this->render(); // the bar takes up space
-  // Esc during the drag restores every bit.
+  this->render(); // the bar takes up space in the window
+  // Esc during the drag restores the state bit by bit.
   const std::string before = this->state();
   const int steps = this->history()->count();
   const QPoint from = this->pixel(this->handle("right").head);
@@ -613,7 +615,7 @@ TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCanceledBitByBit)
   this->key(Qt::Key_W);
   EXPECT_EQ(this->drawn()->GetGizmo(), Drawn::GIZMO_MOVE);
   this->render();
-  // Drag along the projected axis, with some deviation from it.
+  // The drag follows the projected axis, with some deviation from it.
   const QPoint z = this->grip(Drawn::MOVE_Z);
   const Vec3 head = this->handle("right").head;
   const QPoint along = this->pixel(head + Vec3(0, 0, 0.3)) - this->pixel(head);
@@ -622,7 +624,7 @@ TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCanceledBitByBit)
   EXPECT_GT(way.z(), 0.05);
   EXPECT_EQ(way.x(), 0.0);
   EXPECT_EQ(way.y(), 0.0);
-  // A canceled drag restores every bit.
+  // A canceled drag restores the state bit by bit.
   const std::string before = this->state();
   const Points posed = this->points();
   const QPoint x = this->grip(Drawn::MOVE_X);
@@ -635,7 +637,7 @@ TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCanceledBitByBit)
   this->release(x + QPoint(40, 10));
   EXPECT_EQ(this->state(), before);
   EXPECT_EQ(this->history()->undoText(), "move right");
-  // Rings turn and boxes scale.
+  // The rings of the gizmo rotate, and its boxes scale.
   this->key(Qt::Key_E);
   this->render();
   const QPoint ring = this->grip(Drawn::TURN_VIEW);
@@ -658,7 +660,8 @@ TEST_F(HandleWindow, StretchGoesToTheBoneOnlyWhereItIsSeen)
   EXPECT_FALSE(this->drawn()->GetStretchableBones());
 }
 
-/// During a drag, letters and digits control the drag. Otherwise they are shortcuts of the window.
+/// During a drag, letters and digits control the drag. At other times they are shortcuts of the
+/// window.
 TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
 {
   this->open_bound();
@@ -672,8 +675,8 @@ TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
   this->key(Qt::Key_Period);
   this->key(Qt::Key_2);
   this->key(Qt::Key_5);
-  this->key(Qt::Key_A); // must not start an edit mode
-  this->key(Qt::Key_Space); // must not start playback
+  this->key(Qt::Key_A); // this key must not start an edit mode
+  this->key(Qt::Key_Space); // this key must not start playback
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
   EXPECT_EQ(this->document()->number("pose.method"), method);
   EXPECT_TRUE(this->hint().contains("Z .25")) << this->hint().toStdString();
@@ -684,7 +687,7 @@ TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
   // Without a drag, the same keys are shortcuts of the window.
   this->key(Qt::Key_2);
   EXPECT_EQ(this->document()->number("pose.method"), 1);
-  // R turns the selected handle; T shows the shape at rest.
+  // R rotates the selected handle, and T shows the shape at rest.
   this->key(Qt::Key_R);
   EXPECT_TRUE(this->widget()->IsDragging());
   EXPECT_FALSE(this->window.posing()->looks_at_rest());
@@ -740,7 +743,7 @@ TEST_F(HandleWindow, CommandsAreStepsWithNames)
   this->check("unlock left", [&] { commands->action("lock")->trigger(); });
   this->check("mode of left", [&] { commands->action("fixes.position")->trigger(); });
   EXPECT_TRUE(commands->action("fixes.position")->isChecked());
-  EXPECT_FALSE(commands->action("fixes.tail")->isEnabled()); // left is not a bone
+  EXPECT_FALSE(commands->action("fixes.tail")->isEnabled()); // the handle "left" is not a bone
   this->check("snap to the surface: left", [&] { commands->action("snap")->trigger(); });
   const Vec3 on = this->handle("left").head;
   EXPECT_NEAR(Vec3(on.x() / 0.4, on.y() / 0.4, on.z()).norm(), 1.0, 0.03);
@@ -764,7 +767,7 @@ TEST_F(HandleWindow, CommandsAreStepsWithNames)
   ASSERT_EQ(this->document()->handles().size(), 4U);
   const Handle& copy = this->document()->handles().back();
   EXPECT_LT((copy.tail - Vec3(-0.2, 0, 0.1)).norm(), 1e-12);
-  EXPECT_EQ(this->editing()->selected(), std::vector<int>{ 3 }); // the new handle
+  EXPECT_EQ(this->editing()->selected(), std::vector<int>{ 3 }); // the new handle is selected
   this->check(
     "delete " + QString::fromStdString(copy.name), [&] { commands->action("delete")->trigger(); });
   EXPECT_TRUE(this->editing()->selected().empty());
@@ -796,7 +799,7 @@ TEST_F(HandleWindow, CageEdgesAreToggledBetweenTwoVertices)
 TEST_F(HandleWindow, NamesThatCannotBeAreOneSentence)
 {
   this->open_bound();
-  // Stored poses use the new name.
+  // Stored poses also get the new name.
   PoseShelf shelf;
   Pose kept(3);
   kept[0].transform.col(3) = Vec3(0.5, 0, 0);
@@ -822,7 +825,7 @@ TEST_F(HandleWindow, NamesThatCannotBeAreOneSentence)
     EXPECT_EQ(this->state(), before);
     EXPECT_EQ(this->history()->count(), steps);
   }
-  // Rename with F2, in a dialog.
+  // Rename the handle with F2, which opens a dialog.
   this->key(Qt::Key_F2);
   auto* box = this->window.findChild<QInputDialog*>();
   ASSERT_NE(box, nullptr);
@@ -858,13 +861,13 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
   {
     EXPECT_TRUE(texts.contains(text)) << text;
   }
-  // Away from handles, the right button belongs to the camera.
+  // At positions without handles, the right mouse button moves the camera.
   const QPoint beside(20, this->viewport()->height() - 20);
   this->hover(beside);
   this->mouse(QEvent::MouseButtonPress, beside, Qt::RightButton, Qt::RightButton);
   EXPECT_FALSE(menu->isVisible());
   this->mouse(QEvent::MouseButtonRelease, beside, Qt::RightButton, Qt::NoButton);
-  // During a drag, the right button cancels the drag.
+  // During a drag, the right mouse button cancels the drag.
   const std::string before = this->state();
   this->press(at, at + QPoint(40, 0));
   this->mouse(QEvent::MouseButtonPress, at + QPoint(40, 0), Qt::RightButton, Qt::RightButton);
@@ -872,7 +875,7 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
   EXPECT_FALSE(menu->isVisible());
   this->mouse(QEvent::MouseButtonRelease, at, Qt::RightButton, Qt::NoButton);
   this->release(at);
-  // The list has the same menu.
+  // The list of handles has the same context menu.
   const HandleTree* handles = this->window.panel()->handle_list();
   QTreeWidget* list = handles->tree();
   Q_EMIT list->customContextMenuRequested(list->visualItemRect(handles->item(2)).center());
@@ -929,8 +932,8 @@ TEST_F(HandleWindow, ToolsAreOnlyThereForWhatThereIs)
   EXPECT_TRUE(enabled("gizmo.move"));
 }
 
-/// The sheet contains every binding of the widgets and every key of the window, and all of them
-/// work.
+/// The sheet of keys contains every binding of the widgets and every key of the window, and all of
+/// them work.
 TEST_F(HandleWindow, TheSheetTellsTheKeysThatThereAre)
 {
   this->viewport()->setFocus();
@@ -1000,14 +1003,15 @@ TEST_F(HandleWindow, RegionsAndWeightsAreNotShownAtOnce)
   EXPECT_EQ(this->window.panels()->shown_panel(), PanelColumn::bind_and_pose);
   this->window.panels()->show_panel(PanelColumn::weights);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
-  EXPECT_EQ(this->window.size(), size); // two panels are never visible at the same time
+  // The size stays, because two panels are never visible at the same time.
+  EXPECT_EQ(this->window.size(), size);
   EXPECT_EQ(this->picture(), weights);
 }
 
 TEST_F(HandleWindow, NothingIsClippedInASmallWindow)
 {
   this->open_mesh();
-  this->resize(QSize(900, 600)); // with the text for a mesh without handles
+  this->resize(QSize(900, 600)); // the panel contains the text for a mesh without handles
   this->open_bound();
   for (const QSize& size : { QSize(900, 600), QSize(1280, 800) })
   {
@@ -1033,12 +1037,12 @@ TEST_F(HandleWindow, NothingIsClippedInASmallWindow)
   }
 }
 
-/// Each mode has a different picture. The pictures are saved in the folder BINDPOSE_PICTURES, if
-/// that is set.
+/// Each mode has a different picture. If BINDPOSE_PICTURES is set, the pictures are saved in this
+/// folder.
 TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
 {
   const char* folder = std::getenv("BINDPOSE_PICTURES");
-  const char* wide = std::getenv("BINDPOSE_PICTURE_SIZE"); // WxH
+  const char* wide = std::getenv("BINDPOSE_PICTURE_SIZE"); // width and height, as WxH
   if (wide)
   {
     const QStringList size = QString(wide).split('x');

@@ -1,5 +1,5 @@
-// The list of handles, the panel of weights and the picture show the same selection, however it was
-// made. Choices in the panel apply to all selected handles. The list is a tree with a search.
+// The list of handles, the panel of weights and the picture always show the same selection. Choices
+// in the panel apply to all selected handles. The list is a tree with a search field.
 #include "window_test.h"
 
 #include "document/document.h"
@@ -34,7 +34,7 @@ namespace
 class HandleList : public test::WindowTest
 {
 protected:
-  /// A ball with three points along z and a bone, with equal weights.
+  /// Open a ball with three points along z and a bone. The weights are equal everywhere.
   void SetUp() override
   {
     Handles handles(4);
@@ -69,7 +69,7 @@ protected:
     QTest::mouseClick(tree->viewport(), Qt::LeftButton, held, at.center());
     QApplication::processEvents();
   }
-  /// Return the selection, and expect that all views agree on it.
+  /// Return the selected handles. Expect that all views show the same selection.
   std::vector<int> selected()
   {
     const std::vector<int> result = this->window.editing()->selected();
@@ -163,7 +163,7 @@ TEST_F(HandleList, WhatIsSelectedInThePictureIsSelectedInTheList)
   EXPECT_EQ(this->selected(), Numbers({ 0, 1, 2, 3 }));
   this->pick("middle", Qt::ShiftModifier);
   EXPECT_EQ(this->selected(), Numbers({ 0, 2, 3 }));
-  // Undo of a deletion selects the restored handles by name.
+  // Undo of a deletion selects the handles that it restores, by name.
   this->hand.trigger("delete");
   EXPECT_EQ(this->selected(), Numbers());
   this->hand.trigger("edit.undo");
@@ -207,7 +207,7 @@ TEST_F(HandleList, AModeIsForAllThatAreSelectedAndOneStep)
   EXPECT_EQ(this->mode(0), HandleMode::automatic);
   EXPECT_EQ(this->mode(2), HandleMode::automatic);
   EXPECT_EQ(this->modes()->currentIndex(), this->entry_of(HandleMode::automatic));
-  // Mode tail is offered for bones only.
+  // Mode tail is available for bones only.
   EXPECT_FALSE(this->offers(HandleMode::tail));
   this->click(3);
   EXPECT_TRUE(this->offers(HandleMode::tail));
@@ -235,11 +235,11 @@ TEST_F(HandleList, TheWeightsPanelAndTheSelectionFollowEachOther)
   auto* box = weights->findChild<QComboBox*>("weights.column");
   box->setCurrentIndex(1 + 1);
   EXPECT_EQ(this->selected(), Numbers({ 1 }));
-  // The last of several selected handles is shown, and all stay selected.
+  // If several handles are selected, the weights of the last one are shown, and all stay selected.
   this->click(2, Qt::ControlModifier);
   EXPECT_EQ(this->selected(), Numbers({ 1, 2 }));
   EXPECT_EQ(weights->column(), 2);
-  box->setCurrentIndex(0); // all handles
+  box->setCurrentIndex(0); // this entry shows all handles
   EXPECT_EQ(this->selected(), Numbers({ 1, 2 }));
 }
 
@@ -247,7 +247,8 @@ TEST_F(HandleList, TheWeightsPanelAndTheSelectionFollowEachOther)
 
 namespace
 {
-/// A ball with a spine of three bones, two arms of three with five fingers each, and a point.
+/// A ball with a spine of three bones, two arms of three bones with five fingers each, and a point
+/// handle.
 class HandleTreeWindow : public test::WindowTest
 {
 protected:
@@ -294,7 +295,7 @@ protected:
       std::find_if(now.begin(), now.end(), [&](const Handle& each) { return each.name == name; }) -
       now.begin());
   }
-  /// Return the names of the rows that are visible without scrolling.
+  /// Return the names of the handles whose rows are visible without scrolling.
   QStringList seen()
   {
     QApplication::processEvents();
@@ -327,7 +328,8 @@ TEST_F(HandleTreeWindow, ChildrenAreBelowTheirParents)
     EXPECT_EQ(this->text(k).toStdString(), handle.name);
     EXPECT_TRUE(this->list()->item(k)->isExpanded());
   }
-  // A new parent, set by the menu's function, moves the row. Folded rows stay folded.
+  // The function of the context menu sets a new parent, which moves the row. Collapsed rows stay
+  // collapsed.
   this->list()->item(this->number("right_hand"))->setExpanded(false);
   this->window.panel()->select_handle(this->number("left_hand"));
   this->window.editing()->commands()->set_parent(this->number("hips"));
@@ -335,7 +337,7 @@ TEST_F(HandleTreeWindow, ChildrenAreBelowTheirParents)
   ASSERT_NE(moved->parent(), nullptr);
   EXPECT_EQ(moved->parent()->text(0), "hips");
   EXPECT_FALSE(this->list()->item(this->number("right_hand"))->isExpanded());
-  // Selecting a handle in the picture unfolds its row.
+  // If a handle is selected in the picture, the tree expands the rows above it.
   this->window.panel()->select_handle(this->number("right_finger_2"));
   EXPECT_TRUE(this->list()->item(this->number("right_hand"))->isExpanded());
 }
@@ -353,7 +355,7 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
     << "letters are no shortcuts there";
   QTest::keyClick(search, Qt::Key_Return);
   EXPECT_EQ(this->window.editing()->selected(), Numbers({ this->number("right_finger_0") }));
-  // A handle that is selected elsewhere is visible, whatever the search text.
+  // If a handle is selected elsewhere, its row is visible for any search text.
   this->window.panel()->select_handle(this->number("nose"));
   EXPECT_TRUE(this->seen().contains("nose"));
   search->setFocus();
@@ -372,7 +374,8 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
 
 TEST_F(HandleTreeWindow, ALargeScreenShowsADozenRowsAndTheHeightCanBeDragged)
 {
-  this->resize(QSize(1920, 1040)); // the space that a desktop provides on a screen of 1920 x 1080
+  // The space for a window on a desktop with a screen of 1920 x 1080.
+  this->resize(QSize(1920, 1040));
   EXPECT_GE(this->seen().size(), 12);
   this->resize(QSize(1280, 760));
   EXPECT_GE(this->seen().size(), 4);

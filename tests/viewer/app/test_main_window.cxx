@@ -1,5 +1,5 @@
-// The window as a user operates it: open, bind, drag, undo, cancel. Drags are synthetic events on
-// the interactor. The tests assert the positions of vertices.
+// The main window as a user operates it: open, bind, drag, undo, cancel. Drags are synthetic events
+// on VTK's interactor. The tests assert the positions of vertices.
 #include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
@@ -53,7 +53,7 @@ using test::wait_for;
 
 namespace
 {
-/// A column from z = -1 to 1 with a point handle at each end.
+/// Return a column from z = -1 to 1. The tests put a point handle at each end.
 TriangleMesh column()
 {
   TriangleMesh mesh = test::sphere(3);
@@ -93,8 +93,8 @@ Vec3 top_of(vtkPolyData* data)
   return top;
 }
 
-/// Count deep blue pixels (blue well above red), which show a weight of one. The shaded surface has
-/// none.
+/// Count the deep blue pixels (blue is well above red), which show a weight of one. A shaded
+/// surface without weights has none.
 int blue_pixels(const QImage& image)
 {
   int count = 0;
@@ -123,7 +123,7 @@ protected:
     ASSERT_TRUE(this->window.set_mesh(with_weights(column()), "column"));
     ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
     ASSERT_TRUE(this->window.is_bound());
-    this->window.history()->clear(); // discard the steps of opening
+    this->window.history()->clear(); // discard the undo steps of opening the files
     this->render();
   }
 
@@ -133,7 +133,7 @@ protected:
     this->window.viewport()->renderWindow()->Render();
   }
 
-  /// Return the pixel of a handle in the window, in VTK's coordinates.
+  /// Return the pixel of a handle in the window, in VTK's coordinates (y upward).
   Eigen::Vector2i pixel_of(vtkIdType handle)
   {
     auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
@@ -190,7 +190,7 @@ TEST_F(Window, ADragMovesVerticesAndUndoTakesItBack)
   EXPECT_EQ(top_of(this->window.shown()), moved);
 }
 
-/// A program started from a desktop icon has no visible terminal, so the window must show the
+/// If a desktop icon starts the program, there is no visible terminal, so the window must show the
 /// errors.
 TEST_F(Window, FilesThatCannotBeReadAreNamedInTheErrorBar)
 {
@@ -228,7 +228,7 @@ TEST_F(Window, ARigIsReadyToBePosed)
   ASSERT_EQ(writer->Write(), 1) << writer->GetStatusMessage();
   EXPECT_TRUE(this->window.open(QString::fromStdString(path)));
   std::remove(path.c_str());
-  ASSERT_TRUE(this->window.is_bound()); // bound by the weights in the file
+  ASSERT_TRUE(this->window.is_bound()); // the weights in the file make the mesh bound
   this->render();
   const Vec3 rest = top_of(this->window.shown());
   this->drag(1, { 80, 0 });
@@ -292,7 +292,7 @@ TEST_F(Window, BindsOffTheUiThreadWithProgress)
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   EXPECT_FALSE(this->window.is_bound());
   double last = 0.0;
-  std::string backward; // phases whose progress went back, and by how much
+  std::string backward; // phases whose progress decreased, and by how much
   int steps = 0;
   QObject::connect(this->window.findChild<BindJob*>(), &BindJob::progress,
     [&](double fraction, const QString& phase)
@@ -345,8 +345,8 @@ TEST_F(Window, APreviewIsThereToPoseWithBeforeTheBindEnds)
   ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
   EXPECT_TRUE(this->window.is_bound());
 
-  // If a first bind is canceled after its preview, the preview's weights stay, as a step that can
-  // be undone.
+  // If the first bind is canceled after its preview, the weights of the preview stay. They are a
+  // step that can be undone.
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
   EXPECT_FALSE(this->window.is_bound());
   this->window.binding()->start();
@@ -357,7 +357,7 @@ TEST_F(Window, APreviewIsThereToPoseWithBeforeTheBindEnds)
   EXPECT_TRUE(this->window.is_bound());
   EXPECT_FALSE(this->window.document()->has_preview());
   EXPECT_EQ(this->window.error(), QString());
-  // If the next bind is canceled, these weights stay.
+  // If the next bind is canceled, the existing weights stay.
   vtkDataArray* kept = this->window.shown()->GetPointData()->GetArray("Weights");
   this->window.binding()->start();
   ASSERT_TRUE(wait_for([this] { return this->window.document()->has_preview(); }));
@@ -533,7 +533,7 @@ TEST_F(Window, WhatCannotBeDoneYetIsDisabledInTheMenus)
   }
 }
 
-/// No text is clipped, whatever the names of the handles and the size of the window.
+/// No text of the panel is clipped, for any names of handles and any size of the window.
 TEST_F(Window, NoTextOfThePanelIsClipped)
 {
   Handles handles(2);
@@ -597,8 +597,8 @@ TEST_F(Window, HandlesAreDraggedBesideAnOpenVolumeInThePanelPose)
   this->render();
   const double slice = this->window.volume_view()->position();
   const Vec3 rest = top_of(this->window.shown());
-  // The shape is at rest around the slice: a drag moves neither the handles nor the slice behind
-  // them.
+  // While the slice is shown, the shape is at rest. A drag moves neither the handles nor the slice
+  // behind them.
   this->drag(1, { 80, 0 });
   EXPECT_EQ(top_of(this->window.shown()), rest);
   EXPECT_EQ(this->window.volume_view()->position(), slice);
@@ -607,7 +607,7 @@ TEST_F(Window, HandlesAreDraggedBesideAnOpenVolumeInThePanelPose)
   this->drag(1, { 80, 0 });
   EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
   EXPECT_EQ(this->window.volume_view()->position(), slice);
-  EXPECT_EQ(this->window.history()->count(), 2); // the volume and the drag
+  EXPECT_EQ(this->window.history()->count(), 2); // the two steps are the volume and the drag
 }
 
 TEST_F(Window, ALongErrorDoesNotWidenTheWindow)
@@ -646,7 +646,7 @@ TEST_F(Window, TurnsDarkAndLightAgain)
   {
     EXPECT_TRUE(dark.save(QString(folder) + "/dark.png"));
   }
-  // Panel, menu and view are dark; their text is light.
+  // Panel, menu and view have a dark background and light text.
   const auto light_share = [](const QImage& image, const QRect& at)
   {
     int light_pixels = 0, all = 0;
@@ -679,9 +679,9 @@ int main(int argc, char** argv)
   testing::InitGoogleTest(&argc, argv);
   if (testing::GTEST_FLAG(list_tests))
   {
-    return RUN_ALL_TESTS(); // tests are listed during the build, without a display
+    return RUN_ALL_TESTS(); // the build lists the tests without a display
   }
-  // Recent files and recovered work of the tests must be separate from those of the user.
+  // The tests must not change the recent files and the backups of the user.
   const bindpose::test::Folder folder;
   qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString(folder / "config"));
   qputenv("XDG_DATA_HOME", QByteArray::fromStdString(folder / "data"));

@@ -1,5 +1,5 @@
-// A window under random events stays sound: it responds, every number in it is finite, no dialog
-// stays open, and undoing all steps restores the initial state bit by bit.
+// Monkey test: a window under random events stays responsive, all its numbers are finite, and no
+// dialog stays open. Undoing all steps restores the initial state bit by bit.
 #include "monkey.h"
 
 #include "main_window.h"
@@ -26,7 +26,7 @@ using test::fingerprints;
 
 namespace
 {
-/// Return a number from the environment, or the default.
+/// Return the number in an environment variable, or a default.
 double setting(const char* name, double otherwise)
 {
   const char* text = std::getenv(name);
@@ -51,7 +51,8 @@ bool is_finite(vtkPolyData* data)
   return !data || to_points(data).view().allFinite();
 }
 
-/// Reset the transforms that were found for free handles, because they are not the user's work.
+/// Reset the transforms of free handles. They were found by the solver and are not the work of the
+/// user.
 Pose fixed(Pose pose)
 {
   for (HandlePose& each : pose)
@@ -64,14 +65,15 @@ Pose fixed(Pose pose)
   return pose;
 }
 
-/// Options that the program also chooses by itself. Such a change is not a step, and undo keeps it.
+/// Options that the program also sets by itself. A change of such an option is not an undo step,
+/// and undo keeps it.
 const char* const chosen_by_the_program[] = { "show.column", "weights.column", "weights.what",
   "weights.raw", "tets.shown", "tets.colors", "defects.shown", "volume.level",
   "volume.isosurface" };
 
 using Fingerprints = std::map<std::string, std::string>;
 
-/// Return fingerprints of everything that the user has made and chosen.
+/// Return fingerprints of everything that the user has made or chosen.
 Fingerprints own_fingerprints(const Document& document)
 {
   Work work = document.work();
@@ -82,7 +84,7 @@ Fingerprints own_fingerprints(const Document& document)
   return fingerprints(work);
 }
 
-/// Check the invariants of an idle window.
+/// Check the invariants of a window without pending work.
 void check_window(MainWindow& window)
 {
   const Document& document = *window.document();
@@ -98,7 +100,7 @@ void check_window(MainWindow& window)
   EXPECT_TRUE(window.isVisible());
 }
 
-/// Return the parts that have changed, as a sentence.
+/// Return a sentence that lists the parts of the work that have changed.
 std::string other_parts(const Fingerprints& before, const Fingerprints& now)
 {
   const auto part_of = [](const Fingerprints& all, const std::string& name)
@@ -167,7 +169,7 @@ TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
     window.show();
     QApplication::setActiveWindow(&window);
     QApplication::processEvents();
-    if (seed % 4 != 0) // otherwise the window starts empty
+    if (seed % 4 != 0) // otherwise the window starts without a mesh
     {
       ASSERT_TRUE(window.open(data("figure_weights.vtp")));
       ASSERT_TRUE(window.open(data("figure.tgf")));
@@ -182,7 +184,7 @@ TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
       monkey.play(50);
       monkey.rest();
       EXPECT_TRUE(wait_until([&] { return is_idle(&window); }, 60.0)) << "it never rests";
-      QElapsedTimer answer; // duration of a frame and all pending events
+      QElapsedTimer answer; // duration of one frame and of all pending events
       answer.start();
       QApplication::processEvents();
       window.viewport()->renderWindow()->Render();

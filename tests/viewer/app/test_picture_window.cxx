@@ -1,5 +1,6 @@
-// Saved pictures of the view: their sizes, and that they show the same as the window. A picture
-// with a transparent background, composited over any color, equals a picture drawn on that color.
+// Saved pictures of the view: they have the requested size and show the same as the window. A
+// picture with a transparent background, composited over any color, equals a picture drawn on this
+// color.
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -69,8 +70,8 @@ double share_apart(const QImage& a, const QImage& b, int level)
   return static_cast<double>(apart) / (a.width() * a.height());
 }
 
-/// Return how much darker than the background the letters and lines at the scalar bar are, summed
-/// over all pixels. The sum is proportional to their thickness.
+/// Return how much darker than the background the letters and lines of the scalar bar are, summed
+/// over all pixels. The sum is proportional to the thickness of letters and lines.
 double ink(const QImage& image)
 {
   double sum = 0.0;
@@ -86,7 +87,7 @@ double ink(const QImage& image)
   return sum;
 }
 
-/// Return a pixel composited over a color.
+/// Return the color of a pixel that is composited over a ground color.
 QColor over(const QColor& pixel, const Rgb& ground)
 {
   const double alpha = pixel.alphaF();
@@ -122,15 +123,15 @@ protected:
   }
 
   /// Expect that the transparent picture, composited over plain colors, equals the opaque picture
-  /// on such a background at every pixel, including half covered edges, see-through objects and
-  /// letters.
+  /// on such a background. The pictures must be equal at every pixel, including antialiased edges,
+  /// see-through objects and letters.
   void expect_right_over_any_color(int scale)
   {
     const auto clear = this->take(scale, true);
     ASSERT_EQ(clear->GetNumberOfScalarComponents(), 4);
     vtkRenderer* renderer = this->window.viewport()->renderer();
     const Rgb grounds[] = { { 1.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 }, { 0.8, 0.2, 0.6 } };
-    int part = 0; // number of partly covered pixels
+    int part = 0; // number of pixels that are partly covered
     for (const Rgb& ground : grounds)
     {
       renderer->GradientBackgroundOff();
@@ -175,11 +176,11 @@ TEST_F(PictureWindow, OfEveryScaleIsWhatIsSeenOnlyFiner)
 {
   this->open_weighted();
   const QImage seen = this->picture().convertToFormat(QImage::Format_ARGB32);
-  for (const int scale : { 1, 2, 5 }) // the last one needs several tiles
+  for (const int scale : { 1, 2, 5 }) // scale 5 needs several tiles
   {
     const QImage taken = image_of(this->take(scale, false));
     const QImage small = taken.scaled(seen.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
-    // Edges of letters and lines cover other pixels; everything else is the same.
+    // Letters and lines have edges that cover other pixels. Everything else is the same.
     EXPECT_LT(share_apart(small, seen, 24), 0.02) << scale;
     EXPECT_LT(share_apart(small, seen, 80), 0.004) << scale;
     EXPECT_NEAR(ink(taken) / (scale * scale), ink(seen), 0.15 * ink(seen)) << scale;
@@ -263,7 +264,7 @@ TEST_F(PictureWindow, TheDialogTellsTheSizeAndRemembers)
       QApplication::processEvents();
       EXPECT_TRUE(dialog.grab().save(QString(folder) + "/picture_dialog.png"));
     }
-    dialog.reject(); // no choice is stored
+    dialog.reject(); // a rejected dialog stores no choice
   }
   {
     PictureDialog dialog(this->window.viewport(), &this->window);

@@ -1,4 +1,4 @@
-// The 2D mode: pictures and planar shapes, in any plane, and weights over a picture.
+// The 2D mode of the window: pictures and planar shapes, in any plane, and weights over a picture.
 #include "binding.h"
 #include "window_test.h"
 
@@ -29,7 +29,7 @@ namespace
 class PlanarWindow : public test::WindowTest
 {
 protected:
-  /// Open a rectangle, rotated by `turn` and centered at `center`.
+  /// Open a flat rectangle, rotated by `turn` and centered at `center`.
   void open(const Eigen::Matrix3d& turn, const Vec3& center = Vec3(1, 2, 3))
   {
     this->mesh = test::grid(16, 8, 2.0, 1.0);
@@ -76,7 +76,7 @@ TEST_F(PlanarWindow, AShapeInAPlaneIsSeenFromInFrontWithoutPerspective)
     EXPECT_TRUE(this->camera()->GetParallelProjection() != 0);
     EXPECT_LT((this->sight() + normal).norm(), 1e-9) << normal.transpose();
     EXPECT_LT((Vec3(this->camera()->GetViewUp()) - up).norm(), 1e-9) << normal.transpose();
-    // The whole shape is visible, large and centered in the picture.
+    // The whole shape is visible. It is large and centered in the picture.
     QRect seen;
     for (Index v = 0; v < this->mesh.points.rows(); ++v)
     {
@@ -139,7 +139,7 @@ TEST_F(PlanarWindow, ATiltedPlaneIsBoundPosedInItselfAndLayered)
   ASSERT_TRUE(test::wait_for([this] { return !this->window.binding()->is_running(); }));
   ASSERT_EQ(this->window.error(), QString());
   ASSERT_TRUE(this->window.is_bound());
-  // The mouse moves the handle within the plane.
+  // The mouse moves the handle within the plane of the shape.
   const QPoint at = this->pixel(handles[1].head);
   this->render();
   this->drag(at, at + QPoint(-40, -60));
@@ -147,7 +147,7 @@ TEST_F(PlanarWindow, ATiltedPlaneIsBoundPosedInItselfAndLayered)
   EXPECT_GT((posed - this->mesh.points).rowwise().norm().maxCoeff(), 0.05);
   const Vec3 normal = tilted.col(2);
   EXPECT_LT(((posed.rowwise() - Eigen::RowVector3d(1, 2, 3)) * normal).cwiseAbs().maxCoeff(), 1e-9);
-  // Layers move the drawn surface along the normal and change nothing else.
+  // Layers move the drawn surface along its normal. They change nothing else.
   set_handle_layer(
     this->window.document()->handle_data(), this->window.document()->handle_cells()[1], 3.0);
   this->window.document()->commit_handles("layer", "layer");
@@ -174,7 +174,7 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   this->window.viewport()->handle_widget()->SetEnabled(false);
   const Index points = this->window.document()->surface()->GetNumberOfPoints();
   const auto columns = static_cast<Index>(this->window.document()->handles().size());
-  // Equal weights everywhere give one color and no isoline.
+  // Weights that are equal everywhere give one color and no isolines.
   Weights weights = Weights::Constant(points, columns, 0.65 / (columns - 1));
   weights.col(0).setConstant(0.35);
   ASSERT_TRUE(this->window.document()->set_weights(weights, "even").ok());
@@ -196,7 +196,7 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   };
   for (int y = 0; y < both.height(); ++y)
   {
-    for (int x = 200; x < both.width(); ++x) // right of the scalar bar
+    for (int x = 200; x < both.width(); ++x) // columns of pixels to the right of the scalar bar
     {
       const QColor c = colors.pixelColor(x, y);
       const bool inside = std::abs(c.red() - 255.0 * band[0]) < 3 &&
@@ -211,7 +211,7 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   }
   EXPECT_GT(covered, 20000);
   EXPECT_EQ(wrong, 0);
-  // The picture alone looks the same as without any column.
+  // If only the picture is shown, it does not depend on the shown column of weights.
   this->window.panels()->show_panel(PanelColumn::bind_and_pose);
   this->choose("show.column", 0);
   const QImage plain = this->picture();
@@ -239,7 +239,8 @@ TEST_F(PlanarWindow, BesideEachOtherBothShapesHaveThePicture)
   this->choose("pose.ghost", 1);
   this->window.viewport()->handle_widget()->SetEnabled(false);
   const QImage seen = this->picture();
-  const int half = seen.width() / 2, below = seen.height() - 60; // exclude the names at the bottom
+  // Exclude the names at the bottom of the view.
+  const int half = seen.width() / 2, below = seen.height() - 60;
   int colored = 0, apart = 0;
   for (int y = 0; y < below; ++y)
   {
@@ -252,10 +253,10 @@ TEST_F(PlanarWindow, BesideEachOtherBothShapesHaveThePicture)
     }
   }
   EXPECT_GT(colored, 5000);
-  EXPECT_LT(apart, colored / 10); // at rest both halves are equal; an odd width shifts one by half
-                                  // a pixel
-  // When drawn over the shape, the see-through comparison is blue wherever it differs from the
-  // shape.
+  // At rest both halves are equal; if the width is odd, one half is shifted by half a pixel.
+  EXPECT_LT(apart, colored / 10);
+  // The compared shape is drawn over the shape, see-through and blue. It is visible wherever it
+  // differs from the shape.
   this->choose("pose.ghost", 0);
   const auto is_blue = [](const QColor& c) { return c.blue() > c.red() + 20; };
   const int same = count(this->picture(), is_blue);

@@ -1,6 +1,5 @@
-// The three planes that the mouse can drag: the slice of a volume, the cut through tets and the
-// slice of weights. A drag is one step of the history, Esc cancels it, and sessions store the
-// plane.
+// The three planes that the mouse can drag: the slice of a volume, the cut through tets, and the
+// slice of weights. A drag is one undo step, Esc cancels it, and sessions store the plane.
 #include "window_test.h"
 
 #include "document/document.h"
@@ -42,9 +41,9 @@ namespace
 {
 struct PlaneCase
 {
-  const char* name; ///< prefix of its options
+  const char* name; ///< prefix of the plane's options
   int panel;
-  const char* move; ///< names of steps
+  const char* move; ///< name of the undo step of a move
   const char* turn;
   const char* axis;
 };
@@ -54,7 +53,7 @@ std::ostream& operator<<(std::ostream& stream, const PlaneCase& plane)
   return stream << plane.name;
 }
 
-/// A box from -1 to 1 of tets, with weights linear along z.
+/// Return a box of tets from -1 to 1, with weights linear along z.
 vtkSmartPointer<vtkUnstructuredGrid> box()
 {
   const TetMesh mesh = test::tet_box(4, 4, 4, Vec3(-1, -1, -1), Vec3(1, 1, 1));
@@ -71,7 +70,7 @@ vtkSmartPointer<vtkUnstructuredGrid> box()
   return grid;
 }
 
-/// Return samples in the same box.
+/// Return a sampled volume in the same box.
 vtkSmartPointer<vtkImageData> samples()
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
@@ -135,7 +134,7 @@ protected:
   void undo() { this->hand.trigger("edit.undo"); }
   void redo() { this->hand.trigger("edit.redo"); }
 
-  /// Begin a drag of a plane perpendicular to z, and do not end it.
+  /// Begin to drag a plane perpendicular to z. The drag is not ended.
   void begin_drag(double from, double to)
   {
     const QPoint start = this->pixel(Vec3(0.4, 0.3, from));
@@ -155,7 +154,7 @@ protected:
     this->hand.release(this->last, Qt::LeftButton);
     this->render();
   }
-  /// Turn a free plane by dragging its arrow by this number of pixels.
+  /// Rotate a free plane: drag its arrow by this many pixels.
   void turn(const QPoint& by)
   {
     const Vec3 tip = this->plane()->origin() + 0.3 * std::sqrt(12.0) * this->plane()->normal();
@@ -228,7 +227,7 @@ TEST_P(PlaneWindow, ADragIsOneStepAndUndoTakesItBack)
   EXPECT_NEAR(this->plane()->position(), -0.3, 0.08);
   this->undo();
   this->expect_place(moved, "the second drag is undone");
-  this->hand.move(QPoint(2, 2)); // nothing is under the mouse
+  this->hand.move(QPoint(2, 2)); // there is nothing under the mouse here
   EXPECT_EQ(this->picture(), then);
   this->undo();
   this->expect_place(0.0, "both are");
@@ -247,11 +246,11 @@ TEST_P(PlaneWindow, EscDuringADragTakesItBack)
   EXPECT_EQ(this->hand.press_key("Esc"), QString());
   this->expect_place(0.2, "Esc");
   EXPECT_FALSE(this->plane()->is_dragged());
-  this->hand.move(this->last + QPoint(40, 40)); // the button is still down
+  this->hand.move(this->last + QPoint(40, 40)); // the mouse button is still down
   this->end_drag();
   this->expect_place(0.2, "the button is let go");
   EXPECT_EQ(this->steps(), 1);
-  // Undo also ends the drag, and reverts the step before it.
+  // Undo ends the drag, and also reverts the step before the drag.
   this->begin_drag(0.2, 0.6);
   this->undo();
   this->end_drag();
@@ -318,7 +317,7 @@ TEST_P(PlaneWindow, AFreePlaneIsTurnedInOneStep)
   {
     EXPECT_EQ(kept[k].toDouble(), turned[k]);
   }
-  // Choose an axis, then undo: the free plane has its previous orientation.
+  // Choose an axis for the plane, then undo. The free plane has its previous orientation again.
   EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::y_axis), QString());
   EXPECT_EQ(this->plane()->normal(), Vec3(0, 1, 0));
   this->undo();
@@ -362,7 +361,7 @@ TEST_P(PlaneWindow, SessionsKeepThePlane)
     EXPECT_EQ(other.history()->count(), 0) << "to open a session is no step";
     EXPECT_FALSE(other.isWindowModified());
   }
-  // A session from before these options existed: the plane is as in a new window.
+  // A session that was saved before these options existed gives the same plane as a new window.
   std::ifstream file(path);
   nlohmann::json old = nlohmann::json::parse(file);
   for (const char* of : { "place", "normal", "orientation" })

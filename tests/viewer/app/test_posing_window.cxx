@@ -1,5 +1,5 @@
-// Posing in the window: all methods live, comparisons, motion, stored poses and key frames,
-// exports.
+// Posing in the window: all methods with their live results, comparisons of methods, motion, stored
+// poses, key frames and exports.
 #include "body_motion.h"
 #include "unclipped.h"
 #include "window_test.h"
@@ -78,7 +78,7 @@ using test::wait_for;
 
 namespace
 {
-/// Return a pole along z. The tests put bones along it and points at its sides.
+/// Return a pole along z. The tests put bones on its axis and points at its sides.
 TriangleMesh pole(int levels)
 {
   TriangleMesh mesh = test::sphere(levels);
@@ -158,8 +158,8 @@ protected:
     pose[3].transform.leftCols<3>() = turn;
     pose[3].transform.col(3) = this->list[3].head - turn * this->list[3].head;
     pose[0].transform.col(3) = Vec3(-0.1 * amount, 0, 0.1 * amount);
-    // All handles are constrained. Points alone, on one line, would leave the rotation about it
-    // undetermined.
+    // Constrain all handles. If only points on one line were constrained, the rotation about the
+    // line would be undetermined.
     for (HandlePose& handle : pose)
     {
       handle.mode = HandleMode::full;
@@ -168,7 +168,7 @@ protected:
   }
   Points points() { return to_points(this->window.shown()).view(); }
 
-  /// Return the pixel of a handle's head or tail in the window, in VTK's coordinates.
+  /// Return the pixel of a handle's head or tail in the window, in VTK's coordinates (y upward).
   Eigen::Vector2i pixel_of(vtkIdType cell, bool tail)
   {
     auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
@@ -222,7 +222,7 @@ TEST_F(PosingWindow, EveryMethodGivesWhatItsPoserGives)
     EXPECT_GT((this->points() - source->points).cwiseAbs().maxCoeff(), 0.05) << method;
     if (is_slow(static_cast<PoseMethod>(method)))
     {
-      continue; // solved in slices, see Poser.ASolveInSlicesIsTheFilterRunInSlices
+      continue; // this method is solved in slices, see Poser.ASolveInSlicesIsTheFilterRunInSlices
     }
     ExecutionContext context;
     const PoseOptions options = this->panel()->options();
@@ -262,7 +262,7 @@ TEST_F(PosingWindow, DragsDoNotBindAgain)
     ASSERT_TRUE(this->settle());
     EXPECT_EQ(this->posing()->deformation()->binds(), binds) << method;
   }
-  // Returning to a method does not bind again.
+  // Returning to an earlier method does not cause a bind.
   const Index binds = this->posing()->deformation()->binds();
   this->choose(PoseMethod::reduced_arap);
   this->choose(PoseMethod::linear_blend);
@@ -273,7 +273,7 @@ TEST_F(PosingWindow, DragsDoNotBindAgain)
 
 TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
 {
-  this->open(5); // 20480 triangles, so that a slice takes a while
+  this->open(5); // a slice of the solve takes a while with 20480 triangles
   this->choose(PoseMethod::full_arap);
   ASSERT_TRUE(this->settle());
   Deformation* deformation = this->posing()->deformation();
@@ -284,7 +284,7 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
     clock.start();
     this->put(this->bent(0.05 * move));
     longest = std::max(longest, 1e-6 * static_cast<double>(clock.nsecsElapsed()));
-    // Rest, so that slices grow, then move on.
+    // Pause, so that the slices become larger, then continue to move.
     const Points before = deformation->points();
     EXPECT_TRUE(wait_for([&] { return deformation->points() != before; }, 20));
     if (move % 2 == 0)
@@ -297,11 +297,11 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
   }
   std::printf(
     "longest call of a drag %.2f ms, %d solves started again\n", longest, deformation->restarts());
-  EXPECT_LT(longest, 200.0); // the call does not wait for an iteration
+  EXPECT_LT(longest, 200.0); // the call must not wait for the end of an iteration
   EXPECT_GT(deformation->restarts(), 0);
   ASSERT_TRUE(this->settle());
   EXPECT_TRUE(deformation->status().usable());
-  // Whatever its start, the solve ends near the result of a fresh solve.
+  // For any start, the solve ends near the result of a solve from rest.
   auto source = std::make_shared<PoseSource>();
   ASSERT_TRUE(to_pose_source(this->surface, nullptr, this->handles, *source).ok());
   ExecutionContext context;
@@ -359,7 +359,8 @@ TEST_F(PosingWindow, OnlyTheOptionsOfTheMethodAreShown)
   this->choose(PoseMethod::reduced_arap);
   EXPECT_FALSE(shown("pose.pseudo_edges"));
   EXPECT_TRUE(shown("pose.extra_weights"));
-  EXPECT_FALSE(shown("pose.extra_kind")); // without extra weights they have no kind
+  // The list of kinds is hidden if there are no extra weights.
+  EXPECT_FALSE(shown("pose.extra_kind"));
   this->option<ValueRow>("pose.extra_weights")->field()->setValue(5);
   EXPECT_TRUE(shown("pose.extra_kind"));
   EXPECT_EQ(this->panel()->options().extra_weights, 5);
@@ -381,7 +382,7 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
     this->option<QComboBox>("pose.rotations")->setCurrentIndex(what);
     this->render();
   };
-  // Linear blends fit no rotations.
+  // Linear blend skinning does not fit rotations.
   EXPECT_FALSE(this->option<QWidget>("pose.rotations")->isVisible());
   this->choose(PoseMethod::reduced_arap);
   EXPECT_TRUE(this->option<QWidget>("pose.rotations")->isVisible());
@@ -400,7 +401,7 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   ASSERT_NE(found, nullptr);
   ASSERT_EQ(static_cast<Index>(found->of_point->size()), drawn->GetNumberOfPoints());
   ASSERT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(on_cells())));
-  // All triangles within a cluster have one color, which no other cluster has.
+  // All triangles of a cluster have one color, which differs from the colors of all other clusters.
   std::map<Index, double> color_of;
   const TrianglesView triangles = viewport->shaded()->triangles();
   for (Index t = 0; t < triangles.rows(); ++t)
@@ -427,7 +428,7 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   this->render();
   EXPECT_EQ(on_cells(), clusters); // a new pose does not create a new array
 
-  // The whole pole follows the only handle that is turned.
+  // The whole pole rotates with the only handle that is rotated.
   show(2);
   ASSERT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(on_points())));
   for (vtkIdType v = 0; v < drawn->GetNumberOfPoints(); ++v)
@@ -440,15 +441,16 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   this->put(pose);
   ASSERT_TRUE(this->settle());
   this->render();
-  EXPECT_EQ(on_points(), angles); // written in place: the scale still ends at 45 degrees
+  // The array is updated in place; the scale still ends at 45 degrees.
+  EXPECT_EQ(on_points(), angles);
   EXPECT_NEAR(angles->GetComponent(7, 0), 35.0, 1.0);
   this->posing()->look_at_rest(true);
   this->render();
   EXPECT_EQ(on_points()->GetComponent(7, 0), 0.0);
   this->posing()->look_at_rest(false);
 
-  // Other panels show their own colors. Methods without rotations show none. Undo restores the
-  // rotations.
+  // Other panels use their own coloring. Methods without rotations have no coloring by rotation.
+  // Undo restores it.
   this->window.panels()->show_panel(PanelColumn::weights);
   this->render();
   EXPECT_FALSE(viewport->shows(vtkDoubleArray::SafeDownCast(angles)));
@@ -472,7 +474,7 @@ TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
   this->choose(PoseMethod::full_arap);
   EXPECT_TRUE(this->option<QWidget>("pose.rotations")->isVisible());
   this->option<QComboBox>("pose.rotations")->setCurrentIndex(2);
-  // Turn the whole shape rigidly.
+  // Rotate the whole shape rigidly.
   Pose pose(4);
   for (HandlePose& handle : pose)
   {
@@ -493,14 +495,14 @@ TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
   {
     EXPECT_NEAR(angles()->GetComponent(v, 0), 40.0, 1e-3) << v;
   }
-  // The angles stay while the next pose is solved in the background, and are updated when it is
-  // solved.
+  // While the next pose is solved in the background, the old angles are shown. They are updated
+  // when it is solved.
   pose[3].transform(2, 3) += 0.2;
   Q_EMIT this->posing()->pose_changed(pose);
   EXPECT_NE(this->posing()->rotations(), nullptr);
   ASSERT_TRUE(this->settle());
   EXPECT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(angles())));
-  // Each vertex is a cluster; touching clusters differ in color.
+  // Each vertex is a cluster. Clusters that touch have different colors.
   this->option<QComboBox>("pose.rotations")->setCurrentIndex(1);
   this->render();
   ASSERT_TRUE(viewport->shows(
@@ -533,7 +535,7 @@ TEST_F(PosingWindow, ABodyThatMovesShowsItsOwnRotations)
 
 TEST_F(PosingWindow, ABodyOfAnotherShapeFollowsTheOneThatWasBeingBound)
 {
-  this->open(5); // too large to be bound immediately
+  this->open(5); // this mesh is too large to be bound immediately
   this->option<QCheckBox>("pose.moves")->setChecked(true);
   BodyMotion* motion = this->posing()->motion();
   ASSERT_FALSE(motion->has_started());
@@ -590,7 +592,8 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
 {
   this->open();
   this->put(this->bent());
-  this->window.show_outlines(false); // their depth offset depends on the view
+  // Hide the outlines, because their depth offset depends on the view.
+  this->window.show_outlines(false);
   const QImage alone = this->picture();
   auto* with = this->option<QComboBox>("pose.compared");
   with->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
@@ -618,7 +621,7 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   }
   EXPECT_TRUE(said);
   EXPECT_NE(this->picture(), alone);
-  // Side by side: both halves use the same camera.
+  // If the shapes are shown side by side, both halves use the same camera.
   this->find<QPushButton>("Beside it")->click();
   this->render();
   EXPECT_EQ(this->posing()->ghost()->renderer()->GetActiveCamera(),
@@ -679,8 +682,8 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
   this->put(Pose(4));
   expect_distances("at rest");
   EXPECT_LT(colors()->GetRange()[1], 1e-6);
-  // Other panels show their own colors. The distances return with the panel and end with the
-  // comparison.
+  // Other panels use their own coloring. The coloring by distance returns with the panel, and ends
+  // with the comparison.
   this->put(this->bent());
   this->window.panels()->show_panel(PanelColumn::weights);
   EXPECT_NE(viewport->legend(Viewport::weight_legend), "Distance (% of diagonal)");
@@ -701,7 +704,7 @@ TEST(DistanceScale, EndsAtARoundNumberThatHoldsTheLargest)
 }
 
 /// If two methods give the same shape, round-off decides at each pixel which surface is in front.
-/// Drawing both colors would therefore cause speckles.
+/// If both colors were drawn, there would be speckles.
 TEST_F(PosingWindow, WhereTwoShapesCoincideThereAreNoSpeckles)
 {
   this->open(4);
@@ -714,7 +717,8 @@ TEST_F(PosingWindow, WhereTwoShapesCoincideThereAreNoSpeckles)
     ->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
   ASSERT_EQ(this->posing()->ghost()->place(), PoseGhost::over);
   EXPECT_LE(blue(), alone + 20) << "at rest";
-  // After half a turn about its axis, the pole coincides with itself, but all points are elsewhere.
+  // After a rotation by 180 degrees about its axis, the pole coincides with itself, but every point
+  // has another position.
   const Points points = this->points();
   Points turned = points;
   turned.leftCols<2>() *= -1.0;
@@ -740,8 +744,8 @@ TEST_F(PosingWindow, NoMethodIsComparedWithItself)
   EXPECT_NE(hand.choose("pose.compared", 1), QString());
   ASSERT_EQ(hand.choose("pose.compared", 2), QString());
   EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::in_colors);
-  // If the method of the shape becomes the compared one, there is nothing to compare. A label says
-  // so.
+  // If the method of the shape is also chosen as the compared method, nothing can be compared. A
+  // label says this.
   hand.press_key("2");
   ASSERT_EQ(this->window.document()->number("pose.method"), 1);
   EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::hidden);
@@ -776,7 +780,7 @@ TEST_F(PosingWindow, TheBodyMovesPausesAndReplaysBitByBit)
   const std::size_t steps = body->run().steps.size();
   const Points paused = this->points();
   EXPECT_NE(paused, start);
-  // While paused, nothing moves.
+  // While the motion is paused, no point moves.
   this->render();
   QElapsedTimer rest;
   rest.start();
@@ -854,7 +858,7 @@ TEST_F(PosingWindow, TypedValuesTakeTheChildrenAlong)
   const Pose pose = this->window.document()->pose();
   EXPECT_EQ(pose[1].transform, pose[3].transform);
   EXPECT_EQ(pose[0].transform, identity_affine());
-  // The numbers of the child are relative to its parent.
+  // The numbers of a child handle are relative to its parent.
   this->window.panel()->select_handle(1);
   EXPECT_EQ(fields->field(4)->value(), 0.0);
   fields->field(2)->setValue(0.5);
@@ -888,7 +892,7 @@ TEST_F(PosingWindow, TheWheelTurnsNothingButTheFieldWithTheFocus)
   EXPECT_FALSE(field->hasFocus());
   EXPECT_EQ(methods->currentIndex(), method);
   EXPECT_EQ(this->window.history()->count(), steps);
-  // With the focus, all steps of the wheel are one step of the history.
+  // While the field has the focus, all steps of the mouse wheel are one undo step.
   field->setFocus();
   ASSERT_TRUE(field->hasFocus());
   for (int turn = 0; turn < 5; ++turn)
@@ -929,7 +933,8 @@ TEST_F(PosingWindow, PosesAreStoredNamedAppliedAndBlended)
   slider->setValue(100);
   EXPECT_EQ(this->points(), posed);
   slider->setValue(50);
-  EXPECT_EQ(this->points(), half); // depends on the starting pose, not on the path of the slider
+  // The result depends on the starting pose, not on the path of the slider.
+  EXPECT_EQ(this->points(), half);
   Q_EMIT slider->sliderReleased();
   EXPECT_EQ(slider->value(), 0);
   EXPECT_EQ(this->points(), half);
@@ -954,7 +959,7 @@ TEST_F(PosingWindow, UndoTakesTheFirstKeptPoseBack)
 TEST_F(PosingWindow, CurvesOfTheRestShapeAreSeenWithItAlone)
 {
   this->open();
-  vtkNew<vtkPolyData> circle; // for example a boundary
+  vtkNew<vtkPolyData> circle; // for example, a boundary curve
   vtkNew<vtkPoints> places;
   vtkNew<vtkCellArray> lines;
   const vtkIdType ids[] = { 0, 1, 2 };
@@ -1016,7 +1021,7 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
   EXPECT_EQ(this->window.error(), QString());
   EXPECT_TRUE(texts().contains("lower   (tail)")) << texts().join(", ").toStdString();
   EXPECT_TRUE(texts().contains("upper   (ends)"));
-  // These modes can be chosen for bones only.
+  // Modes tail and ends can be chosen for bones only.
   for (QComboBox* box : this->window.panel()->findChildren<QComboBox*>())
   {
     const int ends = box->findText("a bone's ends");
@@ -1035,7 +1040,7 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
 
 TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
 {
-  // A strip along x whose right half is folded over its left.
+  // The shape is a strip along x. Its right half is folded over its left half.
   const TriangleMesh strip = test::translated(test::grid(40, 10, 2.0, 0.5), Vec3(-1, -0.25, 0));
   const Handles ends = { test::point_handle("left", Vec3(-1, 0, 0)),
     test::point_handle("right", Vec3(1, 0, 0)) };
@@ -1057,7 +1062,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   this->render();
   auto* fields = this->window.findChild<HandleFields*>();
   EXPECT_TRUE(fields->layer()->isVisible());
-  // Seen from the front: where the halves overlap, the color is that of the half in front.
+  // Viewed from the front, the color in the overlap is that of the half in front.
   vtkRenderer* renderer = this->window.viewport()->renderer();
   const auto right_is_seen = [&]
   {
@@ -1071,7 +1076,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
     this->render();
     const QImage seen = this->window.viewport()->grabFramebuffer();
     const QColor middle = seen.pixelColor(seen.width() / 2, seen.height() / 2);
-    return middle.blue() > middle.red() + 20; // weight 1 is deep blue, 0 is pale
+    return middle.blue() > middle.red() + 20; // deep blue is weight 1, pale is weight 0
   };
   EXPECT_TRUE(right_is_seen()) << "of equal layers the later handle is in front";
   const Points posed = this->points();
@@ -1084,7 +1089,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   this->window.history()->undo();
   EXPECT_EQ(fields->layer()->value(), 0.0) << "both numbers are one step";
   EXPECT_TRUE(right_is_seen());
-  // A change of the layer does not bind again: a moving body continues.
+  // A change of a layer does not cause a bind, so a moving body continues to move.
   this->option<QCheckBox>("pose.moves")->setChecked(true);
   const Body* body = this->posing()->motion()->body();
   ASSERT_NE(body, nullptr);
@@ -1118,15 +1123,15 @@ TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)
   const Points half = this->points();
   EXPECT_NE(half, posed);
   Q_EMIT strip->scrubbed(0.5);
-  EXPECT_EQ(this->points(), posed); // exactly the key pose
+  EXPECT_EQ(this->points(), posed); // the shape has exactly the key pose
   Q_EMIT strip->scrub_ended();
-  // Without loop, playback stops at its end, and nothing moves afterward.
+  // Without loop, playback stops at its end, and no point moves afterward.
   Q_EMIT strip->loop_chosen(false);
   this->posing()->keeper()->play(true);
   EXPECT_TRUE(this->posing()->keeper()->is_playing());
   ASSERT_TRUE(wait_for([this] { return !this->posing()->keeper()->is_playing(); }, 20));
   EXPECT_EQ(this->points(), posed);
-  // With loop, it plays until it is stopped. A drag stops it.
+  // With loop, playback continues until it is stopped. A drag stops it.
   Q_EMIT strip->loop_chosen(true);
   this->posing()->keeper()->play(true);
   QElapsedTimer clock;
@@ -1175,7 +1180,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
       << this->posing()->sequence_export()->said().toStdString();
     return path;
   };
-  // A pose file, which the filters can read.
+  // The first format is a pose file, which the filters can read.
   const std::string json = write("bow.json");
   vtkNew<vtkPoseHandles> poses;
   poses->SetInputData(0, this->handles);
@@ -1188,7 +1193,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
   filter->SetInputConnection(1, poses->GetOutputPort());
   filter->Update();
   EXPECT_LT((Points(to_points(filter->GetOutput()).view()) - posed).cwiseAbs().maxCoeff(), 1e-12);
-  // Datasets and their collection file.
+  // The second format is a series of datasets with a collection file.
   Sequence sequence;
   write("bow.vtp");
   ASSERT_TRUE(read_collection(folder / "bow.pvd", sequence).ok());
@@ -1197,21 +1202,21 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
   reader->SetFileName(sequence.files.back().c_str());
   reader->Update();
   EXPECT_EQ(Points(to_points(vtkDataSet::SafeDownCast(reader->GetOutput())).view()), posed);
-  // An animated rig.
+  // The third format is an animated rig.
   const std::string rig = write("bow.glb");
   vtkNew<vtkGLTFSkinReader> rigs;
   rigs->SetFileName(rig.c_str());
   rigs->Update();
   EXPECT_EQ(rigs->GetStatus(), vtkBindposeAlgorithm::OK) << rigs->GetStatusMessage();
   EXPECT_EQ(rigs->GetOutputDataObject(1)->GetNumberOfElements(vtkDataObject::CELL), 4);
-  // Pictures.
+  // The fourth format is a strip of pictures.
   const QImage strip_picture(QString::fromStdString(write("bow.png")));
   EXPECT_EQ(strip_picture.width(), 1600);
   if (check_ffmpeg().ok())
   {
     EXPECT_GT(std::filesystem::file_size(write("bow.gif")), 1000U);
-    // A film is encoded in the background, where it can be canceled. The shown shape does not
-    // change.
+    // A film is encoded in the background. The export can be canceled, and it does not change the
+    // shown shape.
     SequenceExport* film = this->posing()->sequence_export();
     const std::string unwanted = folder / "unwanted.webm";
     int taken = 0;
@@ -1230,7 +1235,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
     EXPECT_FALSE(std::filesystem::exists(unwanted));
     EXPECT_EQ(this->points(), posed);
   }
-  // A failed export is reported, and nothing is lost.
+  // A failed export is reported, and the work is unchanged.
   this->posing()->export_to("/no/such/folder/bow.vtp");
   EXPECT_TRUE(wait_for([this] { return !this->window.error().isEmpty(); }));
   EXPECT_TRUE(this->window.error().contains("Cannot export"));
@@ -1241,7 +1246,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
   std::filesystem::remove_all(folder);
 }
 
-/// No text is clipped, whatever is open and however small the window is.
+/// No text is clipped, for any open data and any size of the window.
 TEST_F(PosingWindow, NoTextIsClipped)
 {
   this->open();
@@ -1279,8 +1284,8 @@ TEST_F(PosingWindow, NoTextIsClipped)
   }
 }
 
-/// Each state of the window has its own picture: it is not empty and differs from the one before.
-/// The pictures are saved in the folder BINDPOSE_PICTURES, if that is set.
+/// Each state of the window has its own picture, which is not empty and differs from the previous
+/// one. If BINDPOSE_PICTURES is set, the pictures are saved in this folder.
 TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
 {
   const char* folder = std::getenv("BINDPOSE_PICTURES");
@@ -1335,8 +1340,8 @@ TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
   save("poses");
 }
 
-/// A drag that was started by a key continues without a button. Any other change of the pose ends
-/// the drag, because Esc would otherwise restore the state before both changes.
+/// A drag that was started by a key needs no mouse button. Any other change of the pose ends this
+/// drag. Otherwise Esc would restore the state before both changes.
 TEST_F(PosingWindow, AScrubEndsADragWithoutAButton)
 {
   this->open();
@@ -1355,13 +1360,13 @@ TEST_F(PosingWindow, AScrubEndsADragWithoutAButton)
   EXPECT_TRUE(same_pose(document->pose(), Pose(4)));
 }
 
-/// Measures a drag frame of a large shape and prints the time of each part. The README uses these
-/// numbers.
+/// Measures one frame of a drag of a large shape, and prints the time of each part of the frame.
+/// The README contains these numbers.
 class DragFrame : public PosingWindow, public testing::WithParamInterface<int>
 {
 protected:
-  /// Move twenty handles, most of them free, and print the time of each part of a frame.
-  /// @return median of the total time in milliseconds
+  /// Move twenty handles, most of them with mode free, and print the time of each part of a frame.
+  /// @return The median of the total time of a frame in milliseconds.
   double drag(const TriangleMesh& mesh, const char* what)
   {
     double solve = 0.0, skin = 0.0, normals = 0.0, upload = 0.0;
@@ -1416,7 +1421,7 @@ TEST_P(DragFrame, TakesMilliseconds)
   }
   const auto data = to_polydata(mesh.points, mesh.triangles);
   Weights weights = weights_of(mesh.points, twenty);
-  weights = weights.array().pow(3.0).matrix(); // local, like bounded weights
+  weights = weights.array().pow(3.0).matrix(); // the weights become local, like bounded weights
   weights = (weights.array() < 1e-3 * weights.maxCoeff()).select(0.0, weights);
   weights = (weights.array().colwise() / weights.rowwise().sum().array()).matrix();
   data->GetPointData()->AddArray(to_weights_array("Weights", weights, twenty));
@@ -1425,8 +1430,8 @@ TEST_P(DragFrame, TakesMilliseconds)
   this->choose(PoseMethod::reduced_arap);
   ASSERT_TRUE(this->settle());
   this->render();
-  constexpr double busy = 50.0; // limit in milliseconds on a busy machine; an idle one needs a
-                                // tenth
+  // Limit in milliseconds on a busy machine; an idle machine needs a tenth of it.
+  constexpr double busy = 50.0;
   EXPECT_LT(this->drag(mesh, ""), busy);
   this->option<QComboBox>("pose.rotations")->setCurrentIndex(2);
   this->render();

@@ -1,5 +1,5 @@
-// The reading of the data under the mouse. Every number is checked against the data at the reported
-// position.
+// The reading: a text with the data under the mouse. Every number is checked against the data at
+// the reported position.
 #include "window_test.h"
 
 #include "deformation.h"
@@ -37,8 +37,9 @@ namespace
 class ProbeWindow : public test::WindowTest
 {
 protected:
-  /// Return the reading at a pixel. Windows of other tests on the same screen may cover this
-  /// window. Then the mouse has left it, so the function moves the mouse again.
+  /// Return the reading at a pixel. A window of another test on the same screen may cover this
+  /// window, and the mouse then counts as outside of it. The function therefore moves the mouse
+  /// again.
   std::string read(const QPoint& at)
   {
     for (int attempt = 0; attempt < 20; ++attempt)
@@ -61,7 +62,7 @@ protected:
       this->window.set_mesh(to_polydata(this->ball.points, this->ball.triangles), "ball"));
     this->resize({ 1000, 700 });
   }
-  /// Set weights of two handles, linear along z.
+  /// Set weights of two handles that are linear along z.
   void weigh()
   {
     ASSERT_TRUE(this->window.set_handles(test::two_points(), "points"));
@@ -141,7 +142,7 @@ TEST(RayCast, FindsWhatATwinThatTestsEveryTriangleFinds)
   SightHit hit;
   EXPECT_FALSE(first_triangle({ Vec3(0, 0, 3), Vec3::UnitZ() }, ball.points, ball.triangles, hit))
     << "it lies behind";
-  // At a vertex there is no gap between triangles.
+  // At a vertex, gaps between triangles must not hide the surface.
   for (Index v = 0; v < 40; ++v)
   {
     const Vec3 p = ball.points.row(v);
@@ -160,8 +161,8 @@ TEST_F(ProbeWindow, ASurfaceIsReadWithTriangleVertexAndPlace)
     SurfaceReading reading;
     const std::string text = this->read(at);
     ASSERT_TRUE(parse(text, reading)) << text;
-    // The position is under the mouse, on the near side, in the reported triangle, and next to the
-    // reported vertex.
+    // The reported position is under the mouse and on the near side of the shape. It is in the
+    // reported triangle and next to the reported vertex.
     EXPECT_LE((this->pixel(reading.place) - at).manhattanLength(), 2) << text;
     ASSERT_LT(reading.triangle, this->ball.triangles.rows());
     double least = 1e300;
@@ -212,11 +213,11 @@ TEST_F(ProbeWindow, WeightsAreReadWithTheStrongestHandle)
       above ? top : 1.0 - top, 2e-3)
       << text;
   }
-  // In colors by handle, the reading names the handle.
+  // If the surface is colored by handle, the reading contains the name of the handle.
   this->choose("weights.column", 0);
   EXPECT_NE(this->read(Vec3(0.3, 0.2, 0.7)).find("Handle: top"), std::string::npos)
     << this->window.reading().toStdString();
-  // Without colors, the reading still contains the strongest handle.
+  // If the surface has no colors, the reading still contains the strongest handle.
   this->window.panels()->show_panel(PanelColumn::bind_and_pose);
   this->render();
   EXPECT_NE(this->read(Vec3(0.3, 0.2, 0.7)).find("Strongest handle: top"), std::string::npos);
@@ -247,9 +248,10 @@ TEST_F(ProbeWindow, TheDifferenceOfTwoMethodsIsReadInUnitsAndShares)
   this->open_ball();
   this->weigh();
   Pose pose = this->window.document()->pose();
-  pose[1].transform << 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0; // top is turned by 90 degrees about z
+  // The handle "top" is rotated by 90 degrees about z.
+  pose[1].transform << 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0;
   this->window.document()->set_pose(pose, "turn");
-  this->choose("pose.compared", 2); // dual quaternions, which preserve the waist
+  this->choose("pose.compared", 2); // dual quaternion skinning, which preserves the waist
   this->render();
   Posing* posing = this->window.posing();
   const Points& a = posing->points();
@@ -270,7 +272,7 @@ TEST_F(ProbeWindow, TheDifferenceOfTwoMethodsIsReadInUnitsAndShares)
       (this->ball.points.colwise().maxCoeff() - this->ball.points.colwise().minCoeff()).norm();
     EXPECT_NEAR(share, 100.0 * units / diagonal, 0.06) << text;
     EXPECT_LE(units, largest * 1.001);
-    // The distance is near that at the nearest vertex.
+    // The reported distance between the shapes is close to that at the nearest vertex.
     EXPECT_NEAR(units, (a.row(reading.vertex) - b.row(reading.vertex)).norm(), 0.15 * largest);
     ++seen;
   }
@@ -282,7 +284,7 @@ TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
   ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/figure_tets.vtu"));
   this->resize({ 1000, 700 });
   this->choose("tets.shown", true);
-  this->choose("tets.colors", 1); // not by quality
+  this->choose("tets.colors", 1); // this coloring is not by quality
   TetView* view = this->window.inspection()->tet_view();
   ASSERT_TRUE(view->is_shown());
   const PointsView points = view->input().points.view();
@@ -298,7 +300,7 @@ TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
       const std::string text = this->window.reading().toStdString();
       if (text.empty() && size < 1.0)
       {
-        continue; // between two tets
+        continue; // the point is between two tets
       }
       long long tet = -1;
       double angle = 0.0;
@@ -306,7 +308,7 @@ TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
       EXPECT_TRUE(view->kept()[static_cast<std::size_t>(tet)]);
       const auto corner = [&](int k) { return Vec3(points.row(tets(tet, k))); };
       EXPECT_NEAR(angle, min_dihedral_angle(corner(0), corner(1), corner(2), corner(3)), 0.06);
-      // The position is within the tet.
+      // The reported position is inside of the reported tet.
       const Vec3 place(
         number_after(text, "x "), number_after(text, "   y "), number_after(text, "   z "));
       Eigen::Matrix4d system;
@@ -363,7 +365,7 @@ TEST_F(ProbeWindow, ADefectIsReadByItsName)
   ASSERT_TRUE(
     test::wait_for([this] { return this->window.inspection()->defect_view().is_shown(); }));
   this->resize({ 1000, 700 });
-  // The ends of an edge with only one triangle.
+  // Take the ends of an edge with only one triangle.
   vtkPolyData* defects = this->window.inspection()->defect_view().defects();
   ASSERT_GT(defects->GetNumberOfLines(), 0);
   const Vec3 a(defects->GetPoint(defects->GetCell(0)->GetPointId(0)));
@@ -391,7 +393,7 @@ TEST_F(ProbeWindow, NothingIsReadDuringADragAndTheLabelKeepsOutOfTheWay)
     this->render();
     EXPECT_TRUE(this->window.grab().save(QString(folder) + "/reading.png"));
   }
-  // Enlarge the view until the corner also shows the ball.
+  // Zoom in until the ball also covers the corner of the view.
   for (int k = 0; k < 12; ++k)
   {
     WindowHand(&this->window).wheel(middle, 1.0);

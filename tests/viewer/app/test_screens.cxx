@@ -1,5 +1,5 @@
-// Responsiveness and readability of the window: opening takes one picture, nothing blocks, no text
-// is clipped.
+// Responsiveness and readability of the window: opening files renders one picture, no operation
+// blocks the window, and no text is clipped.
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -66,7 +66,7 @@ protected:
   }
   ~Screens() override { this->window.viewport()->renderer()->RemoveObserver(this->observer_); }
 
-  /// Open files of the tours, so that all panels are in use.
+  /// Open files of the tours, so that all panels have data.
   void open_everything()
   {
     for (const char* name : { "figure_weights.vtp", "figure.tgf", "figure_winding.vti" })
@@ -129,7 +129,7 @@ TEST_F(Screens, AnOpeningIsOnePictureHoweverOftenThePictureIsResized)
   QApplication::processEvents();
   EXPECT_GE(this->frames, 1);
   EXPECT_LE(this->frames, 2);
-  // With software rendering, one more picture with smooth edges follows.
+  // With software rendering, one more picture with antialiased edges follows.
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
   QElapsedTimer clock;
   clock.start();
@@ -148,7 +148,7 @@ TEST_F(Screens, WhatIsSeenAtRestHasSmoothEdges)
   clock.start();
   wait_for([&clock] { return clock.elapsed() > 1000; });
   const QImage seen = this->window.viewport()->grabFramebuffer();
-  EXPECT_EQ(seen, this->picture()); // it was drawn with all samples
+  EXPECT_EQ(seen, this->picture()); // this picture was rendered with all samples
 }
 
 TEST_F(Screens, AFileThatIsReadIsNotReadAgain)
@@ -168,7 +168,7 @@ TEST_F(Screens, AFileThatIsReadIsNotReadAgain)
   EXPECT_EQ(this->window.document()->work().mesh_source.checksum.size(), 64);
 }
 
-/// Measures the number in the README, with 82,000 triangles and 20 handles.
+/// Measures the number in the README for 82,000 triangles and 20 handles.
 TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
 {
   Handles handles(20);
@@ -183,7 +183,8 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
   ASSERT_TRUE(this->window.set_handles(to_polydata(handles), "points"));
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
   this->window.document()->begin_bind();
-  const auto bound = vtkSmartPointer<vtkPolyData>::New(); // the same mesh, as a bind returns it
+  // The same mesh, with arrays as a bind returns it.
+  const auto bound = vtkSmartPointer<vtkPolyData>::New();
   bound->ShallowCopy(surface);
   bound->GetPointData()->AddArray(ball(6, 20)->GetPointData()->GetArray("Weights"));
   QElapsedTimer clock;
@@ -212,7 +213,8 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
               "and %.1f ms beside it, "
               "longest turn of the window meanwhile %.1f ms\n",
     shown, shown_cpu, autosave->milliseconds(), autosave->writing_milliseconds(), longest);
-  EXPECT_GT(turns, 0); // at least one, even on a busy machine; an idle one has dozens
+  // At least one event loop turn, even on a busy machine; on an idle machine there are dozens.
+  EXPECT_GT(turns, 0);
   EXPECT_LT(autosave->milliseconds(), 0.5 * autosave->writing_milliseconds());
   Session backup;
   ASSERT_TRUE(read_session(autosave->path(), backup).ok());
@@ -251,7 +253,8 @@ TEST_F(Screens, TheStatusLineEndsInDotsWhereItHasNoRoomAndTheTipSaysAll)
   this->window.set_method(2);
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
   const ElidedLabel* line = this->window.hint();
-  // Fractional width, because a text may end within a pixel of the available space.
+  // The width is a floating-point number, because a text may end within a pixel of the available
+  // space.
   const auto width = [line](const QString& text)
   { return QFontMetricsF(line->font()).horizontalAdvance(text); };
   for (const QSize& size : { QSize(1280, 800), QSize(900, 700) })
@@ -267,7 +270,8 @@ TEST_F(Screens, TheStatusLineEndsInDotsWhereItHasNoRoomAndTheTipSaysAll)
   small.setText("Reduced ARAP, 3 iterations");
   EXPECT_EQ(small.minimumSizeHint().width(), 0) << "a long sentence never widens the window";
   small.setFont(line->font());
-  for (int room = 40; room < 300; ++room) // includes widths within a pixel of the text
+  // Includes widths that differ by less than a pixel from the text's.
+  for (int room = 40; room < 300; ++room)
   {
     small.resize(room, 20);
     EXPECT_EQ(small.shown() == small.text(), width(small.text()) <= room) << room;
@@ -278,7 +282,7 @@ TEST_F(Screens, TheStatusLineEndsInDotsWhereItHasNoRoomAndTheTipSaysAll)
     << small.shown().toStdString();
 }
 
-/// Every control has a tooltip, unless its own text explains it.
+/// Every control has a tooltip or a text that explains it.
 TEST_F(Screens, EveryButtonListAndFieldOfThePanelsHasATip)
 {
   this->open_everything();

@@ -1,5 +1,5 @@
-// State that the window keeps after it was closed, a crash or a mistake: sessions, recovery, recent
-// files, undo.
+// What the window preserves after it is closed, after a crash or after a mistake: sessions,
+// recovery, recent files, undo.
 #include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
@@ -128,7 +128,8 @@ protected:
     return nullptr;
   }
 
-  /// Close the window and answer the question. Return true if the question was shown.
+  /// Close the window and answer the question about unsaved changes. Return true if the question
+  /// was shown.
   bool close_and_answer(QMessageBox::StandardButton answer, bool* closed)
   {
     bool asked = false;
@@ -208,7 +209,7 @@ TEST_F(SessionWindow, TheTitleMarksWhatIsNotSaved)
 {
   this->open_files();
   EXPECT_TRUE(this->window.windowTitle().startsWith("column.vtp"));
-  EXPECT_FALSE(this->window.isWindowModified()); // nothing has been changed so far
+  EXPECT_FALSE(this->window.isWindowModified()); // nothing has been changed yet
   this->pose();
   EXPECT_TRUE(this->window.isWindowModified());
   ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "work.bindpose")));
@@ -235,7 +236,8 @@ TEST_F(SessionWindow, ClosingAsksWhenSomethingWouldBeLost)
   ASSERT_TRUE(read_session(text(this->folder / "work.bindpose"), saved).ok());
   EXPECT_EQ(saved.work.pose[0].mode, HandleMode::position);
   this->window.show();
-  EXPECT_FALSE(this->close_and_answer(QMessageBox::Cancel, &closed)); // no unsaved changes
+  // There are no unsaved changes.
+  EXPECT_FALSE(this->close_and_answer(QMessageBox::Cancel, &closed));
   EXPECT_TRUE(closed);
   this->window.show();
   this->window.set_mode(0, 2);
@@ -348,7 +350,7 @@ TEST_F(SessionWindow, ARebindIsOfferedAndPosingGoesOn)
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }
-  EXPECT_NE(this->window.rebind_bar()->sentence(), ""); // a new bind is still offered
+  EXPECT_NE(this->window.rebind_bar()->sentence(), ""); // the bar still offers a new bind
 }
 
 // ---- After a crash -----------------------------------------------------------------------------
@@ -386,19 +388,19 @@ TEST_F(SessionWindow, AKilledProgramsWorkIsOfferedAndRestored)
   }
   ASSERT_TRUE(is_saved());
   this->window.sessions()->offer_recovery(root);
-  EXPECT_EQ(this->window.recovery_bar()->sentence(), ""); // the program is still running
+  EXPECT_EQ(this->window.recovery_bar()->sentence(), ""); // the other program is still running
   program.kill();
   program.waitForFinished();
 
   this->window.sessions()->offer_recovery(root);
   EXPECT_NE(this->window.recovery_bar()->sentence().indexOf("did not end as it should"), -1);
-  EXPECT_TRUE(this->window.is_empty()); // work is never restored without a question
+  EXPECT_TRUE(this->window.is_empty()); // work is restored only after the user has agreed
   button_of(this->window.recovery_bar(), "&Restore")->click();
   EXPECT_EQ(this->window.recovery_bar()->sentence(), "");
   EXPECT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   EXPECT_EQ(this->window.document()->handles().size(), 2u);
   EXPECT_TRUE(this->window.isWindowModified());
-  EXPECT_EQ(RecoveredWork::find(root), nullptr); // it belongs to this window now
+  EXPECT_EQ(RecoveredWork::find(root), nullptr); // the backup now belongs to this window
 }
 
 TEST_F(SessionWindow, DiscardedWorkIsGoneAndTheNextIsOffered)
@@ -442,7 +444,7 @@ TEST_F(SessionWindow, EveryKindOfMeshCanBeDropped)
 
 TEST_F(SessionWindow, TetsRigsHandlesWeightsVolumesAndSessionsCanBeDropped)
 {
-  // A rig contains mesh, weights and handles.
+  // This file is a rig, which contains mesh, weights and handles.
   vtkNew<vtkGLTFSkinWriter> rig;
   rig->SetInputData(0, column(true));
   rig->SetHandlesData(two_points());
@@ -450,7 +452,7 @@ TEST_F(SessionWindow, TetsRigsHandlesWeightsVolumesAndSessionsCanBeDropped)
   ASSERT_EQ(rig->Write(), 1);
   this->drop(this->folder / "rig.glb");
   EXPECT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
-  // Weights that fit the mesh.
+  // This file contains weights that fit the mesh.
   const Index points = this->window.document()->surface()->GetNumberOfPoints();
   Weights weights = Weights::Constant(points, 2, 0.5);
   ASSERT_TRUE(write_dmat(this->folder / "w.dmat", weights).ok());
@@ -464,29 +466,30 @@ TEST_F(SessionWindow, TetsRigsHandlesWeightsVolumesAndSessionsCanBeDropped)
   EXPECT_NE(this->window.error().indexOf("5 points and 2 handles"), -1)
     << this->window.error().toStdString();
   EXPECT_TRUE(this->window.is_bound());
-  // Handles.
+  // This file contains handles.
   this->folder.write("h.tgf", "1 0 0 -0.9\n2 0 0 0.9\n#\n");
   this->drop(this->folder / "h.tgf");
   EXPECT_EQ(this->window.document()->handles().size(), 2u);
-  // Tets.
+  // This file contains tets.
   this->folder.write("tet.mesh",
     "MeshVersionFormatted 1\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
     "Tetrahedra\n1\n1 2 3 4 0\nEnd\n");
   this->drop(this->folder / "tet.mesh");
   EXPECT_EQ(this->window.error(), "");
   EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
-  // A session.
+  // This file is a session.
   ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "s.bindpose")));
   this->drop(this->folder / "s.bindpose");
   EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
-  // A file of another type.
+  // This file has an unknown type.
   this->folder.write("x.txt", "words");
   this->drop(this->folder / "x.txt");
   EXPECT_NE(this->window.error(), "");
   EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
 }
 
-/// Write a picture that is red on the left, blue on the right, and transparent around them.
+/// Write a picture that is red on the left and blue on the right. The area around both colors is
+/// transparent.
 std::string write_picture(const test::Folder& folder)
 {
   QImage image(64, 48, QImage::Format_RGBA8888);
@@ -518,7 +521,8 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   EXPECT_TRUE(this->window.viewport()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
   const double* bounds = this->window.document()->surface()->GetBounds();
   EXPECT_NEAR(bounds[1] - bounds[0], 48, 2);
-  // The picture follows the pose: turned by 180 degrees about its center, blue is on the left.
+  // The picture is posed with the shape: rotated by 180 degrees about its center, it has blue on
+  // the left.
   const auto middle_of_red = [&red](const QImage& image)
   {
     double sum = 0.0;
@@ -545,7 +549,7 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   {
     this->window.history()->undo();
   }
-  // Use the whole picture, on request.
+  // The user can request the whole picture, without its outline.
   button_of(this->window.note_bar(), "Take the whole picture")->click();
   ASSERT_EQ(this->window.error(), "");
   const double* whole = this->window.document()->surface()->GetBounds();
@@ -554,7 +558,7 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   this->window.history()->undo();
   EXPECT_FALSE(
     this->window.viewport()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
-  // A session restores it, too.
+  // A session also restores the picture.
   this->window.history()->redo();
   ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "flag.bindpose")));
   ASSERT_TRUE(this->window.open(text(this->folder / "flag.bindpose")));
@@ -571,7 +575,7 @@ TEST_F(SessionWindow, AnUncleanSurfaceIsToldAboutAndShown)
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }
-  EXPECT_NE(this->window.note_bar()->sentence().indexOf("4"), -1) // edges around the hole
+  EXPECT_NE(this->window.note_bar()->sentence().indexOf("4"), -1) // the four edges around the hole
     << this->window.note_bar()->sentence().toStdString();
   button_of(this->window.note_bar(), "Show where")->click();
   EXPECT_EQ(this->window.panels()->shown_panel(), PanelColumn::tets);
@@ -593,11 +597,11 @@ TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
   const QString lost = "character.gltf: Bindpose does not keep 2 materials.";
   EXPECT_TRUE(this->window.note_bar()->sentence().startsWith(lost))
     << this->window.note_bar()->sentence().toStdString();
-  // The search for defects ends later and does not remove the sentence.
+  // The search for defects ends later. It must not remove the sentence.
   ASSERT_TRUE(
     test::wait_for([this] { return this->window.note_bar()->sentence().contains("has defects"); }));
   EXPECT_TRUE(this->window.note_bar()->sentence().startsWith(lost));
-  // Another mesh has no such loss.
+  // After another mesh is opened, the sentence about the loss disappears.
   const TriangleMesh other = test::open_cube();
   test::write_with<vtkXMLPolyDataWriter>(
     to_polydata(other.points, other.triangles), this->folder / "other.vtp");

@@ -1,5 +1,5 @@
-// Two methods side by side. Each shape is in its half, as large as in the whole picture, with one
-// common camera. The handles belong to the left half.
+// Two methods side by side. Each shape fits its half of the view, and one camera is used for both
+// halves. The handles belong to the left half.
 #include "window_test.h"
 
 #include "document/document.h"
@@ -30,7 +30,7 @@ namespace
 class SplitWindow : public test::WindowTest
 {
 protected:
-  /// Open an ellipsoid, long along x, with a point at each end.
+  /// Open an ellipsoid that is long along x, with a point handle at each end.
   void SetUp() override
   {
     this->resize({ 1100, 700 });
@@ -69,8 +69,8 @@ protected:
   }
   void beside() { this->choose("pose.ghost", 1); }
 
-  /// Return the largest absolute coordinate of the shape in the view of a renderer, which is from
-  /// -1 to 1.
+  /// Return the largest absolute coordinate of the shape in the view of a renderer. The view
+  /// extends from -1 to 1.
   static double extent(vtkRenderer* renderer, PointsView points)
   {
     double largest = 0.0;
@@ -93,7 +93,7 @@ protected:
     EXPECT_LT(std::max(first, second), 1.0) << when;
     EXPECT_GT(std::max(first, second), 0.65) << when;
     EXPECT_EQ(this->right()->GetActiveCamera(), this->camera()) << when;
-    // Neither shape is clipped by depth.
+    // The clipping planes of the camera clip neither shape.
     double range[2];
     this->camera()->GetClippingRange(range);
     const Vec3 eye(this->camera()->GetPosition());
@@ -106,13 +106,13 @@ protected:
       EXPECT_LT(depths.maxCoeff(), range[1]) << when;
     }
   }
-  /// Count the pixels that differ from the background, in the columns between two fractions of the
-  /// width.
+  /// Count the pixels that differ from the background between two columns, which are fractions of
+  /// the width.
   int drawn(double from, double to)
   {
     const QImage image = this->picture();
     int count = 0;
-    for (int y = 0; y < image.height() - 60; ++y) // above the names
+    for (int y = 0; y < image.height() - 60; ++y) // exclude the names at the bottom of the view
     {
       const QColor empty = image.pixelColor(1, y);
       for (int x = static_cast<int>(from * image.width()); x < to * image.width(); ++x)
@@ -139,13 +139,13 @@ TEST_F(SplitWindow, EachShapeFitsIntoItsHalf)
   this->expect_both_in_view("beside");
   EXPECT_NEAR(this->extent_left(), whole, 0.12) << "as much of the half as of the whole";
   EXPECT_LT((Vec3(this->camera()->GetDirectionOfProjection()) - sight).norm(), 1e-9);
-  // Nothing crosses the border between the halves, and both shapes have the same size.
+  // No pixel at the border between the halves is covered, and both shapes have the same size.
   EXPECT_EQ(this->drawn(0.498, 0.502), 0);
   const int left = this->drawn(0.0, 0.5);
   const int right = this->drawn(0.5, 1.0);
   EXPECT_GT(left, 2000);
-  EXPECT_NEAR(left, right, 0.15 * left); // handles are in front of the left one
-  // After a return to one picture, the view is as before.
+  EXPECT_NEAR(left, right, 0.15 * left); // the handles cover a part of the left shape
+  // After the comparison ends, the view is as before.
   this->hand.trigger("edit.undo");
   this->render();
   EXPECT_FALSE(this->window.viewport()->is_split());
@@ -165,7 +165,7 @@ TEST_F(SplitWindow, AnotherSizeAndAnotherViewKeepBothInTheirHalves)
     this->resize(size);
     this->expect_both_in_view("resized");
   }
-  // A turn in the right half turns both halves.
+  // Rotating the view in the right half rotates both halves.
   const Vec3 sight(this->camera()->GetDirectionOfProjection());
   this->drag(this->hand.place(0.9, 0.1), this->hand.place(0.8, 0.15));
   EXPECT_GT((Vec3(this->camera()->GetDirectionOfProjection()) - sight).norm(), 0.05);
@@ -173,7 +173,7 @@ TEST_F(SplitWindow, AnotherSizeAndAnotherViewKeepBothInTheirHalves)
   this->hand.press_key("Home");
   this->render();
   this->expect_both_in_view("home");
-  // If a pose moves a shape out of its half, Home shows it again.
+  // If a pose moves a shape out of its half, the key Home fits the view to the shape again.
   Pose pose(2);
   pose[1].transform.col(3) = Vec3(1.5, 0, 3.0);
   this->window.document()->set_pose(pose, "far");
@@ -184,7 +184,7 @@ TEST_F(SplitWindow, AnotherSizeAndAnotherViewKeepBothInTheirHalves)
 
 TEST_F(SplitWindow, AZoomStaysAndAShiftedShapeComesBack)
 {
-  // A view zoomed in to a detail stays zoomed in side by side.
+  // If the view was enlarged to show a detail, it still shows the detail side by side.
   this->compare();
   this->camera()->Dolly(3.0);
   const double detail = this->extent_left();
@@ -192,7 +192,7 @@ TEST_F(SplitWindow, AZoomStaysAndAShiftedShapeComesBack)
   EXPECT_GT(this->extent_left(), 0.6 * detail);
   this->choose("pose.ghost", 0);
   EXPECT_NEAR(this->extent_left(), detail, 1e-6 * detail);
-  // A shape that is moved to the side, but visible as a whole, is also visible as a whole side by
+  // If the shape is not centered but completely visible, it is also completely visible side by
   // side.
   this->window.viewport()->reset_view();
   this->camera()->Dolly(0.5);
@@ -216,10 +216,10 @@ TEST_F(SplitWindow, HandlesAreTakenHoldOfInTheLeftHalfAlone)
   const int half = this->window.viewport()->width() / 2;
   ASSERT_LT(at.x(), half);
   auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
-  // The same position in the right half has no handle.
+  // At the same position in the right half there is no handle.
   this->hover(at + QPoint(half, 0));
   EXPECT_LT(drawn->GetHoveredHandle(), 0);
-  // The widget is turned off and on while the mouse is in the right half.
+  // The handle widget is turned off and on while the mouse is in the right half.
   this->hand.press_key("T");
   this->hand.press_key("T");
   this->render();
@@ -236,7 +236,7 @@ TEST_F(SplitWindow, HandlesAreTakenHoldOfInTheLeftHalfAlone)
   EXPECT_NEAR(now.y(), at.y() - 60, 2);
   EXPECT_GT((this->posing()->compared()->points() - before).cwiseAbs().maxCoeff(), 0.1)
     << "the other method has the same pose";
-  // A handle beyond the border cannot be picked in the other half, where it is not drawn.
+  // A handle beyond the border is not drawn in the other half, so it cannot be picked there.
   this->camera()->Dolly(2.0);
   this->left()->ResetCameraClippingRange();
   this->render();

@@ -1,4 +1,4 @@
-// Tets and defects in the window, as a user inspects them. The tests assert counts by brute force,
+// Tets and defects in the window, as a user inspects them. The tests assert brute-force counts,
 // positions, and the results of vtkSurfaceDefects.
 #include "unclipped.h"
 #include "window_test.h"
@@ -46,7 +46,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Return a box around the origin of n^3 cells with six tets each.
+/// Return a box around the origin with n^3 cells of six tets each.
 TetMesh box_of(int n)
 {
   return test::tet_box(n, n, n, Vec3(-1, -1, -1), Vec3(1, 1, 1));
@@ -83,7 +83,7 @@ protected:
   Inspection* inspection() { return this->window.inspection(); }
   TetView* view() { return this->inspection()->tet_view(); }
   TetPanel* panel() { return this->window.panels()->tet(); }
-  /// Return a row of the panel: 0 position, 1 size.
+  /// Return a row of the panel: row 0 is the position of the cut, row 1 the size of the tets.
   ValueRow* row(int which) { return this->panel()->findChildren<ValueRow*>()[which]; }
   QComboBox* list(const QString& item)
   {
@@ -106,7 +106,7 @@ protected:
     this->render();
   }
 
-  /// Wait until no job is running.
+  /// Wait until no computation is running.
   void wait()
   {
     QElapsedTimer clock;
@@ -131,7 +131,8 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
   EXPECT_LT(this->view()->shown_count(), mesh.tets.rows());
   EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
   const QImage image = this->picture();
-  // The plane is in the middle of a layer of cells. The exposed sides are within one cell of it.
+  // The plane is in the middle of a layer of cells. The exposed facets are at most one cell away
+  // from it.
   EXPECT_GT(count(image, is_cut), 5000);
   EXPECT_TRUE(is_cut(image.pixelColor(this->pixel(Vec3(0.11, 0.23, 0.0)))));
   // Without the cut, no exposed sides are visible.
@@ -147,8 +148,8 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
     count_behind(mesh, this->view()->plane()->origin(), -this->view()->plane()->normal()));
 }
 
-/// The first cut depends on the view. A cut perpendicular to z would show its back side if the
-/// shape is viewed along x.
+/// The first cut depends on the view. If the shape is viewed along x, a cut perpendicular to z
+/// would show only its back.
 TEST_F(TetWindow, TheFirstCutShowsTheInside)
 {
   for (const Vec3& size : { Vec3(0.5, 1, 1), Vec3(1, 1, 0.5), Vec3(0.3, 1, 0.6) })
@@ -164,7 +165,7 @@ TEST_F(TetWindow, TheFirstCutShowsTheInside)
     const Vec3 sight(other.viewport()->renderer()->GetActiveCamera()->GetDirectionOfProjection());
     EXPECT_EQ(std::abs(normal.dot(sight)), sight.cwiseAbs().maxCoeff()) << size.transpose();
     EXPECT_GT(count(other.viewport()->grabFramebuffer(), is_cut), 5000) << size.transpose();
-    // The cut is through the middle: about half of the tets stay.
+    // The cut is through the middle, so about half of the tets remain.
     const double kept = static_cast<double>(tets->shown_count());
     EXPECT_NEAR(kept / static_cast<double>(mesh.tets.rows()), 0.5, 0.15) << size.transpose();
   }
@@ -180,7 +181,8 @@ TEST_F(TetWindow, AChosenCutStaysForOtherTets)
   EXPECT_EQ(this->view()->plane()->orientation(), PlaneHandle::y_axis);
 }
 
-/// Tets and defects are located in the shape at rest, so nothing around them is posed.
+/// Tets and defects are shown at the positions of the shape at rest, so the shape is not posed at
+/// the same time.
 TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
 {
   const auto grid = tets_of(box_of(4));
@@ -219,7 +221,7 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
   this->window.panels()->show_panel(PanelColumn::tets);
   ASSERT_GT(this->view()->shown_count(), 0);
   expect(true, "tets");
-  // Handles at rest cannot be dragged; a click selects them.
+  // While the shape is at rest, handles cannot be dragged. A click selects them.
   this->drag(this->pixel(Vec3(0, 0, 0.9)), this->pixel(Vec3(0.5, 0, 0.9)));
   expect(true, "a drag");
   this->find<QCheckBox>("Show the tets")->setChecked(false);
@@ -233,7 +235,7 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
   expect(true, "T");
   this->window.posing()->look_at_rest(false);
   expect(false, "T again");
-  // Exports and the history use the pose, whatever is inspected.
+  // Exports and the history use the pose, for any inspected data.
   this->window.panels()->show_panel(PanelColumn::tets);
   double bounds[6];
   this->window.shown()->GetBounds(bounds);
@@ -261,7 +263,7 @@ TEST_F(TetWindow, TheMouseDragsThePlane)
     EXPECT_EQ(this->view()->shown_count(),
       count_behind(mesh, this->view()->plane()->origin(), Vec3::Unit(axis)));
   }
-  // At the lower end no tet is left, and a label says so.
+  // At the lower end of the slider no tet remains, and a label says this.
   this->row(0)->slider()->setValue(0);
   EXPECT_EQ(this->view()->shown_count(), 0);
   EXPECT_NE(this->find<QLabel>("There are no tets on this side."), nullptr);
@@ -295,7 +297,7 @@ TEST_F(TetWindow, ShrunkTetsStandApart)
   this->find<QCheckBox>("Cut the tets")->setChecked(false);
   const auto backgrounds = [this]
   {
-    // Position of the front side: z = 1, seen obliquely.
+    // The point is on the face z = 1, which is viewed obliquely.
     const QImage image = this->picture();
     int bright = 0;
     for (int i = 1; i < 100; ++i)
@@ -335,7 +337,7 @@ TEST_F(TetWindow, ColorsAreThoseOfTheLegend)
   const QColor right = image.pixelColor(this->pixel(Vec3(0.66, 0.13, 1.0)));
   EXPECT_GT(left.blue(), left.red() + 20) << "outside: blue";
   EXPECT_GT(right.red(), right.blue() + 30) << "inside: orange";
-  // If the tets lack the data, an error says so, and the colors do not change.
+  // If the tets have no data for a coloring, an error says this, and the colors do not change.
   const auto refused = [this](const char* item, const char* words)
   {
     this->choose(item);
@@ -391,7 +393,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
   // The edge of the opening is green in the picture.
   const QColor edge = this->picture().pixelColor(this->pixel(Vec3(-1.0, -0.4, 1.0)));
   EXPECT_GT(edge.green(), edge.red() + 30);
-  // Another surface has its own defects. The other panel shows none.
+  // Another surface has its own defects. While another panel is open, defects are hidden.
   const TriangleMesh clean = test::cube();
   ASSERT_TRUE(this->window.set_mesh(to_polydata(clean.points, clean.triangles), "cube"));
   this->wait();
@@ -424,7 +426,7 @@ TEST_F(TetWindow, TetsAreMadeAndAFailureKeepsThem)
   EXPECT_EQ(this->window.error().count('\n'), 0);
   EXPECT_EQ(this->view()->tets(), before);
   EXPECT_GT(this->view()->shown_count(), 0);
-  // Opening another mesh stops the work.
+  // Opening another mesh stops the computation.
   this->choose("Embedding lattice");
   this->find<QPushButton>("Make tets again")->click();
   const TriangleMesh ball = test::sphere(2);

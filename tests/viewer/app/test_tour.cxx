@@ -1,4 +1,5 @@
-// Tours as text: the parsed content, and the error message for invalid text.
+// Tours (scripted demonstrations of the window) as text: the parsed content, and the error messages
+// for invalid texts.
 #include "tour.h"
 
 #include "support/files.h"
@@ -21,7 +22,7 @@ Status parse_steps(const std::string& steps, Tour& tour)
   return parse_tour(with_steps(steps), tour);
 }
 
-/// Return the error message for a tour of these steps.
+/// Return the error message for a tour with these steps.
 std::string refusal(const std::string& steps)
 {
   Tour tour;
@@ -189,10 +190,10 @@ TEST(Tour, AnotherFileIsRefused)
   const std::string bad = folder.write("bad.json", with_steps(R"({"wait": "x"})"));
   EXPECT_EQ(read_tour(bad, tour).message.find("tour '" + bad + "': step 1 (wait): "), 0u);
   ASSERT_TRUE(read_tour(folder.write("walk.json", with_steps(R"({"wait": 0})")), tour).ok());
-  EXPECT_EQ(tour.name, "walk"); // the name of the file, if the tour has no name
+  EXPECT_EQ(tour.name, "walk"); // without a name in the text, the name of the file is used
 }
 
-/// Any content of a file is either read or refused with one sentence.
+/// A file with any content is either read or refused with one sentence.
 TEST(Tour, BrokenTextsNeverCrash)
 {
   const std::string whole = with_steps(

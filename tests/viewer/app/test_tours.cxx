@@ -1,5 +1,5 @@
-// The tours of examples/tours, played by the program. All of their checks must pass. Where pictures
-// say more than numbers, reduced pictures of the view must equal those in tours/.
+// The tours of examples/tours, played by the program. All checks in the tours must pass. Some tests
+// also compare reduced pictures of the view with the references in the folder tours/.
 #include "support/demo_meshes.h"
 #include "support/files.h"
 
@@ -24,14 +24,14 @@ namespace
 using Json = nlohmann::json;
 
 constexpr int small_width = 200;
-constexpr int level = 24; // out of 255 in a channel; more than the difference between drivers'
-                          // smoothing
-constexpr double most_different = 0.01; // fraction of the pixels
+// Levels of 255 in a channel; antialiasing differs by less between drivers.
+constexpr int level = 24;
+constexpr double most_different = 0.01; // fraction of the pixels that may differ
 
 struct Outcome
 {
   int code = -1;
-  QString error; ///< standard error
+  QString error; ///< standard error of the program
   Json record;
   double seconds = 0.0;
 };
@@ -54,7 +54,7 @@ Outcome play(const std::string& tour, const std::string& folder, const QStringLi
   outcome.code = program.exitStatus() == QProcess::NormalExit ? program.exitCode() : -1;
   for (const QByteArray& line : program.readAllStandardError().split('\n'))
   {
-    // Ignore Qt's messages about displays without a window manager and about windows side by side.
+    // Ignore the messages of Qt itself, for example about displays without a window manager.
     const bool of_qt = line.startsWith("QStandardPaths") || line.startsWith("qt.qpa") ||
       line.startsWith("QGestureManager");
     if (!line.isEmpty() && !of_qt)
@@ -77,7 +77,7 @@ QImage made_small(const QImage& picture)
     .scaledToWidth(small_width, Qt::SmoothTransformation);
 }
 
-/// Return the fraction of the pixels that differ by more than the level; 1 for different sizes.
+/// Return the fraction of the pixels that differ by more than `level`, or 1 if the sizes differ.
 double difference(const QImage& a, const QImage& b)
 {
   if (a.size() != b.size())
@@ -97,7 +97,7 @@ double difference(const QImage& a, const QImage& b)
   return static_cast<double>(different) / (static_cast<double>(a.width()) * a.height());
 }
 
-/// Compare with the reference picture. BINDPOSE_BLESS=tours replaces the reference by the drawn
+/// Compare a picture with its reference. BINDPOSE_BLESS=tours replaces the reference by the drawn
 /// picture.
 void expect_reference(const QImage& drawn, const std::string& name)
 {
@@ -130,7 +130,7 @@ struct TourCase
 {
   const char* name;
   std::vector<const char*> pictures; ///< pictures to compare
-  const char* needs = nullptr; ///< a mesh of libcgal-demo
+  const char* needs = nullptr; ///< mesh of the Debian package libcgal-demo, or null
   std::vector<const char*> files = {}; ///< other files that the tour writes
 };
 
@@ -169,7 +169,7 @@ TEST_P(Tours, Play)
   {
     const QImage picture(QString::fromStdString(pictures + "/" + name + ".png"));
     EXPECT_EQ(picture.width(), shot["width"]) << name;
-    if (shot["values"].value("points", 0) > 0) // otherwise nothing is open
+    if (shot["values"].value("points", 0) > 0) // if there are no points, nothing is open
     {
       EXPECT_GT(shot["drawn_share"], 0.005) << name;
     }
@@ -204,7 +204,8 @@ INSTANTIATE_TEST_SUITE_P(Examples, Tours,
     TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
   [](const testing::TestParamInfo<TourCase>& tour) { return std::string(tour.param.name); });
 
-/// At twice the pixels everything is finer, but the legend and its text have the same size.
+/// At twice the pixels, all details are finer, but the legend and its text have the same relative
+/// size.
 TEST(Scaled, ALegendIsAsLargeAtTwiceThePixels)
 {
   const test::Folder folder;
@@ -223,7 +224,8 @@ TEST(Scaled, ALegendIsAsLargeAtTwiceThePixels)
   EXPECT_LT(share, 0.05);
 }
 
-/// The tutorial contains the texts and steps of its tour in order, and its pictures exist.
+/// The tutorial contains the texts and the steps of its tour in their order, and its pictures
+/// exist.
 TEST(Tutorial, TellsWhatItsTourDoes)
 {
   std::ifstream file(BINDPOSE_TOURS "/tutorial.json");
@@ -272,7 +274,7 @@ TEST(Films, HaveAPictureForEveryMove)
     const QImage picture(
       QString::fromStdString(pictures + "/turn_000" + std::to_string(frame) + ".png"));
     EXPECT_EQ(picture.width(), 120);
-    EXPECT_NE(picture, last); // the view turns
+    EXPECT_NE(picture, last); // the view rotates
     last = picture;
   }
   EXPECT_FALSE(std::filesystem::exists(pictures + "/turn_0003.png"));
@@ -282,7 +284,7 @@ TEST(Films, HaveAPictureForEveryMove)
 
 namespace
 {
-/// Return the error message of a tour with these steps, which must fail.
+/// Return the error message of a tour with these steps. The tour must fail.
 std::string failure(const std::string& steps, int* code = nullptr, const QStringList& more = {})
 {
   const test::Folder folder;

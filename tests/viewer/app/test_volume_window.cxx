@@ -1,5 +1,5 @@
-// Volumes in the window, as a user inspects them: real Qt mouse events on the picture, sliders and
-// buttons of the panel. The tests assert positions, winding numbers and areas in closed form.
+// Volumes in the window, as a user inspects them: Qt mouse events on the picture, and sliders and
+// buttons of the panel. The tests compare positions, winding numbers and areas with closed forms.
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -104,7 +104,8 @@ protected:
   VolumeView* view() { return this->window.volume_view(); }
   VolumePanel* panel() { return this->window.panels()->volume(); }
 
-  /// Return a row of the panel: 0 position, 1 level.
+  /// Return a row of the panel: row 0 is the position of the slice, row 1 the level of the
+  /// isosurface.
   ValueRow* row(int which) { return this->panel()->findChildren<ValueRow*>()[which]; }
 
   void open(const vtkSmartPointer<vtkImageData>& image = volume())
@@ -113,8 +114,9 @@ protected:
     this->render();
   }
 
-  /// Return the reading at a position. Windows of other tests on the same screen may cover this
-  /// window. Then the mouse has left it, so the function moves the mouse again.
+  /// Return the reading (the text about the data under the mouse) at a position. A window of
+  /// another test on the same screen may cover this window, and the mouse then counts as outside of
+  /// it. The function therefore moves the mouse again.
   QString reading_at(const Vec3& place)
   {
     for (int attempt = 0; attempt < 50; ++attempt)
@@ -166,7 +168,7 @@ TEST_F(VolumeWindow, TheMouseDragsTheSliceAndTheStatusBarReadsTheField)
   const QPoint grip = this->pixel(Vec3(0.5, 0.4, 0));
   const QPoint there = this->pixel(Vec3(0.5, 0.4, 0.6));
   this->drag(grip, there);
-  // The slice has followed the mouse along its normal. The panel shows its position.
+  // The slice has moved with the mouse along its normal. The panel shows its position.
   EXPECT_NEAR(this->view()->position(), 0.6, 0.08);
   EXPECT_EQ(this->view()->slice_normal(), Vec3(0, 0, 1));
   EXPECT_NEAR(this->row(0)->value(), this->view()->position(), 0.01);
@@ -203,14 +205,14 @@ TEST_F(VolumeWindow, ButtonsAndTheFieldPlaceTheSlice)
     EXPECT_NEAR(this->view()->position(), 0.4 - 0.5 * axis, 1e-9);
     EXPECT_NEAR(this->view()->slice_origin()[axis], 0.4 - 0.5 * axis, 1e-9);
   }
-  // Both ends also show a whole slice.
+  // At both ends of the slider a whole slice is visible.
   for (const int end : { 0, 1000 })
   {
     this->row(0)->slider()->setValue(end);
     this->render();
     EXPECT_NE(this->reading_at(Vec3(0.1, 0.1, end ? 1.6 : -1.6)), QString()) << end;
   }
-  // The arrow of a free slice turns it. Other orientations have no arrow.
+  // The arrow of a free slice rotates it. Slices perpendicular to an axis have no arrow.
   this->row(0)->field()->setValue(0.0);
   this->find<QPushButton>("Free")->click();
   this->render();
@@ -237,8 +239,8 @@ TEST_F(VolumeWindow, TheLevelsSliderGivesTheSphereOfThatLevel)
   }
   this->row(1)->field()->setValue(0.5);
   EXPECT_NEAR(surface_area(this->view()->isosurface()), 4.0 * pi, 0.01 * 4.0 * pi);
-  // The isosurface is in front of the slice, so the reading is on its sphere. Next to it, the slice
-  // is read.
+  // The isosurface is in front of the slice, so the reading at this pixel is on the sphere. Next to
+  // the isosurface, the reading is on the slice.
   this->render();
   const std::string reading = this->reading_at(Vec3(0.2, 0.1, 0)).toStdString();
   Vec3 place;
@@ -282,7 +284,8 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   this->open();
   EXPECT_LT(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 0.5);
-  // The orange of the slice is visible through the surface, and the slice is read.
+  // The surface is see-through: the orange of the slice is visible, and the reading is on the
+  // slice.
   const QColor seen = this->picture().pixelColor(this->pixel(Vec3(0.3, 0.1, 0)));
   EXPECT_GT(seen.red(), seen.blue() + 40);
   EXPECT_NE(this->reading_at(Vec3(0.3, 0.1, 0)), QString());
@@ -291,7 +294,7 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
   look->setCurrentIndex(Viewport::edges_only);
   EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
-  // Both panels are available. Closing the volume restores the appearance of the surface.
+  // Both panels are available. If the volume is closed, the surface is shown as before.
   this->find<QPushButton>("Pose")->click();
   EXPECT_TRUE(this->window.panel()->isVisible());
   this->find<QPushButton>("Close the volume")->click();
@@ -303,7 +306,7 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   EXPECT_EQ(this->reading_at(Vec3(0.3, 0.1, 0)).left(8), "Triangle");
 }
 
-/// Winding numbers belong to the shape at rest, so the shape is not posed around them.
+/// Winding numbers are those of the shape at rest, so the shape is not posed while they are shown.
 TEST_F(VolumeWindow, NoSliceLiesInAPosedShape)
 {
   const TriangleMesh ball = test::sphere(3, 1.2);
@@ -369,7 +372,7 @@ TEST_F(VolumeWindow, BoundaryCurvesAreDrawnAndAreNoBones)
   {
     EXPECT_TRUE(is_green(image.pixelColor(this->pixel(place)))) << place.transpose();
   }
-  // Lines of a mesh with faces are also shown, unless curves were opened.
+  // If no curves were opened, the lines of a mesh with faces are also shown.
   MainWindow other;
   other.show();
   const TriangleMesh ball = test::sphere(2, 0.5);
@@ -401,7 +404,7 @@ TEST_F(VolumeWindow, WhatIsNoVolumeIsSaidAndTheWorkStays)
     "1681 of the 68921 values of 'WindingNumber' are not finite");
   vtkNew<vtkImageData> empty;
   refused(empty, "no samples");
-  // A file with an empty image.
+  // This file contains an empty image.
   const std::string path = testing::TempDir() + "bindpose_empty.vti";
   vtkNew<vtkXMLImageDataWriter> writer;
   writer->SetInputData(empty);

@@ -1,5 +1,5 @@
-// Weights in the window, as a user inspects them. The tests assert numbers that are known at every
-// point, counts, positions in the picture, and results of the kernels for other methods.
+// Weights in the window, as a user inspects them. The tests assert values that are known at every
+// point, counts, positions in the picture, and kernel results for other weight methods.
 #include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
@@ -177,8 +177,7 @@ TEST_F(WeightWindow, AColumnHasBandsAndIsolinesAtEveryTenth)
 {
   this->open(ball());
   this->choose("top");
-  // The weights are linear on every triangle, so each isoline is at its height, at 0.1, …, 0.9 of
-  // the total.
+  // The weights are linear on every triangle. The isolines are at 0.1, …, 0.9 of the height.
   vtkPolyData* lines = this->view()->isolines();
   std::set<long> levels;
   for (vtkIdType v = 0; v < lines->GetNumberOfPoints(); ++v)
@@ -199,7 +198,7 @@ TEST_F(WeightWindow, AColumnHasBandsAndIsolinesAtEveryTenth)
   EXPECT_GT(lines->GetNumberOfPoints(), 0);
   this->find<QCheckBox>("Isolines")->setChecked(false);
   EXPECT_EQ(lines->GetNumberOfPoints(), 0);
-  // Without the panel, the surface is shaded as in the other panel.
+  // If another panel is open, the surface is shaded without weights.
   this->find<QPushButton>("Pose")->click();
   EXPECT_FALSE(this->surface()->GetMapper()->GetScalarVisibility());
 }
@@ -209,7 +208,7 @@ TEST_F(WeightWindow, AllShowsTheStrongestHandle)
   this->open(ball());
   this->choose("All: strongest handle");
   const std::vector<Category> handles = handle_categories({ "bottom", "top" });
-  // Seen from the side, each handle has one half.
+  // Viewed from the side, each handle has one half of the picture.
   this->window.viewport()->renderer()->GetActiveCamera()->Azimuth(90.0);
   const QImage image = this->picture();
   int of_bottom = 0;
@@ -244,7 +243,7 @@ TEST_F(WeightWindow, RowSumsNeedRawColumns)
   EXPECT_NEAR(this->view()->numbers().number("picture.row_sum.maximum", 0.0), 1.25, 1e-12);
   EXPECT_FALSE(this->list("top")->isEnabled());
   EXPECT_FALSE(this->button("Normalized")->isEnabled());
-  // A mesh without raw columns shows weights again.
+  // If a mesh has no raw columns, the processed weights are shown again.
   this->open(ball());
   EXPECT_TRUE(this->button("Weights")->isChecked());
   EXPECT_TRUE(this->view()->is_shown());
@@ -252,7 +251,7 @@ TEST_F(WeightWindow, RowSumsNeedRawColumns)
 
 TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
 {
-  // Only the raw column has a bump, in the middle of the visible side.
+  // Only the raw column has a bump, which is in the middle of the visible side.
   const Vec3 place = Vec3(0.3, -0.5, 0.1).normalized();
   Vec3 bump = place;
   const auto mesh = ball();
@@ -273,7 +272,8 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
   this->open(mesh);
   this->choose("top");
   this->find<QCheckBox>("Extrema away from handles")->setChecked(true);
-  // At its own pole a weight is exactly 1, a handle. At the other pole it is 0, the minimum.
+  // A weight is exactly 1 at its own handle, which is at a pole. At the other pole it is 0, which
+  // is the minimum.
   EXPECT_TRUE(this->says("Maxima: 0, minima: "));
   this->button("Raw")->click();
   EXPECT_TRUE(this->says("Maxima: 1, minima: "));
@@ -284,7 +284,7 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
       found || (extremum.maximum && (Vec3(mesh->GetPoint(extremum.vertex)) - bump).norm() < 0.1);
   }
   EXPECT_TRUE(found);
-  // The ball is visible at its position, and disappears with its check box.
+  // The ball that marks the extremum is visible at its position. It disappears with its check box.
   const Rgb red = extremum_categories()[1].color;
   const auto reds = [&]
   {
@@ -342,12 +342,14 @@ TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
   EXPECT_NEAR(this->view()->plane()->position(), 0.4, 0.1);
   EXPECT_NEAR(this->row()->value(), this->view()->plane()->position(), 0.01);
   check(2, this->view()->plane()->position());
-  // The color is one band of the legend, unlit, seen through the faint surface.
+  // The color of the slice is one band of the legend, without lighting, visible through the
+  // see-through surface.
   const ColorMap map = weight_map();
   const double z = this->view()->plane()->position();
   EXPECT_LT(
     hue_distance(this->color_at(Vec3(0.1, 0.2, z)), color_of(map, top_weight({ 0, 0, z }))), 0.08);
-  // Both ends of the slider are valid. For all handles, the slice shows the strongest one.
+  // Both ends of the slider are valid. If all handles are chosen, the slice shows the strongest
+  // handle.
   for (const double end : { -1.0, 1.0 })
   {
     this->row()->field()->setValue(end);
@@ -356,7 +358,7 @@ TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
   this->button("X")->click();
   this->choose("All: strongest handle");
   EXPECT_GT(this->view()->slice()->GetNumberOfCells(), 100);
-  // The other panel shows neither slice nor plane.
+  // The other panel shows neither the slice nor the plane.
   this->find<QPushButton>("Pose")->click();
   EXPECT_FALSE(this->view()->is_shown());
   EXPECT_EQ(this->surface()->GetProperty()->GetOpacity(), 1.0);
@@ -409,13 +411,13 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   EXPECT_NEAR(numbers.number("picture.difference.largest", 0.0), largest, 1e-6);
   EXPECT_NEAR(numbers.number("picture.difference.rms", 0.0), std::sqrt(squares), 1e-6);
   EXPECT_TRUE(this->says(QString("largest %1").arg(largest, 0, 'g', 2)));
-  // Another column has another difference. The slice is disabled.
+  // Another column has another difference between the methods. The slice is disabled.
   this->choose("bottom");
   EXPECT_TRUE(this->view()->is_shown());
   EXPECT_FALSE(this->find<QCheckBox>("Slice through the volume")->isEnabled());
   this->button("Weights")->click();
   EXPECT_EQ(this->view()->numbers().find("picture.difference.rms"), nullptr);
-  // A canceled comparison keeps the last one.
+  // If a comparison is canceled, the result of the previous one stays.
   this->choose("Monotone");
   this->button("Compare again")->click();
   this->button("Cancel")->click();
@@ -429,7 +431,8 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   EXPECT_FALSE(this->button("Difference")->isEnabled());
 }
 
-/// A certificate is shown below the name of its method, and no method is compared with itself.
+/// The optimality certificate is shown below the name of its method. A method cannot be compared
+/// with itself.
 TEST_F(WeightWindow, CertificatesNameTheirMethod)
 {
   const auto mesh = ball();
@@ -495,19 +498,19 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
   this->find<QCheckBox>("Slice through the volume")->setChecked(true);
   EXPECT_TRUE(this->view()->is_sliced());
   EXPECT_GT(this->view()->slice()->GetNumberOfCells(), 20);
-  // Interior and surface are connected: the slice's weights are within the range of the column.
+  // The slice shows weights of the interior. They are within the range of the column.
   vtkDataArray* values = this->view()->slice()->GetPointData()->GetArray("bindpose.Color");
   for (vtkIdType v = 0; v < values->GetNumberOfTuples(); ++v)
   {
     EXPECT_GE(values->GetComponent(v, 0), -1e-9);
     EXPECT_LE(values->GetComponent(v, 0), 1.0 + 1e-9);
   }
-  // A new bind keeps the choices.
+  // A new bind does not change the choices in the panel.
   this->window.binding()->start();
   this->wait_while([this] { return this->window.binding()->is_running(); });
   EXPECT_TRUE(this->view()->is_sliced());
   EXPECT_EQ(this->list("top")->currentText(), QString("top"));
-  // After saving and opening, everything except the tets is restored.
+  // After the mesh is saved and opened, everything except the tets is restored.
   const std::string path = testing::TempDir() + "bindpose_weights.vtp";
   ASSERT_TRUE(write_shape(this->window.shown(), path).ok());
   EXPECT_TRUE(this->window.open(QString::fromStdString(path)));
@@ -543,7 +546,7 @@ TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
   this->window.set_method(0);
   EXPECT_NEAR(reach(this->view()->isolines()), 1.8, 1e-5);
   EXPECT_NEAR(reach(this->window.viewport()->drawn()), 2.0, 1e-5);
-  // Around a slice, the shape is at rest.
+  // While the slice is shown, the shape is at rest.
   this->find<QCheckBox>("Slice through the volume")->setChecked(true);
   auto* handles = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
   EXPECT_NEAR(reach(this->window.viewport()->drawn()), 1.0, 1e-5);

@@ -109,7 +109,7 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
   this->window.show_error("Something has gone wrong.");
   expect_still("an error came");
   EXPECT_EQ(bars, 4);
-  // The bars do not overlap, and are below the title of a mode.
+  // The bars do not overlap. They are below the title of the edit mode.
   EXPECT_EQ(this->hand.press_key("A"), QString());
   expect_still("a mode began");
   QList<QRect> places;
@@ -134,7 +134,7 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
   // The status line shows a hint about the mouse.
   this->hover(seen);
   expect_still("a hint came");
-  // After a bar is hidden, the picture receives the mouse there.
+  // After a bar is hidden, the picture receives mouse events at its position.
   this->window.error_bar()->hide();
   QApplication::processEvents();
   const QWidget* there = this->window.viewport()->childAt(this->window.viewport()->width() / 2, 60);
@@ -187,7 +187,7 @@ TEST_F(WindowRoom, AScreenOf1280By800FitsAllOfIt)
 {
   this->open_figure();
   EXPECT_EQ(this->hand.press_key("K"), QString());
-  // The space that a desktop leaves below its own bar and the window's title.
+  // This is the space for a window that a desktop leaves on a small screen.
   const QSize room(1280, 720);
   for (int panel = 0; panel < 4; ++panel)
   {
@@ -249,7 +249,7 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   for (vtkIdType v = 0; v < volume->GetNumberOfPoints(); ++v)
   {
     const double radius = Vec3(volume->GetPoint(v)).norm();
-    if (radius < 0.8 || radius > 1.01) // the ball is faceted
+    if (radius < 0.8 || radius > 1.01) // allow for the facets of the ball
     {
       EXPECT_NEAR(values->GetComponent(v, 0), radius < 0.8, 1e-9) << radius;
       inside += radius < 0.8;
@@ -257,7 +257,7 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   }
   EXPECT_GT(inside, 1000);
   EXPECT_EQ(this->hand.choose("volume.isosurface", true), QString());
-  // No file contains the volume, so the session stores it.
+  // The volume was computed and is in no file, so the session stores it.
   const test::Folder folder;
   const QString path = QString::fromStdString(folder / "ball.bindpose");
   SessionFile file;

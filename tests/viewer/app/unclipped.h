@@ -28,7 +28,7 @@ inline void expect_unclipped_buttons(const QWidget* in)
   }
 }
 
-/// Check all items of the visible combo boxes, as if each were chosen.
+/// Check the visible combo boxes: each item must fit when it is chosen.
 inline void expect_unclipped_items(const QWidget* in)
 {
   for (const QComboBox* box : in->findChildren<QComboBox*>())

@@ -1,7 +1,8 @@
 #ifndef bindpose_tests_viewer_app_window_test_h
 #define bindpose_tests_viewer_app_window_test_h
 
-// Operates the window like a user: real Qt mouse events on the picture, and buttons by their texts.
+// Functions that operate the window like a user: Qt mouse events on the picture, and buttons found
+// by their texts.
 
 #include "main_window.h"
 #include "panel_column.h"
@@ -27,7 +28,7 @@
 namespace bindpose::test
 {
 
-/// Call wait_until() with a time limit of one minute.
+/// Call wait_until() with a time limit of one minute. @return Whether the condition became true.
 template <typename Condition>
 bool wait_for(const Condition& condition, int seconds = 60)
 {

@@ -1,4 +1,4 @@
-"""The fixture that every test of the program uses."""
+"""The fixture `folder`, which all tests of the command-line program use."""
 
 import pytest
 from driver import Folder
@@ -6,5 +6,5 @@ from driver import Folder
 
 @pytest.fixture
 def folder(tmp_path):
-    """An empty folder with the meshes of shapes.py, written on demand."""
+    """Return an empty folder, into which the meshes of shapes.py are written on demand."""
     return Folder(tmp_path)

@@ -1,4 +1,4 @@
-"""Run the program in a separate folder and check the files that it writes."""
+"""Run the command-line program in a separate folder and check the files that it writes."""
 
 import json
 import os
@@ -11,7 +11,7 @@ PROGRAM = os.environ["BINDPOSE_PROGRAM"]
 
 
 class Run:
-    """One run: exit code, both outputs, and the report if it was written to standard output."""
+    """One run of the program: exit code, both outputs, and the report if it was written to standard output."""
 
     def __init__(self, words, folder, environment=None):
         self.words = [str(word) for word in words]
@@ -31,7 +31,7 @@ class Run:
         return self
 
     def is_refused(self, *words, code=2):
-        """Expect one sentence with these words, the exit code, and no new files."""
+        """Expect one sentence that contains these words, the exit code, and no new files."""
         assert self.code == code, (self.words, self.code, self.err)
         lines = [line for line in self.err.splitlines() if ": warning: " not in line]
         assert len(lines) == 1, self.err

@@ -1,13 +1,14 @@
-"""A character in the form that other programs export: a glTF file of 15 meshes on one skin with helper joints, dozens
-of animations whose scales are uneven by round-off, materials with a texture, and a camera."""
+"""Write a character as other programs export it: a glTF file of 15 meshes on one skin with helper joints, dozens of
+animations whose scales are uneven by round-off, materials with a texture, and a camera.
+"""
 
 import base64
 import json
 import math
 import struct
 
-# Joint, parent, rest position. root and pelvis have the position of hips. target and pole, which control a foot in the
-# other program, have the same nearest point of the mesh.
+# Each row contains joint, parent and rest position. The joints root and pelvis have the position of hips. The joints
+# target and pole, which control a foot in the other program, have the same nearest point of the mesh.
 JOINTS = [("root", None, (0, 1, 0)), ("hips", "root", (0, 1, 0)), ("pelvis", "hips", (0, 1, 0)),
           ("spine", "hips", (0, 1.3, 0)), ("neck", "spine", (0, 1.7, 0)), ("head", "neck", (0, 1.9, 0)),
           ("upper_arm.L", "spine", (0.3, 1.6, 0)), ("forearm.L", "upper_arm.L", (0.7, 1.6, 0)),
@@ -19,7 +20,7 @@ JOINTS = [("root", None, (0, 1, 0)), ("hips", "root", (0, 1, 0)), ("pelvis", "hi
 WITHOUT_WEIGHTS = ("root", "pelvis", "hand.L", "hand.R", "target.L", "pole.L")
 UNEVEN = (1.0, 1.0 + 2e-6, 1.0 - 1.8e-6)  # a uniform scale after rounding to single precision
 
-# A box per mesh: name, lower and upper corner, joint.
+# Each row is one mesh, a box: name, lower and upper corner, joint.
 BOXES = [("torso", (-0.3, 1.2, -0.15), (0.3, 1.65, 0.15), "spine"), ("hip", (-0.25, 0.85, -0.15), (0.25, 1.25, 0.15), "hips"),
          ("neck", (-0.08, 1.6, -0.08), (0.08, 1.85, 0.08), "neck"), ("head", (-0.15, 1.8, -0.15), (0.15, 2.15, 0.15), "head"),
          ("hair", (-0.17, 2.1, -0.17), (0.17, 2.2, 0.17), "head")]
@@ -78,7 +79,9 @@ class _Buffer:
 
 
 def write_foreign_rig(path, animations=76, keys=5, placeholder=False):
-    """Write the character as text (.gltf) with embedded numbers. With a placeholder, all vertices belong to hips."""
+    """Write the character as text (.gltf) with embedded binary data. If `placeholder` is true, all vertices belong to
+    hips.
+    """
     names = [name for name, _, _ in JOINTS]
     places = {name: place for name, _, place in JOINTS}
     buffer = _Buffer()

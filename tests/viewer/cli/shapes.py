@@ -1,4 +1,4 @@
-"""Meshes and handles as text, small enough to know their exact numbers."""
+"""Meshes and handles as text, so small that their exact numbers are known."""
 
 import itertools
 import math
@@ -40,7 +40,8 @@ def one_triangle():
 
 
 def bar(nx=12, ny=2, nz=2, size=(6.0, 1.0, 1.0)):
-    """Return the surface of a box along x, with a corner at the origin, cut into squares of two triangles."""
+    """Return the surface of a box along x, with a corner at the origin. It is cut into squares of two triangles each.
+    """
     counts = (nx, ny, nz)
     ids, vertices, faces = {}, [], []
 
@@ -93,7 +94,7 @@ def off(mesh):
     return "\n".join(lines) + "\n"
 
 
-# Two bones along the bar, joined in its middle.
+# Two bones along the bar share a joint in its middle.
 TWO_BONES = "1 0.5 0.5 0.5\n2 3 0.5 0.5\n3 5.5 0.5 0.5\n#\n1 2 1 0 0\n2 3 1 0 0\n"
 TWO_POINTS = "1 0.5 0.5 0.5 left\n2 5.5 0.5 0.5\n#\n"
 BENT = '{"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 90}}}}'

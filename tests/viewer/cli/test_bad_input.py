@@ -1,4 +1,6 @@
-"""Every verb against every bad input: one sentence, exit code 2, no new files."""
+"""Each verb of the program gets bad input of each kind. It must print one sentence, exit with code 2, and write no
+files.
+"""
 
 import os
 
@@ -7,7 +9,7 @@ import shapes
 
 CUBE = shapes.off(shapes.cube())
 
-# Files that no verb can read, and words of the error message.
+# No verb can read these files. The values are words of the error message.
 UNREADABLE = {
     "missing.off": (None, ["missing.off", "No such file"]),
     "wrong.off": ("once upon a time\nthere was a mesh\n", ["wrong.off, line 1"]),
@@ -50,10 +52,10 @@ def test_unreadable_meshes(folder, verb, name):
 
 @pytest.mark.parametrize("verb", [verb for verb in OTHERS if OTHERS[verb]])
 def test_outputs_that_cannot_be_written(folder, verb):
-    """The path is checked before the work: the mesh does not even exist."""
+    """Check that the output path is checked before the work begins: the input mesh does not even exist."""
     words = OTHERS[verb][:-1]
     ending = OTHERS[verb][-1][3:]
-    if verb == "deform":  # it must first read the pose to determine its files
+    if verb == "deform":  # deform must first read the pose to determine its output files
         return
     folder.run(verb, "x.off", *words, f"no/such/out{ending}").is_refused("no/such/out", "No such file")
     os.mkdir(folder / f"dir{ending}")

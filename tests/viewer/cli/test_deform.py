@@ -1,4 +1,4 @@
-"""deform: poses whose result is known, sequences, and invalid poses."""
+"""bindpose deform: poses whose result is known, sequences, and invalid poses."""
 
 import json
 
@@ -14,7 +14,7 @@ METHODS = ["lbs", "dqs", "stbs", "cor", "reduced-arap", "full-arap", "mls"]
 
 @pytest.fixture
 def bar(folder):
-    """A bar with weights that blend linearly between the ends, so that no solver is needed."""
+    """Write a bar whose weights blend linearly between its ends, so that no solver is needed."""
     mesh = to_dataset(shapes.bar())
     x = points_of(mesh)[:, 0] / 6
     add_point_array(mesh, "Weights", np.stack([1 - x, x], axis=1), ["b1", "b2"])
@@ -35,9 +35,10 @@ def test_children_follow_their_parents(bar):
     result = deform(bar, {"version": 2, "handles": {"b1": turn}}).is_good()
     assert result.err == ""
     x, y, z = bar.points.T
-    turned = np.stack([1 - y, x, z], axis=1)  # about (0.5, 0.5)
+    turned = np.stack([1 - y, x, z], axis=1)  # rotation about (0.5, 0.5)
     assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(turned, abs=1e-12)
-    # In version 1, b2 does not follow. One warning says so, also for a sequence.
+    # In version 1 of the format, the child b2 does not move with its parent. One warning says this, also for a
+    # sequence.
     result = deform(bar, {"frames": [{"handles": {"b1": turn}}] * 3}, output="old.vtp").is_good()
     assert result.err.count("warning") == 1 and '"version": 2' in result.err
     ends = points_of(bindpose.read(bar / "old_0002.vtp"))[x == 6]
@@ -49,7 +50,7 @@ def test_rest_and_rigid_poses(bar, method):
     deform(bar, {"handles": {}}, method=method).is_good()
     assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(bar.points, abs=1e-8)
     turn = {"rotate": {"axis": [0, 0, 1], "degrees": 90}}
-    # Each bone turns about its own head, so the second has to move to where the first moves its head.
+    # Each bone rotates about its own head. The second bone is also translated to where the first one moves its head.
     pose = {"handles": {"b1": turn, "b2": {**turn, "translate": [-2.5, 2.5, 0]}}}
     deform(bar, pose, "--overwrite", method=method).is_good()
     head = np.array([0.5, 0.5, 0.5])
@@ -72,7 +73,7 @@ def test_translated_handles_turn_freely(bar, method):
                                   abs=1e-12)
     sheared = posed({"version": 2, "handles": {"b1": full, "b2": {**full, **up, "space": "world"}}})
     assert abs(found - sheared).max() > 0.1
-    # Lengths along the bar change less than with blended translations.
+    # Lengths along the bar change less than with linearly blended translations.
     def strain(points):
         steps = np.linalg.norm(points[1:] - points[:-1], axis=1) / np.linalg.norm(bar.points[1:] - bar.points[:-1], axis=1)
         return np.abs(steps - 1).max()
@@ -103,8 +104,8 @@ def test_an_ignored_stretch_is_said_once(bar, method):
     assert len(said) == (0 if method == "stbs" else 1), run.err
     if method == "lbs":
         run = deform(bar, {"version": 2, **frames[3]}, output="posed.glb").is_good()
-        assert run.err.count("stretches or twists bones") == 1  # glTF joints support neither
-    # Posed ends that preserve the length up to round-off cause no stretch.
+        assert run.err.count("stretches or twists bones") == 1  # glTF joints support neither stretch nor twist
+    # If the posed ends of a bone preserve its length up to round-off, the bone is not stretched.
     ends = {"handles": {"b1": {"mode": "full"}, "b2": {"head": [3, 0.5, 0.5], "tail": [3, 3, 0.5]}}}
     assert "stretches" not in deform(bar, {"version": 2, **ends}, "--overwrite", method=method).is_good().err
 
@@ -117,7 +118,7 @@ def test_sequences(bar, method):
     collection = (bar / "out.pvd").read_text()
     assert 'timestep="0.25" file="out_0001.vtp"' in collection
     assert json.loads((bar / "r.json").read_text())["counts"]["frames"] == 3
-    # The result equals that of each pose alone. Solves with different starts stop at their tolerance.
+    # Each frame equals the result of its pose alone, up to the tolerance: the solves have different starts.
     deform(bar, frames[2], method=method, output="single.vtp").is_good()
     assert points_of(bindpose.read(bar / "single.vtp")) == pytest.approx(
         points_of(bindpose.read(bar / "out_0002.vtp")), abs={"reduced-arap": 5e-4, "full-arap": 1e-3}.get(method, 1e-12))
@@ -143,10 +144,10 @@ def test_a_variational_surface_needs_no_weights(folder):
         posed = points_of(bindpose.read(folder / "out.vtp"))
         assert posed[middle] == pytest.approx([0.5, 0.5, 1]) and np.array_equal(posed[depth < 2], points[depth < 2])
         heights[words[1] if len(words) > 1 else ""] = posed[middle + 1, 2]
-    assert heights["1"] < heights["tangent"] and heights["1"] < heights["3"]  # a membrane sags
+    assert heights["1"] < heights["tangent"] and heights["1"] < heights["3"]  # order 1 is a membrane, which sags
     deform(folder, pose, "--order", "4", method="variational").is_refused("4", code=1)
 
-    # Fairing needs no handles: the patch between fixed points becomes flat, however it was bent.
+    # Fairing needs no handles. The patch between the fixed points becomes flat, for any initial shape.
     bent = points + np.where(depth >= 2, 0.3, 0)[:, None] * [0, 0, 1]
     mesh = to_dataset((bent, triangles))
     add_point_array(mesh, "Fixed", 1.0 * (depth < 2))
@@ -185,7 +186,8 @@ def test_poses_of_libigl(bar):
 
     dmat("pose.dmat", pose).is_good()
     assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(x @ turn.T + [1, 2, 3], abs=1e-12)
-    # Rotations of the two bones. The second rotation includes the first, so the second bone is not moved along.
+    # The matrix contains the rotations of both bones as quaternions. The second rotation already includes the first
+    # one, so the second bone must not move with its parent.
     half = np.sqrt(0.5)
     dmat("turns.dmat", np.array([[0, 0, half, half, 0, 0, 0, 1]]).T).is_good()
     head = [float(c) for c in (bar / "h.tgf").read_text().splitlines()[0].split()[1:4]]
@@ -199,7 +201,7 @@ def test_poses_of_libigl(bar):
 def test_a_sequence_is_there_whole_or_not_at_all(bar):
     frames = [{"handles": {}}, {"handles": {}}]
     bar.write("out_0001.vtp", "precious")
-    deform(bar, {"frames": frames})  # also writes pose.json
+    deform(bar, {"frames": frames})  # this also writes pose.json
     deform(bar, {"frames": frames}).is_refused("out_0001.vtp", "the file exists")
     assert (bar / "out_0001.vtp").read_text() == "precious"
     assert not (bar / "out_0000.vtp").exists()
@@ -209,7 +211,7 @@ def test_a_sequence_that_fails_leaves_what_was_there(bar):
     good = {"handles": {"b2": {"translate": [0, 1, 0]}}}
     deform(bar, {"frames": [good, good]}).is_good()
     before = (bar / "out_0000.vtp").read_bytes()
-    # The last frame of the sequence cannot be written, because a folder has its name.
+    # The last frame of the sequence cannot be written, because a folder has the name of its file.
     (bar / "out_0001.vtp").unlink()
     (bar / "out_0001.vtp").mkdir()
     deform(bar, {"frames": [{"handles": {}}, {"handles": {}}]}, "--overwrite").is_refused("out_0001.vtp")
@@ -244,7 +246,7 @@ def test_tets_and_other_endings(bar):
     ('{"frames": []}', []),
 ])
 def test_poses_that_cannot_be(bar, pose, words):
-    deform(bar, {"handles": {}}, output="first.vtp").is_good()  # also writes pose.json
+    deform(bar, {"handles": {}}, output="first.vtp").is_good()  # this also writes pose.json
     deform(bar, pose).is_refused(*words)
 
 
@@ -290,7 +292,7 @@ def test_dynamics_falls_and_replays(bar):
     assert np.array_equal(points_of(bindpose.read(bar / "out_0003.vtp")), posed[3])
     deform(bar, pose, "--dynamics", "--gravity", "1,2", "--overwrite").is_refused("--gravity")
     deform(bar, pose, "--dynamics", "--time-step", "0", "--overwrite").is_refused("--time-step")
-    # A bad pose during the sequence gives one sentence.
+    # If a pose becomes invalid during the sequence, there is one sentence.
     bad = {"handles": {"b2": {"translate": [0, "sqrt(0.15 - t)", 0]}}}
     deform(bar, bad, *fall, "--overwrite").is_refused("not a finite number at t = 0.2")
 
@@ -316,7 +318,7 @@ def test_pseudo_edges_turn_dragged_points(folder):
     add_point_array(mesh, "Weights", np.stack([1 - x, x], axis=1), ["p1", "p2"])
     bindpose.write(mesh, folder / "bar.vtp")
     folder.write("h.tgf", "1 0 0.5 0.5\n2 6 0.5 0.5\n#\n1 2 0 1 0\n")
-    drag = {"handles": {"p2": {"mode": "position", "translate": [-6, 6, 0]}}}  # a quarter turn about p1
+    drag = {"handles": {"p2": {"mode": "position", "translate": [-6, 6, 0]}}}  # a rotation by 90 degrees about p1
     deform(folder, drag).is_good()
     turned = points_of(bindpose.read(folder / "out.vtp"))
     deform(folder, drag, "--overwrite", "--pseudo-edges", "auto").is_good()
@@ -334,7 +336,8 @@ def test_what_is_stretched_is_in_the_report_and_a_cell_array(bar):
     longer = {"handles": {"b2": {"translate": [18, 0, 0]}}}  # x becomes 4 x at the end
     report = deform(bar, longer, "--report", "-", "--stretch-array").is_good().report
     assert report["counts"]["inverted_elements"] == 0
-    assert 0 < report["counts"]["stretched_elements"] < report["counts"]["elements"]  # some, but not all elements
+    # Some elements are stretched, but not all.
+    assert 0 < report["counts"]["stretched_elements"] < report["counts"]["elements"]
     assert report["largest_stretch"] == pytest.approx(4)
     stretch = numpy_support.vtk_to_numpy(bindpose.read(bar / "out.vtp").GetCellData().GetArray("Stretch"))
     assert stretch.max() == pytest.approx(4) and stretch.min() == pytest.approx(1)
@@ -345,7 +348,8 @@ def test_what_is_stretched_is_in_the_report_and_a_cell_array(bar):
 
 
 def test_rotations_are_arrays_that_render_colors_by(bar):
-    """The bar follows its first bone, which turns by 40 degrees. The second bone is free."""
+    """Check the rotation arrays. The bar follows its first bone, which rotates by 40 degrees; the second bone is free.
+    """
     turn = {"handles": {"b1": {"rotate": {"axis": [0, 0, 1], "degrees": 40}}, "b2": {"mode": "free"}}}
     for method, more in (("reduced-arap", []), ("full-arap", ["--maximum-iterations", 10000, "--tolerance", 0])):
         deform(bar, turn, "--overwrite", "--rotation-arrays", *more, method=method)

@@ -1,4 +1,5 @@
-"""The tables of options and keys in the viewer's pages match those of the program, and no page has a dead link."""
+"""The tables of options and keys in the viewer's documents match those of the program, and no document has a dead link.
+"""
 
 import pathlib
 import re
@@ -27,7 +28,7 @@ def test_options_are_in_step(folder):
 
 
 def pages():
-    """Return all pages of the project: those next to the sources, not those in the build folder."""
+    """Return all documents of the project: those in the source tree, without the build folder."""
     folders = ("examples", "filters", "python", "tests", "viewer")
     return sorted([*ROOT.glob("*.md"), *(page for folder in folders for page in (ROOT / folder).rglob("*.md"))])
 

@@ -1,4 +1,6 @@
-"""Failures of tetrahedralize: helper killed or missing, full disk, out of memory, Ctrl-C. No partial file is left."""
+"""Failures of bindpose tetrahedralize: helper program killed or missing, full disk, out of memory, Ctrl-C. No partial
+file may be left.
+"""
 
 import contextlib
 import os
@@ -62,7 +64,7 @@ def start(folder, *words, **more):
 
 
 def sleeping_helper(folder):
-    """Return an environment with a helper that does nothing for a minute."""
+    """Return an environment in which the helper program does nothing for a minute."""
     os.mkdir(folder / "helper")
     folder.write("helper/bindpose-mesher", "#!/bin/sh\nexec sleep 60\n")
     os.chmod(folder / "helper/bindpose-mesher", 0o755)
@@ -74,7 +76,7 @@ def sleeping_helper(folder):
 
 @needs_helper
 def test_helper_can_leave_no_file(tmp_path):
-    # CGAL writes meshes that it cannot process into the working folder.
+    # If CGAL cannot process a mesh, it writes the mesh into the working folder.
     with subprocess.Popen([HELPER, "refine"], cwd=tmp_path, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as helper:
         folder = pathlib.Path("/proc", str(helper.pid), "cwd")
         give_up = time.monotonic() + 60
@@ -99,7 +101,7 @@ def test_missing_helper(folder):
 
 @needs_helper
 def test_a_helper_killed_once(folder):
-    """The next attempt succeeds."""
+    """Check that the next attempt succeeds."""
     folder.off("s.off", shapes.sphere(100, 60))
     process = start(folder, "s.off", "-o", "s.vtu", "--report", "-")
     os.kill(wait_for_helper(process), signal.SIGKILL)
@@ -111,7 +113,9 @@ def test_a_helper_killed_once(folder):
 @needs_helper
 @pytest.mark.parametrize("method, code", [("auto", 0), ("remesh", 0), ("cdt", 5)])
 def test_a_helper_killed_again_and_again(folder, method, code):
-    """The lattice needs no helper. cdt alone ends with one sentence that lists all attempts."""
+    """Check that the lattice methods work, because they need no helper. Method cdt ends with one sentence that lists
+    all attempts.
+    """
     folder.off("s.off", shapes.sphere(60, 40))
     process = start(folder, "s.off", "--method", method, "-o", "s.vtu", "--report", "r.json")
     stop = threading.Event()
@@ -149,7 +153,7 @@ def limited(kind, size):
 @pytest.mark.parametrize("ending", ["vtu", "vtk", "mesh"])
 @pytest.mark.parametrize("size", [500, 20000])
 def test_a_full_disk(folder, ending, size):
-    """No file may grow beyond the limit, as if the disk became full."""
+    """Limit the size of files, which has the effect of a full disk."""
     folder.off("s.off", shapes.sphere())
     process = start(folder, "s.off", "--method", "embed", "-o", f"s.{ending}",
                     preexec_fn=limited(resource.RLIMIT_FSIZE, size))
@@ -161,7 +165,7 @@ def test_a_full_disk(folder, ending, size):
 
 @needs_helper
 def test_no_room_for_the_helper(folder):
-    """The helper's meshes are files in memory, under the same limit."""
+    """Limit the size of files. The helper's meshes are files in memory, to which the limit also applies."""
     folder.off("s.off", shapes.sphere(60, 40))
     process = start(folder, "s.off", "--method", "cdt", "-o", "s.vtu",
                     preexec_fn=limited(resource.RLIMIT_FSIZE, 10000))
@@ -193,7 +197,7 @@ def test_the_memory_limit_of_the_helper(folder):
 
 @pytest.mark.parametrize("mebibytes", [400, 700])
 def test_little_memory_for_all(folder, mebibytes):
-    """With ulimit -v, the program either makes tets or ends with one sentence."""
+    """Check that with ulimit -v, the program either makes tets or ends with one sentence."""
     folder.off("s.off", shapes.sphere(240, 160))
     process = start(folder, "s.off", "--method", "embed", "-o", "s.vtu",
                     preexec_fn=limited(resource.RLIMIT_AS, mebibytes << 20), env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
@@ -229,7 +233,9 @@ def test_cancel_kills_the_helper_at_once(folder, number):
 @needs_helper
 @pytest.mark.parametrize("age", [0.0, 0.001, 0.01, 0.3])
 def test_no_helper_outlives_the_program(folder, age):
-    """The program is killed just after the helper was started, before its first line has run, and while it works."""
+    """Kill the program just after it has started the helper, before the helper's first line has run, and while it
+    works.
+    """
     folder.off("s.off", shapes.sphere(400, 240))
     process = start(folder, "s.off", "-o", "s.vtu")
     helper = wait_for_helper(process)

@@ -10,7 +10,7 @@ needs_helper = pytest.mark.skipif(not (pathlib.Path(PROGRAM).parent / "bindpose-
 
 
 def bar(folder, name="bar.off", length=8, missing=0):
-    """Write a bar along x of unit cubes, without its last `missing` triangles."""
+    """Write a bar of unit cubes along x. Its last `missing` triangles are removed."""
     points = [(x, y, z) for x in range(length + 1) for y in (0, 1) for z in (0, 1)]
     triangles = [(0, 1, 3), (0, 3, 2)]
     for x in range(length):
@@ -36,10 +36,10 @@ def test_skeleton(folder, missing):
     assert report["handles"][0]["kind"] == "bone"
     nodes = (folder / "bones.tgf").read_text().split("#")[0].splitlines()
     places = [list(map(float, line.split()[1:4])) for line in nodes]
-    assert len(places) == 3  # the bones share a joint
+    assert len(places) == 3  # the two bones share a joint
     assert min(x for x, _, _ in places) < 1 and max(x for x, _, _ in places) > 7 - missing
     assert all(abs(y - 0.5) < 0.15 and abs(z - 0.5) < 0.15 for _, y, z in places)
-    # Other verbs can read the file.
+    # Other verbs read the file.
     text = folder.run("info", "bones.tgf").is_good().out
     assert "b2" in text
 

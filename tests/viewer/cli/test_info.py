@@ -1,4 +1,4 @@
-"""info: the numbers of known meshes."""
+"""bindpose info: the numbers of known meshes."""
 
 import math
 
@@ -41,7 +41,9 @@ def test_where_a_surface_is_unclean(folder):
 
 
 def test_numbers_are_those_of_the_legend(folder):
-    """Inward components are counted as components, intersections as pairs and as the triangles of these pairs."""
+    """Check the units of the counts: inward components count as components, intersections as pairs and as triangles of
+    these pairs.
+    """
     vertices, faces = [], []
     for k in range(3):
         cube = shapes.flipped(shapes.cube(3.0 * k, 3.0 * k + 1))

@@ -1,4 +1,4 @@
-"""Ctrl-C: exit code 4, a quick end, and no partial file."""
+"""Ctrl-C during any verb: exit code 4, a quick end, and no partial file."""
 
 import contextlib
 import os
@@ -22,8 +22,9 @@ if (pathlib.Path(PROGRAM).parent / "bindpose-mesher").exists():
 
 
 def wait_until_at_work(process):
-    """Return one second after the program has started the thread that waits for the blocked signals. Before that, it
-    loads its libraries, possibly from a slow disk."""
+    """Wait until one second after the program has started its signal thread. Before this time, the program loads its
+    libraries, possibly from a slow disk.
+    """
     give_up = time.monotonic() + 60
     while time.monotonic() < give_up and process.poll() is None:
         threads = pathlib.Path(f"/proc/{process.pid}/task").glob("*/comm")
@@ -46,7 +47,7 @@ def test_cancel(folder, verb, number):
     asked = time.monotonic()
     _out, err = process.communicate(timeout=60)
     assert process.returncode == 4
-    assert time.monotonic() - asked < 10  # 200 ms on an idle machine, except during a factorization
+    assert time.monotonic() - asked < 10  # 200 ms on an idle machine, longer only during a factorization
     assert err == f"bindpose {verb}: canceled\n"
     assert sorted(os.listdir(folder.path)) == ["r.json", "sphere.off"]
     assert '"canceled"' in (folder / "r.json").read_text()
@@ -77,7 +78,7 @@ def test_progress_is_for_terminals_only(folder):
         while True:
             try:
                 block = os.read(ours, 4096)
-            except OSError:  # the other side was closed
+            except OSError:  # the program has closed the terminal
                 break
             if not block:
                 break
@@ -88,5 +89,5 @@ def test_progress_is_for_terminals_only(folder):
 
     shown = on_a_terminal()
     assert " %  " in shown and "winding" in shown and "evaluate" in shown
-    assert shown.endswith("\r\x1b[K")  # the line is erased at the end
+    assert shown.endswith("\r\x1b[K")  # the progress line is erased at the end
     assert on_a_terminal("--quiet") == ""

@@ -1,4 +1,4 @@
-"""bindpose outline: triangulation of images and curves."""
+"""bindpose outline: triangulation of the inside of images and curves."""
 
 import math
 

@@ -12,7 +12,9 @@ from driver import PROGRAM
 
 
 def progress_of(folder, *words):
-    """Return seconds since the start, percent and text of every line shown on a terminal. The last row is the end."""
+    """Return the seconds since the start, the percentage and the text of every progress line on a terminal. The last
+    row is the end.
+    """
     master, slave = pty.openpty()
     start = time.monotonic()
     run = subprocess.Popen([PROGRAM, *map(str, words)], cwd=folder.path, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
@@ -48,9 +50,9 @@ def test_progress_follows_the_clock(folder, words, names):
     assert not any(text.endswith(":") for text in texts)
     end = rows[-1][0]
     if end < 2.0:
-        return  # the startup of the program is a large part of this time
+        return  # starting the program is a large part of such a short run
     off = [abs(percent / 100 - seconds / end) for seconds, percent, _ in rows[:-1]]
     assert sum(off) / len(off) < 0.3
-    # Duration in seconds of 98 % or more, until the end.
+    # Compute the seconds from the first line with at least 98 % to the end.
     late = end - min(seconds for seconds, percent, _ in rows if percent >= 98)
     assert late < 0.2 * end + 0.2

@@ -1,4 +1,6 @@
-"""render: pictures, also without a display; view without a display. tests/render checks the content of pictures."""
+"""bindpose render: pictures, also without a display; bindpose view without a display. tests/render checks the content
+of pictures.
+"""
 
 import os
 import shutil
@@ -43,7 +45,9 @@ def test_labels(folder):
 
 
 def test_a_scale_factor_and_a_transparent_background(folder):
-    """The same picture with three times as many pixels in each direction, and with alpha (PNG color type 6, else 2)."""
+    """Check that the picture has three times as many pixels in each direction, and an alpha channel if requested (PNG
+    color type 6, otherwise 2).
+    """
     folder.off("bar.off", shapes.bar())
     run = folder.run("render", "bar.off", "--size", "160x120", "--scale", "3", "--transparent", "-o", "b.png",
                      "--report", "-").is_good()
@@ -59,7 +63,7 @@ def test_a_scale_factor_and_a_transparent_background(folder):
 
 
 def test_without_a_display_or_xvfb_it_names_the_package(folder):
-    """VTK would terminate the process. The program must prevent that."""
+    """Without a display, VTK would terminate the process. The program must prevent this."""
     folder.off("sphere.off", shapes.sphere(8, 4))
     nowhere = {"DISPLAY": "", "PATH": "/nowhere"}
     folder.run("render", "sphere.off", "-o", "s.png", environment=nowhere).is_refused("xvfb")
@@ -103,7 +107,7 @@ def test_isosurfaces_a_cloud_and_context(folder):
     assert run.err == "" and run.report["picture"]["isosurfaces"] == [0.25, 0.75]
     run = folder.run("render", "w.vti", "--volume", "--context", "sphere.off", "-o", "v.png", *small).is_good()
     assert run.err == "" and size_of(folder / "v.png") == (160, 120)
-    # A level that no value reaches is not an error, because another tile may reach it.
+    # A level that no value reaches is not an error, because another tile may contain it.
     run = folder.run("render", "w.vti", "--isosurface", "0.5,7", "-o", "n.png", *small).is_good()
     assert "no isosurface at 7" in run.err
 
@@ -147,7 +151,7 @@ def open_sphere():
 
 @pytest.fixture
 def tets(folder):
-    """Write lattice tets of a sphere (no helper needed) into a file with arrays and a file without."""
+    """Write lattice tets of a sphere, which need no helper, into a file with arrays and into a file without arrays."""
     folder.off("sphere.off", shapes.sphere())
     folder.off("open.off", open_sphere())
     for file in ("tets.vtu", "tets.mesh"):
@@ -160,7 +164,7 @@ def test_tets_inside_out(tets):
     whole = tets.run("render", "tets.vtu", "--section", "none", *small, "w.png").is_good().report["picture"]["tets"]
     counts = tets.run("info", "tets.vtu", "--report", "-").is_good().report["counts"]
     assert whole == counts["tets"]
-    # A cut and the cut from its other side, seen from the front and from behind, partition the tets.
+    # A cut keeps the tets on one side of the plane, and the reversed cut keeps the others. Together they are all tets.
     front = tets.run("render", "tets.vtu", "--section", "z=0.01", *small, "f.png").is_good().report["picture"]["tets"]
     back = tets.run("render", "tets.vtu", "--section", "0,0,1@0,0,0.01", "--azimuth", "180", *small, "b.png")
     assert 0 < front < whole and front + back.is_good().report["picture"]["tets"] == whole
@@ -179,7 +183,8 @@ def test_defects_are_counted(tets):
     found = [{"name": "unreferenced vertex", "count": 1}, {"name": "boundary edge", "count": 24}]
     run = tets.run("render", "open.off", "--defects", *small, "d.png").is_good()
     assert run.report["picture"]["defects"] == found
-    # Defects over tets, from the surface in the context or from a file. Two tiles show them twice and count them once.
+    # Draw the defects over tets. They are those of the context surface, or come from a file. Two tiles show the defects
+    # twice, but count them once.
     run = tets.run("render", "tets.vtu", "tets.mesh", "--context", "open.off", "--defects", *small, "t.png").is_good()
     assert run.report["picture"]["defects"] == found
     tets.run("info", "open.off", "--defects", "d.vtp", "--quiet").is_good()
@@ -217,7 +222,7 @@ def test_what_tets_do_not_have(tets, file, words, sentence):
 
 
 def test_a_slice_through_the_weights_of_a_volume(folder):
-    """The output of `weights -o OUT.vtu`, cut by a plane."""
+    """Check a cut through tets with weights, from `weights -o OUT.vtu`."""
     folder.off("sphere.off", shapes.sphere())
     folder.write("h.tgf", "1 0 0 0.5 top\n2 0 0 -0.5 bottom\n#\n")
     folder.run("weights", "sphere.off", "--handles", "h.tgf", "--domain", "embedding", "--embedding-resolution", "8", "--keep-raw",
@@ -236,7 +241,9 @@ def test_an_unknown_color_is_usage(tets):
 
 
 def square(name_values, points=4):
-    """Return a flat square as the text of a .vtp file with point arrays: name, component names, values by point."""
+    """Return a flat square with point arrays as the text of a .vtp file. Each array has a name, component names, and
+    values by point.
+    """
     arrays = "".join(
         f'<DataArray type="Float64" Name="{name}" NumberOfComponents="{len(words)}" format="ascii" '
         + " ".join(f'ComponentName{k}="{word}"' for k, word in enumerate(words)) + f">{values}</DataArray>"
@@ -252,7 +259,7 @@ def square(name_values, points=4):
 
 @pytest.fixture
 def weighted(folder):
-    """Biharmonic weights without bounds on a sphere, with their raw columns. Each handle is a vertex."""
+    """Write a sphere with biharmonic weights without bounds, and their raw columns. Each handle is a vertex."""
     folder.off("sphere.off", shapes.sphere())
     folder.write("h.tgf", "1 0 0 1 top\n2 0 0 -1 bottom\n3 1 0 0 side\n#\n")
     folder.run("weights", "sphere.off", "--handles", "h.tgf", "--domain", "surface", "--method", "biharmonic", "--keep-raw",
@@ -267,7 +274,8 @@ def test_cells_by_handle(weighted):
     assert sum(c["count"] for c in colors) == len(shapes.sphere()[1])
     weighted.write("two.vtp", square([("Weights", ["left", "right"], "1 0 0 1 0 1 0.7 0.3")]))
     run = weighted.run("render", "two.vtp", "--color", "handle", "-o", "t.png", "--report", "-").is_good()
-    # Sums over the corners: 1 and 2 on the first triangle, 1.7 and 1.3 on the second.
+    # The sums over the corners of each triangle determine its handle: 1 and 2 on the first triangle, 1.7 and 1.3 on the
+    # second.
     assert run.report["picture"]["colors"] == [{"name": "left", "count": 1}, {"name": "right", "count": 1}]
 
 
@@ -279,14 +287,15 @@ def test_extrema_are_those_of_the_certificate(weighted):
                            "--size", "200x150", "-o", "e.png", "--overwrite", "--report", "-").is_good()
         (extrema,) = run.report["picture"]["extrema"]
         assert extrema["maxima"] + extrema["minima"] == extrema["drawn"] == handle["interior_extrema"]
-    # Without --array, Weights is used. Each of two tiles has its own numbers.
+    # Without --array, the array Weights is used. The report contains separate numbers for each of the two tiles.
     run = weighted.run("render", "w.vtp", "w.vtp", "--extrema", "--size", "300x150", "-o", "f.png", "--report", "-").is_good()
     assert run.report["picture"]["array"] == "Weights" and len(run.report["picture"]["extrema"]) == 2
 
 
 def test_row_sums(weighted):
     run = weighted.run("render", "w.vtp", "--color", "row-sum", "--size", "200x150", "-o", "r.png", "--report", "-").is_good()
-    assert run.report["picture"]["row_sum"]["minimum"] == pytest.approx(1, abs=1e-9)  # without bounds they sum to one
+    # Weights without bounds sum to one.
+    assert run.report["picture"]["row_sum"]["minimum"] == pytest.approx(1, abs=1e-9)
     weighted.write("raw.vtp", square([("RawWeights", ["a", "b"], "1 0 0 1.25 0.5 0.75 0.5 0.25")]))
     run = weighted.run("render", "raw.vtp", "--color", "row-sum", "--size", "200x150", "-o", "s.png", "--report", "-").is_good()
     assert run.report["picture"]["row_sum"] == {"minimum": 0.75, "maximum": 1.25}

@@ -1,4 +1,6 @@
-"""Equal results are equal files: every verb, run again with another number of threads, writes the same bytes."""
+"""Equal results give equal files: every verb is run twice with different numbers of threads and must write the same
+bytes.
+"""
 
 import json
 import math
@@ -19,7 +21,9 @@ BEND = {"frames": [{"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 
 
 
 def expect_same_bytes(folder, verb, *words, outputs):
-    """`outputs` are the names after -o, or None for a verb whose words contain its outputs."""
+    """Run a verb twice and compare its files. `outputs` are the names after -o, or None if `words` contain the output
+    files.
+    """
     for output in outputs:
         files = []
         for threads in ("1", "1", "2"):
@@ -27,7 +31,8 @@ def expect_same_bytes(folder, verb, *words, outputs):
             assert run.code in (0, 3), run.err
             written = {name: (folder / name).read_bytes() for name in run.new_files if name != "r.json"}
             report = json.loads((folder / "r.json").read_text())
-            assert report["seconds"]["total"] > 0 and report["peak_memory_bytes"] > 0  # not contained in the files
+            # These entries of the report are not in the files.
+            assert report["seconds"]["total"] > 0 and report["peak_memory_bytes"] > 0
             for name in run.new_files:
                 (folder / name).unlink()
             files.append(written)

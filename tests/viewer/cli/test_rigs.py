@@ -1,4 +1,4 @@
-"""glTF: weights and deform write rigs, and every verb reads them."""
+"""Rigs in glTF files: weights and deform write them, and every verb reads them."""
 
 import json
 
@@ -64,7 +64,8 @@ def test_other_methods_are_morph_targets(bar):
     report = deform(bar, "--method", "full-arap", "--report", "-").is_good().report
     assert report["gltf"]["animation"] == "morph"
     report = deform(bar, "--method", "dqs", "--gltf-animation", "joints", "--overwrite", "--report", "-").is_good().report
-    assert 1e-3 < report["gltf"]["animation_error"] < 0.2  # the difference between linear blending and dual quaternions
+    # The error is the difference between linear blend and dual quaternion skinning.
+    assert 1e-3 < report["gltf"]["animation_error"] < 0.2
     bindpose.write(shapes.bar(), bar / "plain.off")
     deform(bar, "--method", "mls", "--overwrite", mesh="plain.off").is_good()
     deform(bar, "--overwrite", "--method", "mls", "--gltf-animation", "joints", mesh="plain.off").is_refused("morph")
@@ -91,10 +92,10 @@ def test_what_a_character_loses_is_one_warning(folder):
     foreign_rig.write_foreign_rig(folder / "c.gltf")
     run = folder.run("info", "c.gltf", "--report", "r.json").is_good()
     said = warnings_of(run)
-    assert len(said) == 1, said  # scales that are uneven by 2e-6 are not a shear
+    assert len(said) == 1, said  # scales that are uneven by 2e-6 are not reported as a shear
     assert said[0].startswith("c.gltf: ") and all(words in said[0] for words in LOST)
     assert len(json.loads((folder / "r.json").read_text())["not_kept"]) == 5
-    # Mesh, handles and pose from one file still give one warning.
+    # If mesh, handles and pose are read from one file, there is one warning.
     folder.write("rest.json", '{"handles": {}}')
     deform = ("deform", "c.gltf", "--handles", "c.gltf", "-o")
     assert warnings_of(folder.run(*deform, "posed.vtp", "--pose", "rest.json").is_good()) == said
@@ -110,23 +111,24 @@ def test_a_character_is_bound_again_to_its_own_rig(folder):
     weights = point_array(mesh, "Weights")
     array = mesh.GetPointData().GetArray("Weights")
     names = [array.GetComponentName(k) for k in range(array.GetNumberOfComponents())]
-    assert sorted(names) == sorted(name for name, _, _ in foreign_rig.JOINTS)  # the rig is complete
+    assert sorted(names) == sorted(name for name, _, _ in foreign_rig.JOINTS)  # all joints of the rig are present
     idle = [name for k, name in enumerate(names) if not weights[:, k].any()]
     assert sorted(idle) == sorted(foreign_rig.WITHOUT_WEIGHTS)
     assert weights.sum(axis=1) == pytest.approx(np.ones(len(weights)))
-    # The animation in the file poses the mesh with the new weights.
+    # The animation in the file poses the mesh with its new weights.
     folder.run("deform", "w.vtp", "--handles", "c.gltf", "--pose", "c.gltf", "-o", "moving.glb").is_good()
 
 
 def test_helper_joints_that_share_vertices_are_skipped(folder):
-    # The skin is a placeholder, so every joint is bound. The target and the pole of a foot have the same vertex.
+    # The skin in the file is a placeholder, so every joint gets weights. The joints target and pole of a foot have the
+    # same nearest vertex.
     foreign_rig.write_foreign_rig(folder / "c.gltf", animations=1, placeholder=True)
     run = folder.run("weights", "c.gltf", "--handles", "c.gltf", "-o", "w.vtp").is_good()
     skips = [line for line in warnings_of(run) if "skipped" in line]
     assert len(skips) == 1 and "'target.L'" in skips[0]
     weights = point_array(bindpose.read(folder / "w.vtp"), "Weights")
     assert weights.sum(axis=1) == pytest.approx(np.ones(len(weights)))
-    # The same handles from a file without that mark are refused.
+    # The same handles without the mark that they are joints of a rig are refused.
     handles = bindpose.read_handles(folder / "c.gltf")
     handles.GetCellData().RemoveArray("Ownership")
     bindpose.write(handles, folder / "h.vtp")

@@ -1,4 +1,4 @@
-"""Sequences: strips of pictures, moving pictures, and no files left behind by failures."""
+"""Sequences of poses: strips of pictures and films, and failures that leave no files."""
 
 import json
 import os
@@ -18,7 +18,7 @@ from driver import PROGRAM
 
 @pytest.fixture
 def frames(folder):
-    """Write bar.pvd: five frames of a bar whose second bone rises."""
+    """Write bar.pvd, a series of five frames of a bar whose second bone rises."""
     mesh = to_dataset(shapes.bar())
     x = points_of(mesh)[:, 0] / 6
     add_point_array(mesh, "Weights", np.stack([1 - x, x], axis=1), ["b1", "b2"])
@@ -60,7 +60,7 @@ def test_without_ffmpeg_there_is_one_sentence(frames, tmp_path):
     run.is_refused("apt-get install ffmpeg")
 
 
-# A program that replaces ffmpeg, so that the tests do not need the real one.
+# This script replaces ffmpeg, so that the tests do not need the real program. It writes its arguments and input files.
 FAKE = """#!/bin/sh
 for last; do :; done
 folder=$(dirname "$(echo "$*" | sed 's/.*-i \\([^ ]*\\) .*/\\1/')")
@@ -111,7 +111,7 @@ def test_cancel_leaves_nothing(frames):
 @pytest.mark.parametrize("ending", ["gif", "webm", "mp4", "apng"])
 def test_the_real_ffmpeg(frames, ending):
     if not shutil.which("ffmpeg"):
-        return  # the fake program above has shown its arguments
+        return  # the script instead of ffmpeg was used; its output shows the arguments
     frames.run("render", "bar.pvd", "--size", "161x121", "-o", f"bar.{ending}").is_good()
     probe = ["ffprobe", "-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
              "stream=nb_read_frames,r_frame_rate", "-of", "json", f"bar.{ending}"]

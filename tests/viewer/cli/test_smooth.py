@@ -1,4 +1,4 @@
-"""bindpose smooth: data of a file with the requested extrema."""
+"""bindpose smooth: the data of a file is smoothed and has only the requested extrema."""
 
 import math
 
@@ -8,7 +8,7 @@ SIDE = 12
 
 
 def square(scalars, extra=""):
-    """Return a square of SIDE x SIDE squares with the point scalars Height, as a legacy VTK file."""
+    """Return a square grid with SIDE x SIDE cells and the point scalars Height, as a legacy VTK file."""
     row = SIDE + 1
     points = [(i / SIDE, j / SIDE) for j in range(row) for i in range(row)]
     faces = []
@@ -29,7 +29,7 @@ def waves(x, y):
 
 
 def lists(**kinds):
-    """Return arrays of integers that are 0 except at the given vertices."""
+    """Return one array of integers per name. Its values are 0 except at the given vertices."""
     count = (SIDE + 1) ** 2
     lines = [f"FIELD FieldData {len(kinds)}"]
     for name, its in kinds.items():

@@ -1,4 +1,4 @@
-"""tetrahedralize: volumes of known shapes, also for unclean surfaces."""
+"""bindpose tetrahedralize: volumes of known shapes, also for unclean surfaces."""
 
 import bindpose
 import numpy as np
@@ -62,7 +62,7 @@ def test_what_encloses_nothing_says_so(folder, mesh):
 
 
 def test_the_threshold_is_used(folder):
-    """The winding number is 2 in the overlap of two cubes."""
+    """Check a threshold above 1. The winding number is 2 where two cubes overlap."""
     vertices, faces = shapes.cube()
     moved = [[x + 1 for x in v] for v in vertices]
     folder.off("two.off", (vertices + moved, faces + [[v + 8 for v in f] for f in faces]))
@@ -128,7 +128,7 @@ def test_a_wrap_makes_a_shell_of_what_is_open(folder):
     report = run.report
     assert report["method"] == "wrap" and report["counts"]["kept_vertices"] == 0
     assert volumes(folder / "m.vtu").min() > 0
-    # Five sides of area 4, at least two offsets thick.
+    # The open cube has five faces of area 4, wrapped in a shell that is at least two offsets thick.
     assert 20 * 2 * 0.002 * 12**0.5 < report["volume"] < 1
     assert report["winding_volume"] == pytest.approx(8, rel=0.02)
     assert "thin shell" in run.err and "4 boundary edges" in run.err
@@ -157,7 +157,9 @@ cp "$(dirname "$0")/tets.mesh" "$2"
 
 
 def test_ftetwild_is_run_where_it_is(folder):
-    """A replacement program returns a cube in its own frame, around the origin with a diagonal from 1 to 2."""
+    """Check the call of fTetWild. A script replaces the program. It returns a cube in the frame of fTetWild, which is
+    centered at the origin with a diagonal from 1 to 2.
+    """
     folder.off("unit.off", shapes.cube(-0.5, 0.5))
     folder.run("tetrahedralize", "unit.off", "-o", "tets.mesh").is_good()
     folder.off("cube.off", shapes.cube())

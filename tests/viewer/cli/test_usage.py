@@ -1,4 +1,4 @@
-"""Unknown words, and the program's help and version."""
+"""Unknown verbs and options, and the help and version texts of the program."""
 
 import pytest
 

@@ -1,4 +1,5 @@
-"""winding to .vdb: the file is checked with OpenVDB's own program vdb_print (package libopenvdb-tools)."""
+"""bindpose winding with a .vdb output. The file is checked with OpenVDB's program vdb_print (package libopenvdb-tools).
+"""
 
 import subprocess
 
@@ -11,7 +12,9 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 
 
 def vdb_print(path):
-    """Return its long output: {"class": "fog volume", …}, and the voxel-to-world matrix as "matrix"."""
+    """Return the long output of vdb_print as a dict: {"class": "fog volume", …}, and the voxel-to-world matrix as
+    "matrix".
+    """
     done = subprocess.run(["vdb_print", "-l", str(path)], capture_output=True, text=True, check=True)
     lines = [line.strip() for line in done.stdout.splitlines()]
     facts = dict(line.split(": ", 1) for line in lines if ": " in line)
@@ -25,13 +28,15 @@ def number(text):
 
 
 def bounding_box(values, extent):
-    """Return the bounding box of the true values of an array [k, j, i], in OpenVDB's notation."""
+    """Return the bounding box of the true values in an array [k, j, i], in the notation of vdb_print."""
     corners = [[int(f(np.nonzero(values)[axis])) + extent[2 * (2 - axis)] for axis in (2, 1, 0)] for f in (np.min, np.max)]
     return f"{corners[0]} -> {corners[1]}"
 
 
 def winding(folder, mesh, *words, name="field"):
-    """Write the field of a surface to both formats. Return the image and its values as an array [k, j, i]."""
+    """Write the winding number field of a surface as .vdb and as .vti. Return the image, and its values as an array [k,
+    j, i].
+    """
     folder.off("mesh.off", mesh)
     for ending, more in ((".vti", ()), (".vdb", words)):
         folder.run("winding", "mesh.off", "--resolution", "48", "-o", name + ending, "--overwrite", *more).is_good()
@@ -48,7 +53,7 @@ def test_a_closed_surface_is_a_fog_volume(folder):
     assert facts["name"] == "winding_number" and facts["class"] == "fog volume"
     assert facts["Type"] == "Tree_float_5_4_3"
     assert (facts["Background value"], facts["Min value"], facts["Max value"]) == ("0", "1", "1")
-    # vdb_print prints three digits.
+    # vdb_print prints numbers with three digits.
     assert facts["matrix"][:3, :3] == pytest.approx(np.diag(image.GetSpacing()), rel=5e-3)
     assert facts["matrix"][3] == pytest.approx([*image.GetOrigin(), 1], rel=5e-3)
     # The inside is stored as tiles, so the file is much smaller than the image's 8 bytes per sample.
@@ -68,7 +73,7 @@ def test_an_open_surface_keeps_its_values(folder):
 def test_a_narrow_band_is_near_the_surface(folder, width, share):
     image, values = winding(folder, shapes.open_cube(), "--vdb-band", "narrow", "--vdb-band-width", str(width))
     facts = vdb_print(folder / "field.vdb")
-    inside = np.pad(values >= 0.5, width)  # positions beyond the grid are outside the surface
+    inside = np.pad(values >= 0.5, width)  # positions beyond the grid count as outside
     n = values.shape
     windows = [inside[k:k + n[0], j:j + n[1], i:i + n[2]] for k in range(2 * width + 1)
                for j in range(2 * width + 1) for i in range(2 * width + 1)]
@@ -113,7 +118,7 @@ def test_refusals(folder):
 
 
 def test_from_python(folder):
-    """bindpose.write with an extent below 0 and an array with another name."""
+    """Write an image with bindpose.write. Its extent begins below 0, and its array has another name."""
     image = vtkImageData()
     image.SetExtent(-5, 4, -20, -12, 7, 30)
     image.SetOrigin(1, -2, 3)

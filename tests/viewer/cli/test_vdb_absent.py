@@ -1,4 +1,4 @@
-"""A build without OpenVDB names the missing package before it does any work."""
+"""In a build without OpenVDB, the program names the missing package before it does any work."""
 
 import bindpose
 import pytest

@@ -1,4 +1,4 @@
-"""weights: properties of all valid weights, on the surface's own points and on tets."""
+"""bindpose weights: properties of all valid weights, on the surface's own points and on tets."""
 
 import bindpose
 import numpy as np
@@ -29,7 +29,7 @@ def test_surface_through_tets(bar):
     assert run.new_files == ["w.vtp"]
     mesh = bindpose.read(bar / "w.vtp")
     points, weights = points_of(mesh), weights_of(bar / "w.vtp")
-    assert np.array_equal(points, np.array(shapes.bar()[0]))  # the points have not changed
+    assert np.array_equal(points, np.array(shapes.bar()[0]))  # the points of the mesh are unchanged
     check(weights, points)
     array = mesh.GetPointData().GetArray("Weights")
     assert [array.GetComponentName(i) for i in range(2)] == ["b1", "b2"]
@@ -79,7 +79,7 @@ def test_domain_surface(bar):
     weights = weights_of(bar / "w.vtp")
     check(weights, shapes.bar()[0])
     assert weights.shape == (len(shapes.bar()[0]), 4)
-    assert (weights.max(axis=0) == 1).all()  # handles are on vertices
+    assert (weights.max(axis=0) == 1).all()  # each handle is on a vertex, where its weight is 1
     bar.run("weights", "bar.off", "--handles", "auto:4", "--domain", "surface", "-o", "w.vtu").is_refused("no tets")
 
 
@@ -163,7 +163,7 @@ def test_regions(bar):
         names = [array.GetComponentName(i) for i in range(array.GetNumberOfComponents())]
         assert names == ["p1", "r1", "r2"]
         check(weights, x)
-        # Only the point handle, which is at the bar's end, overlaps with the regions.
+        # The bar's end has a point handle. Only this handle overlaps with the regions.
         assert (weights[x > 5][:, 1] < 1e-9).all() and (weights[x < 1][:, 2] < 1e-9).all()
     bar.run("weights", "painted.vtp", "--handles", "auto:1", "--regions", "Nope", "-o", "w2.vtp").is_refused("'Nope'")
 
@@ -238,7 +238,8 @@ def test_embedding_and_preview(bar):
     weights = weights_of(bar / "w.vtp")
     embedded = weights_of(bar / "e.vtp")
     check(embedded, shapes.bar()[0])
-    assert np.sqrt(((weights - embedded) ** 2).mean()) <= 0.03  # the bar's own tets are coarse
+    # A large tolerance, because the bar's own tets are coarse.
+    assert np.sqrt(((weights - embedded) ** 2).mean()) <= 0.03
     bar.run("weights", "bar.off", "--handles", "bones.tgf", "--domain", "embedding", "--embedding-resolution", "12", "-o",
             "e.vtu").is_good()
     assert is_tets(bindpose.read(bar / "e.vtu"))
@@ -253,7 +254,9 @@ def test_embedding_and_preview(bar):
 
 
 def test_cage_of_a_tgf_file(folder):
-    """A closed cage around a flat square. Weights are linear along the cage's edges, which are the outline."""
+    """Check a closed cage around a flat square. Its edges are the outline of the square, and weights are linear along
+    them.
+    """
     n = 8
     vertices = [[i / n, j / n, 0] for j in range(n + 1) for i in range(n + 1)]
     corners = [(j * (n + 1) + i, j * (n + 1) + i + 1, (j + 1) * (n + 1) + i + 1, (j + 1) * (n + 1) + i)
@@ -290,7 +293,8 @@ def test_terms_by_arrays_of_the_surface(bar):
     weights = weights_of(bar / "w.vtp")
     check(weights, points)
     assert weights[10, 0] == 0.9
-    assert block.sum() > 1 and np.ptp(weights[block], axis=0).max() == 0  # by its default name
+    # The array of rigid sets is found by its default name.
+    assert block.sum() > 1 and np.ptp(weights[block], axis=0).max() == 0
     assert run.report["relative_gap"] <= 1e-6
     bar.run(*words, "--partition-of-unity", "coupled", "--bounds=-0.5,1.5", "--mirror", "x").is_refused("mirrored")
     bar.run(*words, "--domain", "embedding").is_refused("domain volume, not embedding")

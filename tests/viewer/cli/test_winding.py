@@ -1,4 +1,4 @@
-"""winding: analytic values on grids and at points."""
+"""bindpose winding: analytic values on grids and at points."""
 
 import bindpose
 import numpy as np
@@ -11,7 +11,7 @@ def test_grid_of_a_cube(folder):
     folder.off("cube.off", shapes.cube())
     run = folder.run("winding", "cube.off", "--resolution", "24", "-o", "field.vti", "--report", "-").is_good()
     assert run.new_files == ["field.vti"]
-    assert run.err == ""  # no progress line without a terminal
+    assert run.err == ""  # without a terminal there is no progress line
     field = bindpose.read(folder / "field.vti")
     assert field.GetDimensions() == (24, 24, 24)
     spacing = field.GetSpacing()
@@ -32,7 +32,7 @@ def test_grid_of_a_cube(folder):
 
 def test_points_of_a_dataset(folder):
     folder.off("open.off", shapes.open_cube())
-    # Reference values of the cube without its top.
+    # These are the exact winding numbers of the cube without its top.
     known = {(0, 0, 0): 5 / 6, (0, 0, 0.5): 0.704832764699, (0, 0, -0.5): 0.900443260337, (0, 0, 1.5): 0.295167235301}
     vertices = [list(p) for p in known]
     folder.off("at.off", (vertices, [[0, 1, 2]]))
@@ -89,7 +89,7 @@ def test_every_output_on_demand(folder):
     assert np.array_equal(point_array(field, "Inside"), values >= 0.7)
     gradient = point_array(field, "WindingNumberGradient").reshape(10, 10, 10, 3)
     step = field.GetSpacing()[2]
-    middle = values.reshape(10, 10, 10)[2:6, 5, 5]  # no wall between these samples
+    middle = values.reshape(10, 10, 10)[2:6, 5, 5]  # there is no wall between these samples
     assert gradient[3:5, 5, 5, 2] == pytest.approx((middle[2:] - middle[:-2]) / (2 * step), rel=0.1)
     boundary = bindpose.read(folder / "boundary.vtp")
     assert boundary.GetNumberOfLines() == 4 and boundary.GetBounds() == pytest.approx((-1, 1, -1, 1, 1, 1))
@@ -133,7 +133,7 @@ def test_curves_and_oriented_points(folder):
     assert field.GetDimensions() == (20, 20, 1)
     radius = np.array([np.hypot(*field.GetPoint(i)[:2]) for i in range(400)])
     values = point_array(field, "WindingNumber")
-    turn = np.sign(values[np.argmin(radius)])  # the sign depends on the orientation of the source
+    turn = np.sign(values[np.argmin(radius)])  # the sign depends on the orientation of the curve in the source file
     assert np.array_equal(values[radius > 1.01], np.zeros((radius > 1.01).sum()))
     assert np.array_equal(values[radius < 0.99], np.full((radius < 0.99).sum(), turn)) and turn != 0
     assert run.report["counts"]["segments"] == 64

@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_viewer_document_save_loop_h
 #define bindpose_tests_viewer_document_save_loop_h
 
-// Programs that tests start and then kill.
+// Functions that run in separate processes, which the autosave tests start and then kill.
 
 #include "work_test.h"
 
@@ -16,8 +16,8 @@
 namespace bindpose::test
 {
 
-/// Return one of two states of the work, which are saved in turns: different weights, poses and
-/// names.
+/// Return one of two different states of the work, with different weights, poses and names. The
+/// loops below save them alternately.
 inline Work state_of_work(int which)
 {
   Document document;
@@ -29,7 +29,7 @@ inline Work state_of_work(int which)
   return work;
 }
 
-/// Save to the session file until the process is killed.
+/// Save to a session file repeatedly until the process is killed.
 inline int save_for_ever(const char* path)
 {
   SessionFile file;
@@ -66,8 +66,8 @@ inline double seconds_now()
   return 1e-3 * static_cast<double>(QDateTime::currentMSecsSinceEpoch() % (1LL << 40));
 }
 
-/// Change the work every 20 ms, with an autosave in the folder. One number of the work is the
-/// current time.
+/// Change the work every 20 ms, with an autosave in the folder, until the process is killed. One
+/// value of the work is the current time.
 inline int change_for_ever(const char* root)
 {
   Session session;

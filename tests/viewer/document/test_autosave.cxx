@@ -1,4 +1,5 @@
-// A process that is killed at any moment loses no saved work and leaves no partial file.
+// Autosave: if a process is killed at any moment, no saved work is lost and no partial file is
+// left.
 #include "save_loop.h"
 
 #include "support/files.h"
@@ -28,7 +29,7 @@ void start(QProcess& process, const char* what, const std::string& where)
 
 void kill_now(QProcess& process)
 {
-  process.kill(); // SIGKILL
+  process.kill(); // this sends SIGKILL
   process.waitForFinished();
 }
 } // namespace
@@ -45,7 +46,7 @@ TEST(Saving, AKillAtAnyMomentLeavesAWholeSession)
   {
     QProcess process;
     start(process, "--save-for-ever", path);
-    ASSERT_TRUE(process.waitForReadyRead(30000)); // it has saved once
+    ASSERT_TRUE(process.waitForReadyRead(30000)); // the process has saved once
     QThread::usleep(random() % 100000);
     kill_now(process);
     Session session;
@@ -56,7 +57,7 @@ TEST(Saving, AKillAtAnyMomentLeavesAWholeSession)
     ASSERT_TRUE(is == states[0] || is == states[1]);
     ++found[is == states[1]];
   }
-  EXPECT_GT(found[0], 5); // the kills hit both states
+  EXPECT_GT(found[0], 5); // the processes were killed after saving either state
   EXPECT_GT(found[1], 5);
   // The next complete save removes the files that the killed processes left behind.
   Session session;
@@ -101,7 +102,7 @@ TEST(Autosaving, WhatAKilledProcessHadIsFoundOnce)
     EXPECT_LT(found->time().secsTo(QDateTime::currentDateTime()), 60);
     EXPECT_EQ(RecoveredWork::find(root), nullptr) << "somebody else has it already";
   }
-  // Work that was not claimed is found again. After its removal it is gone.
+  // Work that no process has claimed is found again. After it is removed, it is not found.
   auto found = RecoveredWork::find(root);
   ASSERT_NE(found, nullptr);
   found->remove();
@@ -155,7 +156,7 @@ TEST(Autosaving, UnchangedWeightsAreNotWrittenAgain)
   ASSERT_TRUE(autosave.save().ok());
   EXPECT_EQ(own.entryList({ "work.surface-*" }), before);
   EXPECT_EQ(QFileInfo(own.filePath(before.front())).lastModified(), time);
-  // Other weights replace the files.
+  // After a change of the weights, new files replace the old ones.
   session.work = test::state_of_work(1);
   ASSERT_TRUE(autosave.save().ok());
   const QStringList after = own.entryList({ "work.surface-*" });
@@ -196,7 +197,7 @@ void make_large(Session& session)
   session.work = document.work();
 }
 
-/// Record messages about failures in `told`.
+/// Store messages about failures of the autosave in `told`.
 QString listen(Autosave& autosave, QString& told)
 {
   QObject::connect(&autosave, &Autosave::failed, [&told](const QString& text) { told = text; });
@@ -204,7 +205,7 @@ QString listen(Autosave& autosave, QString& told)
 }
 } // namespace
 
-/// Measures the numbers in the README: the window's thread is blocked for a small part of the
+/// Measures the numbers in the README: the window's thread is blocked for a small fraction of the
 /// writing time.
 TEST(Autosaving, IsNotFelt)
 {
@@ -250,7 +251,8 @@ TEST(Autosaving, WhatIsAskedForDuringACopyFollowsItAndTheLastStateIsKept)
   Session found;
   ASSERT_TRUE(read_session(autosave.path(), found).ok());
   EXPECT_EQ(test::fingerprint(found.work), test::fingerprint(session.work));
-  // Late events of writers that have already been waited for do not affect another writer.
+  // The test has already waited for these writers. Their late events must not affect another
+  // writer.
   autosave.begin_save();
   QCoreApplication::processEvents();
   EXPECT_TRUE(autosave.wait().ok());
@@ -278,7 +280,7 @@ TEST(Autosaving, AWriterThatFailsIsToldAbout)
   listen(autosave, told);
   ASSERT_TRUE(autosave.save().ok());
   EXPECT_EQ(told, "");
-  // The folder has been replaced by a file.
+  // The backup folder is replaced by a file, so a backup fails.
   const QString own = QFileInfo(autosave.path()).absolutePath();
   ASSERT_TRUE(QDir(own).removeRecursively());
   folder.write(QFileInfo(own).fileName().toStdString(), "no folder");
@@ -288,8 +290,8 @@ TEST(Autosaving, AWriterThatFailsIsToldAbout)
   std::filesystem::remove(folder / QFileInfo(own).fileName().toStdString());
 }
 
-/// Measures the loss by a kill: the work changes every 20 ms, copies are made at most 0.2 s after a
-/// change.
+/// Measures how much work is lost when the process is killed. The work changes every 20 ms, and
+/// backups are made at most 0.2 s after a change.
 TEST(Autosaving, AKillLosesAtMostTheIntervalAndTheWriting)
 {
   const test::Folder folder;

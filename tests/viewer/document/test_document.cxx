@@ -1,4 +1,5 @@
-// Undo restores the work to the last bit, whatever was done. Weights follow their handles.
+// The document of the window: undo restores the work bit by bit after any edits, and weights stay
+// with their handles.
 #include "work_test.h"
 
 #include "document/autosave.h"
@@ -28,7 +29,7 @@ namespace
 class Editing : public testing::Test
 {
 protected:
-  /// Expect that the edit is one step, and that undo and redo restore the exact states.
+  /// Expect that the edit is one undo step, and that undo and redo restore all bits of the states.
   template <typename Edit>
   void check(const char* name, const Edit& edit)
   {
@@ -59,7 +60,7 @@ protected:
     this->names()->DataChanged();
   }
 
-  /// Replace the handles, as a widget does in an edit.
+  /// Replace the handles during an edit, as the handle widget does.
   void replace_live(const Handles& handles)
   {
     this->document.editable_handles()->DeepCopy(to_polydata(handles));
@@ -81,7 +82,7 @@ TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
   this->check("move top",
     [&]
     {
-      // Edit in place, then commit, as the widget does.
+      // Edit the transforms in place, then commit the edit, as the handle widget does.
       vtkDataArray* transforms = d.handle_data()->GetCellData()->GetArray("Transform");
       transforms->SetComponent(1, 3, 0.1);
       transforms->SetComponent(1, 7, 1.0 / 3.0);
@@ -252,19 +253,20 @@ TEST_F(Editing, PaintedRegionsAreAStepAndARebindIsOffered)
       ASSERT_TRUE(d.commit_regions(labels, "paint region r1").ok());
     });
   EXPECT_TRUE(d.is_bound());
-  EXPECT_FALSE(d.rebind_reason().isEmpty()); // because of the new handle
+  EXPECT_FALSE(d.rebind_reason().isEmpty()); // a handle is new
   test::bind(d, 2.0);
   EXPECT_TRUE(d.rebind_reason().isEmpty());
   labels->SetValue(4, 1);
   this->check(
     "paint region r1", [&] { ASSERT_TRUE(d.commit_regions(labels, "paint region r1").ok()); });
-  EXPECT_TRUE(d.rebind_reason().contains("painted")); // the handles have not changed
+  // The labels were painted; the handles have not changed.
+  EXPECT_TRUE(d.rebind_reason().contains("painted"));
   d.history()->undo();
   EXPECT_TRUE(d.rebind_reason().isEmpty());
   d.history()->redo();
   test::bind(d, 3.0);
   EXPECT_TRUE(d.rebind_reason().isEmpty());
-  // Labels painted during a bind are kept, and the weights do not include them.
+  // Labels that are painted during a bind are kept. The weights do not include them.
   d.begin_bind();
   const auto bound = test::with_weights(d.work().surface, d.bound_handles(), 4.0);
   labels->SetValue(5, 1);
@@ -272,7 +274,7 @@ TEST_F(Editing, PaintedRegionsAreAStepAndARebindIsOffered)
   ASSERT_TRUE(d.set_bound(bound, nullptr));
   EXPECT_EQ(d.surface()->GetPointData()->GetArray("RegionId")->GetComponent(5, 0), 1.0);
   EXPECT_TRUE(d.rebind_reason().contains("painted"));
-  // Labels of a mesh with another number of points are refused.
+  // Labels are refused if they belong to a mesh with another number of points.
   labels->SetNumberOfTuples(count + 1);
   const std::string before = fingerprint(d);
   EXPECT_FALSE(d.commit_regions(labels, "paint").ok());
@@ -300,7 +302,7 @@ TEST_F(Editing, AMovedSliderIsOneStep)
     this->document.set_option("tets.shrink", size);
   }
   EXPECT_EQ(history->count(), 1);
-  this->document.end_merge(); // the slider is released, and moved again
+  this->document.end_merge(); // the user releases the slider and moves it again
   this->document.set_option("tets.shrink", 0.5);
   this->document.set_option("tets.shrink", 0.4);
   EXPECT_EQ(history->count(), 2);
@@ -308,7 +310,7 @@ TEST_F(Editing, AMovedSliderIsOneStep)
   EXPECT_EQ(this->document.option("tets.shrink").toDouble(), 0.7);
   history->undo();
   EXPECT_EQ(this->document.option("tets.shrink").toDouble(), 1.0);
-  // Changes of a choice do not merge.
+  // Changes of an option with a list of choices do not merge into one undo step.
   this->document.set_option("pose.method", 1);
   this->document.set_option("pose.method", 2);
   history->undo();
@@ -335,13 +337,13 @@ TEST_F(Editing, WhatIsNotedOfAnEqualNumberLeavesItsBits)
 {
   this->document.set_option("weights.place", 0.25);
   const QVariant before = this->document.option("weights.place");
-  const double worn = 0.25 + 4e-16; // rounding in a panel can return this value
+  const double worn = 0.25 + 4e-16; // a panel can return this rounded value
   ASSERT_NE(worn, before.toDouble());
   this->document.set_option("weights.place", worn);
   this->document.note_option("weights.place", worn);
   EXPECT_EQ(this->document.history()->count(), 1);
   EXPECT_EQ(this->document.option("weights.place").toDouble(), before.toDouble());
-  this->document.note_option("weights.place", 0.26); // a value that differs is accepted
+  this->document.note_option("weights.place", 0.26); // a value that really differs is accepted
   EXPECT_EQ(this->document.option("weights.place").toDouble(), 0.26);
 }
 
@@ -358,11 +360,12 @@ TEST_F(Editing, WhatAViewDoesDuringUndoAndRedoIsNoStep)
   QObject::connect(&d, &Document::changed, &d,
     [&d, &calls]
     {
-      d.set_option("pose.method", ++calls % 3); // like a widget that responds with its own value
+      // The listener sets another value, as a widget might.
+      d.set_option("pose.method", ++calls % 3);
       d.set_option("tets.shrink", 0.9);
     });
   d.history()->setIndex(0);
-  d.history()->setIndex(steps); // a new step during redo would delete the step being redone
+  d.history()->setIndex(steps); // a new step during a redo would delete the step that is redone
   d.history()->undo();
   d.history()->redo();
   EXPECT_GT(calls, steps);
@@ -398,7 +401,7 @@ TEST_F(Editing, LayersColorsAndLocksAreHowHandlesLook)
   expect_looks("undo of all");
   EXPECT_EQ(fingerprint(this->document.work()), fingerprint(before));
   EXPECT_FALSE(this->document.handle_data()->GetCellData()->HasArray("Layer"));
-  // A moved point and a renamed handle are more than a change of appearance.
+  // If a point moves or a handle is renamed, more than the appearance changes.
   this->rename(0, "foot");
   ASSERT_TRUE(this->document.commit_handles("rename").ok());
   EXPECT_TRUE(parts & handles_part);
@@ -408,7 +411,7 @@ TEST_F(Editing, AnEditThatCannotBeUsedIsTakenBack)
 {
   open_bound(this->document);
   const std::string before = fingerprint(this->document);
-  this->rename(0, "top"); // this name exists already
+  this->rename(0, "top"); // another handle has this name
   const Status status = this->document.commit_handles("rename");
   EXPECT_FALSE(status.ok());
   EXPECT_NE(status.message.find("top"), std::string::npos) << status.message;
@@ -473,7 +476,7 @@ TEST_F(Editing, AMovedHandleKeepsItsWeightsAndARebindIsOffered)
   EXPECT_EQ(this->document.rebind_reason(), "Since the last bind, 1 handle was moved.");
   this->document.history()->undo();
   EXPECT_EQ(this->document.rebind_reason(), "");
-  // A pose or a name does not require a new bind.
+  // After a change of a pose or of a name, no new bind is required.
   this->rename(0, "foot");
   ASSERT_TRUE(this->document.commit_handles("rename").ok());
   this->document.set_mode(1, 2);
@@ -537,7 +540,8 @@ TEST(FuzzDocument, UndoOfEverythingIsTheBeginningAndRedoTheEnd)
     document.set_mesh(ball(), "ball");
     document.set_handles(to_polydata(three_handles()), "handles");
     document.history()->clear();
-    std::vector<std::string> states{ fingerprint(document) }; // state after each step
+    // Fingerprint of the document after each step.
+    std::vector<std::string> states{ fingerprint(document) };
     for (int edit = 0; edit < 60; ++edit)
     {
       const int handles = static_cast<int>(document.handles().size());
@@ -564,7 +568,7 @@ TEST(FuzzDocument, UndoOfEverythingIsTheBeginningAndRedoTheEnd)
         case 6:
           document.set_mode(pick(handles), pick(3));
           break;
-        case 7: // a drag that ends or is canceled
+        case 7: // drag a handle; the drag ends or is canceled
         {
           const Pose before = document.pose();
           vtkDataArray* transforms = document.handle_data()->GetCellData()->GetArray("Transform");

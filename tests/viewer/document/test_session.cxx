@@ -1,5 +1,5 @@
-// Sessions are restored to the last bit, on this machine and on another. Broken sessions give an
-// error message.
+// Session files restore the work bit by bit, on this machine and on another one. A broken session
+// gives an error message.
 #include "work_test.h"
 
 #include "document/opened_file.h"
@@ -50,7 +50,7 @@ void write(const std::string& path, const Session& session)
   ASSERT_TRUE(status.ok()) << status.message;
 }
 
-/// Return a work in which every part has content.
+/// Return work in which every part has content.
 Work full_work()
 {
   Document document;
@@ -63,7 +63,7 @@ Work full_work()
       pose[k].transform.data()[c] = std::cos(1.0 + 12.0 * k + c) / 3.0;
     }
     pose[k].stretch = 1.0 / 3.0;
-    pose[k].twist << -0.0, 1e-310; // neither may become 0
+    pose[k].twist << -0.0, 1e-310; // neither value may become 0 in the file
   }
   pose[1].mode = HandleMode::position;
   document.set_pose(pose, "pose");
@@ -80,12 +80,13 @@ Work full_work()
   document.set_option("pose.method", 2);
   document.set_option("tets.shrink", 1.0 / 3.0);
   document.set_option("weights.bands", false);
-  document.handle_data()->GetPoints()->SetPoint(0, 0.1, 0.2, -0.7); // moved after the bind
+  // This handle is moved after the bind.
+  document.handle_data()->GetPoints()->SetPoint(0, 0.1, 0.2, -0.7);
   document.commit_handles("move");
   return document.work();
 }
 
-/// Return a session that refers to a mesh file, with handles and a pose, unbound.
+/// Return an unbound session that refers to a mesh file, with handles and a pose.
 Session with_file(const test::Folder& folder)
 {
   const std::string mesh = folder.write("corner.off", mesh_text);
@@ -123,7 +124,7 @@ TEST(Sessions, ComeBackToTheLastBit)
   EXPECT_EQ(back.view.camera->position, session.view.camera->position);
   EXPECT_EQ(back.view.camera->angle, 22.5);
   EXPECT_TRUE(back.view.camera->parallel);
-  // Documents of both are equal: bound, with the same reason to bind again.
+  // The documents before and after are equal: both are bound, with the same reason to bind again.
   Document before;
   before.replace(session.work);
   Document after;
@@ -197,7 +198,7 @@ TEST(Sessions, AnotherFolderOpensTheSameWork)
   EXPECT_EQ(back.work.mesh_source.path, text(folder / "far/away/meshes/corner.off"));
   EXPECT_EQ(back.work.mesh_source.checksum, session.work.mesh_source.checksum);
 
-  // Companion files are also moved.
+  // The companion files of a session are moved with it.
   Session bound;
   bound.work = full_work();
   std::filesystem::create_directories(folder / "one");
@@ -285,7 +286,7 @@ TEST(Sessions, ADamagedCompanionCostsItsWeightsOnly)
     Document opened;
     opened.replace(back.work);
     EXPECT_FALSE(opened.is_bound());
-    EXPECT_NE(opened.surface(), nullptr); // from its file
+    EXPECT_NE(opened.surface(), nullptr); // the surface is read from its own file
     EXPECT_NE(opened.handle_data(), nullptr);
   }
 }
@@ -351,7 +352,7 @@ TEST(Sessions, KeepEveryMode)
   }
 }
 
-/// This text represents all files that version 1 has written. It must be readable permanently.
+/// This text represents all files of version 1. Later versions must be able to read it.
 TEST(Sessions, SchemaOneIsRead)
 {
   const test::Folder folder;
@@ -419,7 +420,7 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
   {
     refused(whole.substr(0, size), "cut");
   }
-  // Replace every value by every wrong type in turn, and remove it.
+  // Replace every value by a value of every wrong type, and remove it.
   const auto flat = good.flatten();
   const std::vector<json> wrong = { json("text"), json(-7.5e300), json(json::array()),
     json(json::object()), json(true), json() };
@@ -434,7 +435,7 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
       Session result;
       const Status status = read_session(text(folder / "maybe.bindpose"), result);
       ++tried;
-      // Some replacements are valid. Work that is read must be usable.
+      // Some replacements are valid. The work that is then read must be usable.
       if (status.ok())
       {
         Document document;
@@ -494,7 +495,7 @@ TEST(PoseFiles, OfTheWindowSayWhatTheyCannotHold)
   const Handles handles = { test::point_handle("hand", Vec3(1, 0, 0)) };
   Pose pose(1);
   EXPECT_TRUE(write_poses({ pose }, handles, folder / "plain.json").warnings.empty());
-  pose[0].transform(0, 1) = 0.5; // a shear
+  pose[0].transform(0, 1) = 0.5; // this is a shear
   const Status status = write_poses({ pose }, handles, folder / "sheared.json");
   EXPECT_TRUE(status.ok());
   ASSERT_EQ(status.warnings.size(), 1U);

@@ -1,7 +1,8 @@
 #ifndef bindpose_tests_viewer_document_work_test_h
 #define bindpose_tests_viewer_document_work_test_h
 
-// A small bound shape, and fingerprints of a document that cover every byte of the user's work.
+// A small bound shape for tests of the document, and fingerprints that cover every byte of the
+// user's work.
 
 #include "document/document.h"
 
@@ -51,7 +52,7 @@ inline Handles three_handles()
   return handles;
 }
 
-/// Return arbitrary weights whose rows sum to one.
+/// Return arbitrary weights. Each row sums to one.
 inline Weights some_weights(Index points, Index columns, double phase)
 {
   Weights weights(points, columns);
@@ -84,7 +85,7 @@ inline void bind(Document& document, double phase)
     with_weights(document.work().surface, document.bound_handles(), phase), nullptr);
 }
 
-/// Open a bound document with the three handles.
+/// Open a document with three handles and bind it.
 inline void open_bound(Document& document)
 {
   document.set_mesh(ball(), "ball");
@@ -129,7 +130,8 @@ inline void print_data(std::ostream& out, vtkPolyData* data, bool pose_arrays = 
     { static_cast<vtkDataSetAttributes*>(data->GetPointData()),
       static_cast<vtkDataSetAttributes*>(data->GetCellData()) })
   {
-    std::map<std::string, std::string> arrays; // the order does not matter
+    // A map, because the order of the arrays does not matter.
+    std::map<std::string, std::string> arrays;
     for (int a = 0; a < attributes->GetNumberOfArrays(); ++a)
     {
       vtkAbstractArray* array = attributes->GetAbstractArray(a);
@@ -164,7 +166,7 @@ inline void print_data(std::ostream& out, vtkPolyData* data, bool pose_arrays = 
   out << '\n';
 }
 
-/// Print minus zero as zero, as same_pose() compares.
+/// Print a pose. Minus zero is printed as zero, because same_pose() treats them as equal.
 inline void print_pose(std::ostream& out, const Pose& pose)
 {
   for (const HandlePose& handle : pose)
@@ -188,7 +190,7 @@ inline std::string digest(const std::string& text)
     .toStdString();
 }
 
-/// Return a digest of each part of a work, in the form in which it is stored.
+/// Return a digest of each part of the work, computed from its stored form.
 inline std::map<std::string, std::string> fingerprints(const Work& work)
 {
   std::map<std::string, std::string> parts;
@@ -203,7 +205,7 @@ inline std::map<std::string, std::string> fingerprints(const Work& work)
   add("handles", [&](std::ostream& out) { print_data(out, work.handles, false); });
   add("bound handles", [&](std::ostream& out) { print_data(out, work.bound_handles, false); });
   add("pose", [&](std::ostream& out) { print_pose(out, work.pose); });
-  // Sorted by name, whatever the order in which they are stored.
+  // The key poses are sorted by name, because the order of storage does not matter.
   add("key poses",
     [&](std::ostream& out)
     { out << nlohmann::json(to_json(work.key_poses ? *work.key_poses : PoseShelf())).dump(); });
@@ -236,7 +238,8 @@ inline std::string fingerprint(const Work& work)
   return digest(text);
 }
 
-/// Return the fingerprint of a document: the stored work, and the data that the widget uses.
+/// Return the fingerprint of a document: the work as it is stored, and the data that the handle
+/// widget uses.
 inline std::string fingerprint(const Document& document)
 {
   std::ostringstream out;

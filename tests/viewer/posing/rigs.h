@@ -1,7 +1,8 @@
 #ifndef bindpose_tests_viewer_posing_rigs_h
 #define bindpose_tests_viewer_posing_rigs_h
 
-// Shapes with artificial weights, as datasets for the filters and as the source of posers.
+// Shapes with artificial weights. They are datasets for the filters, and sources (PoseSource) for
+// the posers of the window.
 
 #include "posing/pose_source.h"
 
@@ -22,7 +23,7 @@
 namespace bindpose::test
 {
 
-/// Return weights that decrease with the distance from the handles' centers.
+/// Return weights that decrease with the distance from the centers of the handles.
 inline Weights made_up_weights(const Points& points, const Handles& handles)
 {
   Weights weights(points.rows(), static_cast<Index>(handles.size()));
@@ -41,8 +42,8 @@ inline Weights made_up_weights(const Points& points, const Handles& handles)
 
 struct Rig
 {
-  vtkSmartPointer<vtkPolyData> surface; ///< with Weights
-  vtkSmartPointer<vtkUnstructuredGrid> tets; ///< with Weights
+  vtkSmartPointer<vtkPolyData> surface; ///< surface with the array Weights
+  vtkSmartPointer<vtkUnstructuredGrid> tets; ///< tets with the array Weights
   vtkSmartPointer<vtkPolyData> handles;
   Handles list;
   std::vector<Index> cells;
@@ -55,8 +56,8 @@ struct Rig
   }
 };
 
-/// Return a beam of tets along x with its boundary as surface, two points next to it and two bones
-/// along it.
+/// Return a beam of tets along x, with its boundary as the surface. It has two points next to it
+/// and two bones along it.
 inline Rig beam()
 {
   Rig rig;
@@ -77,7 +78,7 @@ inline Rig beam()
   return rig;
 }
 
-/// Return a pose that bends, turns, stretches and twists.
+/// Return a pose that bends, rotates, stretches and twists the shape.
 inline Pose some_pose(const Handles& handles, double amount = 1.0)
 {
   Pose pose(handles.size());

@@ -1,4 +1,5 @@
-// A moving body: it replays bit by bit, keeps its velocity when it is released, and comes to rest.
+// A moving body (recorded dynamics): a replay gives the same bits, a released body keeps its
+// velocity, and the motion ends at rest.
 #include "posing/body.h"
 #include "rigs.h"
 
@@ -55,7 +56,7 @@ TEST_F(MovingBeam, SagsUnderGravityAndReplaysBitByBit)
   }
   EXPECT_LT(this->posed.col(1).minCoeff(), end - 0.01);
   ASSERT_EQ(this->body.run().steps.size(), 40U);
-  // The two steps share one pose.
+  // Both recorded steps refer to the same pose object.
   EXPECT_EQ(this->body.run().steps[0].pose, this->body.run().steps[19].pose);
   EXPECT_NE(this->body.run().steps[19].pose, this->body.run().steps[20].pose);
 
@@ -83,7 +84,7 @@ TEST_F(MovingBeam, KeepsItsVelocityWhenItIsLetGo)
   this->options.gravity = 0.0;
   this->options.damping = 0.0;
   Pose pose = this->start;
-  pose[3].mode = HandleMode::position; // constrained, and pulled along y
+  pose[3].mode = HandleMode::position; // the handle is constrained and pulled along y
   for (int k = 1; k <= 6; ++k)
   {
     pose[3].transform(1, 3) = 0.05 * k;
@@ -96,7 +97,7 @@ TEST_F(MovingBeam, KeepsItsVelocityWhenItIsLetGo)
   {
     this->step(pose);
   }
-  // The handle is no longer pulled, but the body keeps moving.
+  // After the handle is released, the body continues to move.
   EXPECT_GT((this->posed - held).col(1).maxCoeff(), 0.02);
   EXPECT_NE(Vec3(this->body.transforms()[3].col(3)), before);
 }

@@ -1,4 +1,5 @@
-// Stored poses are restored exactly, and blends between keys follow the documented paths.
+// Stored poses and key frames: poses are restored exactly, and interpolation between keys follows
+// the documented paths.
 #include "posing/key_frames.h"
 #include "posing/pose_blend.h"
 #include "posing/pose_library.h"
@@ -61,10 +62,10 @@ TEST(Blend, EndsAreExactAndTheMiddleIsHalfway)
   expect_same(blend(handles(), at(0.3), at(1), 1.0), at(1));
   const Pose middle = blend(handles(), turned(20), turned(80), 0.5);
   EXPECT_LT((middle[0].transform - turned(50)[0].transform).cwiseAbs().maxCoeff(), 1e-14);
-  // The blend takes the shorter way and stays rigid.
+  // The interpolation takes the shorter rotation and stays rigid.
   const Pose across = blend(handles(), turned(170), turned(-170), 0.5);
   EXPECT_LT((across[0].transform - turned(180)[0].transform).cwiseAbs().maxCoeff(), 1e-13);
-  // Equal transforms are preserved exactly.
+  // Between equal transforms, the interpolation keeps all bits.
   const Pose still = blend(handles(), at(0.7), at(0.7), 0.4);
   EXPECT_EQ(still[0].transform, at(0.7)[0].transform);
 }
@@ -72,7 +73,7 @@ TEST(Blend, EndsAreExactAndTheMiddleIsHalfway)
 TEST(Blend, ChildrenStayOnTheirParents)
 {
   // The upper arm rotates by 180 degrees. Halfway, the elbow must be one length away from the
-  // shoulder, and the forearm, which has no rotation of its own, must be straight.
+  // shoulder. The forearm has no rotation of its own and must be straight.
   Handles arm{ test::bone_handle("upper", Vec3(0, 0, 0), Vec3(1, 0, 0)),
     test::bone_handle("fore", Vec3(1, 0, 0), Vec3(2, 0, 0)) };
   arm[1].parent = 0;
@@ -83,7 +84,7 @@ TEST(Blend, ChildrenStayOnTheirParents)
   const Pose middle = blend(arm, rest, swung, 0.5);
   EXPECT_LT((middle[1].transform * Vec3(1, 0, 0).homogeneous() - Vec3(0, 1, 0)).norm(), 1e-9);
   EXPECT_LT((middle[1].transform * Vec3(2, 0, 0).homogeneous() - Vec3(0, 2, 0)).norm(), 1e-9);
-  // Splines also preserve the length.
+  // Spline interpolation also preserves the length.
   KeyFrames keys;
   keys.interpolation = KeyInterpolation::spline;
   for (const double t : { 0.0, 1.0, 2.0 })
@@ -98,7 +99,7 @@ TEST(Blend, ChildrenStayOnTheirParents)
     EXPECT_NEAR((pose[1].transform * Vec3(1, 0, 0).homogeneous()).norm(), 1.0, 1e-12) << t;
     EXPECT_EQ(pose[0].transform, pose[1].transform) << t;
   }
-  // A handle that is missing in a stored pose follows its parent.
+  // If a stored pose does not contain a handle, the handle follows its parent.
   const Pose known = NamedPose({ arm[0] }, { swung[0] }).of(arm, rest);
   EXPECT_LT((known[1].transform - swung[0].transform).cwiseAbs().maxCoeff(), 1e-15);
 }
@@ -127,7 +128,7 @@ TEST(HandleValues, AreReadBackAsTyped)
     EXPECT_FALSE(read.more);
   };
   expect_typed(values_of(handles, pose, 0));
-  // Values of a child are relative to its parent: they do not change if the parent moves.
+  // The values of a child are relative to its parent, so they do not change if the parent moves.
   handles[1].parent = 0;
   const Pose before = pose;
   pose = with_values(handles, pose, 1, typed);
@@ -138,7 +139,7 @@ TEST(HandleValues, AreReadBackAsTyped)
   expect_typed(values_of(handles, pose, 1));
   EXPECT_GT((pose[1].transform - before[1].transform).norm(), 0.1);
   handles[1].parent = -1;
-  // At 90 degrees about y, turns about x and z are equivalent.
+  // If the rotation about y is 90 degrees, rotations about x and about z are equivalent.
   typed.degrees = Vec3(20, 90, 0);
   pose = with_values(handles, pose, 0, typed);
   EXPECT_LT(
@@ -162,10 +163,10 @@ TEST(KeyFrames, HitTheirKeysExactly)
     expect_same(keys.pose_at(0.25, handles(), Pose(2)), at(0.2));
     expect_same(keys.pose_at(1.0, handles(), Pose(2)), at(1));
     expect_same(keys.pose_at(2.0, handles(), Pose(2)), at(-0.5));
-    expect_same(keys.pose_at(0.0, handles(), Pose(2)), at(0.2)); // before the first
-    expect_same(keys.pose_at(9.0, handles(), Pose(2)), at(-0.5)); // after the last
+    expect_same(keys.pose_at(0.0, handles(), Pose(2)), at(0.2)); // the time is before the first key
+    expect_same(keys.pose_at(9.0, handles(), Pose(2)), at(-0.5)); // the time is after the last key
     const auto frames = keys.frames(handles(), Pose(2));
-    ASSERT_EQ(frames.size(), 49U); // 0 to 2 s at 24 frames per second
+    ASSERT_EQ(frames.size(), 49U); // the frames are from 0 to 2 s at 24 frames per second
     expect_same(frames[24], at(1));
     expect_same(frames[6], at(0.2));
     // The motion is continuous at a key.
@@ -183,8 +184,8 @@ TEST(KeyFrames, PivotsGoStraightOrOnAParabola)
   }
   EXPECT_NEAR(keys.pose_at(1.5, handles(), Pose(2))[1].transform(0, 3), 2.5, 1e-14);
   keys.interpolation = KeyInterpolation::spline;
-  // Slopes are those of parabolas. A parabola through all keys is therefore reproduced between
-  // inner keys.
+  // The slopes at the keys are those of parabolas. A parabola through all keys is therefore
+  // reproduced between inner keys.
   for (const double t : { 1.1, 1.5, 1.9 })
   {
     EXPECT_NEAR(keys.pose_at(t, handles(), Pose(2))[1].transform(0, 3), t * t, 1e-13);
@@ -196,7 +197,7 @@ TEST(KeyFrames, AreSetMovedAndRemoved)
   KeyFrames keys;
   EXPECT_EQ(keys.set(1.0, NamedPose(handles(), at(1))), 0U);
   EXPECT_EQ(keys.set(0.5, NamedPose(handles(), at(2))), 0U);
-  EXPECT_EQ(keys.set(1.0 + 1e-4, NamedPose(handles(), at(3))), 1U); // replaces the first one
+  EXPECT_EQ(keys.set(1.0 + 1e-4, NamedPose(handles(), at(3))), 1U); // this replaces the key at 1.0
   ASSERT_EQ(keys.keys().size(), 2U);
   EXPECT_EQ(keys.move(0, 4.0), 1U);
   EXPECT_EQ(keys.duration(), 4.0);
@@ -236,7 +237,7 @@ TEST(KeyFrames, AreTheSameAfterASession)
     const Status status = from_json(Json::parse(broken), read);
     EXPECT_EQ(status.code, StatusCode::invalid_input) << broken;
     EXPECT_FALSE(status.message.empty());
-    EXPECT_EQ(read.keys().size(), 2U); // the keys are kept
+    EXPECT_EQ(read.keys().size(), 2U); // the keys are not changed by the failure
   }
 }
 

@@ -1,5 +1,5 @@
-// Posers are compared with the filters, which call the same kernels in another way. All bits must
-// be equal.
+// Posers of the window are compared with the filters, which call the same kernels in another way.
+// The results must have the same bits.
 #include "posing/poser.h"
 #include "rigs.h"
 
@@ -27,7 +27,7 @@ Points points_of(vtkDataSet* data)
   return to_points(data).view();
 }
 
-/// Return the filter's result for the rig in this pose.
+/// Return the filter's result for the rig in the given pose.
 Points by_filter(vtkPoseAlgorithm* filter, const Rig& rig, const Pose& pose, vtkDataSet* mesh)
 {
   vtkNew<vtkPolyData> handles;
@@ -93,7 +93,7 @@ TEST(Poser, AnIgnoredStretchIsSaid)
     EXPECT_EQ(warnings(method, rest), 0) << to_string(method);
     EXPECT_EQ(warnings(method, rounded), 0) << to_string(method);
   }
-  // As-rigid-as-possible deformation uses the stretch for the positions of both ends of a bone.
+  // As-rigid-as-possible methods use the stretch to compute the positions of both ends of a bone.
   stretched[3].mode = HandleMode::ends;
   EXPECT_EQ(warnings(PoseMethod::full_arap, stretched), 0);
   EXPECT_EQ(warnings(PoseMethod::linear_blend, stretched), 1);
@@ -154,7 +154,7 @@ TEST(Poser, ReducedArapGivesWhatTheFilterGives)
     PoseOptions options = with(PoseMethod::reduced_arap);
     options.extra_weights = extra;
     EXPECT_EQ(by_poser(rig, pose, options), by_filter(filter, rig, pose, rig.surface));
-    // In tets: the surface's points are the first points of the tets, and have the same positions.
+    // The points of the surface are the first points of the tets, with the same positions.
     vtkNew<vtkReducedARAP> in_tets;
     in_tets->SetNumberOfExtraWeights(static_cast<int>(extra));
     options.in_tets = true;
@@ -180,7 +180,7 @@ TEST(Poser, RotationsAreTheFilters)
     options.in_tets = in_tets;
     ExecutionContext context;
     const auto poser = make_poser(options.method, rig.source());
-    EXPECT_EQ(poser->rotations(), nullptr); // nothing is bound yet
+    EXPECT_EQ(poser->rotations(), nullptr); // nothing has been bound
     ASSERT_TRUE(poser->bind(context, options).usable());
     Points posed;
     ASSERT_TRUE(poser->solve(context, pose, options, 0, posed).usable());
@@ -198,7 +198,7 @@ TEST(Poser, RotationsAreTheFilters)
     }
     const auto clusters = found->of_point;
     ASSERT_TRUE(poser->solve(context, Pose(4), options, 0, posed).usable());
-    EXPECT_EQ(poser->rotations()->of_point, clusters); // the clusters of the bind
+    EXPECT_EQ(poser->rotations()->of_point, clusters); // the clusters are those of the bind
   }
   EXPECT_EQ(make_poser(PoseMethod::linear_blend, rig.source())->rotations(), nullptr);
 }
@@ -216,7 +216,7 @@ TEST(Poser, FullArapGivesWhatTheFilterGives)
   const Points all = by_filter(in_tets, rig, pose, rig.tets);
   const Points surface = by_poser(rig, pose, options);
   EXPECT_EQ(surface, all.topRows(surface.rows()));
-  // Each tet has a rotation; points have none.
+  // Each tet has a rotation; the points have no rotations.
   ExecutionContext context;
   const auto poser = make_poser(options.method, rig.source());
   Points posed;
@@ -283,7 +283,7 @@ TEST(Poser, DragsDoNotBindAgain)
       Pose pose = some_pose(rig.list, 0.1 * drag);
       pose[2].mode = static_cast<HandleMode>(drag % 3);
       ASSERT_TRUE(poser->solve(context, pose, options, 5, posed).usable()) << method;
-      // Options that apply at pose time do not require a bind either.
+      // Options that apply at pose time do not require a bind.
       options.iterations += 1;
       options.budget_microseconds += 1.0;
     }
@@ -305,7 +305,7 @@ TEST(Poser, SkinningMethodsShareTheirBind)
     EXPECT_TRUE(poser->is_bound(options));
   }
   options.method = PoseMethod::rotation_centers;
-  EXPECT_FALSE(poser->is_bound(options)); // the centers of rotation are missing
+  EXPECT_FALSE(poser->is_bound(options)); // the centers of rotation are not computed
   ASSERT_TRUE(poser->bind(context, options).usable());
   EXPECT_EQ(poser->binds(), 2);
   options.method = PoseMethod::linear_blend;
@@ -358,7 +358,7 @@ TEST(Poser, WhatCannotBePosedIsSaid)
   EXPECT_THAT(
     poser->solve(context, Pose(3), options, 0, posed).message, testing::HasSubstr("handles"));
 
-  // Stretchable bones without a bone equal linear blending, and a warning says so.
+  // Without bones, stretchable-bone skinning equals linear blend skinning, and a warning says this.
   Rig points = beam();
   for (Handle& handle : points.list)
   {

@@ -1,4 +1,5 @@
-// The camera shows the whole shape, as large as possible, from the documented side.
+// The camera shows the whole shape, as large as possible, from the direction that the documentation
+// defines.
 #include "scene/camera.h"
 #include "support/meshes.h"
 
@@ -15,8 +16,8 @@ using namespace bindpose;
 
 namespace
 {
-// Return normalized device coordinates: the viewport is [-1, 1]^2, visible points have a depth in
-// [-1, 1].
+// Return normalized device coordinates. The viewport is [-1, 1]^2, and visible points have a depth
+// in [-1, 1].
 Points project(vtkCamera* camera, double aspect, const Points& points)
 {
   const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(
@@ -65,7 +66,8 @@ TEST(Camera, FitsTightlyFromEverywhereWithoutClipping)
         const Points seen = project(camera, aspect, points);
         const Eigen::Vector2d upper = seen.leftCols<2>().colwise().maxCoeff();
         const Eigen::Vector2d lower = seen.leftCols<2>().colwise().minCoeff();
-        // In one direction both margins are exact; in the other the shape is within them.
+        // In one direction both margins are exact. In the other direction the margins are at least
+        // as large.
         const double tightest = std::max(upper[0] - lower[0], upper[1] - lower[1]);
         EXPECT_NEAR(tightest, 1.8, 1e-6);
         EXPECT_LE(upper.maxCoeff(), 0.9 + 1e-6);
@@ -85,15 +87,16 @@ TEST(Camera, LooksAtTheBroadSide)
     box.add(size);
     return view_direction(choose_frame(box, up), View());
   };
-  // y up; wide in x: from +z; wide in z: from +x; always from above.
+  // If y is up, shapes that are wide in x are viewed from +z, and shapes that are wide in z from
+  // +x, always from above.
   EXPECT_GT(direction(Vec3(3, 2, 1), "auto")[2], 0.8);
   EXPECT_GT(direction(Vec3(1, 2, 3), "auto")[0], 0.8);
   EXPECT_GT(direction(Vec3(3, 2, 1), "auto")[1], 0.2);
-  // z up: from -y, or from +x if the shape is long in y.
+  // If z is up, shapes are viewed from -y, or from +x if they are long in y.
   EXPECT_LT(direction(Vec3(3, 1, 2), "z")[1], -0.8);
   EXPECT_GT(direction(Vec3(1, 3, 2), "z")[0], 0.8);
   EXPECT_GT(direction(Vec3(3, 1, 2), "z")[2], 0.2);
-  // Flat shapes are seen straight from the front.
+  // Flat shapes are viewed perpendicularly.
   EXPECT_NEAR(direction(Vec3(3, 2, 0), "auto")[2], 1.0, 1e-12);
   EXPECT_NEAR(direction(Vec3(3, 0, 2), "auto")[1], -1.0, 1e-12);
   EXPECT_NEAR(direction(Vec3(0, 3, 2), "auto")[0], 1.0, 1e-12);
@@ -158,11 +161,12 @@ TEST(Camera, WhoLooksAtAPartGoesOnLookingAtIt)
   fit_camera(camera, points, choose_frame(bounding_box(points), "auto"), View(), 2.0);
   const Vec3 focus(0.2, 0.3, 0.4);
   camera->SetFocalPoint(focus.data());
-  camera->SetPosition(Vec3(focus + Vec3(0.5, -0.6, 0.3)).data()); // within the extent of the shape
+  // This position is within the extent of the shape.
+  camera->SetPosition(Vec3(focus + Vec3(0.5, -0.6, 0.3)).data());
   keep_in_view(camera, points, 2.0, 1.0);
   EXPECT_EQ(Vec3(camera->GetFocalPoint()), focus);
   EXPECT_GT(project(camera, 1.0, points).leftCols<2>().cwiseAbs().maxCoeff(), 1.0);
-  // An empty shape and an unchanged view have no effect.
+  // If the aspect ratio does not change, or if the shape is empty, the camera does not change.
   const Vec3 place(camera->GetPosition());
   keep_in_view(camera, points, 1.0, 1.0);
   keep_in_view(camera, Points(0, 3), 1.0, 2.0);
@@ -183,11 +187,12 @@ TEST(Plane, IsFoundWhateverItIs)
   EXPECT_LT((normal - Vec3(0, -1, 0)).norm(), 1e-9);
   ASSERT_TRUE(find_plane(Points(square * tilted.transpose()), normal));
   EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
-  Points lopsided = square; // the center of its box is not in its plane
+  Points lopsided = square; // the center of the shape's bounding box is not in its plane
   lopsided.col(1) += square.col(0).cwiseAbs2();
   ASSERT_TRUE(find_plane(Points(lopsided * tilted.transpose()), normal));
   EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
-  // Points in single precision, as in files, count as planar. Solid shapes and lines do not.
+  // Planar points that were rounded to single precision, as in files, count as planar. Solid shapes
+  // and lines do not.
   const Points rounded = Points(1e4 * square * tilted.transpose()).cast<float>().cast<double>();
   EXPECT_TRUE(find_plane(rounded, normal));
   EXPECT_FALSE(find_plane(test::sphere(2).points, normal));

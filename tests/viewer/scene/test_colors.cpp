@@ -1,4 +1,5 @@
-// Color maps have the documented properties.
+// Color maps have the documented properties, such as steps of lightness and colors for the
+// color-blind.
 #include "scene/colors.h"
 
 #include "vtkMath.h"
@@ -28,8 +29,8 @@ double lab_distance(const Rgb& a, const Rgb& b)
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
-// Return the color as seen with color blindness of one type: matrices of Machado, Oliveira and
-// Fernandes 2009, severity 1, applied to linear light.
+// Return the color that a viewer with one type of color blindness perceives. The matrices of
+// Machado, Oliveira and Fernandes 2009 with severity 1 are applied to linear light.
 Rgb seen_by(const std::array<std::array<double, 3>, 3>& matrix, const Rgb& color)
 {
   const auto to_linear = [](double c)
@@ -93,7 +94,7 @@ TEST(Colors, WindingNumbersOfFiveKindsAreToldApartByAllEyes)
       }
     }
   }
-  // Rounding around 0 and 1 is invisible; a deviation of 0.03 is visible.
+  // Round-off at 0 and 1 does not change the visible color; a deviation of 0.03 does.
   EXPECT_LT(lab_distance(winding_color(-1e-9), winding_color(1e-9)), 1e-3);
   EXPECT_LT(lab_distance(winding_color(1.0 - 1e-9), winding_color(1.0 + 1e-9)), 1e-3);
   EXPECT_GT(lab_distance(winding_color(-0.03), winding_color(0.0)), 15.0);

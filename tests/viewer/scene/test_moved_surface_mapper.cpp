@@ -1,5 +1,5 @@
-// After any change the picture equals that of a new mapper. If only points have moved, only points
-// and normals are uploaded.
+// MovedSurfaceMapper: after any change the picture equals that of a new VTK mapper. If only points
+// have moved, only points and normals are sent to the graphics card.
 #include "scene/moved_surface_mapper.h"
 #include "scene/shaded_surface.h"
 
@@ -64,7 +64,7 @@ class MovedSurface : public testing::Test
 protected:
   MovedSurface() { this->scene.picture(); }
 
-  /// Compare with the picture of a new VTK mapper.
+  /// Compare the picture with that of a new VTK mapper.
   void expect_right_picture()
   {
     Scene<vtkOpenGLPolyDataMapper> fresh(this->shaded.polydata());
@@ -118,7 +118,7 @@ TEST_F(MovedSurface, SeesNewColorsTrianglesAndMaterials)
   EXPECT_EQ(this->scene.mapper->moves(), 0);
 }
 
-/// Return the fraction of the bytes of two pictures that differ by more than rounding.
+/// Return the fraction of the bytes of two pictures that differ by more than round-off.
 double difference(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b)
 {
   if (a.size() != b.size())
@@ -135,7 +135,7 @@ double difference(const std::vector<unsigned char>& a, const std::vector<unsigne
 
 TEST(MovedSurfaceMapper, DrawsShapesOfAnySizeAtTheirPlaceWhileTheyGrow)
 {
-  // VTK's mapper begins to shift and scale points at a diagonal of 31.6, and below 0.0316.
+  // VTK's mapper shifts and scales points if the diagonal is above 31.6 or below 0.0316.
   for (const double size : { 1e-3, 1.0, 20.0, 1e4 })
   {
     const TriangleMesh mesh = test::sphere(3, 0.5 * size);
@@ -184,7 +184,7 @@ TEST(MovedSurfaceMapper, AShapeMayBeMovedFarAwayAndBack)
 
 TEST(MovedSurfaceMapper, ShapesFarFromTheOriginKeepTheirPlaces)
 {
-  // Adjacent floats differ by about 0.06 there.
+  // At this position, adjacent floats differ by about 0.06.
   const TriangleMesh mesh = test::sphere(3);
   Points far = mesh.points;
   far.rowwise() += Eigen::RowVector3d(1e6, 0, 0);
@@ -206,10 +206,10 @@ TEST(MovedSurfaceMapper, ShapesFarFromTheOriginKeepTheirPlaces)
 
 TEST(MovedSurfaceMapper, BoundsAreThoseOfWhatIsDrawn)
 {
-  TriangleMesh mesh = test::sphere(5, 2.0); // more points than a block of threads
+  TriangleMesh mesh = test::sphere(5, 2.0); // there are more points than in a block of one thread
   const Index count = mesh.points.rows();
   mesh.points.conservativeResize(count + 1, 3);
-  mesh.points.row(count) << 100.0, 100.0, 100.0; // used by no triangle
+  mesh.points.row(count) << 100.0, 100.0, 100.0; // no triangle uses this point
   ShadedSurface shaded(to_polydata(mesh.points, mesh.triangles));
   EXPECT_EQ(shaded.polydata()->GetNumberOfPoints(), count);
   vtkNew<MovedSurfaceMapper> mapper;

@@ -1,4 +1,5 @@
-// Invalid pictures and their error messages. Files are written completely or not at all.
+// Requests for pictures that cannot be drawn, and their error messages. Picture files are written
+// completely or not at all.
 #include "conversion.h"
 #include "scene/picture.h"
 #include "support/files.h"
@@ -139,7 +140,8 @@ TEST(Picture, DrawsEveryKindOfData)
   image->GetPointData()->GetScalars()->SetName("height");
   image->GetPointData()->GetScalars()->Fill(1.0);
   EXPECT_TRUE(try_to_draw({ { image, nullptr, "" } }, options).ok());
-  // A dataset without the array is drawn plain, next to one that has it.
+  // A dataset without the array is drawn without colors. The dataset in the other tile has the
+  // array.
   options.array = "Weights";
   EXPECT_TRUE(try_to_draw({ { ball(), nullptr, "a" }, { cloud, nullptr, "b" } }, options).ok());
 }

@@ -1,5 +1,5 @@
-// Colors of rotation clusters: touching clusters differ, every cell has the cluster of most of its
-// points, and invalid numbers are refused.
+// Colors of rotation clusters: clusters that touch have different colors, every cell belongs to the
+// cluster of most of its points, and invalid cluster ids are refused.
 #include "scene/rotation_colors.h"
 
 #include "conversion.h"
@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Return a sphere with `count` slices around its axis, each a cluster.
+/// Return a sphere with `count` clusters, which are slices around its axis.
 vtkSmartPointer<vtkPolyData> slices(const TriangleMesh& ball, int count)
 {
   auto data = to_polydata(ball.points, ball.triangles);
@@ -55,7 +55,7 @@ TEST(RotationColors, ACellHasTheClusterOfMostOfItsPoints)
   data->GetPointData()->AddArray(clusters);
   const auto of_cells = clusters_of_cells(data);
   EXPECT_EQ(of_cells->GetValue(0), 2.0);
-  EXPECT_EQ(of_cells->GetValue(1), 1.0); // the lowest of equally frequent clusters
+  EXPECT_EQ(of_cells->GetValue(1), 1.0); // of equally frequent clusters, the lowest one
   EXPECT_EQ(of_cells->GetValue(2), 1.0); // points without a cluster do not count
   clusters->Fill(-1);
   EXPECT_EQ(clusters_of_cells(data)->GetValue(0), -1.0);
@@ -64,7 +64,7 @@ TEST(RotationColors, ACellHasTheClusterOfMostOfItsPoints)
 TEST(RotationColors, ClustersThatTouchDiffer)
 {
   const TriangleMesh ball = test::sphere(4);
-  for (const int count : { 2, 5, 24, 25, 49 }) // the last one reuses the first color
+  for (const int count : { 2, 5, 24, 25, 49 }) // the last count reuses the first color
   {
     const auto data = slices(ball, count);
     ASSERT_TRUE(check_clusters({ data }).ok());

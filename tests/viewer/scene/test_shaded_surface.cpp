@@ -1,4 +1,5 @@
-// Sharp edges stay sharp, smooth regions stay smooth, and a moved surface equals a new one.
+// ShadedSurface computes normals for shading. Sharp edges stay sharp, smooth regions stay smooth,
+// and a moved surface equals a new one.
 #include "conversion.h"
 #include "scene/shaded_surface.h"
 #include "support/meshes.h"
@@ -48,7 +49,7 @@ TEST(ShadedSurface, MovesAsTheInputDoes)
 {
   const TriangleMesh mesh = test::join(test::cube(), test::sphere(2, 1.0, Vec3(3, 0, 0)));
   ShadedSurface surface(to_polydata(mesh.points, mesh.triangles));
-  // A rigid motion turns the normals and does not change which edges are sharp.
+  // A rigid motion rotates the normals. It does not change which edges are sharp.
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).matrix();
   Points moved = mesh.points * turn.transpose();
   moved.rowwise() += Eigen::RowVector3d(5, 6, 7);
@@ -73,12 +74,12 @@ TEST(ShadedSurface, MovesAsTheInputDoes)
 
 namespace
 {
-/// Return a box of quads with numbered sides and corners.
+/// Return a box of quads with arrays that number its faces and corners.
 vtkSmartPointer<vtkPolyData> numbered_box(double first)
 {
   vtkNew<vtkCubeSource> source;
   source->Update();
-  vtkNew<vtkCleanPolyData> joined; // sharp edges split it again
+  vtkNew<vtkCleanPolyData> joined; // the shaded surface splits the points again at sharp edges
   joined->SetInputConnection(source->GetOutputPort());
   joined->Update();
   auto box = vtkSmartPointer<vtkPolyData>::New();
@@ -118,7 +119,7 @@ TEST(ShadedSurface, CarriesArraysOfPointsAndCells)
   }
   for (Index t = 0; t < 12; ++t)
   {
-    // The side that contains the triangle's corners.
+    // Find the face of the box that contains the corners of the triangle.
     vtkNew<vtkIdList> corners;
     const auto side = static_cast<vtkIdType>(at(drawn->GetCellData(), "Sides", t) - 10.0);
     box->GetCellPoints(side, corners);

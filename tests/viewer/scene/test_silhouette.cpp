@@ -36,7 +36,7 @@ std::vector<Silhouette::Edge> found(const TriangleMesh& mesh, const Eye& eye)
   return edges;
 }
 
-/// Return the edges as pairs of points, the lower one first.
+/// Return the edges as pairs of points, with the lower id first.
 std::set<std::pair<Index, Index>> as_set(const std::vector<Silhouette::Edge>& edges)
 {
   std::set<std::pair<Index, Index>> result;
@@ -54,7 +54,8 @@ bool faces(const TriangleMesh& mesh, Index t, const Eye& eye)
   return normal.dot(eye.parallel ? Vec3(-eye.direction) : Vec3(eye.place - corner(0))) >= 0.0;
 }
 
-/// Return the silhouette of a surface with consistent orientation and two triangles per edge.
+/// Return the silhouette of a consistently oriented surface with two triangles per edge, by brute
+/// force.
 std::set<std::pair<Index, Index>> by_twin(const TriangleMesh& mesh, const Eye& eye)
 {
   std::map<std::pair<Index, Index>, std::set<bool>> facing;
@@ -96,12 +97,13 @@ TEST(Silhouette, OfASphereIsTheCircleThatTheEyeSees)
   {
     for (const Index end : edge)
     {
-      EXPECT_NEAR(ball.points(end, 2), 1.0 / distance, 0.05); // where tangents pass through the eye
+      // Expect the height at which tangents pass through the eye.
+      EXPECT_NEAR(ball.points(end, 2), 1.0 / distance, 0.05);
     }
     length += (ball.points.row(edge[0]) - ball.points.row(edge[1])).norm();
   }
   const double circle = 2.0 * EIGEN_PI * std::sqrt(1.0 - 1.0 / (distance * distance));
-  EXPECT_GT(length, circle); // because the silhouette zigzags
+  EXPECT_GT(length, circle); // longer, because the silhouette zigzags
   EXPECT_LT(length, 1.5 * circle);
 }
 
@@ -118,7 +120,7 @@ TEST(Silhouette, IsThatOfATwin)
   along.direction = Vec3(0.3, -0.5, -0.8).normalized();
   const auto edges = as_set(found(ring, along));
   EXPECT_EQ(edges, by_twin(ring, along));
-  along.place = Vec3(100, 100, 100); // a parallel view ignores the position
+  along.place = Vec3(100, 100, 100); // in a parallel view the position has no effect
   EXPECT_EQ(as_set(found(ring, along)), edges);
 }
 
@@ -141,12 +143,13 @@ TEST(Silhouette, OpenEdgesAreAlwaysThere)
 {
   const TriangleMesh sheet = test::grid(4, 3);
   const auto edges = found(sheet, from(Vec3(0.3, 0.2, 5.0)));
-  EXPECT_EQ(edges.size(), 14u); // all edges around the sheet, none inside it
+  // These are all edges around the sheet; inside of the sheet there are none.
+  EXPECT_EQ(edges.size(), 14u);
   Silhouette nothing(Points(0, 3), Triangles(0, 3));
   std::vector<Silhouette::Edge> none = edges;
   nothing.find(Points(0, 3), Eye(), none);
   EXPECT_TRUE(none.empty());
-  // A triangle without area and an edge with three triangles are harmless.
+  // Add a triangle without area, and an edge with three triangles. Both must be harmless.
   TriangleMesh bad = sheet;
   bad.triangles.conservativeResize(bad.triangles.rows() + 2, 3);
   bad.triangles.bottomRows(2) << 0, 0, 1, 0, 1, 7;
@@ -156,7 +159,7 @@ TEST(Silhouette, OpenEdgesAreAlwaysThere)
 TEST(Outline, FollowsShapeAndView)
 {
   const TriangleMesh cube = test::cube();
-  // Its points are split along the edges.
+  // The shape's points are split along the edges.
   ShadedSurface shape(to_polydata(cube.points, cube.triangles));
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkRenderWindow> window;
@@ -171,11 +174,11 @@ TEST(Outline, FollowsShapeAndView)
   EXPECT_TRUE(outline.edges().empty()); // it is hidden
   outline.show(true, 2.0);
   window->Render();
-  EXPECT_EQ(outline.edges().size(), 4u); // edges of the front side
+  EXPECT_EQ(outline.edges().size(), 4u); // these are the edges of the front face
   camera->SetPosition(6, 7, 8);
   window->Render();
-  EXPECT_EQ(outline.edges().size(), 6u); // seen from a corner
-  shape.move(Points(cube.points * 100.0)); // the eye is inside, so no side faces it
+  EXPECT_EQ(outline.edges().size(), 6u); // viewed from a corner
+  shape.move(Points(cube.points * 100.0)); // the eye is now inside, so it is behind all faces
   window->Render();
   EXPECT_TRUE(outline.edges().empty());
   outline.set_shape(nullptr);
@@ -199,5 +202,5 @@ TEST(Silhouette, IsCheap)
   std::printf("silhouette of %d triangles: %.1f ms once, %.2f ms a picture, %d edges\n",
     static_cast<int>(ring.triangles.rows()), first.count(), each.count() / times,
     static_cast<int>(edges.size()));
-  EXPECT_LT(each.count() / times, 20.0); // limit in milliseconds on a busy machine
+  EXPECT_LT(each.count() / times, 20.0); // limit in milliseconds for a busy machine
 }

@@ -70,7 +70,8 @@ TEST(TetCut, SidesAreTheBoundaryOfTheKeptTets)
     }
     EXPECT_EQ(cut.kept_count(), count);
     kept.conservativeResize(count, 4);
-    // The outside and the exposed sides together are exactly the boundary, oriented outward.
+    // The outside facets and the exposed facets together are exactly the boundary of the remaining
+    // tets, oriented outward.
     Triangles all(cut.outside().triangles.rows() + cut.laid_open().triangles.rows(), 3);
     all << cut.outside().triangles, cut.laid_open().triangles;
     EXPECT_EQ(sorted(all), sorted(boundary_triangles(kept)));
@@ -127,7 +128,8 @@ TEST(TetCut, ShrunkTetsKeepTheirShapeAndCenter)
   {
     const Index t = shrunk.tets[4 * i];
     EXPECT_EQ(t, 3 * i);
-    // Its sides are closed and oriented outward, so the divergence theorem gives its volume.
+    // The facets of a shrunk tet are closed and oriented outward, so the divergence theorem gives
+    // its volume.
     const Triangles sides = shrunk.triangles.middleRows(4 * i, 4);
     EXPECT_NEAR(signed_volume(shrunk.points, sides), std::pow(factor, 3.0) * volumes[t], 1e-15);
     const Eigen::RowVector3d center = shrunk.points.middleRows(4 * i, 4).colwise().mean();

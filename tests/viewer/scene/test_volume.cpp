@@ -1,4 +1,4 @@
-// Isosurfaces, slices and other parts of volumes are compared with closed forms. Invalid input is
+// Isosurfaces, slices and other views of volumes are compared with closed forms. Invalid input is
 // refused.
 #include "scene/colors.h"
 #include "scene/curves.h"
@@ -177,14 +177,14 @@ TEST(Volume, WhatIsNoVolumeIsSaid)
 
 TEST(Volume, TheOutsideIsClearAndWhatIsWrongIsNot)
 {
-  for (const double step : { 0.1, 1.0, 6.0 }) // fine and coarse grids
+  for (const double step : { 0.1, 1.0, 6.0 }) // spacings of fine and coarse grids
   {
     for (const double outside : { -0.02, 0.0, 0.01, 0.02 })
     {
       EXPECT_EQ(winding_opacity(outside, step), 0.0);
     }
     const double inside = winding_opacity(1.0, step);
-    // Over a unit of length, 3 % of the light is absorbed on every grid.
+    // Along a unit of length, 3 % of the light is absorbed, for any spacing of the grid.
     EXPECT_NEAR(std::pow(1.0 - inside, 1.0 / step), 0.97, 1e-12);
     EXPECT_NEAR(winding_opacity(0.5, step), 0.6, 1e-12);
     for (const double wrong : { -1.0, 2.0 })
@@ -192,7 +192,8 @@ TEST(Volume, TheOutsideIsClearAndWhatIsWrongIsNot)
       EXPECT_GT(winding_opacity(wrong, step), 4.0 * inside);
       EXPECT_EQ(winding_opacity(wrong, step), winding_opacity(7.0 * wrong, step));
     }
-    for (double w = -1.0; w < 2.0; w += 0.001) // no jump that would be visible as a step
+    // The opacity has no jump that would be visible as an edge.
+    for (double w = -1.0; w < 2.0; w += 0.001)
     {
       EXPECT_NEAR(winding_opacity(w, step), winding_opacity(w + 0.001, step), 0.005) << w;
     }
@@ -213,7 +214,7 @@ TEST(Volume, ALegendOfLevelsNamesEachInItsColor)
       EXPECT_NEAR(field_color[k], expected[k], 0.02);
     }
   }
-  // 0.45 replaces 0.5; the other ticks are kept.
+  // The level 0.45 replaces the tick 0.5. The other ticks are kept.
   EXPECT_THAT(
     with_levels(map, { 0.45 }).ticks, testing::UnorderedElementsAre(0.45, -1.0, 0.0, 1.0, 2.0));
 }

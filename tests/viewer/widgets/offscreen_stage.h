@@ -1,7 +1,7 @@
 #ifndef offscreen_stage_h
 #define offscreen_stage_h
 
-// A window for a widget, with functions that send mouse and keyboard events.
+// An off-screen window for one widget, with functions that send mouse and keyboard events.
 
 #include "base/mesh.h"
 
@@ -96,7 +96,7 @@ public:
     }
     this->release(to);
   }
-  /// Set the modifier keys for the next mouse events.
+  /// Set which modifier keys are held down during the next mouse events.
   void hold(bool with_shift, bool with_control = false, bool with_alt = false)
   {
     this->shift = with_shift;
@@ -136,7 +136,7 @@ public:
   bool alt = false;
 };
 
-/// Save a picture for inspection in the folder BINDPOSE_PICTURES, if that is set.
+/// Save a picture for inspection, if the environment variable BINDPOSE_PICTURES contains a folder.
 inline void keep(vtkImageData* image, const std::string& name)
 {
   if (const char* folder = std::getenv("BINDPOSE_PICTURES"))

@@ -1,6 +1,6 @@
-// The drawn gizmo: every part has pixels of its color, the part under the mouse is lighter, all
-// viewers can distinguish the colors of the axes, and at scale 2 the picture is the same, twice as
-// large.
+// The picture of the gizmo (arrows, rings and boxes for moving, rotating and scaling a handle).
+// Every part has pixels of its color, and the part under the mouse is lighter. Color-blind viewers
+// can distinguish the axes. At scale 2, the picture is the same at twice the size.
 #include "widget_stage.h"
 #include "widgets/gizmo.h"
 
@@ -25,7 +25,7 @@ Vec3 pixel_of(vtkImageData* image, const Eigen::Vector2d& at)
   return color;
 }
 
-// Return the number of pixels that differ from the corner of the image.
+// Return the number of pixels that differ from the pixel in the corner of the image.
 int drawn_pixels(vtkImageData* image)
 {
   const Vec3 ground = pixel_of(image, Eigen::Vector2d(0, 0));
@@ -135,7 +135,7 @@ TEST(GizmoPicture, ManyHandlesAreTwoActors)
 
 TEST(GizmoPicture, AxesAreToldApartByAllEyes)
 {
-  // Color blindness of each type (Machado, Oliveira and Fernandes 2009, severity 1).
+  // Test each type of color blindness (Machado, Oliveira and Fernandes 2009, severity 1).
   Eigen::Matrix3d eyes[4];
   eyes[0].setIdentity();
   eyes[1] << 0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116,

@@ -1,4 +1,5 @@
-// Edit modes: the effect of a click and its position. The dataset is valid after every step.
+// Edit modes of the handle widget: what a click does, and at which position. The dataset must be
+// valid after every step.
 #include "widget_stage.h"
 
 #include "support/meshes.h"
@@ -12,7 +13,7 @@ using namespace bindpose::test;
 
 namespace
 {
-// A stage without handles by default, with a ball of radius 1 around the origin, seen from +z.
+// A stage with a ball of radius 1 around the origin, viewed from +z. By default it has no handles.
 class EditStage : public Stage
 {
 public:
@@ -36,7 +37,7 @@ public:
     this->press(at);
     this->release(at);
   }
-  // Return the handles that filters read from the dataset.
+  // Return the handles that the filters read from the dataset.
   Handles list()
   {
     Handles result;
@@ -47,7 +48,7 @@ public:
   vtkSmartPointer<vtkPolyData> surface;
 };
 
-const double shot = 2.5 * pixel; // tolerance for a pixel and the facets of the ball
+const double shot = 2.5 * pixel; // tolerance for one pixel and for the facets of the ball
 } // namespace
 
 TEST(HandleEditing, PointsGoToMidThickness)
@@ -58,7 +59,8 @@ TEST(HandleEditing, PointsGoToMidThickness)
   ASSERT_EQ(handles.size(), 1u);
   EXPECT_EQ(handles[0].name, "p1");
   EXPECT_EQ(handles[0].kind, HandleKind::point);
-  // Seen from the eye, the middle of the chord is its point nearest to the center.
+  // The point is in the middle of the chord through the ball. This is the point of the view ray
+  // that is nearest to the center.
   const Vec3 sight = (handles[0].head - Vec3(0, 0, 10)).normalized();
   EXPECT_LT(std::abs(handles[0].head.dot(sight)), 0.02) << "in the center plane across the ray";
   EXPECT_LT((stage.display(handles[0].head) - stage.display(Vec3(0.3, 0.2, 0))).norm(), 1.0);
@@ -144,8 +146,8 @@ TEST(HandleEditing, BonesAreDrawnAndContinueChains)
   EXPECT_EQ(handles[0].parent, -1);
   EXPECT_LT((stage.display(handles[0].head) - stage.display(Vec3(-0.6, 0, 0))).norm(), 1.0);
   EXPECT_LT((stage.display(handles[0].tail) - stage.display(Vec3(0, 0.1, 0))).norm(), 1.0);
-  // The next drag begins near the tail. The child's head is exactly at the tail. The drag leaves
-  // the shape, so the child's tail is at the depth of its head.
+  // The next drag begins near the tail, so the head of the child is exactly at the tail. The drag
+  // ends outside of the shape, so the tail of the child has the same depth as its head.
   const Vec3 tail = handles[0].tail;
   stage.drag(tail + Vec3(2 * pixel, 0, 0), Vec3(1.6, 0.4, tail[2]));
   handles = stage.list();
@@ -153,7 +155,7 @@ TEST(HandleEditing, BonesAreDrawnAndContinueChains)
   EXPECT_EQ(handles[1].parent, 0);
   EXPECT_EQ(handles[1].head, tail);
   EXPECT_LT((handles[1].tail - Vec3(1.6, 0.4, tail[2])).norm(), shot);
-  // Add a second child at the joint, and a child at the root's head.
+  // Add a second child at the joint, and a child at the head of the root.
   stage.drag(tail, Vec3(0, -0.6, 0));
   stage.drag(handles[0].head, Vec3(-0.6, 0.5, 0));
   handles = stage.list();
@@ -163,7 +165,7 @@ TEST(HandleEditing, BonesAreDrawnAndContinueChains)
   EXPECT_EQ(handles[3].parent, 0);
   EXPECT_EQ(handles[3].head, handles[0].head);
   EXPECT_EQ(stage.representation()->GetInteractionName(), "add bone");
-  // A click adds no bone.
+  // A click does not add a bone.
   stage.click(Vec3(0.4, -0.4, 0));
   EXPECT_EQ(stage.list().size(), 4u);
   EXPECT_TRUE(stage.widget->GetCanceled());
@@ -175,7 +177,7 @@ TEST(HandleEditing, ATailSnapsToOtherEndsWithCtrl)
   stage.hold(false, true);
   stage.press(Vec3(-0.4, 0, 0));
   stage.hold(false, false);
-  stage.release(Vec3(-0.4, 0, 0)); // a click adds nothing
+  stage.release(Vec3(-0.4, 0, 0)); // a click does not add a bone
   stage.press(Vec3(-0.4, 0, 0));
   stage.hold(false, true);
   stage.move(Vec3(0.4, 0.4, 0.3) + Vec3(3 * pixel, 0, 0));
@@ -186,7 +188,7 @@ TEST(HandleEditing, ATailSnapsToOtherEndsWithCtrl)
 
 TEST(HandleEditing, PosesColorsAndSelectionFollowTheirHandles)
 {
-  // A point precedes the bone in the order of the cells.
+  // In the order of the cells, the point precedes the bone.
   EditStage stage(Widget::ADD_POINTS, { bone("b", Vec3(-0.5, 0, 0), Vec3(0.2, 0, 0)) });
   const double t[3] = { 0.5, 0.25, 0 };
   stage.representation()->SetHandleTranslation(0, t);
@@ -256,7 +258,7 @@ TEST(HandleEditing, EscapeDropsVerticesAndEnterLeavesACageOpen)
   EXPECT_FALSE(stage.representation()->IsMakingCage());
   EXPECT_EQ(stage.list().size(), 3u);
   EXPECT_EQ(stage.handles->GetNumberOfLines(), 2);
-  // Continue from any vertex; a double click ends the cage.
+  // Continue the cage from any vertex. A double click ends the cage.
   stage.click(Vec3(0, 1.5, 0));
   EXPECT_TRUE(stage.representation()->IsMakingCage());
   stage.click(Vec3(-1.5, 1.0, 0));
@@ -294,7 +296,8 @@ TEST(HandleEditing, RestPlacesMoveUnderTheMouse)
 {
   EditStage stage(Widget::MOVE_REST, { point("p", Vec3(0.5, 0.5, 0.2)) });
   const double t[3] = { 0, -1, 0 };
-  stage.representation()->SetHandleTranslation(0, t); // posed elsewhere, but shown at rest
+  // The handle is posed elsewhere, but shown at rest.
+  stage.representation()->SetHandleTranslation(0, t);
   stage.drag(Vec3(0.5, 0.5, 0.2), Vec3(-0.5, 0.75, 0.2));
   EXPECT_LT((stage.list()[0].head - Vec3(-0.5, 0.75, 0.2)).norm(), shot);
   EXPECT_NEAR(stage.list()[0].head[2], 0.2, 1e-9);
@@ -316,7 +319,7 @@ TEST(HandleEditing, JointsMoveTogetherAndBodiesWhole)
   EXPECT_EQ(handles[0].tail, handles[1].head);
   EXPECT_EQ(handles[0].head, Vec3(-1, 0, 0));
   EXPECT_EQ(handles[1].tail, Vec3(1, 0, 0));
-  stage.drag(Vec3(0, 1, 0), Vec3(0.2, 1.3, 0)); // the body of the other bone
+  stage.drag(Vec3(0, 1, 0), Vec3(0.2, 1.3, 0)); // this drags the body of the other bone
   handles = stage.list();
   EXPECT_LT((handles[2].head - Vec3(-0.8, 1.3, 0)).norm(), shot);
   EXPECT_LT((handles[2].tail - Vec3(1.2, 1.3, 0)).norm(), shot);
@@ -336,7 +339,7 @@ TEST(HandleEditing, CanceledRestMovesKeepEveryBitAndTheBind)
   EXPECT_EQ(bind_objects(stage.handles), before) << "the very same arrays";
   EXPECT_EQ(stage.list()[0].head, Vec3(0.5, 0.5, 0.2));
   EXPECT_TRUE(stage.widget->GetCanceled());
-  stage.press(Vec3(0.5, 0.5, 0.2)); // a click also changes nothing
+  stage.press(Vec3(0.5, 0.5, 0.2)); // a click without a move does not change anything either
   stage.release(Vec3(0.5, 0.5, 0.2));
   EXPECT_EQ(bind_objects(stage.handles), before);
   EXPECT_TRUE(stage.widget->GetCanceled());
@@ -355,7 +358,7 @@ TEST(HandleEditing, RestMovesAreHeldSnappedAndLocked)
   EXPECT_EQ(stage.list()[0].head.tail<2>(), Eigen::Vector2d(0.5, 0.2));
   EXPECT_NEAR(stage.list()[0].head[0], 1.0, shot);
   stage.escape();
-  // With Ctrl, the move is in steps, or snaps to another handle's end.
+  // With Ctrl, a move has fixed steps, or snaps to the end of another handle.
   stage.representation()->SetLengthStep(0.25);
   stage.hold(false, true);
   stage.drag(Vec3(0.5, 0.5, 0.2), Vec3(0.8, 0.2, 0.2));
@@ -366,7 +369,7 @@ TEST(HandleEditing, RestMovesAreHeldSnappedAndLocked)
   set_handle_locked(stage.handles, 1, true);
   stage.drag(Vec3(-0.5, -0.5, 0), Vec3(0, 0, 0));
   EXPECT_EQ(stage.list()[1].head, Vec3(-0.5, -0.5, 0));
-  // A point cannot move onto another point. It keeps its last valid position.
+  // A point cannot move onto another point. It stays at its last valid position.
   set_handle_locked(stage.handles, 1, false);
   stage.hold(false, true);
   stage.drag(Vec3(-1, 1, 0.3), Vec3(-0.5, -0.5, 0), 2);
@@ -405,7 +408,7 @@ TEST(HandleEditing, APreviewIsDrawnAndChangesNothing)
   stage.window->Render();
   EXPECT_EQ(stage.handles->GetNumberOfCells(), 0);
   EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 0);
-  stage.widget->SetEditMode(Widget::POSE); // cancels the unfinished bone
+  stage.widget->SetEditMode(Widget::POSE); // this cancels the unfinished bone
   EXPECT_FALSE(stage.widget->IsDragging());
   stage.release(Vec3(0.5, 0.3, 0));
   EXPECT_EQ(stage.handles->GetNumberOfCells(), 0);
@@ -413,7 +416,8 @@ TEST(HandleEditing, APreviewIsDrawnAndChangesNothing)
 
 TEST(HandleEditing, UndoByEventsIsExact)
 {
-  // Store a copy at the start of each interaction and restore it later, as the application does.
+  // Store a copy of the handles at the start of each interaction and restore it later, as the
+  // application does.
   EditStage stage(Widget::ADD_BONES, { point("p", Vec3(0.4, 0.4, 0)) });
   struct Memory
   {
@@ -468,8 +472,8 @@ TEST(HandleEditing, CageVerticesTakeTheirEdgesAlong)
 
 TEST(HandleEditing, RandomEventsLeaveAValidDataset)
 {
-  // Send random mouse and key events in every mode. Filters can always read the handles, every
-  // transform is finite, and no interaction is left at the end.
+  // Send random mouse and key events in every mode. The filters can always read the handles, every
+  // transform is finite, and no interaction is active at the end.
   EditStage stage(Widget::POSE,
     { point("p", Vec3(0.4, 0.4, 0.3)), bone("b", Vec3(-0.5, 0, 0), Vec3(0.2, 0.1, 0)),
       bone("c", Vec3(0.2, 0.1, 0), Vec3(0.8, 0, 0), 1) });
@@ -480,7 +484,7 @@ TEST(HandleEditing, RandomEventsLeaveAValidDataset)
   for (int i = 0; i < 1500; ++i)
   {
     const Eigen::Vector2d at(random.uniform(-10, 410), random.uniform(-10, 410));
-    // Often choose the position of a handle.
+    // Often choose a position on a handle.
     const vtkIdType count = stage.handles->GetNumberOfCells();
     const bool aimed = count > 0 && random.uniform() < 0.4;
     Vec3 place = Vec3::Zero();
@@ -518,7 +522,7 @@ TEST(HandleEditing, RandomEventsLeaveAValidDataset)
     if (i % 25 == 0 && count > 0)
     {
       stage.list();
-      // Limit the number of handles, so that free space is left on the screen.
+      // Limit the number of handles, so that some space on the screen stays free.
       if (count > 40)
       {
         stage.widget->SetHandles(nullptr);

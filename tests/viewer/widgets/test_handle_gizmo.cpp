@@ -1,4 +1,5 @@
-// Posing with the gizmo, keys and numbers: the exact positions of handles afterward, and what does
+// Posing with the gizmo (arrows, plates, rings and boxes around the selected handle), with keys and
+// with typed numbers. The tests check the exact positions of the handles afterward, and what does
 // not change.
 #include "widget_stage.h"
 
@@ -21,8 +22,8 @@ using namespace bindpose::test;
 
 namespace
 {
-// A stage whose first handle is selected and has the gizmo. The view is oblique, so that all axes
-// are usable.
+// A stage whose first handle is selected and has the gizmo. The view is oblique, so all axes can be
+// dragged.
 class GizmoStage : public Stage
 {
 public:
@@ -34,13 +35,13 @@ public:
     this->representation()->SetSelectedHandle(0);
     this->window->Render();
   }
-  // Drag a part by a number of pixels.
+  // Drag a part of the gizmo by a number of pixels.
   void pull(int part, const Eigen::Vector2d& by, int steps = 5)
   {
     const Eigen::Vector2d from = this->grip(part);
     this->drag_pixels(from, from + by, steps);
   }
-  // Return the direction of an axis on the screen, per world unit.
+  // Return the direction of an axis on the screen, in pixels per world unit.
   Eigen::Vector2d on_screen(const Vec3& axis)
   {
     return this->display(this->head(0) + axis) - this->display(this->head(0));
@@ -98,8 +99,8 @@ TEST(HandleGizmo, EveryPartIsFoundWhereItIsGrabbed)
 
 TEST(HandleGizmo, ArrowsAndBoxesAndPlatesComeBeforeHandles)
 {
-  // A ball is exactly at the arrow's cone. The arrow is picked; without the gizmo, the ball is
-  // picked.
+  // A point handle is exactly at the cone of the arrow. With the gizmo, the arrow is picked;
+  // without it, the handle is picked.
   GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_MOVE);
   const Eigen::Vector2d cone = stage.grip(Widget::MOVE_X);
   stage.renderer->SetDisplayPoint(cone[0], cone[1], 0.5);
@@ -120,13 +121,13 @@ TEST(HandleGizmo, AnArrowMovesAlongItsAxisOnly)
   {
     GizmoStage stage({ point("a", Vec3(0.2, 0.1, 0)) }, Widget::GIZMO_MOVE);
     const Vec3 axis = Vec3::Unit(k);
-    // The mouse follows the axis on the screen, with deviations.
+    // The mouse moves along the axis on the screen, with deviations.
     const Eigen::Vector2d way = 0.8 * stage.on_screen(axis);
     stage.pull(Widget::MOVE_X + k, way);
     const Vec3 moved = stage.head(0) - Vec3(0.2, 0.1, 0);
     EXPECT_EQ(moved[(k + 1) % 3], 0.0);
     EXPECT_EQ(moved[(k + 2) % 3], 0.0);
-    // Because of the perspective, 0.8 units farther away are a different number of pixels.
+    // Because of the perspective, 0.8 units at a larger distance have a different length in pixels.
     EXPECT_NEAR(moved[k], 0.8, 0.12);
     EXPECT_EQ(linear(stage.transform(0)), Eigen::Matrix3d::Identity());
     EXPECT_EQ(stage.representation()->GetInteractionName(), "move");
@@ -135,7 +136,8 @@ TEST(HandleGizmo, AnArrowMovesAlongItsAxisOnly)
 
 TEST(HandleGizmo, TheGrabbedPlaceOfAnArrowStaysUnderTheMouse)
 {
-  // In a parallel projection, pixels are lengths, so the distance along the axis is known exactly.
+  // In a parallel projection, pixels are proportional to lengths, so the distance along the axis is
+  // known exactly.
   GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_MOVE);
   stage.renderer->GetActiveCamera()->ParallelProjectionOn();
   stage.renderer->GetActiveCamera()->SetParallelScale(2.0);
@@ -144,7 +146,7 @@ TEST(HandleGizmo, TheGrabbedPlaceOfAnArrowStaysUnderTheMouse)
   const Eigen::Vector2d from = stage.grip(Widget::MOVE_X).array().round();
   const Eigen::Vector2d to = (from + 60.0 * unit.normalized()).array().round();
   stage.drag_pixels(from, to);
-  // The result is the projection of the mouse onto the axis, its nearest point.
+  // The result is the point of the axis that is nearest to the mouse.
   EXPECT_NEAR(stage.head(0)[0], (to - from).dot(unit) / unit.squaredNorm(), 1e-9);
 }
 
@@ -154,7 +156,7 @@ TEST(HandleGizmo, APlateMovesInItsPlaneUnderTheMouse)
   {
     GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_MOVE);
     const Eigen::Vector2d from = stage.grip(Widget::MOVE_YZ + k).array().round();
-    // The grabbed position in the plate's plane, and a goal in the plane.
+    // The drag begins where the plate is grabbed and ends at a goal in the plane of the plate.
     Vec3 goal = Vec3::Zero();
     goal[(k + 1) % 3] = 0.6;
     goal[(k + 2) % 3] = -0.4;
@@ -186,7 +188,7 @@ TEST(HandleGizmo, ARingTurnsByTheAngleUnderTheMouse)
     GizmoStage stage({ point("a", Vec3(0.3, -0.2, 0.1)) }, Widget::GIZMO_TURN);
     const Vec3 center(0.3, -0.2, 0.1);
     const Eigen::Vector2d from = stage.grip(Widget::TURN_X + k).array().round();
-    // The grabbed position in the ring's plane, turned by 70 degrees.
+    // The drag begins where the ring is grabbed and follows the ring by 70 degrees.
     const auto hit = [&](const Eigen::Vector2d& display)
     {
       Vec3 ends[2];
@@ -249,7 +251,8 @@ TEST(HandleGizmo, SeveralTurnsAreCounted)
 
 TEST(HandleGizmo, ARingSeenFromTheSideRolls)
 {
-  // Seen from +z, the ring about x is a line. Mouse motion by its radius is a turn by 1 radian.
+  // Viewed from +z, the ring about x is a line. If the mouse moves by the radius of the ring, the
+  // handle rotates by 1 radian.
   GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_TURN);
   stage.renderer->GetActiveCamera()->SetPosition(0, 0, 10);
   stage.window->Render();
@@ -260,7 +263,7 @@ TEST(HandleGizmo, ARingSeenFromTheSideRolls)
   const Eigen::AngleAxisd turned(linear(stage.transform(0)));
   EXPECT_NEAR(turned.angle(), 1.0, 0.02);
   EXPECT_NEAR(std::abs(turned.axis()[0]), 1.0, 1e-9);
-  // The near side moved down: +z moved toward -y.
+  // The near side of the ring has moved down: +z has moved toward -y.
   EXPECT_LT((linear(stage.transform(0)) * Vec3::UnitZ())[1], 0.0);
 }
 
@@ -288,7 +291,7 @@ TEST(HandleGizmo, BoxesScaleAlongTheirAxisAndTheKnobEvenly)
 
 TEST(HandleGizmo, LocalAxesAreTheHandlesOwn)
 {
-  // The handle is turned by 30 degrees about z. For a bone, y is along the bone.
+  // The handle is rotated by 30 degrees about z. The local y axis of a bone is along the bone.
   GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_MOVE);
   stage.representation()->SetSpace(Widget::LOCAL);
   const double axis[3] = { 0, 0, 1 };
@@ -298,7 +301,7 @@ TEST(HandleGizmo, LocalAxesAreTheHandlesOwn)
   EXPECT_LT(stage.head(0).cross(own).norm(), 1e-12);
   EXPECT_NEAR(stage.head(0).dot(own), 0.7, 0.1);
 
-  // A local scale causes no shear: the result is R S with S diagonal.
+  // A scale along local axes causes no shear: the result is R S with a diagonal matrix S.
   stage.representation()->SetGizmo(Widget::GIZMO_SCALE);
   stage.pull(Widget::SCALE_X, 30.0 * stage.on_screen(own).normalized());
   double factors[3];
@@ -336,8 +339,8 @@ TEST(HandleGizmo, KeysHoldADragToAnAxisOrPlane)
   EXPECT_EQ(stage.head(0)[2], 0.0);
   EXPECT_NE(stage.head(0)[0], 0.0);
   EXPECT_NE(stage.head(0)[1], 0.0);
-  stage.key("Z", true); // the other space, which has the same axes here
-  stage.key("Z", true); // no constraint
+  stage.key("Z", true); // select the local axes, which equal the world axes here
+  stage.key("Z", true); // remove the constraint
   EXPECT_LT((stage.head(0) - unheld).norm(), 1e-12);
   stage.escape();
   EXPECT_EQ(stage.transform(0), identity_affine());
@@ -347,7 +350,8 @@ TEST(HandleGizmo, KeysAgainTakeTheOtherSpace)
 {
   GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_NONE);
   const double axis[3] = { 0, 1, 0 };
-  stage.representation()->SetHandleRotation(0, axis, 90.0); // its own x axis is -z
+  // The local x axis of the handle is now -z of the world.
+  stage.representation()->SetHandleRotation(0, axis, 90.0);
   const Eigen::Vector2d from = stage.display(Vec3::Zero());
   stage.send(vtkCommand::MouseMoveEvent, from);
   stage.send(vtkCommand::LeftButtonPressEvent, from);
@@ -364,7 +368,7 @@ TEST(HandleGizmo, NumbersCanBeTyped)
 {
   GizmoStage stage({ point("a", Vec3(0.5, 0, 0)) }, Widget::GIZMO_NONE);
   stage.send(vtkCommand::MouseMoveEvent, Eigen::Vector2d(50, 60));
-  // G Y - . 7 5 Backspace Enter
+  // The keys are G Y - . 7 5 Backspace Enter.
   stage.key("g");
   EXPECT_TRUE(stage.widget->IsDragging());
   for (const char* key : { "y", "minus", "period", "7", "5", "BackSpace", "Return" })
@@ -373,14 +377,14 @@ TEST(HandleGizmo, NumbersCanBeTyped)
   }
   EXPECT_FALSE(stage.widget->IsDragging());
   EXPECT_EQ(stage.head(0), Vec3(0.5, -0.7, 0));
-  // R Z 9 0: the turn is about the handle's own position.
+  // The keys are R Z 9 0. The rotation is about the handle's own position.
   for (const char* key : { "r", "z", "9", "0", "KP_Enter" })
   {
     stage.key(key);
   }
   EXPECT_LT((linear(stage.transform(0)) * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-12);
   EXPECT_LT((stage.head(0) - Vec3(0.5, -0.7, 0)).norm(), 1e-12);
-  // S 2, then cancel
+  // The keys are S 2; then the interaction is canceled.
   for (const char* key : { "s", "2" })
   {
     stage.key(key);
@@ -406,14 +410,14 @@ TEST(HandleGizmo, KeysStartDragsThatFollowTheMouse)
   EXPECT_FALSE(stage.widget->IsDragging());
   stage.send(vtkCommand::LeftButtonReleaseEvent, away + unit);
   EXPECT_FALSE(stage.widget->GetCanceled());
-  // The right button cancels.
+  // The right mouse button cancels.
   stage.key("r");
   stage.send(vtkCommand::MouseMoveEvent, away);
   EXPECT_GT(degrees_of(linear(stage.transform(0))), 1.0);
   stage.send(vtkCommand::RightButtonPressEvent, away);
   EXPECT_TRUE(stage.widget->GetCanceled());
   EXPECT_EQ(linear(stage.transform(0)), Eigen::Matrix3d::Identity());
-  // Without a selection, or with StartKeys off, the keys are not handled.
+  // Without a selection, or with StartKeys off, the widget does not handle the keys.
   stage.widget->StartKeysOff();
   stage.key("g");
   EXPECT_FALSE(stage.widget->IsDragging());
@@ -458,7 +462,8 @@ TEST(HandleGizmo, CtrlSnaps)
   stage.representation()->SetGizmo(Widget::GIZMO_TURN);
   const Eigen::Vector2d from = stage.grip(Widget::TURN_VIEW);
   const Eigen::Vector2d center = stage.display(stage.head(0));
-  stage.drag_pixels(from, center + Eigen::Rotation2Dd(0.9) * (from - center)); // 51.6 degrees
+  // This drag is a rotation by 51.6 degrees.
+  stage.drag_pixels(from, center + Eigen::Rotation2Dd(0.9) * (from - center));
   EXPECT_NEAR(degrees_of(linear(stage.transform(0))), 45.0, 1e-9);
   stage.representation()->ResetHandle(0);
   stage.representation()->SetGizmo(Widget::GIZMO_SCALE);
@@ -532,7 +537,7 @@ TEST(HandleGizmo, TwistRingsWriteTwist)
     EXPECT_NEAR(stage.twist(0, end), 30.0, 1e-12);
     EXPECT_EQ(stage.twist(0, 1 - end), 0.0);
     EXPECT_EQ(stage.transform(0), identity_affine());
-    // The hand turns with the wrist, not with the shoulder.
+    // The hand rotates with the wrist, not with the shoulder.
     const Eigen::Matrix3d wrist =
       Eigen::AngleAxisd((end ? 30.0 : 0.0) * EIGEN_PI / 180.0, Vec3::UnitX()).toRotationMatrix();
     EXPECT_LT((linear(stage.transform(1)) - wrist).norm(), 1e-12);
@@ -556,7 +561,7 @@ TEST(HandleGizmo, TwistRingsWriteTwist)
 
 TEST(HandleGizmo, ATwistByTheMouseIsTheAngleAroundTheBone)
 {
-  // Seen along the bone, the ring is a circle. A quarter of it is 90 degrees.
+  // Viewed along the bone, the ring is a circle. A quarter of the circle is 90 degrees.
   GizmoStage stage({ bone("b", Vec3(0, 0, -1), Vec3(0.0, 0, 1)) }, Widget::GIZMO_TURN);
   vtkCamera* camera = stage.renderer->GetActiveCamera();
   camera->ParallelProjectionOn();
@@ -571,8 +576,8 @@ TEST(HandleGizmo, ATwistByTheMouseIsTheAngleAroundTheBone)
 
 TEST(HandleGizmo, StretchableBonesReadWhatTheWidgetWrites)
 {
-  // One bone owns the mesh. Points at its tail move to the drawn tail and turn by the tail's twist.
-  // Points at its head turn by the head's twist.
+  // The whole mesh has the weight 1 for one bone. Points at its tail move to the tail that is
+  // drawn, and rotate by the twist at the tail. Points at its head rotate by the twist at the head.
   GizmoStage stage({ bone("b", Vec3(-0.6, 0, 0), Vec3(0.8, 0, 0)) });
   const Eigen::Vector2d knob = stage.grip(Widget::STRETCH);
   stage.drag_pixels(knob, knob + 0.4 * stage.on_screen(Vec3::UnitX()));
@@ -636,14 +641,14 @@ TEST(HandleGizmo, SeveralSelectedHandlesMoveTogether)
   EXPECT_EQ(stage.representation()->GetNumberOfSelectedHandles(), 3) << "d came and went";
   EXPECT_FALSE(stage.representation()->IsSelected(3));
   EXPECT_EQ(stage.representation()->GetSelectedHandle(), 2);
-  stage.handles->GetCellData()->GetArray("Mode")->SetComponent(2, 0, 2); // make c free
+  stage.handles->GetCellData()->GetArray("Mode")->SetComponent(2, 0, 2); // set mode free for c
   stage.drag(Vec3(1, 0, 0), Vec3(1.4, 0.3, 0));
   EXPECT_EQ(stage.representation()->GetNumberOfSelectedHandles(), 3) << "a drag keeps them";
   EXPECT_LT((stage.head(0) - Vec3(0.4, 0.3, 0)).norm(), 2 * pixel);
   EXPECT_LT((stage.head(1) - stage.head(0) - Vec3(1, 0, 0)).norm(), 1e-12);
   EXPECT_EQ(stage.transform(2), identity_affine()) << "free handles stay";
   EXPECT_EQ(stage.transform(3), identity_affine());
-  // A click on one of several selected handles selects it alone.
+  // A click on one of several selected handles selects only this handle.
   stage.press(stage.head(1));
   stage.release(stage.head(1));
   EXPECT_EQ(stage.representation()->GetNumberOfSelectedHandles(), 1);
@@ -651,7 +656,8 @@ TEST(HandleGizmo, SeveralSelectedHandlesMoveTogether)
   const Eigen::Vector2d corner = stage.display(Vec3(-1.2, -1.2, 0));
   const Eigen::Vector2d opposite = stage.display(Vec3(0.6, 0.5, 0));
   stage.representation()->SelectInRectangle(opposite.data(), corner.data());
-  EXPECT_EQ(stage.representation()->GetNumberOfSelectedHandles(), 2); // a and d
+  // The selected handles are a and d.
+  EXPECT_EQ(stage.representation()->GetNumberOfSelectedHandles(), 2);
   EXPECT_TRUE(stage.representation()->IsSelected(0));
   EXPECT_TRUE(stage.representation()->IsSelected(3));
 }
@@ -659,7 +665,7 @@ TEST(HandleGizmo, SeveralSelectedHandlesMoveTogether)
 TEST(HandleGizmo, ASelectionTurnsAboutTheOneThatIsHeld)
 {
   GizmoStage stage({ point("a", Vec3(0, 0, 0)), point("b", Vec3(1, 0, 0)) }, Widget::GIZMO_NONE);
-  stage.handles->GetCellData()->GetArray("Mode")->SetComponent(1, 0, 1); // b only moves
+  stage.handles->GetCellData()->GetArray("Mode")->SetComponent(1, 0, 1); // set mode position for b
   stage.representation()->SetSelectedHandle(1);
   stage.representation()->ToggleSelected(0);
   for (const char* key : { "r", "z", "9", "0", "Return" })
@@ -685,7 +691,7 @@ TEST(HandleGizmo, PositionHandlesOnlyMove)
   }
   EXPECT_FALSE(stage.widget->StartDrag(Widget::GIZMO_TURN));
   stage.representation()->SetGizmo(Widget::GIZMO_NONE);
-  stage.drag(Vec3(1, 0, 0), Vec3(1, 0.5, 0)); // drag its tail
+  stage.drag(Vec3(1, 0, 0), Vec3(1, 0.5, 0)); // this drags the tail
   EXPECT_EQ(linear(stage.transform(0)), Eigen::Matrix3d::Identity());
   EXPECT_GT(stage.head(0)[1], 0.3);
 }
@@ -723,7 +729,7 @@ TEST(HandleGizmo, NumbersAreExact)
   EXPECT_TRUE(rep->SetHandleRotation(0, axis, 40.0));
   EXPECT_TRUE(rep->SetHandleScale(0, s));
   EXPECT_TRUE(rep->SetHandleTranslation(0, t));
-  // x -> c + t + R S (x - c)
+  // The transform is x -> c + t + R S (x - c).
   const Vec3 c(1, 2, 3);
   const Eigen::Matrix3d rs =
     Eigen::AngleAxisd(40.0 * EIGEN_PI / 180.0, Vec3::UnitZ()).toRotationMatrix() *
@@ -738,7 +744,7 @@ TEST(HandleGizmo, NumbersAreExact)
   rep->GetHandleScale(0, numbers);
   EXPECT_LT((Vec3(numbers) - Vec3(s)).norm(), 1e-12);
 
-  // A bone's y axis is along it. Handles below it move with it.
+  // The local y axis of a bone is along the bone. The children of the bone move with it.
   EXPECT_TRUE(rep->SetHandleStretch(1, 1.5));
   EXPECT_TRUE(rep->SetHandleTwist(1, 10.0, 90.0));
   EXPECT_EQ(rep->GetHandleStretch(1), 1.5);
@@ -860,7 +866,8 @@ TEST(HandleGizmo, HoveringOverFiveHundredHandlesIsQuick)
     handles.push_back(bone("b" + std::to_string(i), at, at + Vec3(0.1, 0.1, 0)));
   }
   GizmoStage stage(handles);
-  double best = 1e9; // the minimum of several rounds, because other processes run on the machine
+  // Use the minimum of several rounds, because other processes run on the machine.
+  double best = 1e9;
   for (int round = 0; round < 5; ++round)
   {
     const auto start = std::chrono::steady_clock::now();

@@ -1,4 +1,5 @@
-// The widget under synthetic mouse events: which handles move, by how much, and which do not.
+// The handle widget with synthetic mouse events: which handles move and by how much, and which
+// handles do not move.
 #include "widget_stage.h"
 
 #include <sstream>
@@ -8,7 +9,8 @@ using namespace bindpose::test;
 
 TEST(HandleSetWidget, HoverFindsHandlesByPriority)
 {
-  // A point is at the bone's tail: the point wins. The bone's head and body are unobstructed.
+  // A point handle is at the tail of the bone. There the point is picked. At its head and along its
+  // body, the bone is picked.
   Stage stage({ point("p", Vec3(1, 0, 0)), bone("b", Vec3(-1, 0, 0), Vec3(1, 0, 0)) });
   stage.move(Vec3(1, 0, 0));
   EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::ON_POINT);
@@ -21,14 +23,14 @@ TEST(HandleSetWidget, HoverFindsHandlesByPriority)
   stage.move(Vec3(0, 1, 0));
   EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::OUTSIDE);
   EXPECT_EQ(stage.representation()->GetHoveredHandle(), -1);
-  EXPECT_EQ(stage.events[vtkCommand::HighlightEvent], 3); // p, b, none
+  EXPECT_EQ(stage.events[vtkCommand::HighlightEvent], 3); // highlights of p, of b, and of no handle
   EXPECT_EQ(stage.representation()->GetHandleName(1), "b");
 }
 
 TEST(HandleSetWidget, OfTwoPointsTheNearerWins)
 {
-  // At the same screen position, the one in front wins. Next to each other, the nearest to the
-  // mouse wins.
+  // Of handles at the same screen position, the one in front is picked. Of handles next to each
+  // other, the one nearest to the mouse is picked.
   Stage stage({ point("back", Vec3(0, 0, 0)), point("front", Vec3(0, 0, 2)),
     point("left", Vec3(1.00, 1, 0)), point("right", Vec3(1.08, 1, 0)) });
   stage.move(Vec3(0, 0, 0));
@@ -61,7 +63,7 @@ TEST(HandleSetWidget, DragMovesAPointInTheCameraPlane)
   EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 4);
   EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
   EXPECT_EQ(stage.representation()->GetSelectedHandle(), 0);
-  // Transforms are absolute: a second drag continues from the posed position.
+  // Transforms are absolute, so a second drag continues from the posed position.
   stage.drag(stage.head(0), Vec3(0.5, 0, 1));
   EXPECT_LT((stage.head(0) - Vec3(0.5, 0, 1)).norm(), 2 * pixel);
 }
@@ -82,7 +84,7 @@ TEST(HandleSetWidget, DraggingATailTurnsTheBoneAboutItsHead)
 {
   Stage stage({ bone("b", Vec3(0.2, 0.1, 0), Vec3(1.2, 0.1, 0)) });
   stage.drag(Vec3(1.2, 0.1, 0), Vec3(0.2, 1.6, 0), 10);
-  // A quarter turn, whatever the length of the mouse's path.
+  // The handle has rotated by 90 degrees, for any length of the mouse's path.
   EXPECT_LT((stage.head(0) - Vec3(0.2, 0.1, 0)).norm(), 1e-12);
   EXPECT_NEAR((stage.tail(0) - stage.head(0)).norm(), 1.0, 1e-12);
   EXPECT_LT((stage.tail(0) - Vec3(0.2, 1.1, 0)).norm(), pixel);
@@ -110,7 +112,7 @@ TEST(HandleSetWidget, DescendantsFollowUnlessAskedNotTo)
     bone("lower", Vec3(0, 0, 0), Vec3(1, 0, 0), 0), bone("hand", Vec3(1, 0, 0), Vec3(1.4, 0, 0), 1),
     bone("other", Vec3(0, -2, 0), Vec3(1, -2, 0)) };
   Stage stage(arm);
-  stage.drag(Vec3(0, 0, 0), Vec3(-1, 1, 0)); // a quarter turn of the upper arm
+  stage.drag(Vec3(0, 0, 0), Vec3(-1, 1, 0)); // this rotates the upper arm by 90 degrees
   EXPECT_LT((stage.tail(2) - Vec3(-1, 2.4, 0)).norm(), 4 * pixel);
   EXPECT_LT((stage.tail(0) - stage.head(1)).norm(), 1e-12) << "joints hold";
   EXPECT_LT((stage.tail(1) - stage.head(2)).norm(), 1e-12);
@@ -145,7 +147,7 @@ TEST(HandleSetWidget, EscapeRestoresEveryBit)
   EXPECT_EQ(stage.transform(1), before[1]);
   EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 2) << "one move, one restoring";
   EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
-  // The button is still down. Further moves and its release have no effect.
+  // The mouse button is still down. Its moves and its release have no effect any more.
   stage.move(tail + Vec3(0.8, 0.8, 0));
   stage.release(tail + Vec3(0.8, 0.8, 0));
   EXPECT_EQ(stage.transform(0), before[0]);
@@ -275,7 +277,8 @@ TEST(HandleSetWidget, HundredsOfHandlesAreEachFound)
 
 TEST(HandleSetWidget, TakesPlainPolydataAndOddFiles)
 {
-  // A dataset without arrays; a cage element; a parent that is its own ancestor.
+  // The dataset first has no arrays. Later it has a cage element, and a parent that is its own
+  // ancestor.
   vtkNew<vtkPoints> points;
   points->InsertNextPoint(0, 0, 0);
   points->InsertNextPoint(1, 0, 0);

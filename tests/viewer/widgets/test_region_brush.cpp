@@ -1,5 +1,5 @@
-// The brush on surfaces with known distances: the labels that a stroke changes and those that it
-// keeps.
+// The brush that paints region labels, on surfaces with known distances: the labels that a stroke
+// changes, and those that it keeps.
 #include "conversion.h"
 #include "offscreen_stage.h"
 #include "support/meshes.h"
@@ -93,7 +93,7 @@ TEST(RegionBrush, AFastStrokeHasNoGaps)
 {
   BrushStage stage(flat());
   stage.brush()->SetRadius(0.2);
-  stage.drag(Vec3(-1.5, 0.5, 0), Vec3(1.5, 0.5, 0), 1); // one event for the whole path
+  stage.drag(Vec3(-1.5, 0.5, 0), Vec3(1.5, 0.5, 0), 1); // the whole path is one event
   for (vtkIdType v = 0; v < stage.surface->GetNumberOfPoints(); ++v)
   {
     const Vec3 p(stage.surface->GetPoint(v));
@@ -137,13 +137,14 @@ TEST(RegionBrush, CtrlErasesAndEscapeGivesEveryLabelBack)
   EXPECT_EQ(erased, stage.brush()->GetNumberOfChangedPoints());
   EXPECT_GT(erased, 100);
   EXPECT_EQ(stage.widget->GetInteractionName(), "erase region");
-  stage.drag(Vec3(0, 0, 0), Vec3(0, 0, 0), 1); // no labels are left to erase
+  stage.drag(Vec3(0, 0, 0), Vec3(0, 0, 0), 1); // there are no more labels to erase
   EXPECT_TRUE(stage.widget->GetCanceled());
 }
 
 TEST(RegionBrush, TheGeodesicBrushDoesNotReachThroughWalls)
 {
-  // A thin plate of two disconnected sheets: only the sheet toward the eye is painted.
+  // The shape is a thin plate of two sheets that are not connected. Only the sheet toward the eye
+  // is painted.
   const TriangleMesh sheet = flat();
   const TriangleMesh both =
     test::join(sheet, test::flipped(test::translated(sheet, Vec3(0, 0, -0.05))));
@@ -187,7 +188,7 @@ TEST(RegionBrush, RadiusByKeysAndWheelAndTheCameraElsewhere)
   EXPECT_NEAR(stage.brush()->GetDiscRadius(), 1.15 * start, 1e-12);
   EXPECT_LT(stage.renderer->GetActiveCamera()->GetDistance(), away) << "the camera's wheel";
   EXPECT_EQ(stage.events[vtkCommand::StateChangedEvent], 3);
-  // Next to the surface, mouse events go to the camera.
+  // If the mouse is not on the surface, its events move the camera.
   const Vec3 before(stage.renderer->GetActiveCamera()->GetPosition());
   stage.drag(Vec3(-1.7, 1.7, 0), Vec3(-1.2, 1.7, 0), 3);
   EXPECT_GT((Vec3(stage.renderer->GetActiveCamera()->GetPosition()) - before).norm(), 0.1);
@@ -224,7 +225,7 @@ TEST(RegionBrush, AHundredThousandTrianglesAtMouseRate)
   BrushStage stage(test::torus(400, 125, 1.2, 0.5)); // 100,000 triangles
   ASSERT_EQ(stage.surface->GetNumberOfCells(), 100000);
   const Vec3 ring(0, 1.2, 0.5);
-  stage.press(ring); // builds the tree
+  stage.press(ring); // the first press builds the search tree
   double best = 1e9;
   for (int round = 0; round < 5; ++round)
   {
@@ -264,7 +265,7 @@ TEST(RegionBrush, TheDiscIsSeen)
   stage.drag(Vec3(-0.5, -0.2, 0), Vec3(0.4, 0.3, 0), 5);
   const auto with = stage.picture();
   test::keep(with, "brush");
-  stage.move(Vec3(-2, -2, 0)); // away from the surface
+  stage.move(Vec3(-2, -2, 0)); // this position is not on the surface
   const auto without = stage.picture();
   int different = 0;
   for (int y = 0; y < 400; ++y)

@@ -1,7 +1,7 @@
 #ifndef widget_stage_h
 #define widget_stage_h
 
-// A window with the handle widget.
+// An off-screen window with the handle widget.
 
 #include "conversion.h"
 #include "handle_edit_cells.h"
@@ -61,7 +61,7 @@ public:
 
   Widget* representation() { return this->widget->GetHandleSetRepresentation(); }
 
-  /// Return the display position at which a part of the gizmo can be grabbed.
+  /// Return the display position at which the mouse can grab a part of the gizmo.
   Eigen::Vector2d grip(int part)
   {
     Eigen::Vector2d at(-1, -1);

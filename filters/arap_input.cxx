@@ -36,11 +36,13 @@ Status to_arap(vtkPointSet* mesh, int energy, ArapElements& elements, ArapEnergy
   }
   if (elements.volume && energy == vtkReducedARAP::TRIANGLES)
   {
-    return Status::invalid_input("the triangles energy needs a surface, but the mesh is tets");
+    return Status::invalid_input(
+      "energy triangles needs a surface mesh, but the input is a tet mesh");
   }
   if (!elements.volume && energy == vtkReducedARAP::TETRAHEDRA)
   {
-    return Status::invalid_input("the tetrahedra energy needs tets, but the mesh is a surface");
+    return Status::invalid_input(
+      "energy tetrahedra needs a tet mesh, but the input is a surface mesh");
   }
   result = energy == vtkReducedARAP::AUTO       ? ArapEnergy::automatic
     : energy == vtkReducedARAP::SPOKES_AND_RIMS ? ArapEnergy::spokes_and_rims

@@ -120,7 +120,8 @@ Status split_cells(vtkPointSet* data, SurfaceInput& surface)
     if (!ids_in_range(count, ids.data(), number_of_points))
     {
       return Status::invalid_input("cell " + std::to_string(cell) +
-        " names a point that does not exist (there are " + std::to_string(number_of_points) + ")");
+        " references a point that does not exist (the mesh has " +
+        std::to_string(number_of_points) + " points)");
     }
     if (strip)
     {
@@ -178,8 +179,8 @@ Status to_surface(vtkDataSet* data, SurfaceInput& surface)
   if (!set)
   {
     return Status::invalid_input(data
-        ? std::string("a surface mesh is needed, but the input is a ") + data->GetClassName()
-        : "there is no input surface");
+        ? std::string("the input must be a surface mesh, but is a ") + data->GetClassName()
+        : "the input surface is missing");
   }
   if (set->GetNumberOfPoints() == 0 || set->GetNumberOfCells() == 0)
   {
@@ -201,7 +202,7 @@ Status to_surface(vtkDataSet* data, SurfaceInput& surface)
   if (surface.triangles.view().rows() == 0)
   {
     return Status::invalid_input("the input has no triangles or polygons, only " +
-      std::to_string(set->GetNumberOfCells()) + " cells of other kinds");
+      std::to_string(set->GetNumberOfCells()) + " cells of other types");
   }
   return check_mesh(surface.points.view(), surface.triangles.view());
 }
@@ -213,8 +214,8 @@ Status to_tets(vtkDataSet* data, TetInput& tets)
   if (!grid)
   {
     return Status::invalid_input(data
-        ? std::string("a tet mesh is needed, but the input is a ") + data->GetClassName()
-        : "there is no input tet mesh");
+        ? std::string("the input must be a tet mesh, but is a ") + data->GetClassName()
+        : "the input tet mesh is missing");
   }
   if (grid->GetNumberOfPoints() == 0 || grid->GetNumberOfCells() == 0)
   {
@@ -225,7 +226,7 @@ Status to_tets(vtkDataSet* data, TetInput& tets)
     if (grid->GetCellType(cell) != VTK_TETRA)
     {
       return Status::invalid_input("cell " + std::to_string(cell) + " is a " +
-        vtkCellTypes::GetClassNameFromTypeId(grid->GetCellType(cell)) + ", not a tet");
+        vtkCellTypes::GetClassNameFromTypeId(grid->GetCellType(cell)) + "; expected only tets");
     }
   }
   tets.points = to_points(grid);
@@ -413,9 +414,9 @@ Status add_cages(vtkPolyData* data, const std::vector<Index>& handle_of_cell, Ha
       const vtkIdType point = ids->GetId(k);
       if (point < 0 || point >= data->GetNumberOfPoints())
       {
-        return Status::invalid_input("cage element " + std::to_string(cell) + " has point " +
-          std::to_string(point) + ", but there are only " +
-          std::to_string(data->GetNumberOfPoints()));
+        return Status::invalid_input("cage element " + std::to_string(cell) + " references point " +
+          std::to_string(point) + ", but there are " + std::to_string(data->GetNumberOfPoints()) +
+          " points");
       }
       std::array<double, 3> at;
       data->GetPoint(point, at.data());
@@ -423,8 +424,8 @@ Status add_cages(vtkPolyData* data, const std::vector<Index>& handle_of_cell, Ha
       const auto same = by_place.find(at);
       if (own == by_point.end() && same == by_place.end())
       {
-        return Status::invalid_input("cage element " + std::to_string(cell) + ": its point " +
-          std::to_string(point) + " is no cage vertex");
+        return Status::invalid_input("point " + std::to_string(point) + " of cage element " +
+          std::to_string(cell) + " must be a cage vertex");
       }
       corners.push_back(own != by_point.end() ? own->second : same->second);
     }
@@ -455,7 +456,7 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
   }
   if (!data || data->GetNumberOfCells() == 0)
   {
-    return Status::invalid_input("there is no handle");
+    return Status::invalid_input("the input has no handles");
   }
   auto* names = vtkStringArray::SafeDownCast(data->GetCellData()->GetAbstractArray("HandleName"));
   std::vector<Index> handle_of_cell(static_cast<std::size_t>(data->GetNumberOfCells()), -1);
@@ -476,7 +477,7 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
     }
     if (kind < -1 || kind > 3)
     {
-      return Status::invalid_input(where + " has an unknown HandleKind " + std::to_string(kind));
+      return Status::invalid_input(where + " has the unknown HandleKind " + std::to_string(kind));
     }
     Handle handle;
     handle.kind = static_cast<HandleKind>(kind);
@@ -488,8 +489,8 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
     if (size != (bone ? 2 : 1) ||
       !ids_in_range(size, ids->GetPointer(0), data->GetNumberOfPoints()))
     {
-      return Status::invalid_input(
-        where + " has " + std::to_string(size) + " points; a bone has 2, every other handle 1");
+      return Status::invalid_input(where + " has " + std::to_string(size) +
+        " points; expected 2 for a bone and 1 for any other handle");
     }
     data->GetPoint(ids->GetId(0), handle.head.data());
     data->GetPoint(ids->GetId(size - 1), handle.tail.data());
@@ -522,8 +523,8 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
     if (cell < -1 || cell >= static_cast<Index>(handle_of_cell.size()) ||
       (cell >= 0 && handle_of_cell[cell] < 0))
     {
-      return Status::invalid_input("handle '" + handles[i].name + "' has a parent " +
-        std::to_string(cell) + " that is not a handle");
+      return Status::invalid_input("handle '" + handles[i].name + "' has the parent cell " +
+        std::to_string(cell) + ", which is not a handle");
     }
     handles[i].parent = cell < 0 ? -1 : handle_of_cell[cell];
   }
@@ -634,8 +635,8 @@ Status to_layers(vtkPolyData* data, const Handles& handles, const std::vector<In
   vtkDataArray* given = data->GetCellData()->GetArray(name.c_str());
   if (given && given->GetNumberOfComponents() != 1)
   {
-    return Status::invalid_input("the handles' array '" + name + "' has " +
-      std::to_string(given->GetNumberOfComponents()) + " components, but a layer is one number");
+    return Status::invalid_input("the handles' cell array '" + name + "' of layers has " +
+      std::to_string(given->GetNumberOfComponents()) + " components; expected 1");
   }
   for (std::size_t h = 0; given && h < handles.size(); ++h)
   {
@@ -660,12 +661,13 @@ Status to_pose(
   {
     return Status::invalid_input("the cell array Transform has " +
       std::to_string(transforms->GetNumberOfComponents()) +
-      " components; it needs 12 (3x4, row-major)");
+      " components; expected 12 (3x4, row-major)");
   }
   if (twists && twists->GetNumberOfComponents() != 2)
   {
     return Status::invalid_input("the cell array Twist has " +
-      std::to_string(twists->GetNumberOfComponents()) + " components; it needs 2 (degrees)");
+      std::to_string(twists->GetNumberOfComponents()) +
+      " components; expected 2 (degrees at head and tail)");
   }
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
@@ -675,7 +677,7 @@ Status to_pose(
     if (mode < 0 || mode > automatic)
     {
       return Status::invalid_input(
-        "handle '" + handles[i].name + "' has an unknown Mode " + std::to_string(mode));
+        "handle '" + handles[i].name + "' has the unknown Mode " + std::to_string(mode));
     }
     pose[i].mode = static_cast<HandleMode>(mode);
     if (transforms)
@@ -691,7 +693,7 @@ Status to_pose(
       !std::isfinite(pose[i].stretch))
     {
       return Status::invalid_input(
-        "the pose of handle '" + handles[i].name + "' has a number that is not finite");
+        "the pose of handle '" + handles[i].name + "' contains a value that is not finite");
     }
   }
   return {};

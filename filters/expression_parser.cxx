@@ -64,8 +64,8 @@ Status ExpressionParser::evaluate(const std::string& text, double t, double& val
   if (this->parser_->IsScalarResult() == 0)
   {
     return Status::invalid_input(this->error_.empty()
-        ? "this is no expression of one number in t"
-        : "this is no expression of one number in t (" + this->error_ + ")");
+        ? "expected a scalar expression in t"
+        : "expected a scalar expression in t (" + this->error_ + ")");
   }
   value = this->parser_->GetScalarResult();
   return {};

@@ -37,7 +37,7 @@ Status check_extension(const std::string& path, const std::string& list)
 {
   if (path.empty())
   {
-    return Status::invalid_input("there is no file name");
+    return Status::invalid_input("the file name is empty");
   }
   const std::string extension = file_extension(path);
   if (is_listed(extension, list))

@@ -51,11 +51,11 @@ Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid
   }
   if (has_spacing && !(spacing.allFinite() && spacing.minCoeff() > 0.0))
   {
-    return Status::invalid_input("the grid's spacing must be above 0 along each axis");
+    return Status::invalid_input("the grid's spacing must be greater than 0 along each axis");
   }
   if (request.count < 0 || (request.count > 0 && request.count < 8))
   {
-    return Status::invalid_input("a grid has at least 8 samples");
+    return Status::invalid_input("the grid must have at least 8 samples");
   }
   Box box = around;
   if (has_bounds)
@@ -109,7 +109,8 @@ Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid
   if (!(count.prod() <= most_samples && count.maxCoeff() <= std::numeric_limits<int>::max()))
   {
     std::ostringstream text;
-    text << "the grid would have " << count.prod() << " samples; choose a coarser one";
+    text << "the grid would have " << count.prod()
+         << " samples, which is too many; use a coarser grid";
     return Status::invalid_input(text.str());
   }
   for (int k = 0; k < 3; ++k)

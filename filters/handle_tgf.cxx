@@ -41,7 +41,7 @@ Status to_tgf(const Handles& handles, Tgf& graph)
     if (handles[i].kind == HandleKind::region)
     {
       return Status::invalid_input(
-        "a .tgf file holds no regions, but '" + handles[i].name + "' is one");
+        "a .tgf file cannot store the region handle '" + handles[i].name + "'; use a .vtp file");
     }
     if (handles[i].kind != HandleKind::bone)
     {
@@ -69,7 +69,7 @@ Status to_tgf(const Handles& handles, Tgf& graph)
       if (element[2] >= 0)
       {
         return Status::invalid_input(
-          "a .tgf file holds no faces of cages, but '" + handle.name + "' has one");
+          "a .tgf file cannot store the cage faces at '" + handle.name + "'; use a .vtp file");
       }
       Tgf::Edge edge;
       edge.from = node_of[element[0]];

@@ -62,9 +62,8 @@ Status from_handles(vtkCompositeDataSet* data, const Handles& handles, InstanceP
     auto* polydata = vtkPolyData::SafeDownCast(block->GetCurrentDataObject());
     if (!polydata)
     {
-      return Status::invalid_input(of_instance(i) + "a " +
-        block->GetCurrentDataObject()->GetClassName() +
-        " has no handles; it must be a vtkPolyData");
+      return Status::invalid_input(of_instance(i) + "expected a vtkPolyData with handles, got a " +
+        block->GetCurrentDataObject()->GetClassName());
     }
     Handles own;
     std::vector<Index> cells;
@@ -72,7 +71,7 @@ Status from_handles(vtkCompositeDataSet* data, const Handles& handles, InstanceP
     Status status = to_handles(polydata, own, &cells);
     if (status.ok() && !same_handles(own, handles))
     {
-      status = Status::invalid_input("its handles are not those of the mesh");
+      status = Status::invalid_input("its handles differ from the handles of the mesh");
     }
     if (status.ok())
     {
@@ -83,9 +82,9 @@ Status from_handles(vtkCompositeDataSet* data, const Handles& handles, InstanceP
       (place->GetNumberOfTuples() != 1 ||
         (place->GetNumberOfComponents() != 12 && place->GetNumberOfComponents() != 3)))
     {
-      status = Status::invalid_input(
-        "its field data array Placement must be a tuple of 12 numbers (3x4, row by row) or of 3 "
-        "(a translation)");
+      status =
+        Status::invalid_input("its field data array Placement must have one tuple of 12 components "
+                              "(3x4, row-major) or of 3 components (a translation)");
     }
     if (!status.ok())
     {
@@ -121,7 +120,7 @@ Status from_rows(vtkDataSetAttributes* arrays, vtkIdType rows, vtkPointSet* poin
     {
       return Status::invalid_input("the array '" + handles[h].name + "' of the instances has " +
         std::to_string(array->GetNumberOfComponents()) +
-        " components; it needs 12 (3x4, row by row) or 3 (a translation)");
+        " components; expected 12 (3x4, row-major) or 3 (a translation)");
     }
     for (vtkIdType i = 0; i < rows; ++i)
     {
@@ -154,15 +153,15 @@ Status from_rows(vtkDataSetAttributes* arrays, vtkIdType rows, vtkPointSet* poin
   }
   if (!any)
   {
-    status.warnings.emplace_back("no array of the instances has the name of a handle: all have the "
-                                 "pose of the handles");
+    status.warnings.emplace_back("no array of the instances has the name of a handle: all "
+                                 "instances use the pose of the handles");
   }
   vtkDataArray* places = arrays->GetArray(placement_name);
   if (places && places->GetNumberOfComponents() != 12 && places->GetNumberOfComponents() != 3)
   {
     return Status::invalid_input("the array Placement of the instances has " +
       std::to_string(places->GetNumberOfComponents()) +
-      " components; it needs 12 (3x4, row by row) or 3 (a translation)");
+      " components; expected 12 (3x4, row-major) or 3 (a translation)");
   }
   for (vtkIdType i = 0; i < rows && (places || points); ++i)
   {
@@ -206,14 +205,14 @@ Status to_instance_poses(
   }
   if (instances.poses.empty())
   {
-    return Status::invalid_input("there is no instance: the poses of the crowd are empty");
+    return Status::invalid_input("the crowd has no instances; at least one instance is required");
   }
   for (std::size_t i = 0; i < instances.placements.size(); ++i)
   {
     if (!instances.placements[i].allFinite())
     {
       return Status::invalid_input(
-        of_instance(i) + "where it stands has a number that is not finite");
+        of_instance(i) + "its placement contains a value that is not finite");
     }
   }
   return status;

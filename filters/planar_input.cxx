@@ -78,12 +78,12 @@ Status check_image(vtkImageData* image)
   }
   if (dimensions[2] > 1)
   {
-    return Status::invalid_input(
-      "the image has " + std::to_string(dimensions[2]) + " layers along z; a single one is needed");
+    return Status::invalid_input("the image has " + std::to_string(dimensions[2]) +
+      " layers along z; expected a single layer");
   }
   if (!image->GetDirectionMatrix()->IsIdentity())
   {
-    return Status::invalid_input("the image's axes are turned; give it an identity direction");
+    return Status::invalid_input("the image's direction matrix must be the identity");
   }
   for (int k = 0; k < 3; ++k)
   {
@@ -91,8 +91,8 @@ Status check_image(vtkImageData* image)
     if (!std::isfinite(image->GetOrigin()[k]) || !std::isfinite(spacing) ||
       (k < 2 && spacing <= 0.0))
     {
-      return Status::invalid_input("the image's origin and spacing must be finite, and the spacing "
-                                   "above 0");
+      return Status::invalid_input(
+        "the image's origin and spacing must be finite and the spacing positive");
     }
   }
   return {};
@@ -181,7 +181,7 @@ Status to_planar_input(vtkPolyData* curves, PlanarInput& input)
   {
     return Status::invalid_input("the input has no lines or polygons, only " +
       std::to_string(curves->GetNumberOfPoints()) + " points and " +
-      std::to_string(curves->GetNumberOfCells()) + " cells of other kinds");
+      std::to_string(curves->GetNumberOfCells()) + " cells of other types");
   }
   const SharedMatrix<Points> shared = to_points(curves);
   const PointsView points = shared.view();
@@ -190,8 +190,8 @@ Status to_planar_input(vtkPolyData* curves, PlanarInput& input)
   {
     if (v < 0 || v >= points.rows())
     {
-      return Status::invalid_input("a line or polygon has point " + std::to_string(v) +
-        ", but there are only " + std::to_string(points.rows()));
+      return Status::invalid_input("a line or polygon references point " + std::to_string(v) +
+        ", but there are " + std::to_string(points.rows()) + " points");
     }
     if (!points.row(v).allFinite())
     {
@@ -205,7 +205,7 @@ Status to_planar_input(vtkPolyData* curves, PlanarInput& input)
   {
     std::string range = std::to_string(box.lower.z()) + " to " + std::to_string(box.upper.z());
     return Status::invalid_input(
-      "the curves do not lie in a plane z = const: z runs from " + range);
+      "the curves must be in a plane z = const, but z ranges from " + range);
   }
   input.points = points.leftCols<2>();
   input.segments = Eigen::Map<const Segments>(ends.data(), static_cast<Index>(ends.size() / 2), 2);

@@ -56,7 +56,7 @@ Status to_pseudo_edges(
     if (edge[0] < 0 || edge[1] < 0 || edge[0] == edge[1])
     {
       return Status::invalid_input("handle cell " + std::to_string(cell) +
-        " is a pseudo-edge, but does not join two point handles");
+        " is a pseudo-edge and must connect two point handles");
     }
     edges.push_back({ std::min(edge[0], edge[1]), std::max(edge[0], edge[1]) });
   }

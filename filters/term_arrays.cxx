@@ -24,8 +24,8 @@ Status check_components(vtkDataArray* array, const std::string& name, Index want
   if (array && array->GetNumberOfComponents() != wanted)
   {
     return Status::invalid_input("the point array '" + name + "' must have " +
-      (wanted == 1 ? std::string("one number a point")
-                   : std::to_string(wanted) + " components, one a handle") +
+      (wanted == 1 ? std::string("one component")
+                   : std::to_string(wanted) + " components (one per handle)") +
       ", not " + std::to_string(array->GetNumberOfComponents()));
   }
   return {};
@@ -43,8 +43,8 @@ Status to_whole_numbers(vtkDataArray* array, const std::string& name, std::vecto
     const double number = array->GetComponent(v, 0);
     if (!(std::abs(number) < 1e15) || number != std::floor(number))
     {
-      return Status::invalid_input(
-        "the point array '" + name + "' holds no whole number at point " + std::to_string(v));
+      return Status::invalid_input("the point array '" + name +
+        "' has a value that is not an integer at point " + std::to_string(v));
     }
     numbers.push_back(static_cast<Index>(number));
   }
@@ -107,7 +107,7 @@ Status to_handle_bounds(vtkPolyData* handles, const std::vector<Index>& cells,
   {
     return Status::invalid_input(std::string("the handles' array '") + handle_bounds_name +
       "' has " + std::to_string(given->GetNumberOfComponents()) +
-      " components, but a handle has a least and a largest weight");
+      " components; expected 2, the smallest and the largest weight");
   }
   if (!given && everywhere[0] == 0.0 && everywhere[1] == 1.0)
   {

@@ -72,14 +72,13 @@ std::vector<std::string> warnings_of(const Handles& handles, const Pose& pose)
   std::vector<std::string> warnings;
   if (!mirrored.empty())
   {
-    warnings.push_back(
-      "these handles' transforms are reflections, which turn the mesh inside out: " +
+    warnings.push_back("the transforms of these handles are reflections, which invert the mesh: " +
       quoted_names(handles, mirrored));
   }
   if (!collapsed.empty())
   {
     warnings.push_back(
-      "these handles' transforms scale some direction to zero, which flattens the mesh: " +
+      "the transforms of these handles scale a direction to zero, which flattens the mesh: " +
       quoted_names(handles, collapsed));
   }
   return warnings;
@@ -149,7 +148,7 @@ Status vtkBindAlgorithm::Prepare(vtkInformationVector** input, ExecutionContext&
   }
   if (!handle_data && this->NeedsHandles())
   {
-    return Status::invalid_input("there is no handle");
+    return Status::invalid_input("the input has no handles");
   }
 
   BindKey key;

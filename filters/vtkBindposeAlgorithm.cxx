@@ -220,7 +220,7 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     catch (...)
     {
       status = bindpose::Status::failure(
-        bindpose::StatusCode::internal_error, "an exception of an unknown type");
+        bindpose::StatusCode::internal_error, "caught an exception of unknown type");
     }
   }
 

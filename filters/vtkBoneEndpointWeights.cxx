@@ -88,11 +88,11 @@ Status vtkBoneEndpointWeights::Execute(
   vtkPointSet* result = vtkPointSet::GetData(output);
   if (!mesh || !result || mesh->GetNumberOfPoints() == 0)
   {
-    return Status::invalid_input("there is no mesh");
+    return Status::invalid_input("the input mesh is missing");
   }
   if (!handle_data)
   {
-    return Status::invalid_input("there is no handle");
+    return Status::invalid_input("the input has no handles");
   }
   BindKey key;
   key.add(static_cast<vtkMTimeType>(this->Method));

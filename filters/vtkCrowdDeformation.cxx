@@ -253,7 +253,7 @@ Status vtkCrowdDeformation::Execute(
   else if (this->OutputType == APPENDED)
   {
     return Status::invalid_input(std::string("instances of a ") + bound.mesh->GetClassName() +
-      " cannot be appended; ask for a collection");
+      " cannot be appended; set the output type to collection");
   }
   else
   {

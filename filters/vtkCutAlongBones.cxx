@@ -41,13 +41,13 @@ Status to_color_arrays(vtkPolyData* handles, ColorArrays& colors)
     if (*array && (*array)->GetNumberOfComponents() != 3)
     {
       return Status::invalid_input(std::string("the handles' array '") + name + "' has " +
-        std::to_string((*array)->GetNumberOfComponents()) + " components, but a color has 3");
+        std::to_string((*array)->GetNumberOfComponents()) + " components; expected 3 (RGB)");
     }
   }
   if ((colors.left == nullptr) != (colors.right == nullptr))
   {
     return Status::invalid_input(
-      "the handles have one of LeftColor and RightColor, but a curve needs both");
+      "the handles must have both cell arrays LeftColor and RightColor or neither");
   }
   return {};
 }
@@ -60,7 +60,7 @@ Status to_curves(vtkPolyData* handle_data, const Handles& handles, const std::ve
   if (curves && curves->GetNumberOfComponents() != 1)
   {
     return Status::invalid_input("the handles' array 'Curve' has " +
-      std::to_string(curves->GetNumberOfComponents()) + " components, but it takes one number");
+      std::to_string(curves->GetNumberOfComponents()) + " components; expected 1");
   }
   std::map<double, Index> first_of;
   for (std::size_t j = 0; j < handles.size(); ++j)
@@ -168,7 +168,8 @@ Status vtkCutAlongBones::Execute(
       if (colors.left && !colors.other)
       {
         return Status::invalid_input("handle '" + handles[j].name +
-          "' is no bone and has no color: beside LeftColor and RightColor it needs Color");
+          "' is not a bone and needs a color; add the cell array Color next to LeftColor and "
+          "RightColor");
       }
       sides.add(handles[j], colors.other, cells[j]);
       continue;

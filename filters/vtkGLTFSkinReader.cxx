@@ -80,8 +80,8 @@ Status vtkGLTFSkinReader::Execute(
   const auto frames = static_cast<int>(data.poses.size());
   if (this->Frame < -1 || this->Frame >= frames)
   {
-    return Status::invalid_input(path + ": there is no frame " + std::to_string(this->Frame) +
-      ", only " + std::to_string(frames) + " (counted from 0)");
+    return Status::invalid_input(path + ": frame " + std::to_string(this->Frame) +
+      " does not exist; the file has " + std::to_string(frames) + " frames, counted from 0");
   }
   if (frames > 0)
   {
@@ -91,7 +91,8 @@ Status vtkGLTFSkinReader::Execute(
       status.warnings.end(), formatted.warnings.begin(), formatted.warnings.end());
     if (!formatted.ok())
     {
-      status.warnings.push_back("its animation is no pose file: " + formatted.message);
+      status.warnings.push_back(
+        "the animation cannot be converted to a pose file: " + formatted.message);
     }
   }
   this->NumberOfFrames = frames;

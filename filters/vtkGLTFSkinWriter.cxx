@@ -115,7 +115,7 @@ Status take_colors(vtkPointData* data, const char* name, const Surface& surface,
   if (components != 3 && components != 4)
   {
     return named ? Status::invalid_input("the mesh has no point array '" + std::string(name) +
-                     "' of unsigned chars, 3 or 4 a point")
+                     "' of unsigned chars with 3 or 4 components")
                  : Status();
   }
   skin.colors.setConstant(static_cast<Index>(surface.points.size()), 4, 255);
@@ -136,8 +136,8 @@ Status take_transforms(vtkDataSet* frame, const Handles& handles, std::vector<Af
   if (!array || array->GetNumberOfComponents() != 12 ||
     array->GetNumberOfTuples() != static_cast<vtkIdType>(handles.size()))
   {
-    return Status::invalid_input("a frame has no field data HandleTransforms of these handles, so "
-                                 "the animation can only be one of morph targets");
+    return Status::invalid_input("a frame has no field data array HandleTransforms for these "
+                                 "handles; use morph targets for the animation");
   }
   transforms.resize(handles.size());
   for (std::size_t h = 0; h < handles.size(); ++h)
@@ -343,9 +343,11 @@ Status vtkGLTFSkinWriter::Execute(
   }
   else if (status.ok() && this->PoseFileName && this->PoseFileName[0])
   {
-    status = !handle_data ? Status::invalid_input("a sequence of poses needs handles")
+    status = !handle_data
+      ? Status::invalid_input("a pose sequence needs handles, but the input has none")
       : this->Animation == MORPH
-      ? Status::invalid_input("an animation of morph targets needs frames, not a pose file")
+      ? Status::invalid_input(
+          "an animation with morph targets needs input frames instead of a pose file")
       : take_poses(this->PoseFileName, handles, pose, skin);
   }
   else if (const std::string unused = unused_stretch(pose, StretchUse::tails); !unused.empty())

@@ -143,7 +143,8 @@ Status read_tgf(const std::string& path, vtkPolyData* output)
   if (others > 0)
   {
     status.warnings.push_back(path + ": " + std::to_string(others) +
-      " edges are neither bones nor of a cage nor pseudo-edges between points; they are left out");
+      " edges are ignored because they are neither bones nor cage edges nor pseudo-edges between "
+      "points");
   }
   return status;
 }
@@ -200,7 +201,7 @@ Status read_gltf_handles(const std::string& path, vtkPolyData* output)
   status.report = {};
   if (status.ok() && gltf.handle_list.empty())
   {
-    return Status::invalid_input(path + " has no skin, so there are no handles");
+    return Status::invalid_input(path + " has no skin and therefore no handles");
   }
   if (status.ok())
   {

@@ -189,11 +189,12 @@ Status read_by_vtk(const std::string& path, vtkDataObject* output)
   if (errors.Caught() || reader->GetErrorCode() != vtkErrorCode::NoError || !data)
   {
     return Status::invalid_input(
-      path + " cannot be read: " + (errors.Caught() ? errors.Sentence() : "it is broken"));
+      path + " cannot be read: " + (errors.Caught() ? errors.Sentence() : "the file is not valid"));
   }
   if (!output->IsA(data->GetClassName()))
   {
-    return Status::invalid_input(path + " holds a " + data->GetClassName() + ", which is not read");
+    return Status::invalid_input(
+      path + " contains a " + data->GetClassName() + ", which is not supported");
   }
   output->ShallowCopy(data);
   return {};
@@ -215,7 +216,7 @@ Status check_ids(const std::string& path, vtkCellArray* cells, vtkIdType points)
     {
       if (ids[k] < 0 || ids[k] >= points)
       {
-        return Status::invalid_input(path + ": a cell names point " + std::to_string(ids[k]) +
+        return Status::invalid_input(path + ": a cell references point " + std::to_string(ids[k]) +
           ", but there are " + std::to_string(points) + " points");
       }
     }
@@ -228,7 +229,7 @@ Status check_output(const std::string& path, vtkDataObject* output)
   auto* data = vtkDataSet::SafeDownCast(output);
   if (!data || data->GetNumberOfPoints() == 0)
   {
-    return Status::invalid_input(path + " holds no points");
+    return Status::invalid_input(path + " contains no points");
   }
   Status status;
   if (auto* surface = vtkPolyData::SafeDownCast(data))

@@ -126,8 +126,8 @@ Status write_dmat(vtkDataSet* data, const std::string& array_name, const std::st
 Status needs(vtkDataSet* data, const char* class_name, const std::string& format, const char* what)
 {
   return data->IsA(class_name) ? Status()
-                               : Status::invalid_input("a ." + format + " file holds " + what +
-                                   ", but the data is a " + data->GetClassName());
+                               : Status::invalid_input("a ." + format + " file can only store " +
+                                   what + ", but the data is a " + data->GetClassName());
 }
 
 Status write(vtkDataSet* data, const std::string& format, const std::string& array_name,
@@ -212,7 +212,7 @@ bindpose::Status vtkMeshFileWriter::Execute(
   }
   if (!data || data->GetNumberOfPoints() == 0)
   {
-    return Status::invalid_input("there is nothing to write to " + path);
+    return Status::invalid_input("the input is empty: nothing to write to " + path);
   }
   bindpose::AtomicFile file;
   status = file.open(path, this->Overwrite);

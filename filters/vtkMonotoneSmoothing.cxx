@@ -40,7 +40,7 @@ std::string point_arrays(vtkDataSet* mesh)
     const char* name = mesh->GetPointData()->GetArrayName(a);
     names += (names.empty() ? "" : ", ") + std::string(name ? name : "");
   }
-  return names.empty() ? "it has none" : "it has " + names;
+  return names.empty() ? "it has no point arrays" : "its point arrays: " + names;
 }
 
 /// Convert the data array.
@@ -51,9 +51,10 @@ Status to_data(
   if (!array)
   {
     return Status::invalid_input(name.empty()
-        ? "the mesh has no active point scalars to smooth; name a point array (" +
+        ? "the mesh has no active point scalars to smooth; select a point array (" +
           point_arrays(mesh) + ")"
-        : "the mesh has no point array '" + name + "' of numbers (" + point_arrays(mesh) + ")");
+        : "the mesh has no point array '" + name + "' of numeric type (" + point_arrays(mesh) +
+          ")");
   }
   if (array->GetNumberOfComponents() != 1 ||
     array->GetNumberOfTuples() != mesh->GetNumberOfPoints())
@@ -62,7 +63,7 @@ Status to_data(
       std::string(array->GetName() ? array->GetName() : "") + "' has " +
       std::to_string(array->GetNumberOfComponents()) + " components and " +
       std::to_string(array->GetNumberOfTuples()) +
-      " tuples; data to smooth are one number for each of the " +
+      " tuples; expected 1 component and one tuple for each of the " +
       std::to_string(mesh->GetNumberOfPoints()) + " points");
   }
   data = to_matrix(array).view().col(0);
@@ -84,7 +85,7 @@ Status to_list(vtkDataSet* mesh, const std::string& name, ExtremaList& list)
   if (!array || array->GetNumberOfComponents() != 1)
   {
     return Status::invalid_input("the point array '" + name +
-      "' of extrema must have one number a point: 1 maximum, -1 minimum, 0 neither");
+      "' of extrema must have one component: 1 is a maximum, -1 a minimum, 0 neither");
   }
   for (vtkIdType v = 0; v < array->GetNumberOfTuples(); ++v)
   {
@@ -92,7 +93,7 @@ Status to_list(vtkDataSet* mesh, const std::string& name, ExtremaList& list)
     if (std::isnan(kind))
     {
       return Status::invalid_input(
-        "the entry of point " + std::to_string(v) + " in '" + name + "' is not a number");
+        "the point array '" + name + "' of extrema is NaN at point " + std::to_string(v));
     }
     list.push_back(kind > 0.0 ? 1 : kind < 0.0 ? -1 : 0);
   }
@@ -195,7 +196,7 @@ Status vtkMonotoneSmoothing::Execute(
   vtkPointSet* result = vtkPointSet::GetData(output);
   if (!mesh || !result)
   {
-    return Status::invalid_input("there is no mesh");
+    return Status::invalid_input("the input mesh is missing");
   }
   Domain domain;
   std::vector<Index> cell_of_element;

@@ -93,8 +93,9 @@ bindpose::Status vtkPlanarShape::Execute(
   else
   {
     auto* curves = vtkPolyData::SafeDownCast(data);
-    status = curves ? bindpose::to_planar_input(curves, planar)
-                    : bindpose::Status::invalid_input("there is no image and there are no curves");
+    status = curves
+      ? bindpose::to_planar_input(curves, planar)
+      : bindpose::Status::invalid_input("the input is missing: an image or curves are required");
   }
   bindpose::HandleGeometry handles;
   vtkPolyData* handle_data = vtkPolyData::GetData(input[1]);

@@ -190,8 +190,9 @@ Status vtkPoseHandles::Execute(
       timed ? frame_at(time, this->NumberOfFrames, this->FramesPerSecond) : this->Frame;
     if (frame < 0 || frame >= this->NumberOfFrames)
     {
-      return Status::invalid_input(source + "there is no frame " + std::to_string(frame) +
-        ", only " + std::to_string(this->NumberOfFrames) + " (counted from 0)");
+      return Status::invalid_input(source + "frame " + std::to_string(frame) +
+        " does not exist; there are " + std::to_string(this->NumberOfFrames) +
+        " frames, counted from 0");
     }
     pose = apply_edits(sequence.frames[frame], handles, pose);
   }
@@ -223,8 +224,8 @@ Status vtkPoseHandles::TakeDMAT(const Handles& handles, Pose& pose)
   }
   return this->Frame == 0
     ? status
-    : Status::invalid_input(std::string(this->FileName) + ": there is no frame " +
-        std::to_string(this->Frame) + ", only 1 (counted from 0)");
+    : Status::invalid_input(std::string(this->FileName) + ": frame " + std::to_string(this->Frame) +
+        " does not exist; the file has 1 frame, frame 0");
 }
 
 /// Assign the transforms of the frame at `time`, or of Frame, to the handles by name. Handles that
@@ -252,7 +253,7 @@ Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose
     }
     if (!status.ok())
     {
-      return Status::invalid_input(path + " has no skin, so there is no pose");
+      return Status::invalid_input(path + " has no skin and therefore no pose");
     }
   }
   const std::vector<Pose>& frames = data.poses.empty() ? standing : data.poses;
@@ -263,8 +264,9 @@ Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose
     time ? frame_at(*time, this->NumberOfFrames, this->FramesPerSecond) : this->Frame;
   if (frame < 0 || frame >= this->NumberOfFrames)
   {
-    return Status::invalid_input(path + ": there is no frame " + std::to_string(frame) + ", only " +
-      std::to_string(this->NumberOfFrames) + " (counted from 0)");
+    return Status::invalid_input(path + ": frame " + std::to_string(frame) +
+      " does not exist; the file has " + std::to_string(this->NumberOfFrames) +
+      " frames, counted from 0");
   }
   const Pose base = pose;
   std::size_t known = 0;

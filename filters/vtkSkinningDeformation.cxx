@@ -36,7 +36,7 @@ Status check_endpoints(WeightsView endpoints, const Handles& handles, const std:
       {
         return Status::invalid_input("the array '" + name + "' has " + std::to_string(e) +
           " for handle '" + handles[static_cast<std::size_t>(j)].name + "' at point " +
-          std::to_string(v) + ", not between 0 (the bone's head) and 1 (its tail)");
+          std::to_string(v) + "; expected a value from 0 (the bone's head) to 1 (its tail)");
       }
     }
   }

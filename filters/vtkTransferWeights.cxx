@@ -73,13 +73,13 @@ Status vtkTransferWeights::Execute(
   vtkPointSet* result = vtkPointSet::GetData(output);
   if (!target || !result || target->GetNumberOfPoints() == 0)
   {
-    return Status::invalid_input("there is no point to carry weights to");
+    return Status::invalid_input("the input mesh, to which weights are transferred, has no points");
   }
   vtkDataArray* weights = mesh ? mesh->GetPointData()->GetArray(this->ArrayName.c_str()) : nullptr;
   if (!weights)
   {
     return Status::invalid_input(
-      "the mesh with weights has no point array '" + this->ArrayName + "'");
+      "the source mesh has no point array '" + this->ArrayName + "'");
   }
   BindKey key;
   key.add(this->BindTime.GetMTime());

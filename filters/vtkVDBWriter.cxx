@@ -33,15 +33,15 @@ vtkDataArray* find_array(vtkImageData* image, const char* name, Status& status)
   if (!array)
   {
     status = Status::invalid_input(named
-        ? "the volume has no point array '" + std::string(name) + "' of numbers"
-        : "the volume has no active scalars; name a point array");
+        ? "the volume has no point array '" + std::string(name) + "' of numeric type"
+        : "the volume has no active scalars; select a point array");
     return nullptr;
   }
   if (array->GetNumberOfComponents() != 1)
   {
     status = Status::invalid_input("the array '" +
       std::string(array->GetName() ? array->GetName() : "") + "' has " +
-      std::to_string(array->GetNumberOfComponents()) + " components; a grid of floats takes one");
+      std::to_string(array->GetNumberOfComponents()) + " components; a float grid needs 1");
     return nullptr;
   }
   return array;
@@ -104,11 +104,12 @@ bindpose::Status vtkVDBWriter::Execute(
   auto* image = vtkImageData::SafeDownCast(data);
   if (status.ok() && (!data || data->GetNumberOfPoints() == 0))
   {
-    status = Status::invalid_input("there is nothing to write to " + path);
+    status = Status::invalid_input("the input is empty: nothing to write to " + path);
   }
   if (status.ok() && !image)
   {
-    status = Status::invalid_input("a .vdb file holds volumes (vtkImageData), but the data is a " +
+    status = Status::invalid_input(
+      "a .vdb file can only store volumes (vtkImageData), but the data is a " +
       std::string(data->GetClassName()));
   }
   vtkDataArray* array = status.ok() ? find_array(image, this->ArrayName, status) : nullptr;

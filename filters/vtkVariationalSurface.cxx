@@ -36,8 +36,8 @@ Status to_rows(vtkPointSet* mesh, const std::string& name, int fewest, Points& r
   auto* array = vtkDataArray::SafeDownCast(found);
   if (!array || array->GetNumberOfComponents() < fewest || array->GetNumberOfComponents() > 3)
   {
-    return Status::invalid_input("the point array '" + name + "' must have " +
-      (fewest == 2 ? "2 or " : "") + "3 numbers a point");
+    return Status::invalid_input(
+      "the point array '" + name + "' must have " + (fewest == 2 ? "2 or " : "") + "3 components");
   }
   const SharedMatrix<Weights> values = to_matrix(array);
   rows = Points::Zero(values.view().rows(), 3);
@@ -56,7 +56,7 @@ Status to_flags(vtkPointSet* mesh, const std::string& name, std::vector<char>& f
   if (!array || array->GetNumberOfComponents() != 1)
   {
     return Status::invalid_input(
-      "the point array '" + name + "' of fixed points must have one number a point");
+      "the point array '" + name + "' of fixed points must have one component");
   }
   for (vtkIdType v = 0; v < array->GetNumberOfTuples(); ++v)
   {

@@ -31,7 +31,7 @@ Status to_colors(vtkDataArray* array, const WeightsInput& input, Colors& colors)
   if (array->GetNumberOfComponents() != 3)
   {
     return Status::invalid_input(name + " has " + std::to_string(array->GetNumberOfComponents()) +
-      " components, but a color has 3");
+      " components; expected 3 (RGB)");
   }
   const double unit = array->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
   for (Index j = 0; j < colors.rows(); ++j)
@@ -48,8 +48,8 @@ Status to_colors(vtkDataArray* array, const WeightsInput& input, Colors& colors)
       colors(j, k) = own[k] / unit;
       if (!(colors(j, k) >= 0.0 && colors(j, k) <= 1.0))
       {
-        return Status::invalid_input(name + " has a value outside 0 to 1 at handle '" +
-          input.handles[handle].name + "'; colors from 0 to 255 are unsigned chars");
+        return Status::invalid_input(name + " has a value outside the range 0 to 1 at handle '" +
+          input.handles[handle].name + "'; colors from 0 to 255 must be stored as unsigned chars");
       }
     }
   }

@@ -545,11 +545,11 @@ Status vtkWeightsAlgorithm::Execute(
   vtkPointSet* result = vtkPointSet::GetData(output);
   if (!mesh || !result)
   {
-    return Status::invalid_input("there is no mesh");
+    return Status::invalid_input("the input mesh is missing");
   }
   if (!handles)
   {
-    return Status::invalid_input("there is no handle");
+    return Status::invalid_input("the input has no handles");
   }
   BindKey key;
   key.add(this->BindTime.GetMTime());

@@ -327,8 +327,8 @@ Status check_memory(Index samples, std::size_t bytes_a_sample)
   }
   std::ostringstream text;
   text.precision(3);
-  text << samples << " samples need " << needed / 0x1p30 << " GiB, and there are " << there / 0x1p30
-       << ": ask for part of the grid, or for a coarser one";
+  text << samples << " samples need " << needed / 0x1p30 << " GiB of memory, but this computer has "
+       << there / 0x1p30 << " GiB; request a part of the grid or a coarser grid";
   return Status::invalid_input(text.str());
 }
 } // namespace

@@ -18,7 +18,7 @@ Status check_weights(vtkDataArray* weights, vtkIdType points, const Handles& han
   {
     return Status::invalid_input(array + " has " + std::to_string(weights->GetNumberOfTuples()) +
       " tuples, but the mesh has " + std::to_string(points) +
-      " points: these are the weights of another mesh");
+      " points; use the mesh for which the weights were computed");
   }
   const int columns = weights->GetNumberOfComponents();
   if (columns != static_cast<int>(handles.size()))
@@ -31,9 +31,10 @@ Status check_weights(vtkDataArray* weights, vtkIdType points, const Handles& han
     const char* name = weights->HasAComponentName() ? weights->GetComponentName(j) : nullptr;
     if (name && *name && handles[static_cast<std::size_t>(j)].name != name)
     {
-      return Status::invalid_input(array + " has the weights of a handle '" + name +
-        "' in component " + std::to_string(j) + ", where the handles have '" +
-        handles[static_cast<std::size_t>(j)].name + "': these are the weights of other handles");
+      return Status::invalid_input(array + " has the handle name '" + name + "' at component " +
+        std::to_string(j) + ", but that handle is named '" +
+        handles[static_cast<std::size_t>(j)].name +
+        "'; use the handles for which the weights were computed");
     }
   }
   return {};
@@ -65,7 +66,7 @@ Status to_weights_input(
   }
   if (!handles)
   {
-    return Status::invalid_input("there is no handle");
+    return Status::invalid_input("the input has no handles");
   }
   Status status = to_handles(handles, input.handles, &input.cells);
   if (status.ok())
@@ -88,7 +89,7 @@ Status to_region_ids(vtkPointSet* mesh, const std::string& name, std::vector<Ind
   if (!array || array->GetNumberOfComponents() != 1)
   {
     return Status::invalid_input(
-      "the point array '" + name + "' of region labels must have one number a point");
+      "the point array '" + name + "' of region labels must have one component");
   }
   for (vtkIdType v = 0; v < array->GetNumberOfTuples(); ++v)
   {
@@ -96,7 +97,7 @@ Status to_region_ids(vtkPointSet* mesh, const std::string& name, std::vector<Ind
     if (!(std::abs(label) < 1e15) || label != std::floor(label))
     {
       return Status::invalid_input(
-        "the region label of point " + std::to_string(v) + " is not a whole number");
+        "the region label of point " + std::to_string(v) + " is not an integer");
     }
     region_ids.push_back(static_cast<Index>(label));
   }

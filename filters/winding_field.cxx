@@ -177,8 +177,8 @@ Status to_curve(vtkPointSet* input, CurveInput& curve)
   {
     if (v < 0 || v >= points.rows())
     {
-      return Status::invalid_input("a line has vertex " + std::to_string(v) +
-        ", but there are only " + std::to_string(points.rows()));
+      return Status::invalid_input("a line references vertex " + std::to_string(v) +
+        ", but there are " + std::to_string(points.rows()) + " vertices");
     }
     if (!points.row(v).allFinite())
     {
@@ -191,8 +191,8 @@ Status to_curve(vtkPointSet* input, CurveInput& curve)
   curve.across = size.z() == 0.0 ? 2 : size.x() == 0.0 ? 0 : size.y() == 0.0 ? 1 : -1;
   if (curve.across < 0)
   {
-    return Status::invalid_input("the input has no triangles or polygons, and its lines do not lie "
-                                 "in a plane across x, y or z");
+    return Status::invalid_input("the input has no triangles or polygons, and its lines are not in "
+                                 "a plane perpendicular to the x, y or z axis");
   }
   return {};
 }
@@ -432,8 +432,8 @@ struct WindingField::Cloud : Kernel
     vtkDataArray* areas = input->GetPointData()->GetArray(options.area_array.c_str());
     if (areas && areas->GetNumberOfComponents() != 1)
     {
-      return Status::invalid_input(
-        "the point array '" + options.area_array + "' must have one component, an area a point");
+      return Status::invalid_input("the point array '" + options.area_array +
+        "' must have one component, the area of each point");
     }
     Eigen::VectorXd numbers(areas ? areas->GetNumberOfTuples() : 0);
     for (Index i = 0; i < numbers.size(); ++i)

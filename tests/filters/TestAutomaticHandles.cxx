@@ -193,7 +193,7 @@ TEST(AutomaticHandlesFilter, BadInputIsOneSentence)
   filter->SetInputData(to_polydata(needle.points, needle.triangles));
   filter->Update();
   EXPECT_EQ(filter->GetStatus(), vtkAutomaticHandles::INVALID_INPUT);
-  EXPECT_THAT(filter->GetStatusMessage(), HasSubstr("no triangle of the surface has an area"));
+  EXPECT_THAT(filter->GetStatusMessage(), HasSubstr("all triangles of the surface have area 0"));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
   filter->SetInputData(surface());
   filter->SetMethodToPoints();

@@ -168,5 +168,5 @@ TEST_F(BoneEndpointWeights, BadInputIsOneSentence)
   EXPECT_THAT(this->report().text("message"), HasSubstr("no bone"));
   this->update(
     vtkSmartPointer<vtkPolyData>::New(), { test::bone_handle("b", { 0, 0, 0 }, { 0, 1, 0 }) }, 1);
-  EXPECT_THAT(this->report().text("message"), HasSubstr("no mesh"));
+  EXPECT_THAT(this->report().text("message"), HasSubstr("mesh is missing"));
 }

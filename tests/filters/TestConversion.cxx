@@ -56,7 +56,7 @@ TEST(Conversion, WhatIsNoSurfaceIsNamed)
   SurfaceInput surface;
   vtkNew<vtkPolyData> empty;
   EXPECT_NE(to_surface(empty, surface).message.find("empty"), std::string::npos);
-  EXPECT_NE(to_surface(nullptr, surface).message.find("no input"), std::string::npos);
+  EXPECT_NE(to_surface(nullptr, surface).message.find("missing"), std::string::npos);
   TetInput tets;
   EXPECT_NE(to_tets(empty, tets).message.find("vtkPolyData"), std::string::npos);
   vtkNew<vtkPolyData> bad;

@@ -287,9 +287,9 @@ TEST_F(CrowdDeformationFilter, SaysWhatIsWrong)
     return this->filter->GetStatusMessage();
   };
   vtkNew<vtkTable> table;
-  EXPECT_THAT(message(table), HasSubstr("there is no instance"));
+  EXPECT_THAT(message(table), HasSubstr("has no instances"));
   vtkNew<vtkMultiBlockDataSet> blocks;
-  EXPECT_THAT(message(blocks), HasSubstr("there is no instance"));
+  EXPECT_THAT(message(blocks), HasSubstr("has no instances"));
 
   const std::string name = this->rig.handles[2].name;
   vtkNew<vtkDoubleArray> right;
@@ -324,16 +324,18 @@ TEST_F(CrowdDeformationFilter, SaysWhatIsWrong)
   places->InsertNextTuple3(0, 0, 0);
   places->InsertNextTuple3(0, 0, std::nan(""));
   table->GetRowData()->AddArray(places);
-  EXPECT_THAT(message(table), HasSubstr("instance 1: where it stands"));
+  EXPECT_THAT(message(table), HasSubstr("instance 1: its placement"));
 
   // The handles of an instance are not those of the mesh.
   blocks->SetBlock(0, this->posed_handles(0));
   Handles others = this->rig.handles;
   others[1].name = "another";
   blocks->SetBlock(1, to_polydata(others));
-  EXPECT_THAT(message(blocks), HasSubstr("instance 1: its handles are not those of the mesh"));
+  EXPECT_THAT(
+    message(blocks), HasSubstr("instance 1: its handles differ from the handles of the mesh"));
   blocks->SetBlock(1, this->tets);
-  EXPECT_THAT(message(blocks), HasSubstr("instance 1: a vtkUnstructuredGrid has no handles"));
+  EXPECT_THAT(message(blocks),
+    HasSubstr("instance 1: expected a vtkPolyData with handles, got a vtkUnstructuredGrid"));
   EXPECT_FALSE(this->listener->errors.empty());
 
   // The filter works again after the failure. It warns if no array has the name of a handle.

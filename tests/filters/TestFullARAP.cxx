@@ -160,7 +160,7 @@ TEST_F(FullARAPFilter, WhatCannotBeIsOneSentence)
     EXPECT_THAT(this->listener->errors[0], HasSubstr(sentence));
   };
   this->filter->SetEnergy(vtkFullARAP::TRIANGLES);
-  refused("triangles energy needs a surface");
+  refused("energy triangles needs a surface");
   this->filter->SetEnergy(vtkFullARAP::AUTO);
   this->filter->SetRegionArrayName("Nowhere");
   refused("region 'left' needs a point array of labels");

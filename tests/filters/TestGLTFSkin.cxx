@@ -454,7 +454,7 @@ TEST_F(GLTFSkin, AMeshWithoutHandles)
 TEST_F(GLTFSkin, Errors)
 {
   this->Writer->SetFileName(nullptr);
-  this->Refuses("no file name");
+  this->Refuses("file name is empty");
   this->Writer->SetFileName((this->Folder / "rig.obj").c_str());
   this->Refuses("file name extension");
   this->Writer->SetFileName((this->Folder / "rig.glb").c_str());

@@ -258,7 +258,7 @@ TEST_F(MeshFiles, UnreadableFilesAreOneSentence)
     this->ReadError(this->Folder.write("mesh.xyz", "1")), HasSubstr("unknown file name extension"));
   EXPECT_THAT(
     this->ReadError(this->Folder.write("mesh", "1")), HasSubstr("no file name extension"));
-  EXPECT_THAT(this->ReadError(""), HasSubstr("no file name"));
+  EXPECT_THAT(this->ReadError(""), HasSubstr("file name is empty"));
 }
 
 TEST_F(MeshFiles, TruncatedAndGarbledFilesNeverCrash)
@@ -309,7 +309,7 @@ TEST_F(MeshFiles, WhatCannotBeWrittenIsOneSentence)
 {
   const auto surface = cube();
   const std::string path = this->Folder / "x.off";
-  EXPECT_THAT(this->Write(surface, ""), HasSubstr("no file name"));
+  EXPECT_THAT(this->Write(surface, ""), HasSubstr("file name is empty"));
   EXPECT_THAT(
     this->Write(surface, this->Folder / "x.abc"), HasSubstr("unknown file name extension"));
   EXPECT_THAT(this->Write(surface, this->Folder / "no/x.vtp"), HasSubstr("No such file"));

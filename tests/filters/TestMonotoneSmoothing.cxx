@@ -226,7 +226,7 @@ TEST_F(MonotoneSmoothing, RefusesWhatItCannotUseAndGoesOn)
   words->SetNumberOfValues(this->mesh->GetNumberOfPoints());
   this->mesh->GetPointData()->AddArray(words);
   this->smoothing->SetExtremaArrayName("Words");
-  this->expect_refusal("one number a point");
+  this->expect_refusal("must have one component");
   this->add_list(40, 200, "List");
   auto* list = vtkIntArray::SafeDownCast(this->mesh->GetPointData()->GetArray("List"));
   list->SetValue(200, 0);

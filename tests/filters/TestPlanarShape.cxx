@@ -275,7 +275,7 @@ TEST_F(PlanarShapeFilter, Refuses)
   refuses(image, "2 layers");
   image = disc();
   image->GetDirectionMatrix()->SetElement(0, 0, -1.0);
-  refuses(image, "turned");
+  refuses(image, "direction matrix");
   image = disc();
   image->SetSpacing(0.0, 1.0, 1.0);
   refuses(image, "spacing");

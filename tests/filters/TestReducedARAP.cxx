@@ -301,7 +301,7 @@ TEST_F(ReducedARAPFilter, SurfacesBendToo)
     EXPECT_EQ(this->filter->GetOutput()->GetNumberOfCells(), this->surface->GetNumberOfCells());
   }
   this->filter->SetEnergy(vtkReducedARAP::TETRAHEDRA);
-  this->fails_with("needs tets");
+  this->fails_with("needs a tet mesh");
   this->filter->SetInputData(0, this->tets);
   this->filter->SetEnergy(vtkReducedARAP::TRIANGLES);
   this->fails_with("needs a surface");
@@ -371,7 +371,7 @@ TEST_F(ReducedARAPFilter, WhatDoesNotFitIsNamed)
   auto array = weights_array(this->rig.weights, this->rig.handles);
   array->InsertNextTuple3(1, 0, 0);
   this->tets->GetPointData()->AddArray(array);
-  this->fails_with("weights of another mesh");
+  this->fails_with("use the mesh for which the weights were computed");
 
   // The weights are those of other handles: one component has another name.
   array = weights_array(this->rig.weights, this->rig.handles);
@@ -524,7 +524,7 @@ TEST_F(ReducedARAPFilter, ReflectionsAndCollapsedScalesAreNamedAndDestroyNothing
       EXPECT_TRUE(result.allFinite());
       EXPECT_LT(result.cwiseAbs().maxCoeff(), 100.0);
       const double volume = scale.prod();
-      const std::string words = volume < 0.0 ? "are reflections" : "scale some direction to zero";
+      const std::string words = volume < 0.0 ? "are reflections" : "scale a direction to zero";
       const bool said = std::any_of(quiet->warnings.begin(), quiet->warnings.end(),
         [&](const std::string& warning)
         {

@@ -165,7 +165,7 @@ TEST_F(VDBWriter, WhatCannotBeWrittenIsOneSentence)
   this->Writer->SetFileName((this->Folder / "f.vti").c_str());
   this->Refuses("unknown file name extension");
   this->Writer->SetFileName(nullptr);
-  this->Refuses("no file name");
+  this->Refuses("file name is empty");
   this->Writer->SetFileName((this->Folder / "no/f.vdb").c_str());
   this->Refuses("No such file");
   this->Writer->SetFileName((this->Folder / "f.vdb").c_str());

@@ -187,7 +187,7 @@ TEST_F(VariationalSurfaceFilter, WhatCannotBeIsOneSentence)
   this->refused("no point array 'Tangents'");
   this->filter->SetBoundary(vtkVariationalSurface::REGION);
   this->filter->SetParameterArrayName("Fixed");
-  this->refused("'Fixed' must have 2 or 3 numbers");
+  this->refused("'Fixed' must have 2 or 3 components");
   this->filter->SetParameterArrayName("");
   this->filter->SetRegionArrayName("Nowhere");
   this->refused("region 'middle' needs a point array of labels");
@@ -195,5 +195,5 @@ TEST_F(VariationalSurfaceFilter, WhatCannotBeIsOneSentence)
   this->filter->FairOn();
   this->filter->SetFixedArrayName("Nowhere");
   this->pose->SetPoseJSON(R"({"handles": {"middle": {"mode": "free"}}})");
-  this->refused("nothing is fixed");
+  this->refused("must have at least one fixed point");
 }

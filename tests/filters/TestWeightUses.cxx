@@ -495,5 +495,5 @@ TEST(CutAlongBones, WhatCannotBeCutIsNamed)
   EXPECT_EQ(cut->GetOutput()->GetNumberOfPoints(), 0);
   set_cells(handles, "LeftColor", { 1, 0, 0 });
   cut->Update();
-  EXPECT_THAT(listener->errors.back(), HasSubstr("needs both"));
+  EXPECT_THAT(listener->errors.back(), HasSubstr("must have both"));
 }

@@ -340,7 +340,7 @@ TEST(WeightsFilters, OriginalPointIdsAndStrayPoints)
     EXPECT_EQ(run.weights()->GetComponent(stray, j), 0.0);
   }
   ASSERT_EQ(run.listener->warnings.size(), 1u);
-  EXPECT_THAT(run.listener->warnings[0], HasSubstr("in no element"));
+  EXPECT_THAT(run.listener->warnings[0], HasSubstr("not part of any element"));
 }
 
 TEST(WeightsFilters, KeepMeshKeepsEveryObject)
@@ -463,7 +463,7 @@ TEST(WeightsFilters, EveryBadInputIsOneSentence)
   EXPECT_THAT(message(tet_box(2),
                 to_polydata(Handles{ test::point_handle("a", Vec3(0.1, 0.1, 0.1)),
                   test::point_handle("b", Vec3(0.1, 0.1, 0.1)) })),
-    HasSubstr("'a' and 'b' are at the same place"));
+    HasSubstr("'a' and 'b' have the same position"));
   const auto not_a_number = tet_box(2);
   not_a_number->GetPoints()->SetPoint(5, 0.0, std::nan(""), 0.0);
   EXPECT_THAT(message(not_a_number, three_handles()), HasSubstr("vertex 5"));
@@ -475,7 +475,7 @@ TEST(WeightsFilters, EveryBadInputIsOneSentence)
   hexahedron->SetPoints(tet_box(1)->GetPoints());
   const vtkIdType corners[8] = { 0, 1, 3, 2, 4, 5, 7, 6 };
   hexahedron->InsertNextCell(VTK_HEXAHEDRON, 8, corners);
-  EXPECT_THAT(message(hexahedron, three_handles()), HasSubstr("not a tet"));
+  EXPECT_THAT(message(hexahedron, three_handles()), HasSubstr("expected only tets"));
 }
 
 TEST(WeightsFilters, PrintSelfTellsEveryParameter)
@@ -720,7 +720,7 @@ TEST(WeightsFilters, HandlesHaveBoundsOfTheirOwn)
   bounds->Modified();
   handles->Modified();
   pipeline.filter->Update();
-  EXPECT_THAT(pipeline.report().text("message"), HasSubstr("a least and a largest weight"));
+  EXPECT_THAT(pipeline.report().text("message"), HasSubstr("the smallest and the largest weight"));
 }
 
 TEST(WeightsFilters, MirroredHandlesByAPlane)

@@ -346,9 +346,9 @@ def test_crowd():
                            (dict(placements=[[0, 0]] * 4), "a placement must be")):
         with pytest.raises(bindpose.InvalidInput, match=sentence):
             bindpose.crowd(BAR, handles, poses, weights=weights, **what)
-    with pytest.raises(bindpose.InvalidInput, match="there is no instance"):
+    with pytest.raises(bindpose.InvalidInput, match="has no instances"):
         bindpose.crowd(BAR, handles, [], weights=weights)
-    with pytest.raises(bindpose.InvalidInput, match="'b9' that does not exist"):
+    with pytest.raises(bindpose.InvalidInput, match="'b9', which does not exist"):
         bindpose.crowd(BAR, handles, [{"handles": {"b9": {}}}], weights=weights)
 
 
@@ -372,7 +372,7 @@ def test_not_converged_is_a_warning_with_a_result():
     (lambda: bindpose.winding_number(shapes.cube(), [[1, 2]]), "#V x 3"),
     (lambda: bindpose.tetrahedralize(shapes.flat()), ""),
     (lambda: bindpose.tetrahedralize(vtkPolyData()), "empty"),
-    (lambda: bindpose.weights(BAR, bindpose.handles([[1, 0.5, 0.5], [1, 0.5, 0.5]])), "same place"),
+    (lambda: bindpose.weights(BAR, bindpose.handles([[1, 0.5, 0.5], [1, 0.5, 0.5]])), "same position"),
     (lambda: bindpose.weights(BAR, "auto:0"), "auto"),
     (lambda: bindpose.weights(BAR, 7), "handles"),
     (lambda: bindpose.weights(BAR, "none.tgf"), "none.tgf"),

@@ -124,7 +124,7 @@ void look_inside(
   {
     told.warnings.push_back(std::to_string(joints_outside) + " of " +
       std::to_string(bones.joints.rows()) + " joints " + (joints_outside == 1 ? "is" : "are") +
-      " outside of the shape");
+      " outside the shape");
   }
 }
 

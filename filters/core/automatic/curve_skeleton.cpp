@@ -294,7 +294,7 @@ Status curve_skeleton(PointsView points, TrianglesView triangles,
   {
     status.warnings.push_back(std::to_string(left_out) +
       (left_out == 1 ? " component has" : " components have") +
-      " no skeleton: too small beside the largest one, or not closed");
+      " no skeleton because a component must be closed and not much smaller than the largest one");
   }
   return status;
 }

@@ -704,7 +704,7 @@ Status check_options(const SkeletonBonesOptions& options)
   if (!(options.longest_bone == 0.0 || options.longest_bone >= least_bone) ||
     !std::isfinite(options.longest_bone))
   {
-    return bad("longest_bone", "0 or at least 0.01", options.longest_bone);
+    return bad("longest_bone", "0 (no limit) or at least 0.01", options.longest_bone);
   }
   if (options.maximum_bones < 0)
   {
@@ -760,8 +760,9 @@ Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
   }
   if (options.maximum_bones > 0 && static_cast<Index>(pieces.size()) > options.maximum_bones)
   {
-    status.warnings.push_back("there are " + std::to_string(pieces.size()) + " bones, more than " +
-      std::to_string(options.maximum_bones) + ": no component goes without");
+    status.warnings.push_back("the skeleton has " + std::to_string(pieces.size()) +
+      " bones, more than maximum_bones (" + std::to_string(options.maximum_bones) +
+      "), because each component needs at least one");
   }
   return status;
 }

@@ -77,8 +77,8 @@ public:
         if (!component)
         {
           return Status::invalid_input("the surface has only " + std::to_string(n) +
-            " different vertices, fewer than the " + std::to_string(this->options_.count) +
-            " points asked for");
+            " distinct vertices, fewer than the " + std::to_string(this->options_.count) +
+            " requested points");
         }
         vertex = this->farthest(*component);
         component->full = vertex < 0;
@@ -388,7 +388,7 @@ Status spread_points(PointsView points, TrianglesView triangles, const SpreadPoi
   if (options.count < 1)
   {
     return Status::invalid_input(
-      "at least one point must be asked for, not " + std::to_string(options.count));
+      "the number of points must be at least 1, not " + std::to_string(options.count));
   }
   if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
   {

@@ -146,15 +146,15 @@ Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& ma
   plan->nodes = solver.supernodes();
   if (!plan->nodes)
   {
-    return Status::failure(
-      StatusCode::unavailable, "the factorization in single precision needs CHOLMOD's supernodes");
+    return Status::failure(StatusCode::unavailable,
+      "the factorization in single precision needs a supernodal factor of CHOLMOD");
   }
   const Supernodes& nodes = *plan->nodes;
   const int n = plan->size();
   if (matrix.rows() != n || matrix.cols() != n || !matrix.isCompressed())
   {
-    return Status::failure(
-      StatusCode::internal_error, "the matrix to be factored has not the analyzed pattern");
+    return Status::failure(StatusCode::internal_error,
+      "the sparsity pattern of the matrix to factor differs from the analyzed pattern");
   }
   const auto count = static_cast<int>(nodes.first_column.size()) - 1;
   std::vector<int> node_of_column(static_cast<std::size_t>(n));
@@ -216,8 +216,8 @@ Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& ma
       const int* at = std::lower_bound(begin, end, row);
       if (at == end || *at != row)
       {
-        return Status::failure(
-          StatusCode::internal_error, "the matrix to be factored has not the analyzed pattern");
+        return Status::failure(StatusCode::internal_error,
+          "the sparsity pattern of the matrix to factor differs from the analyzed pattern");
       }
       plan->position[k] = nodes.first_value[s] + (column - nodes.first_column[s]) * plan->rows(s) +
         static_cast<int>(at - begin);
@@ -385,8 +385,8 @@ Status FloatCholesky::factor(
   if (!impl.plan || matrix.rows() != impl.plan->size() ||
     matrix.nonZeros() != static_cast<Index>(impl.plan->position.size()))
   {
-    return Status::failure(
-      StatusCode::internal_error, "the matrix to be factored has not the analyzed pattern");
+    return Status::failure(StatusCode::internal_error,
+      "the sparsity pattern of the matrix to factor differs from the analyzed pattern");
   }
   Plan& plan = *impl.plan;
   plan.factorizations += 1;

@@ -144,9 +144,9 @@ Status check_memory(const std::string& what, double bytes, Index limit)
   const auto words = [](double size)
   { return std::to_string(static_cast<long long>(std::ceil(size / mebibyte))) + " MiB"; };
   return Status::failure(StatusCode::internal_error,
-    what + " would bring this process to about " + words(held + bytes) + " of memory, " +
-      (limited ? words(allowed) + " are its limit: take a coarser mesh or a higher limit"
-               : words(held + left) + " are there: take a coarser mesh"));
+    what + " would increase the memory of this process to about " + words(held + bytes) + "; " +
+      (limited ? "the limit is " + words(allowed) + ": use a coarser mesh or a higher limit"
+               : "only " + words(held + left) + " are available: use a coarser mesh"));
 }
 
 } // namespace bindpose

@@ -24,7 +24,7 @@ Status check_elements(PointsView points, const Elements& elements, const char* e
       if (v < 0 || v >= points.rows())
       {
         return Status::invalid_input(std::string(element_name) + " " + std::to_string(e) +
-          " names vertex " + std::to_string(v) + ", but there are " +
+          " references vertex " + std::to_string(v) + ", but there are " +
           std::to_string(points.rows()) + " vertices");
       }
       if (!points.row(v).allFinite())

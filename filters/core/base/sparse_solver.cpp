@@ -207,7 +207,7 @@ public:
     // LAPACK accepts NaN; the estimate of the condition is then 0 or NaN.
     return cholmod_rcond(this->factor_, &this->common_) > 0.0
       ? Status()
-      : Status::invalid_input("the matrix to be factored holds numbers that are not finite");
+      : Status::invalid_input("the matrix to factor contains values that are not finite");
   }
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override
@@ -314,10 +314,10 @@ private:
         return Status::invalid_input(start + "its factor is too large");
       case CHOLMOD_NOT_INSTALLED:
         return Status::failure(
-          StatusCode::unavailable, start + "this CHOLMOD has no supernodal method");
+          StatusCode::unavailable, start + "the installed CHOLMOD has no supernodal method");
       default:
         return Status::failure(StatusCode::internal_error,
-          start + "CHOLMOD says " + std::to_string(this->common_.status));
+          start + "CHOLMOD status " + std::to_string(this->common_.status));
     }
   }
 
@@ -387,7 +387,7 @@ std::string SparseSolver::blas_warning()
       return {};
     }
   }
-  return "the BLAS in use is not known to be fast (the reference BLAS is about 17 times slower); "
+  return "the loaded BLAS may be slow (the reference BLAS is about 17 times slower than OpenBLAS); "
          "install libopenblas-pthread-dev";
 #else
   return {};
@@ -403,12 +403,12 @@ Status SparseSolver::analyze(const SparseMatrix& matrix)
 {
   if (!this->impl_->factorization)
   {
-    return Status::failure(
-      StatusCode::unavailable, "this build has no CHOLMOD (package libsuitesparse-dev)");
+    return Status::failure(StatusCode::unavailable,
+      "this build has no CHOLMOD; install the package libsuitesparse-dev and rebuild");
   }
   if (matrix.rows() != matrix.cols() || !matrix.isCompressed())
   {
-    return Status::invalid_input("a matrix to be factored must be square and compressed");
+    return Status::invalid_input("the matrix to factor must be square and compressed");
   }
   // METIS uses the C library's random generator. Analyses are serialized, so that each one is
   // repeatable.
@@ -425,8 +425,8 @@ Status SparseSolver::factor(const SparseMatrix& matrix)
   if (matrix.rows() != this->impl_->size || matrix.nonZeros() != this->impl_->nonzeros ||
     this->impl_->counters->analyses == 0)
   {
-    return Status::failure(
-      StatusCode::internal_error, "the matrix to be factored has not the analyzed pattern");
+    return Status::failure(StatusCode::internal_error,
+      "the sparsity pattern of the matrix to factor differs from the analyzed pattern");
   }
   if (!this->impl_->factorization->has_factor())
   {

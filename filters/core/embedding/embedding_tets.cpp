@@ -112,7 +112,7 @@ Status check(PointsView points, TrianglesView triangles, const EmbeddingOptions&
   if (triangles.rows() > most || points.rows() > std::numeric_limits<LatticeCover::Id>::max())
   {
     return Status::invalid_input(
-      "the surface has more than " + std::to_string(most) + " triangles");
+      "the surface must have at most " + std::to_string(most) + " triangles");
   }
   if (options.resolution < 0 || options.resolution > LatticeCover::largest_resolution)
   {
@@ -123,7 +123,7 @@ Status check(PointsView points, TrianglesView triangles, const EmbeddingOptions&
   if (options.tets < 1)
   {
     return Status::invalid_input(
-      "the wanted number of tets must be at least 1, not " + std::to_string(options.tets));
+      "the target number of tets must be at least 1, not " + std::to_string(options.tets));
   }
   if (!std::isfinite(options.winding_threshold) || options.winding_threshold <= 0.0)
   {
@@ -136,8 +136,8 @@ Status check(PointsView points, TrianglesView triangles, const EmbeddingOptions&
       if (link.triangles[k] < 0 || link.triangles[k] >= triangles.rows() ||
         !link.places[k].allFinite())
       {
-        return Status::invalid_input("a link must join two places on triangles of the surface, "
-                                     "not on triangle " +
+        return Status::invalid_input("a link must connect two finite positions on triangles of the "
+                                     "surface, but its triangle is " +
           std::to_string(link.triangles[k]));
       }
     }
@@ -159,7 +159,7 @@ Status embed_surface(PointsView points, TrianglesView triangles, const WindingNu
   constexpr double largest_size = 1e100; // the cube of this length is still a finite double
   if (!(box.size().maxCoeff() <= largest_size))
   {
-    return Status::invalid_input("the surface is larger than 1e100, too large for volumes");
+    return Status::invalid_input("the surface is larger than 1e100, so its volume would overflow");
   }
   LatticeSurface surface;
   LatticeCover cover(surface, winding, options.winding_threshold, box);

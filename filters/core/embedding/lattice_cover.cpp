@@ -363,7 +363,7 @@ Status LatticeCover::find_cubes(ExecutionContext& context)
 Status LatticeCover::too_many_cubes()
 {
   return Status::invalid_input("the lattice would have more than " + std::to_string(most_cubes) +
-    " cubes; take a smaller resolution");
+    " cubes; use a smaller resolution");
 }
 
 /// Return the number of tets that contain a piece of the surface or are in inside cubes.

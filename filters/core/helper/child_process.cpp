@@ -229,12 +229,12 @@ void judge(int status, ChildEnd& end)
   end.by_signal = WIFSIGNALED(status);
   if (end.by_signal)
   {
-    end.failure = "was ended by signal " + std::to_string(WTERMSIG(status)) + " (" +
+    end.failure = "was terminated by signal " + std::to_string(WTERMSIG(status)) + " (" +
       ::strsignal(WTERMSIG(status)) + ")";
   }
   else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
   {
-    end.failure = "ended with code " + std::to_string(WEXITSTATUS(status));
+    end.failure = "failed with exit code " + std::to_string(WEXITSTATUS(status));
   }
 }
 } // namespace
@@ -303,7 +303,7 @@ Status run_child(const ChildRequest& request,
   if (::pipe2(ends, O_CLOEXEC) != 0)
   {
     return Status::failure(StatusCode::internal_error,
-      "no pipe to " + request.name + " can be had: " + std::strerror(errno));
+      "cannot create a pipe to " + request.name + ": " + std::strerror(errno));
   }
   const FileDescriptor lines_read(ends[0]);
   FileDescriptor lines_write(ends[1]);

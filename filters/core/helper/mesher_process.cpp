@@ -22,9 +22,8 @@ namespace bindpose
 
 namespace
 {
-constexpr const char* missing_helper =
-  "the helper executable bindpose-mesher is missing; the packages libcgal-dev and libtet1.5-dev "
-  "are needed to build it";
+constexpr const char* missing_helper = "the helper executable bindpose-mesher is missing; building "
+                                       "it needs the packages libcgal-dev and libtet1.5-dev";
 
 /// Create an anonymous file that is closed on exec, with a descriptor other than 0, 1 and 2.
 int anonymous_file(const char* name)
@@ -93,7 +92,7 @@ Status judge_end(
   std::string message = job + " " + end.failure + limit;
   if (end.by_signal)
   {
-    message += lines.noise().empty() ? "" : "; its last words: " + lines.noise();
+    message += lines.noise().empty() ? "" : "; last output: " + lines.noise();
   }
   else if (!lines.error().empty())
   {
@@ -157,7 +156,9 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
   {
     const char* chosen = std::getenv("BINDPOSE_MESHER");
     return Status::failure(StatusCode::unavailable,
-      chosen ? std::string("BINDPOSE_MESHER names no executable file: ") + chosen
+      chosen ? std::string("the environment variable BINDPOSE_MESHER must name an executable file, "
+                           "but is set to ") +
+          chosen
              : std::string(missing_helper));
   }
   const FileDescriptor input_file(anonymous_file("bindpose-mesher-input"));
@@ -166,7 +167,7 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
     !write_mesher_data(input_file.get(), input) || ::lseek(input_file.get(), 0, SEEK_SET) != 0)
   {
     return Status::failure(StatusCode::internal_error,
-      std::string("no room to hand the mesh to bindpose-mesher: ") + std::strerror(errno));
+      std::string("cannot write the temporary mesh for bindpose-mesher: ") + std::strerror(errno));
   }
   ChildRequest child;
   child.path = path;
@@ -204,7 +205,7 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
   if (::lseek(output_file.get(), 0, SEEK_SET) != 0 ||
     !read_mesher_data(output_file.get(), answer.data))
   {
-    return Status::failure(StatusCode::internal_error, child.name + " wrote no readable mesh");
+    return Status::failure(StatusCode::internal_error, child.name + " did not write a valid mesh");
   }
   return {};
 }

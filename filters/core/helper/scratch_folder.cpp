@@ -37,14 +37,14 @@ ScratchFolder::ScratchFolder(const std::string& purpose)
   const std::filesystem::path parent = std::filesystem::temp_directory_path(failure);
   if (failure)
   {
-    this->error_ = "there is no folder for temporary files: " + failure.message();
+    this->error_ = "cannot find the folder for temporary files: " + failure.message();
     return;
   }
   std::string pattern = (parent / ("bindpose-" + purpose + "-XXXXXX")).string();
   if (!::mkdtemp(pattern.data()))
   {
     this->error_ =
-      "no temporary folder can be made in " + parent.string() + ": " + std::strerror(errno);
+      "cannot create a temporary folder in " + parent.string() + ": " + std::strerror(errno);
     return;
   }
   this->path_ = pattern;

@@ -84,8 +84,8 @@ void RungLog::report(Report& report) const
 Status wrong_volume(double volume, const EnclosedRegion& inside)
 {
   return Status::failure(StatusCode::internal_error,
-    "the tets hold " + short_number(volume) + ", but the winding number encloses " +
-      short_number(inside.volume()));
+    "the tets have volume " + short_number(volume) +
+      ", but the enclosed volume by winding number is " + short_number(inside.volume()));
 }
 
 CdtTets::CdtTets(const RepairedSurface& surface, EnclosedRegion& inside, const CdtOptions& options,
@@ -135,8 +135,8 @@ Status CdtTets::build(double seconds)
     if (status.ok() && move.moves())
     {
       this->warnings_.push_back(
-        "tets were possible only with the surface's vertices moved, by up to " +
-        short_number(std::max(move.snap, move.jitter)) + " of its diagonal");
+        "the surface could be tetrahedralized only after its vertices were moved by up to " +
+        short_number(std::max(move.snap, move.jitter)) + " of its bounding-box diagonal");
     }
     if (status.ok() || this->final(status))
     {
@@ -255,7 +255,7 @@ Status CdtTets::try_fine_tets(const Move& move, const MesherData& refined)
   this->wrong_volume_ = false;
   if (this->fine_fails_)
   {
-    return Status::failure(StatusCode::internal_error, "small tets were not possible");
+    return Status::failure(StatusCode::internal_error, "a mesh of small tets could not be created");
   }
   const double box = bounding_box(refined.points).size().prod();
   constexpr double tets_inside = 400.0;
@@ -339,7 +339,8 @@ Status CdtTets::try_delaunay(const MesherData& refined)
   this->log_.add("delaunay of the vertices", this->context_.elapsed_seconds() - start, status);
   if (status.ok())
   {
-    this->warnings_.emplace_back("the tets do not follow the surface's triangles everywhere");
+    this->warnings_.emplace_back(
+      "the boundary of the tets does not match the surface's triangles everywhere");
   }
   return status;
 }
@@ -367,7 +368,8 @@ Status CdtTets::refine(const Move& move, MesherData& refined)
     refined = std::move(answer.data);
     if (status.ok() && refined.triangles.rows() == 0)
     {
-      status = Status::failure(StatusCode::internal_error, "no triangles are left");
+      status = Status::failure(
+        StatusCode::internal_error, "all triangles became degenerate and were removed");
     }
   }
   this->log_.add(std::string("refine") + move.name + (rounded ? ", rounded to 2^-42" : ""),
@@ -387,7 +389,8 @@ Status CdtTets::move_vertices(const Move& move, RepairedSurface& moved)
       this->surface_.points, this->surface_.triangles, repair, moved, this->context_);
     if (status.ok() && moved.triangles.rows() == 0)
     {
-      status = Status::failure(StatusCode::internal_error, "no triangles are left");
+      status = Status::failure(
+        StatusCode::internal_error, "all triangles became degenerate and were removed");
     }
     for (Index& v : moved.original_vertices)
     {
@@ -610,7 +613,7 @@ Status CdtTets::complete()
     status = this->fill();
     if (!status.ok() && status.code != StatusCode::canceled)
     {
-      this->warnings_.push_back("no vertices were added inside (" + status.message + ")");
+      this->warnings_.push_back("no interior vertices were added (" + status.message + ")");
     }
   }
   if (!this->options_.bare && status.code != StatusCode::canceled)

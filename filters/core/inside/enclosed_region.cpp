@@ -131,10 +131,11 @@ double EnclosedRegion::misfit(double volume) const
 
 Status EnclosedRegion::encloses_nothing() const
 {
-  return Status::invalid_input("the surface encloses nothing: its winding number reaches " +
+  return Status::invalid_input("the surface encloses nothing: its largest winding number is " +
     short_number(this->largest_winding_) +
-    (this->largest_winding_ < this->threshold_ ? ", below the threshold of "
-                                               : ", only in specks of no size the threshold of ") +
+    (this->largest_winding_ < this->threshold_
+        ? ", below the threshold of "
+        : ", but only regions of negligible size reach the threshold of ") +
     short_number(this->threshold_));
 }
 
@@ -142,10 +143,11 @@ Status EnclosedRegion::no_tets() const
 {
   const double share = this->volume_ / this->box_.size().prod();
   constexpr double speck = 1e-6;
-  return share > speck ? Status::failure(StatusCode::unavailable,
-                           "the surface encloses about " + short_number(100.0 * share, 3) +
-                             " % of its box, but that is too thin for tets of this size")
-                       : this->encloses_nothing();
+  return share > speck
+    ? Status::failure(StatusCode::unavailable,
+        "the surface encloses about " + short_number(100.0 * share, 3) +
+          " % of its bounding box, but this region is too thin for tets of this size")
+    : this->encloses_nothing();
 }
 
 Status EnclosedRegion::only_specks(const RepairedSurface& surface) const
@@ -165,8 +167,9 @@ Status EnclosedRegion::only_specks(const RepairedSurface& surface) const
   const double size = std::sqrt(area / static_cast<double>(count));
   return this->volume_ > largest_thickness * size * area
     ? Status()
-    : Status::invalid_input("the surface is loose triangles (" + std::to_string(count) +
-        ") that enclose only specks, about " + short_number(100.0 * share, 3) + " % of its box");
+    : Status::invalid_input("the surface consists of " + std::to_string(count) +
+        " mostly disconnected triangles that enclose only about " + short_number(100.0 * share, 3) +
+        " % of its bounding box");
 }
 
 bool EnclosedRegion::fits(double volume) const

@@ -20,8 +20,8 @@ namespace
 {
 constexpr const char* variable = "BINDPOSE_FTETWILD";
 constexpr const char* missing =
-  "the executable FloatTetwild_bin (or ftetwild) of fTetWild is not on PATH and not named by the "
-  "environment variable BINDPOSE_FTETWILD; it can be built from "
+  "the executable FloatTetwild_bin (or ftetwild) of fTetWild was not found; add it to PATH or name "
+  "it in the environment variable BINDPOSE_FTETWILD; the source code is at "
   "https://github.com/wildmeshing/fTetWild";
 
 Status check_options(const FtetwildOptions& options)
@@ -132,7 +132,8 @@ Status run_ftetwild(PointsView points, TrianglesView triangles, const FtetwildOp
   {
     const char* chosen = std::getenv(variable);
     return Status::failure(StatusCode::unavailable,
-      chosen ? std::string(variable) + " names no executable file: " + chosen
+      chosen ? "the environment variable " + std::string(variable) +
+          " must name an executable file, but is set to " + chosen
              : std::string(missing));
   }
   ScratchFolder folder("ftetwild");
@@ -176,14 +177,14 @@ Status run_ftetwild(PointsView points, TrianglesView triangles, const FtetwildOp
   {
     return Status::failure(StatusCode::internal_error,
       request.name + " " + end.failure + memory_words(options.memory_limit) +
-        (lines.last().empty() ? "" : "; its last words: " + lines.last()));
+        (lines.last().empty() ? "" : "; last output: " + lines.last()));
   }
   MeditMesh read;
   status = read_medit(tets, read);
   if (!status.ok())
   {
     return Status::failure(
-      StatusCode::internal_error, request.name + " wrote no readable mesh: " + status.message);
+      StatusCode::internal_error, request.name + " did not write a valid mesh: " + status.message);
   }
   mesh = clean_up(read);
   mesh.points = frame.back(mesh.points);

@@ -71,14 +71,15 @@ Status check(const CutEnergy& energy)
   const auto nodes = static_cast<Index>(energy.inside_costs.size());
   if (energy.outside_costs.size() != energy.inside_costs.size())
   {
-    return Status::invalid_input("there must be as many outside costs as inside costs");
+    return Status::invalid_input(
+      "the number of outside costs must equal the number of inside costs");
   }
   for (Index i = 0; i < nodes; ++i)
   {
     if (bad(energy.inside_costs[i]) || bad(energy.outside_costs[i]))
     {
       return Status::invalid_input(
-        "a cost of node " + std::to_string(i) + " is negative or not finite");
+        "the costs of node " + std::to_string(i) + " must be finite and at least 0");
     }
   }
   for (std::size_t e = 0; e < energy.edges.size(); ++e)
@@ -87,8 +88,8 @@ Status check(const CutEnergy& energy)
     if (bad(edge.cost) || std::min(edge.a, edge.b) < 0 || std::max(edge.a, edge.b) >= nodes ||
       edge.a == edge.b)
     {
-      return Status::invalid_input(
-        "edge " + std::to_string(e) + " has no two nodes or its cost is negative or not finite");
+      return Status::invalid_input("edge " + std::to_string(e) +
+        " must connect two different nodes and have a finite cost of at least 0");
     }
   }
   return {};

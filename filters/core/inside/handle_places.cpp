@@ -112,8 +112,8 @@ Status check_ids(const Matrix& ids, Index count, const char* what)
       if (ids(i, k) < 0 || ids(i, k) >= count)
       {
         return Status::invalid_input(std::string("handle ") + what + " " + std::to_string(i) +
-          " has point " + std::to_string(ids(i, k)) + ", but there are only " +
-          std::to_string(count));
+          " references point " + std::to_string(ids(i, k)) + ", but there are " +
+          std::to_string(count) + " points");
       }
     }
   }

@@ -20,14 +20,14 @@ void report_turned(PreparedSurface& prepared)
   {
     prepared.report.set("counts.turned_triangles", Report::Value(surface.turned_triangles));
     prepared.warnings.push_back(counted(surface.turned_triangles, "triangle", "triangles") +
-      " turned to agree with the neighbors");
+      " flipped to match the orientation of the neighbors");
   }
   if (surface.turned_components > 0)
   {
     prepared.report.set("counts.turned_components", Report::Value(surface.turned_components));
     prepared.warnings.push_back(
       counted(surface.turned_components, "closed component", "closed components") +
-      " turned: inside out");
+      " flipped because the normals pointed inward");
   }
 }
 
@@ -62,9 +62,9 @@ Status leave_out_backs(
     id = ids[id];
   }
   prepared.report.set("counts.back_triangles", Report::Value(count));
-  prepared.warnings.push_back(counted(count, "triangle that is the back of another",
-                                "triangles that are the backs of others") +
-    " left out: with them the surface would enclose nothing there");
+  prepared.warnings.push_back(counted(count, "triangle that is the back side of another triangle",
+                                "triangles that are the back sides of other triangles") +
+    " ignored; otherwise the surface would enclose nothing there");
   return status;
 }
 } // namespace
@@ -89,7 +89,7 @@ Status prepare_surface(PointsView points, TrianglesView triangles, double windin
   {
     return Status::invalid_input(triangles.rows() == 0
         ? "the surface has no triangles"
-        : "no triangle of the surface has an area, so the surface has no inside");
+        : "all triangles of the surface have area 0, so the surface has no inside");
   }
   {
     const Phase phase(context, "repair", 0.2, 0.3);
@@ -105,7 +105,7 @@ Status prepare_surface(PointsView points, TrianglesView triangles, double windin
   const Status status = prepared.inside.build(prepared.surface, winding_threshold, turned, context);
   if (turned)
   {
-    prepared.warnings.emplace_back("the surface was inside out and was turned");
+    prepared.warnings.emplace_back("the surface was flipped because its normals pointed inward");
   }
   return status;
 }

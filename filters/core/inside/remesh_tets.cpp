@@ -58,7 +58,7 @@ Status check_input(PointsView points, TrianglesView triangles, const RemeshOptio
   }
   if (!(bounding_box(points, triangles).diagonal() > 0.0))
   {
-    return Status::invalid_input("all points of the surface are one point");
+    return Status::invalid_input("all points of the surface coincide");
   }
   return {};
 }
@@ -180,9 +180,9 @@ Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumb
   if (answer.data.tets.rows() == 0)
   {
     return Status::invalid_input(
-      "the surface encloses nothing: a millionth of its diagonal away from every triangle, its "
-      "winding number is below the threshold of " +
-      short_number(options.winding_threshold) + " on both sides, or above it");
+      "the surface encloses nothing: at a distance of a millionth of the bounding-box diagonal, "
+      "the winding number is on the same side of the threshold of " +
+      short_number(options.winding_threshold) + " on both sides of every triangle");
   }
   const Ids ids = ids_of(points, triangles);
   if (!improve(ids, region, answer, context))

@@ -257,7 +257,7 @@ Status check_tets(
     // The volume must be positive both exactly and in double precision, which later integrals use.
     if (orientation_3d(a, b, c, d) <= 0 || !(tet_volume(a, b, c, d) > 0.0))
     {
-      return failure("tet " + std::to_string(t) + " has no positive volume");
+      return failure("tet " + std::to_string(t) + " must have a positive volume");
     }
   }
   // Report whether the facet, seen from outside its tet, has the orientation of its sorted
@@ -281,14 +281,14 @@ Status check_tets(
       {
         if (tets(facets[k].tet, facets[k].side) == tets(facets[l].tet, facets[l].side))
         {
-          return failure("tet " + std::to_string(facets[k].tet) + " is there twice");
+          return failure("tet " + std::to_string(facets[k].tet) + " is a duplicate");
         }
       }
     }
     if (!may_branch && (j - i > 2 || (j - i == 2 && forward(facets[i]) == forward(facets[i + 1]))))
     {
-      return failure(
-        "tets overlap at a facet of tet " + std::to_string(facets[i].tet) + ": no closed boundary");
+      return failure("tets overlap at a facet of tet " + std::to_string(facets[i].tet) +
+        ", so the boundary is not closed");
     }
   }
   return {};

@@ -41,7 +41,7 @@ Status no_method_fits(Status status)
     return status;
   }
   status.code = StatusCode::invalid_input;
-  status.message += "; method embed (--method embed) holds any surface in a lattice of tets";
+  status.message += "; method embed (--method embed) encloses any surface in a lattice of tets";
   return status;
 }
 
@@ -105,7 +105,7 @@ private:
       this->options_.method == TetMethod::embed || this->options_.method == TetMethod::wrap;
     return this->surface_.found.flat && !holds_anything
       ? Status::invalid_input(
-          "the surface is flat: all its points lie in one plane, so it has no inside to fill")
+          "the surface is flat: all its points are in one plane, so it encloses no volume")
       : Status();
   }
 
@@ -132,8 +132,8 @@ private:
       if (status.code == StatusCode::unavailable)
       {
         status.message +=
-          "; method cdt (--method cdt) needs no thickness, and a resolution above " +
-          std::to_string(this->remesh_resolution()) + " (--resolution) makes smaller tets";
+          "; use method cdt (--method cdt), which also fills thin parts, or a resolution above " +
+          std::to_string(this->remesh_resolution()) + " (--resolution) for smaller tets";
       }
       return status.ok() ? status : this->take_lattice(status);
     }
@@ -163,8 +163,8 @@ private:
       status = this->remesh(true);
       if (status.ok())
       {
-        this->warn("method cdt was left (" + why +
-          "); the tets are remesh's and do not keep the surface's triangles");
+        this->warn("method remesh replaced method cdt (" + why +
+          "); its tets do not preserve the surface's triangles");
       }
       if (status.ok() || status.code == StatusCode::canceled)
       {
@@ -243,7 +243,7 @@ private:
     {
       return status;
     }
-    this->warn(status.message + ": parts thinner than a lattice cube are lost");
+    this->warn(status.message + "; parts thinner than a lattice cube are missing");
     this->result_.mesh = std::move(this->lattice_mesh_);
     return this->keep_no_vertex(TetMethod::remesh);
   }
@@ -290,8 +290,8 @@ private:
     const Status status = this->improve_by([&] { return this->remesh(true); });
     if (status.ok() && this->report_.text("method") == to_string(TetMethod::remesh))
     {
-      this->warn("method cdt was left (its smallest dihedral angle is " + short_number(angle) +
-        " degrees); the tets are remesh's and do not keep the surface's triangles");
+      this->warn("method remesh replaced method cdt (the smallest dihedral angle was " +
+        short_number(angle) + " degrees); its tets do not preserve the surface's triangles");
     }
     return status;
   }
@@ -491,10 +491,10 @@ private:
     {
       const TetMesh& mesh = this->result_.mesh;
       this->warn("the surface is open (" + std::to_string(this->surface_.found.boundary_edges) +
-        " boundary edges), and where that is wider than two wrap_alpha, a wrap is a thin shell: it "
-        "holds " +
+        " boundary edges), and the wrap is a thin shell where an opening is wider than two "
+        "wrap_alpha: its volume is " +
         short_number(tet_volumes(mesh.points, mesh.tets).sum()) +
-        ", while the winding number encloses " + short_number(this->inside_.volume()));
+        ", but the enclosed volume by winding number is " + short_number(this->inside_.volume()));
     }
     this->keep_no_vertex(TetMethod::wrap);
     return this->report_distance();
@@ -667,9 +667,10 @@ private:
       ? Status()
       : Status::failure(StatusCode::not_converged,
           "the smallest dihedral angle is " + short_number(quality.min_dihedral_angle) +
-            " degrees, not " + short_number(this->options_.quality) +
+            " degrees, less than the requested " + short_number(this->options_.quality) +
             (this->options_.method == TetMethod::cdt || this->options_.method == TetMethod::wrap
-                ? ": method auto (--method auto) may leave the surface's triangles for it"
+                ? "; method auto (--method auto) can improve it by not preserving the surface's "
+                  "triangles"
                 : ""));
   }
 
@@ -774,7 +775,8 @@ Status check_options(const TetrahedralizeOptions& options)
   }
   if (options.keep_outside && options.method != TetMethod::cdt)
   {
-    return Status::invalid_input("keep_outside needs method cdt: only that fills the hull");
+    return Status::invalid_input(
+      "keep_outside needs method cdt, the only method that fills the convex hull");
   }
   constexpr double best_quality = 20.0;
   if (!(options.quality >= 0.0 && options.quality <= best_quality))
@@ -785,16 +787,16 @@ Status check_options(const TetrahedralizeOptions& options)
   if (!(options.interior_edge >= 0.0))
   {
     return Status::invalid_input(
-      "interior_edge must not be negative, but is " + short_number(options.interior_edge));
+      "interior_edge must be at least 0, not " + short_number(options.interior_edge));
   }
   if (options.bare && (options.interior_edge > 0.0 || options.quality > 0.0))
   {
-    return Status::invalid_input("with bare, interior_edge and quality must be 0");
+    return Status::invalid_input("interior_edge and quality must be 0 if bare is on");
   }
   constexpr double ftetwilds_threshold = 0.5;
   if (options.method == TetMethod::ftetwild && options.winding_threshold != ftetwilds_threshold)
   {
-    return Status::invalid_input("method ftetwild knows no other winding_threshold than 0.5, not " +
+    return Status::invalid_input("winding_threshold must be 0.5 for method ftetwild, not " +
       short_number(options.winding_threshold));
   }
   return check_places(options.handles);
@@ -874,7 +876,8 @@ Status tetrahedralize(PointsView points, TrianglesView triangles, PreparedSurfac
   {
     status =
       Status::invalid_input("winding_threshold is " + short_number(options.winding_threshold) +
-        ", but the surface was prepared for " + short_number(prepared.winding_threshold));
+        ", but the surface was prepared with a winding_threshold of " +
+        short_number(prepared.winding_threshold));
   }
   return status.ok() ? Ladder(points, triangles, prepared, options, result, context).run() : status;
 }

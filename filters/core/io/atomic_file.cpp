@@ -61,7 +61,7 @@ Status check_target(const std::string& target, bool overwrite)
   struct stat info = {};
   if (target.empty())
   {
-    return Status::invalid_input("there is no name for the output file");
+    return Status::invalid_input("the name of the output file is empty");
   }
   if (stat(target.c_str(), &info) != 0)
   {
@@ -121,7 +121,7 @@ Status AtomicFile::commit()
 {
   if (this->temporary_.empty())
   {
-    return Status::failure(StatusCode::internal_error, "a file is committed that was not opened");
+    return Status::failure(StatusCode::internal_error, "cannot commit a file that was not opened");
   }
   // The target may have been created since open().
   Status status = check_target(this->target_, this->overwrite_);

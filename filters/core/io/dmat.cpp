@@ -34,11 +34,11 @@ Status read_ascii(TextScanner& scanner, Weights& matrix)
       {
         return scanner.error("the file is truncated: the matrix has " +
           std::to_string(matrix.cols()) + " columns of " + std::to_string(matrix.rows()) +
-          " values, but column " + std::to_string(c) + " ends after " + std::to_string(r));
+          " values, but column " + std::to_string(c) + " has only " + std::to_string(r));
       }
       if (!parse_number(word, matrix(r, c)))
       {
-        return scanner.error("a number is expected");
+        return scanner.error("expected a number");
       }
     }
   }
@@ -73,8 +73,8 @@ Status read_dmat(const std::string& path, Weights& matrix)
   }
   if (std::min(columns, rows) == 0 && std::max(columns, rows) > largest_empty)
   {
-    return Status::invalid_input(path + " says that it has " + std::to_string(columns) +
-      " columns of " + std::to_string(rows) + " values: no matrix has that size");
+    return Status::invalid_input(path + ": the matrix size of " + std::to_string(columns) +
+      " columns of " + std::to_string(rows) + " values is not valid");
   }
   const std::size_t values = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   const std::size_t left = text.size() - scanner.position();

@@ -99,7 +99,7 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
   const bool binary = content.compare(0, 4, "glTF") == 0;
   if (content.size() > 0xffffffffULL)
   {
-    throw Broken("it is larger than 4 GB");
+    throw Broken("the file is larger than 4 GB, which is not supported");
   }
   std::string_view text(content);
   if (binary)
@@ -113,7 +113,7 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
   }
   if (depth_of(text) > deepest)
   {
-    throw Broken("its JSON is nested too deeply");
+    throw Broken("the JSON of the file is nested too deeply");
   }
   tinygltf::Model model;
   tinygltf::TinyGLTF parser;
@@ -143,11 +143,11 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
   if (!parsed)
   {
     const std::string first = errors.substr(0, errors.find('\n')).substr(0, 200);
-    throw Broken(first.empty() ? "it is no glTF" : "it is broken: " + first);
+    throw Broken(first.empty() ? "not a glTF file" : "the file is not valid: " + first);
   }
   if (model.asset.version.compare(0, 2, "2.") != 0)
   {
-    throw Broken("it is glTF " + model.asset.version.substr(0, 20) + ", and 2.0 is read");
+    throw Broken("glTF " + model.asset.version.substr(0, 20) + " is not supported; expected 2.0");
   }
   for (const std::string& extension : model.extensionsRequired)
   {
@@ -155,7 +155,7 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
     if (extension.compare(0, 14, "KHR_materials_") != 0 &&
       extension.compare(0, 12, "KHR_texture_") != 0)
     {
-      throw Broken("it needs the extension " + extension.substr(0, 100) + ", which is not read");
+      throw Broken("the required extension " + extension.substr(0, 100) + " is not supported");
     }
   }
   return model;
@@ -166,7 +166,7 @@ const Element& at(const std::vector<Element>& list, int id, const char* what)
 {
   if (id < 0 || static_cast<std::size_t>(id) >= list.size())
   {
-    throw Broken("there is no " + std::string(what) + " " + std::to_string(id) + ", only " +
+    throw Broken(std::string(what) + " " + std::to_string(id) + " does not exist; the file has " +
       std::to_string(list.size()));
   }
   return list[static_cast<std::size_t>(id)];
@@ -217,7 +217,7 @@ std::size_t component_size(int type)
     case TINYGLTF_COMPONENT_TYPE_FLOAT:
       return 4;
     default:
-      throw Broken("an accessor has numbers of an unknown type");
+      throw Broken("an accessor has an unknown component type");
   }
 }
 
@@ -259,7 +259,7 @@ public:
     const tinygltf::Accessor& accessor = at(this->model_.accessors, id, "accessor");
     if (accessor.type != type)
     {
-      throw Broken(std::string(what) + " have another number of components than they should");
+      throw Broken(std::string(what) + ": unexpected number of components");
     }
     const int columns = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
     const std::size_t size = component_size(accessor.componentType);
@@ -267,13 +267,13 @@ public:
     // must not exceed the number of bytes in the file.
     if (accessor.count == 0 || accessor.count > this->bytes_)
     {
-      throw Broken(std::string(what) + " count " + std::to_string(accessor.count) +
-        " elements, which the file does not hold");
+      throw Broken(std::string(what) + ": the number of elements is " +
+        std::to_string(accessor.count) + "; it must be at least 1 and fit into the file");
     }
     const auto count = static_cast<Index>(accessor.count);
     if (accessor.bufferView < 0 && !accessor.sparse.isSparse)
     {
-      throw Broken(std::string(what) + " have no data");
+      throw Broken(std::string(what) + ": no data");
     }
     Numbers numbers;
     if (accessor.bufferView >= 0)
@@ -312,7 +312,7 @@ public:
     Numbers numbers = this->read(id, type, what);
     if (!numbers.allFinite())
     {
-      throw Broken(std::string(what) + " have a number that is not finite");
+      throw Broken(std::string(what) + ": a value is not finite");
     }
     return numbers;
   }
@@ -325,7 +325,7 @@ public:
       component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
       component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
     {
-      throw Broken(std::string(what) + " are no whole numbers");
+      throw Broken(std::string(what) + ": expected unsigned integers");
     }
     return this->read(id, type, what);
   }
@@ -347,7 +347,7 @@ private:
       offset > view.byteLength || stride > all || size > view.byteLength - offset ||
       stride < size || (count - 1) > (view.byteLength - offset - size) / stride)
     {
-      throw Broken(std::string(what) + " reach beyond their buffer");
+      throw Broken(std::string(what) + ": the data extend beyond the end of the buffer");
     }
     return { buffer.data.data() + view.byteOffset + offset, stride };
   }
@@ -359,7 +359,7 @@ private:
     if (sparse.count < 0 || sparse.count > numbers.rows() || sparse.indices.byteOffset < 0 ||
       sparse.values.byteOffset < 0)
     {
-      throw Broken(std::string(what) + " have sparse parts that do not fit");
+      throw Broken(std::string(what) + ": the sparse values are out of range");
     }
     if (sparse.count == 0)
     {
@@ -376,7 +376,7 @@ private:
       const double row = component_at(ids.data + k * ids.stride, sparse.indices.componentType);
       if (!(row >= 0.0 && row < static_cast<double>(numbers.rows())) || row != std::floor(row))
       {
-        throw Broken(std::string(what) + " have sparse parts that do not fit");
+        throw Broken(std::string(what) + ": the sparse values are out of range");
       }
       for (int c = 0; c < columns; ++c)
       {
@@ -434,7 +434,8 @@ Placement placement_of(const tinygltf::Node& node)
   if (!take<16>(node.matrix, columns) || !take<3>(node.translation, result.trs.translation) ||
     !take<4>(node.rotation, rotation) || !take<3>(node.scale, result.trs.scale))
   {
-    throw Broken("a node has a placement that is no placement");
+    throw Broken("the transform of a node is not valid: expected finite numbers, 16 for the "
+                 "matrix, 3 for the translation and scale, and 4 for the rotation");
   }
   set_rotation(rotation, result.trs);
   if (!node.matrix.empty())
@@ -477,7 +478,7 @@ Nodes read_nodes(const tinygltf::Model& model)
       at(model.nodes, child, "node");
       if (nodes.parents[child] >= 0)
       {
-        throw Broken("node " + std::to_string(child) + " hangs on two others");
+        throw Broken("node " + std::to_string(child) + " has more than one parent");
       }
       nodes.parents[child] = static_cast<int>(n);
     }
@@ -496,7 +497,7 @@ Nodes read_nodes(const tinygltf::Model& model)
   }
   if (nodes.order.size() != model.nodes.size())
   {
-    throw Broken("its nodes hang on each other in a circle");
+    throw Broken("the hierarchy of the nodes contains a cycle");
   }
   return nodes;
 }
@@ -570,7 +571,7 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
   result.nodes = from.joints;
   if (from.joints.empty())
   {
-    throw Broken("its skin has no joint");
+    throw Broken("the skin has no joints");
   }
   for (std::size_t j = 0; j < from.joints.size(); ++j)
   {
@@ -578,7 +579,7 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
     int& joint = result.joint_of_node[from.joints[j]];
     if (joint >= 0)
     {
-      throw Broken("its skin has a joint twice");
+      throw Broken("the skin contains a joint twice");
     }
     joint = static_cast<int>(j);
   }
@@ -589,7 +590,7 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
       accessors.read_finite(from.inverseBindMatrices, TINYGLTF_TYPE_MAT4, "inverse bind matrices");
     if (inverse_binds.rows() < static_cast<Index>(from.joints.size()))
     {
-      throw Broken("there are fewer inverse bind matrices than joints");
+      throw Broken("the skin has fewer inverse bind matrices than joints");
     }
   }
   const Transforms global = nodes.stand();
@@ -609,7 +610,8 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
     }
     if (!joint.rest.matrix().allFinite() || !joint.posed.matrix().allFinite())
     {
-      throw Broken("joint " + std::to_string(j) + " has matrices that cannot be used");
+      throw Broken(
+        "joint " + std::to_string(j) + " has a matrix that is not finite or not invertible");
     }
     for (int above = nodes.parents[id]; above >= 0 && joint.parent < 0;
          above = nodes.parents[above])
@@ -659,7 +661,8 @@ void add_triangles(const std::vector<Index>& corners, int mode, Index offset, Pa
   const auto count = static_cast<Index>(corners.size());
   if (count < 3 || (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0))
   {
-    throw Broken("a mesh has " + std::to_string(count) + " corners of triangles");
+    throw Broken("a mesh has " + std::to_string(count) +
+      " triangle corners; expected at least 3, and a multiple of 3 for a triangle list");
   }
   const auto add = [&](Index a, Index b, Index c)
   {
@@ -724,7 +727,8 @@ void read_influences(const Accessors& accessors, const tinygltf::Primitive& prim
       read_attribute(accessors, primitive, weight_name.c_str(), TINYGLTF_TYPE_VEC4, vertices);
     if (ids.rows() != weights.rows())
     {
-      throw Broken("JOINTS and WEIGHTS of set " + std::to_string(set) + " do not come together");
+      throw Broken("JOINTS and WEIGHTS of set " + std::to_string(set) +
+        " must be either both present or both missing");
     }
     if (ids.rows() == 0)
     {
@@ -746,7 +750,7 @@ void read_influences(const Accessors& accessors, const tinygltf::Primitive& prim
             (weight < 0.0
                 ? std::string(" has a negative weight")
                 : " has a weight of joint " + std::to_string(static_cast<Index>(ids(v, k))) +
-                  ", but there are " + std::to_string(joints)));
+                  ", but there are " + std::to_string(joints) + " joints"));
         }
         parts.influences[first + v].emplace_back(static_cast<Index>(ids(v, k)), weight);
       }
@@ -771,7 +775,7 @@ void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
   Numbers points = read_attribute(accessors, primitive, "POSITION", TINYGLTF_TYPE_VEC3, -1);
   if (points.rows() == 0)
   {
-    throw Broken("a mesh has no POSITION");
+    throw Broken("a mesh has no attribute POSITION");
   }
   const Index vertices = points.rows();
   const auto [entry, fresh] = parts.shared.insert({ primitive.attributes, parts.vertices });
@@ -811,8 +815,9 @@ void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
     {
       if (ids(k, 0) >= static_cast<double>(vertices))
       {
-        throw Broken("a triangle names vertex " + std::to_string(static_cast<Index>(ids(k, 0))) +
-          ", but there are " + std::to_string(vertices));
+        throw Broken("a triangle references vertex " +
+          std::to_string(static_cast<Index>(ids(k, 0))) + ", but there are " +
+          std::to_string(vertices) + " vertices");
       }
       corners.push_back(static_cast<Index>(ids(k, 0)));
     }
@@ -861,8 +866,8 @@ void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
     static_cast<std::size_t>(parts.vertices) * static_cast<std::size_t>(joints) * sizeof(double);
   if (static_cast<double>(needed) > available_memory())
   {
-    throw Broken("its " + std::to_string(parts.vertices) + " vertices and " +
-      std::to_string(joints) + " joints need more memory than there is");
+    throw Broken("the weights of " + std::to_string(parts.vertices) + " vertices and " +
+      std::to_string(joints) + " joints need more memory than is available");
   }
   skin.weights.setZero(parts.vertices, joints);
   for (Index v = 0; v < parts.vertices; ++v)
@@ -983,7 +988,7 @@ std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& a
   {
     if (!(track.times[k] > track.times[k - 1]))
     {
-      throw Broken("key times of an animation do not rise");
+      throw Broken("the key times of an animation must be strictly increasing");
     }
   }
   const bool rotates = track.property == Track::Property::rotation;
@@ -991,7 +996,7 @@ std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& a
     sampler.output, rotates ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, "keys");
   if (track.values.rows() != times.rows() * (track.cubic() ? 3 : 1))
   {
-    throw Broken("an animation has another number of keys than of key times");
+    throw Broken("the number of keys of an animation must match the number of key times");
   }
   return track;
 }
@@ -1025,7 +1030,7 @@ std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
   const double frames = std::round(length * rate) + 1.0;
   if (!(frames <= static_cast<double>(most_frames)))
   {
-    throw Broken("its animation is longer than " + std::to_string(most_frames) + " frames");
+    throw Broken("the animation is longer than " + std::to_string(most_frames) + " frames");
   }
   std::vector<double> times;
   for (Index frame = 0; frame < static_cast<Index>(frames); ++frame)
@@ -1074,7 +1079,7 @@ std::optional<std::string> read_animation(const tinygltf::Model& model, const Ac
   if (static_cast<double>(times.size() * skin.joints.size() * sizeof(Eigen::Affine3d)) >
     available_memory())
   {
-    throw Broken("its animation needs more memory than there is");
+    throw Broken("the animation needs more memory than is available");
   }
   for (const double time : times)
   {
@@ -1103,7 +1108,7 @@ std::optional<std::string> read_animation(const tinygltf::Model& model, const Ac
       frame.posed.push_back(global[id]);
       if (!global[id].matrix().allFinite())
       {
-        throw Broken("its animation moves a joint out of reach");
+        throw Broken("the animation gives a joint a transform that is not finite");
       }
     }
     skin.frames.push_back(std::move(frame));
@@ -1233,7 +1238,7 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
     }
     if (!global[n].matrix().allFinite())
     {
-      throw Broken("a node stands out of reach");
+      throw Broken("the transform of a node is not finite");
     }
     const Eigen::Affine3d place = which >= 0 ? Eigen::Affine3d::Identity() : global[n];
     if (which < 0)
@@ -1249,7 +1254,7 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
   }
   if (parts.triangles.empty())
   {
-    throw Broken("it holds no triangle");
+    throw Broken("the file contains no triangles");
   }
   join(parts.points, parts.vertices, 1.0, skin.points);
   join(parts.normals, parts.vertices, 1.0, skin.normals);
@@ -1257,7 +1262,7 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
   join(parts.colors, parts.vertices, 255.0, skin.colors);
   if (!skin.points.allFinite())
   {
-    throw Broken("a vertex is out of reach");
+    throw Broken("a vertex has a coordinate that is not finite");
   }
   if (skin.texture.rows() > 0)
   {
@@ -1318,7 +1323,7 @@ Status read_gltf_skin(const std::string& path, GltfSkin& skin)
   }
   catch (const std::bad_alloc&)
   {
-    status = Status::invalid_input(path + ": it asks for more memory than there is");
+    status = Status::invalid_input(path + ": the file needs more memory than is available");
   }
   if (!status.ok())
   {

@@ -589,7 +589,8 @@ Status check_frames(const GltfSkin& skin, const GltfOptions& options)
       (frame.points.rows() != skin.points.rows() && (morph || frame.points.rows() != 0)) ||
       (frame.normals.rows() != skin.points.rows() && frame.normals.rows() != 0))
     {
-      return Status::invalid_input("a frame of the animation does not fit the mesh or its joints");
+      return Status::invalid_input(
+        "the number of points or joints of an animation frame differs from the mesh");
     }
     bool finite = are_floats(frame.points) && are_floats(frame.normals);
     for (const Eigen::Affine3d& map : frame.posed)
@@ -598,12 +599,13 @@ Status check_frames(const GltfSkin& skin, const GltfOptions& options)
     }
     if (!finite)
     {
-      return Status::invalid_input("a frame of the animation has a number that is no finite float");
+      return Status::invalid_input(
+        "an animation frame contains a value that is not a finite float");
     }
   }
   if (!skin.frames.empty() && !(skin.frames_per_second > 0.0 && skin.frames_per_second < 1e6))
   {
-    return Status::invalid_input("frames per second must be above 0");
+    return Status::invalid_input("frames per second must be greater than 0 and less than 1000000");
   }
   return {};
 }
@@ -623,35 +625,37 @@ Status check(const GltfSkin& skin, const GltfOptions& options)
     (joints > 0 && (skin.weights.rows() != vertices || skin.weights.cols() != joints)))
   {
     return Status::invalid_input(skin.triangles.rows() == 0
-        ? "there is no triangle"
-        : "normals, texture coordinates, colors or weights do not fit the mesh");
+        ? "the mesh has no triangles"
+        : "the number of normals, texture coordinates, colors or weights differs from the number "
+          "of vertices or joints");
   }
   if (!are_floats(skin.points) || !are_floats(skin.normals) || !are_floats(skin.texture) ||
     !are_floats(skin.weights))
   {
-    return Status::invalid_input("the mesh has a number that is no finite float");
+    return Status::invalid_input("the mesh contains a value that is not a finite float");
   }
   if (joints > 65534 || vertices > 0xfffffffeLL || options.influences < 0)
   {
     return Status::invalid_input(joints > 65534
-        ? "glTF takes at most 65534 handles, not " + std::to_string(joints)
-        : "there are too many vertices, or the number of influences is below 0");
+        ? "a glTF file can have at most 65534 handles, not " + std::to_string(joints)
+        : "the mesh has too many vertices, or the number of influences is negative");
   }
   for (const GltfJoint& joint : skin.joints)
   {
     if (joint.parent >= joints || joint.parent < -1)
     {
-      return Status::invalid_input("joint '" + joint.name + "' has no such parent");
+      return Status::invalid_input("joint '" + joint.name + "' has a parent that does not exist");
     }
     if (!are_floats(joint.rest.matrix()) || !are_floats(joint.posed.matrix()) ||
       joint.rest.linear().determinant() == 0.0)
     {
-      return Status::invalid_input("joint '" + joint.name + "' has no usable place");
+      return Status::invalid_input(
+        "joint '" + joint.name + "' has a transform that is not finite or not invertible");
     }
   }
   if (parents_first(skin.joints).size() != skin.joints.size())
   {
-    return Status::invalid_input("parents of joints run in a circle");
+    return Status::invalid_input("the hierarchy of the joints contains a cycle");
   }
   return check_frames(skin, options);
 }
@@ -673,7 +677,7 @@ Status write_model(const std::string& path, const tinygltf::Model& model, bool b
   }
   catch (const std::exception&) // thrown by nlohmann-json if a name is not UTF-8
   {
-    return Status::invalid_input("a name is not UTF-8");
+    return Status::invalid_input("a name is not valid UTF-8");
   }
   const std::string content = text.str();
   Status status = write_file(path, content);
@@ -713,7 +717,7 @@ Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const Gltf
       static_cast<std::size_t>(skin.points.rows()) * (36 + 6 * packed.per_row) >
     largest_file)
   {
-    return Status::invalid_input("glTF files hold at most 4 GB: take fewer frames or joints");
+    return Status::invalid_input("a .glb file can have at most 4 GB; use fewer frames or joints");
   }
   Builder builder;
   add_mesh(builder, skin, packed);
@@ -761,8 +765,9 @@ Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const Gltf
   }
   if (packed.negative_rows > 0)
   {
-    status.warnings.push_back("glTF holds no negative weights and no rows above one: " +
-      std::to_string(packed.negative_rows) + " vertices got other weights");
+    status.warnings.push_back("the weights of " + std::to_string(packed.negative_rows) +
+      " vertices were changed because glTF cannot store negative weights or weights with a sum "
+      "above 1");
   }
   if (!skin.frames.empty())
   {

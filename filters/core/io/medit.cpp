@@ -41,7 +41,7 @@ Status read_vertices(TextScanner& scanner, std::size_t bytes, Index dimension, P
     std::string_view reference;
     if (status.ok() && !scanner.next_word_of_text(reference))
     {
-      status = scanner.error("the file ends within the vertices");
+      status = scanner.error("the file ends before the last vertex");
     }
   }
   return status;
@@ -66,7 +66,7 @@ Status read_elements(TextScanner& scanner, std::size_t bytes, Elements& elements
     std::string_view reference;
     if (status.ok() && !scanner.next_word_of_text(reference))
     {
-      status = scanner.error("the file ends within the elements");
+      status = scanner.error("the file ends before the last element");
     }
   }
   if (status.ok())
@@ -86,7 +86,7 @@ Status check_ids(
     if (id < 0 || id >= vertices)
     {
       return Status::invalid_input(path + ": " + name + " " +
-        std::to_string(k / elements.cols() + 1) + " names vertex " + std::to_string(id + 1) +
+        std::to_string(k / elements.cols() + 1) + " references vertex " + std::to_string(id + 1) +
         ", but there are " + std::to_string(vertices) + " vertices");
     }
   }
@@ -105,7 +105,7 @@ Status read_sections(TextScanner& scanner, std::size_t bytes, MeditMesh& mesh)
       status = scanner.read_index("the dimension", 4, dimension);
       if (status.ok() && dimension < 2)
       {
-        status = scanner.error("the dimension is 2 or 3");
+        status = scanner.error("the dimension must be 2 or 3");
       }
     }
     else if (word == "Vertices")
@@ -141,13 +141,12 @@ Status read_medit(const std::string& path, MeditMesh& mesh)
   if (!scanner.next_word_of_text(word) || word != "MeshVersionFormatted" ||
     !scanner.read_index("the version", 10, version).ok())
   {
-    return scanner.error(
-      "this is not an ASCII MEDIT file: it does not begin with MeshVersionFormatted and a number");
+    return scanner.error("an ASCII MEDIT file must begin with MeshVersionFormatted and a number");
   }
   status = read_sections(scanner, text.size(), mesh);
   if (status.ok() && mesh.points.rows() == 0)
   {
-    status = scanner.error("the file has no vertex");
+    status = scanner.error("the file has no vertices");
   }
   if (status.ok())
   {

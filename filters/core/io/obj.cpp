@@ -37,13 +37,13 @@ Status read_entry(TextScanner& scanner, Index vertices, const std::string& what,
     Index id = 0;
     if (!parse_index(number, id))
     {
-      return scanner.error("a vertex id of a " + what + " is expected");
+      return scanner.error("expected a vertex id of a " + what);
     }
     const Index vertex = id < 0 ? vertices + id : id - 1;
     if (id == 0 || vertex < 0)
     {
       return scanner.error(
-        "a " + what + " names vertex " + std::to_string(id) + ", which does not exist");
+        "a " + what + " references vertex " + std::to_string(id) + ", which does not exist");
     }
     corners.push_back(vertex);
   }
@@ -65,7 +65,7 @@ Status check_entries(
   {
     if (vertex >= count)
     {
-      return Status::invalid_input(path + ": a " + what + " names vertex " +
+      return Status::invalid_input(path + ": a " + what + " references vertex " +
         std::to_string(vertex + 1) + ", but there are " + std::to_string(count) + " vertices");
     }
   }
@@ -112,8 +112,9 @@ Status read_obj(const std::string& path, PolygonMesh& mesh)
   const auto count = static_cast<Index>(points.size());
   if (status.ok() && (count == 0 || mesh.polygon_count() + mesh.line_count() == 0))
   {
-    status = Status::invalid_input(path + " is not a usable OBJ file: it has " +
-      std::to_string(count) + " vertices and " + std::to_string(mesh.polygon_count()) + " faces");
+    status = Status::invalid_input(path +
+      ": an OBJ file must have vertices and faces, but this file has " + std::to_string(count) +
+      " vertices and " + std::to_string(mesh.polygon_count()) + " faces");
   }
   if (status.ok())
   {

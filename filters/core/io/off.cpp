@@ -25,17 +25,18 @@ Status read_header(TextScanner& scanner)
   const std::size_t off = word.find("OFF");
   if (off == std::string_view::npos || off + 3 != word.size())
   {
-    return scanner.error("this is not an OFF file: it does not begin with the word OFF");
+    return scanner.error("an OFF file must begin with the word OFF");
   }
   for (const char c : word.substr(0, off))
   {
     if (c == '4' || c == 'n')
     {
-      return scanner.error("OFF files with vertices of other than three dimensions are not read");
+      return scanner.error(
+        "OFF files with vertices that are not three-dimensional are not supported");
     }
     if (c != 'S' && c != 'T' && c != 'C' && c != 'N')
     {
-      return scanner.error("this is not an OFF file: it does not begin with the word OFF");
+      return scanner.error("an OFF file must begin with the word OFF");
     }
   }
   return {};
@@ -47,7 +48,7 @@ Status read_counts(TextScanner& scanner, Index& vertices, Index& faces)
   std::string_view word;
   if (ahead.next_word_of_text(word) && word == "BINARY")
   {
-    return ahead.error("binary OFF files are not read");
+    return ahead.error("binary OFF files are not supported");
   }
   Status status = scanner.read_index("the number of vertices", largest_count, vertices);
   if (status.ok())

@@ -93,7 +93,7 @@ Status read_property(TextScanner& scanner, Header& header)
   known = known && parse_type(word, property.type) && scanner.next_word(word);
   if (!known)
   {
-    return scanner.error("a property needs a known type and a name");
+    return scanner.error("a property must have a known type and a name");
   }
   property.name = std::string(word);
   header.elements.back().properties.push_back(property);
@@ -105,7 +105,7 @@ Status read_header(TextScanner& scanner, Header& header)
   std::string_view word;
   if (!scanner.next_line() || !scanner.next_word(word) || word != "ply")
   {
-    return scanner.error("this is not a PLY file: it does not begin with the word ply");
+    return scanner.error("a PLY file must begin with the word ply");
   }
   while (scanner.next_line() && scanner.next_word(word))
   {
@@ -127,7 +127,8 @@ Status read_header(TextScanner& scanner, Header& header)
       }
       else
       {
-        return scanner.error("the PLY format is not known");
+        return scanner.error(
+          "unknown PLY format; expected ascii, binary_little_endian or binary_big_endian");
       }
     }
     else if (word == "element")
@@ -151,7 +152,7 @@ Status read_header(TextScanner& scanner, Header& header)
       return status;
     }
   }
-  return scanner.error("the header has no end");
+  return scanner.error("the header has no line end_header");
 }
 
 /// Reads one value after the other, in any of the three encodings.
@@ -263,7 +264,7 @@ Status read_list(const std::string& path, Values& values, const Property& proper
   double count = 0;
   if (!values.next(property.count_type, count) || !(count >= 0) || count != std::floor(count))
   {
-    return values.error(path, "the file is truncated or broken: a list's length is expected");
+    return values.error(path, "the file is truncated or corrupt: expected the length of a list");
   }
   const std::size_t begin = mesh.corners.size();
   for (double k = 0; k < count; ++k)
@@ -271,7 +272,7 @@ Status read_list(const std::string& path, Values& values, const Property& proper
     double id = 0;
     if (!values.next(property.type, id))
     {
-      return values.error(path, "the file is truncated or broken: a list's value is expected");
+      return values.error(path, "the file is truncated or corrupt: expected a value of a list");
     }
     if (role != Role::corners)
     {
@@ -281,7 +282,8 @@ Status read_list(const std::string& path, Values& values, const Property& proper
     {
       return values.error(path,
         "face " + std::to_string(mesh.polygon_count() + mesh.skipped) +
-          " names a vertex that does not exist (there are " + std::to_string(vertices) + ")");
+          " references a vertex that does not exist (there are " + std::to_string(vertices) +
+          " vertices)");
     }
     mesh.corners.push_back(static_cast<Index>(id));
   }
@@ -322,8 +324,8 @@ Status read_element(const std::string& path, Values& values, const Element& elem
       if (!values.next(element.properties[p].type, value))
       {
         return values.error(path,
-          "the file is truncated or broken: " + element.name + " " + std::to_string(i) +
-            " has no number for " + element.properties[p].name);
+          "the file is truncated or corrupt: " + element.name + " " + std::to_string(i) +
+            " has no value of property " + element.properties[p].name);
       }
       if (roles[p] == Role::skipped)
       {
@@ -368,7 +370,7 @@ Status read_ply(const std::string& path, PolygonMesh& mesh)
     }
     if (element.name == "vertex" && vertices >= 0)
     {
-      return scanner.error("the header lists the vertices twice");
+      return scanner.error("the header has two elements vertex");
     }
     if (element.name == "vertex")
     {
@@ -380,7 +382,7 @@ Status read_ply(const std::string& path, PolygonMesh& mesh)
       }
       if (axes != 3)
       {
-        return scanner.error("the vertices have no x, y and z");
+        return scanner.error("the element vertex must have the properties x, y and z");
       }
     }
     for (const Property& property : element.properties)
@@ -390,7 +392,7 @@ Status read_ply(const std::string& path, PolygonMesh& mesh)
   }
   if (vertices < 0 || !has_faces)
   {
-    return scanner.error("the header lists no vertices with faces");
+    return scanner.error("the header must have the elements vertex and face");
   }
   mesh.points.setZero(vertices, 3);
   Values values(scanner, text, header.encoding);

@@ -88,7 +88,8 @@ Status read_text(
   if (!scanner.next_word_of_text(word) || word != "solid")
   {
     return Status::invalid_input(path +
-      " is no STL file: it is not as long as it says, nor does it begin with the word solid");
+      " is not a valid STL file: it must begin with the word solid or have the size that follows "
+      "from its number of triangles");
   }
   scanner.rest_of_line();
   bool ended = false;
@@ -120,7 +121,7 @@ Status read_text(
   }
   if (!ended || mesh.corners.size() % 3 != 0)
   {
-    return scanner.error("the file ends without the word endsolid: it is truncated");
+    return scanner.error("the file is truncated: expected the word endsolid");
   }
   return {};
 }
@@ -147,7 +148,7 @@ Status read_stl(const std::string& path, PolygonMesh& mesh)
     binary ? read_binary(path, text, count, welder, mesh) : read_text(path, text, welder, mesh);
   if (status.ok() && mesh.corners.empty())
   {
-    status = Status::invalid_input(path + " holds no triangle");
+    status = Status::invalid_input(path + " contains no triangles");
   }
   if (!status.ok())
   {

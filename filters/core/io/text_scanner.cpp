@@ -244,11 +244,11 @@ Status TextScanner::read_index(const char* what, Index limit, Index& value)
   std::string_view word;
   if (!this->next_word_of_text(word))
   {
-    return this->error(std::string("the file ends where ") + what + " is expected");
+    return this->error(std::string("unexpected end of file: expected ") + what);
   }
   if (!parse_index(word, value))
   {
-    return this->error(std::string(what) + " is expected, but here stands " + quoted(word));
+    return this->error(std::string("expected ") + what + ", got " + quoted(word));
   }
   if (value < 0 || value >= limit)
   {
@@ -263,11 +263,11 @@ Status TextScanner::read_number(const char* what, double& value)
   std::string_view word;
   if (!this->next_word_of_text(word))
   {
-    return this->error(std::string("the file ends where ") + what + " is expected");
+    return this->error(std::string("unexpected end of file: expected ") + what);
   }
   if (!parse_number(word, value))
   {
-    return this->error(std::string(what) + " is expected, but here stands " + quoted(word));
+    return this->error(std::string("expected ") + what + ", got " + quoted(word));
   }
   if (!std::isfinite(value))
   {

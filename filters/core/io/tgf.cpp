@@ -19,11 +19,11 @@ Status read_node(TextScanner& scanner, std::string_view first, Ids& ids, Tgf& gr
   Index id = 0;
   if (!parse_index(first, id))
   {
-    return scanner.error("a node's line begins with its id, an integer");
+    return scanner.error("the line of a node must begin with its id, an integer");
   }
   if (!ids.insert({ id, static_cast<Index>(graph.nodes.size()) }).second)
   {
-    return scanner.error("node " + std::to_string(id) + " is there twice");
+    return scanner.error("node " + std::to_string(id) + " is defined twice");
   }
   Tgf::Node node;
   node.line = scanner.line();
@@ -34,7 +34,7 @@ Status read_node(TextScanner& scanner, std::string_view first, Ids& ids, Tgf& gr
     if (!scanner.next_word(word) || !parse_number(word, value))
     {
       return scanner.error(
-        "node " + std::to_string(id) + " needs three coordinates, and all of them numbers");
+        "node " + std::to_string(id) + " must have three numbers as coordinates");
     }
     if (!std::isfinite(value))
     {
@@ -60,18 +60,19 @@ Status read_edge(TextScanner& scanner, std::string_view first, const Ids& ids, T
     Index id = 0;
     if (!parse_index(words[k], id))
     {
-      return scanner.error("an edge's line begins with the ids of two nodes");
+      return scanner.error("the line of an edge must begin with the ids of two nodes");
     }
     const auto node = ids.find(id);
     if (node == ids.end())
     {
-      return scanner.error("an edge names node " + std::to_string(id) + ", which does not exist");
+      return scanner.error(
+        "an edge references node " + std::to_string(id) + ", which does not exist");
     }
     *ends[k] = node->second;
   }
   if (edge.from == edge.to)
   {
-    return scanner.error("an edge goes from a node to itself");
+    return scanner.error("an edge must connect two different nodes");
   }
   bool* flags[3] = { &edge.bone, &edge.pseudo, &edge.cage };
   for (bool* flag : flags)
@@ -83,7 +84,7 @@ Status read_edge(TextScanner& scanner, std::string_view first, const Ids& ids, T
     }
     if (word != "0" && word != "1")
     {
-      return scanner.error("an edge's flags is_bone, is_pseudo, is_cage are 0 or 1");
+      return scanner.error("the flags is_bone, is_pseudo and is_cage of an edge must be 0 or 1");
     }
     *flag = word == "1";
   }
@@ -121,7 +122,7 @@ Status read_tgf(const std::string& path, Tgf& graph)
   }
   if (status.ok() && graph.nodes.empty())
   {
-    status = scanner.error("the file has no node");
+    status = scanner.error("the file has no nodes");
   }
   if (!status.ok())
   {

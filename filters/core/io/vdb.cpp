@@ -40,8 +40,8 @@ const char* to_string(VdbBand band)
 
 Status check_vdb_available()
 {
-  return Status::failure(
-    StatusCode::unavailable, "this build cannot write .vdb files (package libopenvdb-dev)");
+  return Status::failure(StatusCode::unavailable,
+    "this build cannot write .vdb files; install the package libopenvdb-dev and rebuild");
 }
 
 Status write_vdb(
@@ -78,7 +78,7 @@ Status check(const SampleGrid& grid, const VdbOptions& options)
       if (i < -largest_index || i > largest_index)
       {
         return Status::invalid_input(
-          "the index " + std::to_string(i) + " of the grid is beyond what a .vdb file holds");
+          "the grid index " + std::to_string(i) + " is outside the range of a .vdb file");
       }
     }
     samples *= static_cast<double>(grid.size(axis));
@@ -98,11 +98,11 @@ Status check(const SampleGrid& grid, const VdbOptions& options)
   const Eigen::Matrix3d& d = options.direction;
   if (!((d.transpose() * d - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6))
   {
-    return Status::invalid_input("the directions of the grid's axes must be orthonormal");
+    return Status::invalid_input("the axes of the grid must be orthonormal");
   }
   if (options.grid_name.empty())
   {
-    return Status::invalid_input("the grid has no name");
+    return Status::invalid_input("the name of the grid must not be empty");
   }
   if (!std::isfinite(static_cast<float>(options.background)))
   {
@@ -125,8 +125,8 @@ Status check(const SampleGrid& grid, const VdbOptions& options)
     }
     if (static_cast<float>(options.threshold) == static_cast<float>(options.background))
     {
-      return Status::invalid_input("the background must not be equal to the threshold, which "
-                                   "parts the grid in two sides");
+      return Status::invalid_input(
+        "the background must differ from the threshold, which separates inside and outside");
     }
   }
   return {};
@@ -545,8 +545,8 @@ Status write_file(const std::string& path, const openvdb::FloatGrid::Ptr& grid,
   }
   const auto cannot_write = [&path]
   {
-    return Status::invalid_input(
-      "cannot write " + path + ": " + (errno ? std::strerror(errno) : "the disk did not take it"));
+    return Status::invalid_input("cannot write " + path + ": " +
+      (errno ? std::strerror(errno) : "the file could not be written"));
   };
   StreamArchive archive;
   WatchedFile buffer(context, static_cast<double>(grid->memUsage()));
@@ -615,7 +615,7 @@ Status write_any(const std::string& path, const SampleGrid& samples, const Value
   if (not_finite >= 0)
   {
     return Status::invalid_input(
-      "the value of sample " + std::to_string(not_finite) + " is no finite float");
+      "the value of sample " + std::to_string(not_finite) + " must be a finite float");
   }
   std::streamoff bytes = 0;
   status = write_file(path, grid, options, context, bytes);
@@ -631,7 +631,7 @@ Status write_any(const std::string& path, const SampleGrid& samples, const Value
   if (active == 0)
   {
     status.warnings.push_back(options.band == VdbBand::full
-        ? "the grid is empty: all values are the background"
+        ? "the grid is empty: all values equal the background"
         : "the grid is empty: no value crosses the threshold");
   }
   return status;

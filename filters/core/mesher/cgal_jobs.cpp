@@ -374,8 +374,8 @@ std::string split(Soup& soup, const std::vector<Pair>& pairs, const Stopwatch& c
     }
     if (next.size() > face_limit)
     {
-      return too_many(
-        "crossing triangles fall into more than " + std::to_string(face_limit) + " pieces");
+      return too_many("crossing triangles would be split into more than " +
+        std::to_string(face_limit) + " pieces");
     }
     if (clock.seconds() > options.time_limit)
     {
@@ -464,7 +464,7 @@ std::string refine(MesherData& data, const RefineOptions& options)
     }
     if (growing == patience)
     {
-      return "more triangles cross after every round of splitting";
+      return "the number of crossing triangles increases with every round of splitting";
     }
     std::string error = split(soup, pairs, clock, options, face_limit);
     if (!error.empty())
@@ -507,7 +507,7 @@ std::string delaunay(MesherData& data)
   const Triangulation triangulation(points.begin(), points.end());
   if (triangulation.dimension() < 3)
   {
-    return "all points lie in one plane";
+    return "all points are in one plane";
   }
   data.triangles.resize(0, 3);
   data.tets.resize(static_cast<Index>(triangulation.number_of_finite_cells()), 4);

@@ -44,7 +44,7 @@ void die_with(pid_t parent)
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (parent > 0 && ::getppid() != parent)
   {
-    fail("the program that started this has ended");
+    fail("the parent process has ended");
   }
 }
 
@@ -68,7 +68,7 @@ void leave_working_folder()
 {
   if (::chdir("/proc") != 0 && ::chdir("/") != 0)
   {
-    fail("cannot leave the working folder");
+    fail("cannot change the working folder");
   }
 }
 
@@ -135,7 +135,7 @@ std::string run(const std::string& job, const std::map<std::string, std::string>
     return bindpose::skeleton(data, skeleton);
   }
   return "unknown job '" + job +
-    "' (refine, tetgen, delaunay, arrange, fill-plane, remesh, skeleton or wrap)";
+    "'; expected refine, tetgen, delaunay, arrange, fill-plane, remesh, skeleton or wrap";
 }
 } // namespace
 
@@ -158,7 +158,7 @@ int main(int argc, char* argv[])
     bindpose::MesherData data;
     if (!bindpose::read_mesher_data(0, data))
     {
-      fail("standard input holds no readable mesh");
+      fail("standard input contains no valid mesh");
     }
     const std::string error = run(argc > 1 ? argv[1] : "", options, data);
     if (!error.empty())
@@ -167,7 +167,7 @@ int main(int argc, char* argv[])
     }
     if (!bindpose::write_mesher_data(result, data))
     {
-      fail("no room for the result");
+      fail("cannot write the result");
     }
   }
   catch (const std::exception& error)
@@ -182,10 +182,10 @@ int main(int argc, char* argv[])
   catch (int code) // TetGen throws its exit codes
   {
     fail(code == 1  ? "TetGen ran out of memory"
-        : code == 3 ? "TetGen found that triangles cross"
+        : code == 3 ? "TetGen found intersecting triangles"
         : code == 4 ? "TetGen found a feature too small for its precision"
         : code == 5 ? "TetGen found two facets that nearly coincide"
-                    : "TetGen gave up with code " + std::to_string(code));
+                    : "TetGen failed with code " + std::to_string(code));
   }
   // Exit without destructors, because those of TetGen are unreliable after an error.
   std::fflush(stderr);

@@ -148,7 +148,7 @@ std::string insert(const Plane& plane, const Pairs& edges, Arrangement& arrangem
     arrangement.insert_constraint(vertices[a], vertices[b]);
     if (arrangement.number_of_vertices() > limit)
     {
-      return "the curves cross in more than " + std::to_string(limit) + " points";
+      return "the curves cross at more than " + std::to_string(limit) + " points";
     }
     constexpr std::size_t often = 4096;
     if (++done % often == 0)
@@ -282,7 +282,7 @@ std::string build(const MesherData& data, Filling& filling)
     int side = 0;
     if (!filling.is_edge(vertices.at(a), vertices.at(b), face, side))
     {
-      return "the region's outline is no set of edges";
+      return "the outline of the region is not a set of edges";
     }
     const bool left = face->vertex(Filling::ccw(side))->info().value == a;
     enter(left ? face : face->neighbor(side));

@@ -315,7 +315,7 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   }
   if (complex.triangulation().dimension() < 3)
   {
-    return "the boundary of the inside is flat";
+    return "the boundary of the enclosed region is flat";
   }
   tell_report("seconds.start", clock.seconds());
 
@@ -330,12 +330,12 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
       CGAL::parameters::pointer_to_error_code = &code));
   if (code != CGAL::CGAL_MESH_3_NO_ERROR)
   {
-    return "refinement does not end: " + std::to_string(most_vertices) + " vertices";
+    return "the refinement did not terminate after " + std::to_string(most_vertices) + " vertices";
   }
   tell_report("seconds.refine", clock.seconds());
   if (complex.number_of_cells_in_complex() == 0)
   {
-    return "refinement found no cell inside";
+    return "the refinement found no cells inside the surface";
   }
   take_result(complex, data);
   return {};

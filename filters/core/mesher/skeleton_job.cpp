@@ -170,7 +170,7 @@ std::string skeleton(MesherData& data, const SkeletonJobOptions& options)
   std::vector<Part> parts = closed_parts(mesh, open, hollow);
   if (parts.empty())
   {
-    return "the surface has no closed component with an inside";
+    return "the surface has no closed component that encloses a volume";
   }
   Index crumbs = 0;
   while (parts.back().volume < options.smallest_part * parts.front().volume)

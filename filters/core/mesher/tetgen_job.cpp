@@ -213,7 +213,7 @@ std::string tetgen(MesherData& data, const TetgenOptions& options)
     }
   }
   data.triangles.resize(0, 3);
-  return data.tets.rows() > 0 ? std::string() : "TetGen made no tets";
+  return data.tets.rows() > 0 ? std::string() : "TetGen created no tets";
 }
 
 } // namespace bindpose

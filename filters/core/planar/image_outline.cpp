@@ -63,7 +63,8 @@ public:
       if (static_cast<Index>(contour.points.size()) > longest_contour)
       {
         return Status::invalid_input("the image's outline has more than " +
-          std::to_string(longest_contour) + " points: blur the alpha or shrink the image");
+          std::to_string(longest_contour) +
+          " points; blur the alpha channel or use a smaller image");
       }
       std::swap(this->lower_, this->upper_);
       std::swap(this->bottom_, this->top_);
@@ -550,11 +551,11 @@ Status image_outline(Index columns, Index rows, const AlphaRow& alpha,
   }
   if (!(options.threshold > 0.0 && options.threshold <= 1.0))
   {
-    return Status::invalid_input("the alpha threshold must lie above 0 and not above 1");
+    return Status::invalid_input("the alpha threshold must be greater than 0 and at most 1");
   }
   if (!(options.simplify >= 0.0 && options.simplify <= 1.0))
   {
-    return Status::invalid_input("the outline is simplified by 0 to 1 pixel");
+    return Status::invalid_input("the tolerance of the outline must be from 0 to 1 pixel");
   }
   Contour contour;
   Index inside = 0;

@@ -38,13 +38,13 @@ Status check_segments(PlanePointsView points, SegmentsView segments, const std::
       const Index v = segments(e, k);
       if (v < 0 || v >= points.rows())
       {
-        return Status::invalid_input(what + " " + std::to_string(e) + " has vertex " +
-          std::to_string(v) + ", but there are only " + std::to_string(points.rows()));
+        return Status::invalid_input(what + " " + std::to_string(e) + " references vertex " +
+          std::to_string(v) + ", but there are " + std::to_string(points.rows()) + " vertices");
       }
       if (!points.row(v).allFinite())
       {
-        return Status::invalid_input(what + " " + std::to_string(e) + " has vertex " +
-          std::to_string(v) + " with a coordinate that is not a finite number");
+        return Status::invalid_input(what + " " + std::to_string(e) + " references vertex " +
+          std::to_string(v) + ", which has a coordinate that is not a finite number");
       }
     }
   }
@@ -55,20 +55,21 @@ Status check_options(const PlanarShapeOptions& options)
 {
   if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
   {
-    return Status::invalid_input("the winding threshold must be a number above 0");
+    return Status::invalid_input("the winding threshold must be greater than 0");
   }
   constexpr double largest_angle = 33.0;
   if (!(options.min_angle >= 0.0 && options.min_angle <= largest_angle))
   {
-    return Status::invalid_input("the smallest angle must lie between 0 and 33 degrees");
+    return Status::invalid_input("the smallest angle must be from 0 to 33 degrees");
   }
   if (!(options.edge >= 0.0) || !std::isfinite(options.edge))
   {
-    return Status::invalid_input("the longest edge is a fraction of the diagonal, 0 or more");
+    return Status::invalid_input("the longest edge must be 0 or more, in bounding-box diagonals");
   }
   if (options.edge > 0.0 && options.edge < 1e-4)
   {
-    return Status::invalid_input("the longest edge must be at least 1e-4 of the diagonal, or 0");
+    return Status::invalid_input(
+      "the longest edge must be 0 or at least 1e-4 bounding-box diagonals");
   }
   return check_limits(options.time_limit, options.memory_limit);
 }
@@ -187,7 +188,7 @@ Status Builder::scale()
   const double farthest = to_scale(lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).maxCoeff());
   if (!std::isfinite(farthest))
   {
-    return Status::invalid_input("the curves lie too far from the origin for their size");
+    return Status::invalid_input("the curves are too far from the origin for their size");
   }
   // The shift must not round. Differences of numbers within a factor of two are exact (Sterbenz).
   for (int k = 0; k < 2; ++k)
@@ -263,8 +264,8 @@ Status Builder::run_job(
   if (request.time_limit <= 0.0)
   {
     return Status::failure(StatusCode::internal_error,
-      "the time limit of " + short_number(this->options_.time_limit) + " s was over before " +
-        arguments.front());
+      "the time limit of " + short_number(this->options_.time_limit) +
+        " s was reached before the step " + arguments.front());
   }
   return run_mesher(request, this->data_, answer, this->context_);
 }
@@ -285,7 +286,8 @@ Status Builder::arrange()
   this->crossings_ = this->data_.points.rows() - this->gathered_.count();
   if (this->data_.triangles.rows() == 0)
   {
-    return Status::invalid_input("all points of the curves lie on one line: they enclose nothing");
+    return Status::invalid_input(
+      "all points of the curves are on one line, so they enclose nothing");
   }
   return {};
 }
@@ -376,7 +378,7 @@ Status Builder::keep()
   if (kept == 0)
   {
     return Status::invalid_input("the curves enclose nothing: the largest winding number is " +
-      short_number(means.maxCoeff()) + ", and inside begins at " +
+      short_number(means.maxCoeff()) + ", below the threshold of " +
       short_number(this->options_.winding_threshold));
   }
   this->data_.triangles.conservativeResize(kept, 3);
@@ -427,14 +429,14 @@ Status Builder::fill()
   this->data_ = std::move(answer.data);
   if (answer.report.number("stopped", 0.0) > 0.0)
   {
-    this->warnings_.emplace_back("the triangles were not refined to the end: it would have taken "
-                                 "too many points or too much time");
+    this->warnings_.emplace_back("the refinement of the triangles was stopped because it would "
+                                 "have needed too many points or too much time");
   }
   else if (answer.report.number("min_angle", 0.0) < this->options_.min_angle)
   {
-    this->warnings_.emplace_back("angles of " + short_number(this->options_.min_angle) +
-      " degrees could not be had everywhere; the smallest angle aimed at was " +
-      short_number(answer.report.number("min_angle", 0.0)));
+    this->warnings_.emplace_back("a smallest angle of " + short_number(this->options_.min_angle) +
+      " degrees could not be reached everywhere; the refinement used " +
+      short_number(answer.report.number("min_angle", 0.0)) + " degrees");
   }
   return {};
 }
@@ -486,7 +488,8 @@ Status Builder::number(PlanarShape& shape)
   if (!exact && !this->fits(false))
   {
     return Status::failure(StatusCode::internal_error,
-      "rounding turned a triangle over: the curves lie too far from the origin for their detail");
+      "rounding flipped a triangle because the curves are too far from the origin for their level "
+      "of detail");
   }
   std::vector<Index> ids(static_cast<std::size_t>(this->data_.points.rows()), none);
   for (Index k = 0; k < this->data_.triangles.size(); ++k)
@@ -569,7 +572,7 @@ void Builder::report(const PlanarShape& shape, Status& status) const
   if (this->turned_)
   {
     status.warnings.emplace_back(
-      "the curves run clockwise around their inside; they are taken the other way round");
+      "the curves were reversed because they are clockwise around their inside");
   }
   if (!this->handles_.empty())
   {
@@ -580,7 +583,7 @@ void Builder::report(const PlanarShape& shape, Status& status) const
     {
       status.warnings.push_back(std::to_string(outside) + " of " +
         std::to_string(shape.handle_vertices.size()) +
-        " points of handles lie outside of the shape and are no vertices of it");
+        " handle points are outside the shape and did not become vertices");
     }
   }
 }
@@ -616,7 +619,7 @@ Status planar_shape(PlanePointsView points, SegmentsView segments, const PlanarH
   Status status = check_options(options);
   if (status.ok() && segments.rows() == 0)
   {
-    status = Status::invalid_input("there are no curves");
+    status = Status::invalid_input("the input has no curves");
   }
   if (status.ok())
   {

@@ -367,7 +367,7 @@ std::string left_out_warning(Index left_out)
   return std::to_string(left_out) +
     (left_out == 1 ? " edge has a negative cotangent weight (obtuse angles opposite to it)"
                    : " edges have negative cotangent weights (obtuse angles opposite to them)") +
-    ", which the spokes energy leaves out; spokes and rims would not";
+    ", which energy spokes ignores; energy spokes-and-rims uses all edges";
 }
 
 RotationGroups rotation_groups(

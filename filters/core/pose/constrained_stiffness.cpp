@@ -103,8 +103,9 @@ Status ConstrainedStiffness::prepare(const SparseMatrix& stiffness,
     }
     if (!status.ok())
     {
-      status.message =
-        "the mesh's stiffness matrix has no factor (elements too thin?): " + status.message;
+      status.message = "the stiffness matrix of the mesh cannot be factored, perhaps because "
+                       "elements are too thin: " +
+        status.message;
       return status;
     }
   }

@@ -81,7 +81,7 @@ Status Crowd::solve(
   {
     all.code = StatusCode::not_converged;
     all.message = std::to_string(not_converged) + " of " + std::to_string(poses.size()) +
-      " instances did not converge in their iterations";
+      " instances did not converge within the maximum number of iterations";
   }
   all.report.set("counts.instances", static_cast<std::int64_t>(poses.size()));
   all.report.set("counts.not_converged", not_converged);

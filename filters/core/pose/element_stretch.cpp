@@ -278,8 +278,8 @@ Status check(const ElementStretchOptions& options, Index rest, PointsView posed)
   }
   if (rest != posed.rows())
   {
-    return Status::invalid_input("there are " + std::to_string(posed.rows()) +
-      " posed points for " + std::to_string(rest) + " at rest");
+    return Status::invalid_input("the number of posed points (" + std::to_string(posed.rows()) +
+      ") differs from the number of rest points (" + std::to_string(rest) + ")");
   }
   return {};
 }
@@ -326,8 +326,8 @@ Status over_elements(
   }
   if (all.inverted > 0)
   {
-    status.warnings.push_back("the pose turns " + std::to_string(all.inverted) + " of " +
-      std::to_string(elements) + " " + what + " inside out");
+    status.warnings.push_back("the pose inverts " + std::to_string(all.inverted) + " of " +
+      std::to_string(elements) + " " + what);
   }
   return status;
 }

@@ -91,7 +91,7 @@ Status endpoint_weights(PointsView points, const Handles& handles, EndpointMetho
   }
   if (bones.empty())
   {
-    return Status::invalid_input("there is no bone among the handles");
+    return Status::invalid_input("the handles contain no bone");
   }
   Status status;
   Index problems = 0;

@@ -362,17 +362,18 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   const std::string energy = short_number(this->energies_.back());
   if (rise > 0.0)
   {
-    status.warnings.push_back("iteration " + std::to_string(iterations) + " raised the energy by " +
-      short_number(rise) + " of " + energy +
-      ", for what holds the handles nearly depends on each other: the points before it are kept");
+    status.warnings.push_back("iteration " + std::to_string(iterations) +
+      " increased the energy by " + short_number(rise) + " of " + energy +
+      " because the constraints of the handles are nearly dependent; the points of the previous "
+      "iteration are returned");
     converged = rise <= options.tolerance * std::max(this->energies_.back(), floor);
   }
   if (options.tolerance > 0.0 && !converged && options.max_iterations > 0)
   {
     status.code = StatusCode::not_converged;
-    status.message = "the energy still " + std::string(rise > 0.0 ? "rose" : "fell") + " by " +
-      short_number(std::abs(rise > 0.0 ? rise : change)) + " of " + energy + " in the last of " +
-      std::to_string(iterations) + " iterations";
+    status.message = "the energy still " + std::string(rise > 0.0 ? "increased" : "decreased") +
+      " by " + short_number(std::abs(rise > 0.0 ? rise : change)) + " of " + energy +
+      " in the last of " + std::to_string(iterations) + " iterations";
   }
   return status;
 }

@@ -165,14 +165,14 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
     }
     if (count == 0)
     {
-      return Status::invalid_input(std::string("there is nothing to bend: no ") +
+      return Status::invalid_input(std::string("the mesh cannot be deformed because no ") +
         element_word(elements) + (tets ? " has a volume" : " has an area"));
     }
     if (count < elements.rows())
     {
       const Index flat = elements.rows() - count;
       status.warnings.push_back(std::to_string(flat) + " of " + std::to_string(elements.rows()) +
-        " " + element_word(elements) + "s are too flat to have an energy");
+        " " + element_word(elements) + "s are too flat and do not contribute to the energy");
       kept.conservativeResize(count, Eigen::NoChange);
     }
     this->parts_ = connected_components(points.rows(), kept);

@@ -117,8 +117,8 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
       }
       if (grip.points.empty())
       {
-        return Status::invalid_input(
-          "region '" + handle.name + "' holds no vertex: those of its label are in no element");
+        return Status::invalid_input("region '" + handle.name +
+          "' constrains no vertex because the vertices with its label are not part of any element");
       }
       for (const MeshPoint& point : grip.points)
       {
@@ -163,9 +163,9 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
   }
   if (!beside.empty())
   {
-    status.warnings.push_back("these handles lie beside the mesh, by up to " +
-      std::to_string(farthest) +
-      "; they hold the mesh's nearest points: " + quoted_names(this->handles_, beside));
+    status.warnings.push_back("these handles are up to " + std::to_string(farthest) +
+      " away from the mesh and constrain its nearest points: " +
+      quoted_names(this->handles_, beside));
   }
   return status;
 }
@@ -319,8 +319,10 @@ std::vector<std::string> MeshGrips::redundancy(
   {
     return {};
   }
-  return { "these positions are redundant (others determine them): " +
-    quoted_names(this->handles_, redundant) };
+  return {
+    "the position constraints of these handles are redundant (other constraints determine them): " +
+    quoted_names(this->handles_, redundant)
+  };
 }
 
 double MeshGrips::residual(
@@ -344,7 +346,7 @@ double MeshGrips::residual(
   }
   if (!contradicting.empty())
   {
-    warnings.push_back("these handles contradict each other, the worst is missed by " +
+    warnings.push_back("these handles have contradictory constraints, with a largest error of " +
       std::to_string(residual * this->diagonal_) + ": " +
       quoted_names(this->handles_, contradicting));
   }

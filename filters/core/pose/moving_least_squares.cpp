@@ -155,7 +155,7 @@ Status MovingLeastSquares::bind(ExecutionContext& context, const MovingLeastSqua
   *this = MovingLeastSquares();
   if (!(options.exponent >= 1.0 && options.exponent <= 8.0))
   {
-    return Status::invalid_input("the exponent of moving least squares must lie within 1 to 8");
+    return Status::invalid_input("the exponent of moving least squares must be from 1 to 8");
   }
   Status status = check_handles(handles);
   if (!status.ok())
@@ -210,8 +210,8 @@ Status MovingLeastSquares::warp(
   const auto count = static_cast<Index>(handles.size());
   if (count != this->handles_ || pose.size() != handles.size())
   {
-    return Status::invalid_input("the pose is of " + std::to_string(pose.size()) +
-      " handles, but " + std::to_string(this->handles_) + " are bound");
+    return Status::invalid_input("the pose has " + std::to_string(pose.size()) + " handles, but " +
+      std::to_string(this->handles_) + " handles are bound");
   }
   std::vector<Affine> transforms;
   std::vector<Index> counting;
@@ -231,7 +231,7 @@ Status MovingLeastSquares::warp(
   if (counting.empty())
   {
     posed = this->rest_;
-    status.warnings.emplace_back("every handle is free: nothing moves");
+    status.warnings.emplace_back("all handles are free, so the mesh does not move");
     return status;
   }
   const Points rest_places = places(handles, nullptr);

@@ -164,7 +164,7 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
     }
     if (!in.empty() && j - i > 2)
     {
-      return Status::invalid_input("the patch is no surface: the edge of points " +
+      return Status::invalid_input("the patch must be a manifold surface, but the edge of points " +
         std::to_string(sides[i].a) + " and " + std::to_string(sides[i].b) + " has " +
         std::to_string(j - i) + " triangles");
     }
@@ -194,7 +194,7 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
     if (!(largest > 0.0 && largest <= steepest))
     {
       return Status::invalid_input("triangle " + std::to_string(t) +
-        " has no area in the parameter domain, but the patch needs it");
+        " of the patch must have an area in the parameter domain");
     }
     patch.row(count++) = this->triangles_.row(t);
   }
@@ -250,8 +250,8 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
   {
     return Status::failure(StatusCode::unavailable,
       "order " + std::to_string(this->order_) +
-        " is too ill-conditioned on this patch for double precision; take a lower order, or a "
-        "coarser or more even mesh");
+        " is too ill-conditioned on this patch for double precision; use a lower order, or a "
+        "coarser or more uniform mesh");
   }
   status.report.set(
     "counts.free", std::count(this->is_free_.begin(), this->is_free_.end(), char(1)));

@@ -28,19 +28,19 @@ Status check_pose(const Handles& handles, const Pose& pose)
   if (pose.size() != handles.size() || pose.empty())
   {
     return Status::invalid_input("the pose has " + std::to_string(pose.size()) +
-      " handles, but there are " + std::to_string(handles.size()));
+      " handles; expected " + std::to_string(handles.size()));
   }
   for (std::size_t h = 0; h < pose.size(); ++h)
   {
     if (!pose[h].transform.allFinite() || !std::isfinite(pose[h].stretch))
     {
       return Status::invalid_input(
-        "the transform of handle '" + handles[h].name + "' has a number that is not finite");
+        "the transform of handle '" + handles[h].name + "' contains a value that is not finite");
     }
     if (holds_tail(pose[h].mode) && handles[h].kind != HandleKind::bone)
     {
       return Status::invalid_input("the mode " + std::string(to_string(pose[h].mode)) +
-        " of handle '" + handles[h].name + "' is for bones");
+        " of handle '" + handles[h].name + "' can only be used for bones");
     }
   }
   return {};
@@ -58,11 +58,12 @@ Status check_elements(PointsView points, const Elements& elements, const Handles
   }
   if (!points.allFinite())
   {
-    return Status::invalid_input("the mesh has an unused point that is not finite");
+    return Status::invalid_input(
+      "the mesh has an unused point with a coordinate that is not finite");
   }
   if (elements.rows() == 0)
   {
-    return Status::invalid_input("there is nothing to bend: the mesh has no elements");
+    return Status::invalid_input("the mesh cannot be deformed because it has no elements");
   }
   return check_handles(handles);
 }
@@ -93,8 +94,7 @@ std::string unused_stretch(const Pose& pose, StretchUse use)
       return stretches || twists;
     });
   return unused && use != StretchUse::all ? "the pose stretches or twists bones, which this method "
-                                            "ignores; only stretchable bones (stbs) "
-                                            "use it"
+                                            "ignores; use stretchable bones (stbs) instead"
                                           : "";
 }
 

@@ -46,7 +46,7 @@ const char* article(const Json& value)
     case Json::value_t::array:
       return "a list";
     case Json::value_t::string:
-      return "a text";
+      return "a string";
     case Json::value_t::boolean:
       return "true or false";
     default:
@@ -72,7 +72,7 @@ void check_object(
     }
     if (!found)
     {
-      fail(where, " has an unknown key '" + item.key() + "' (known: " + list + ")");
+      fail(where, " has the unknown key '" + item.key() + "' (expected: " + list + ")");
     }
   }
 }
@@ -137,7 +137,7 @@ Eigen::Matrix3d read_rotation(const Json& value, const std::string& where)
   check_object(value, where, { "axis", "degrees" });
   if (!value.contains("axis") || !value.contains("degrees"))
   {
-    fail(where, " needs both axis and degrees");
+    fail(where, " must have both axis and degrees");
   }
   Vec3 axis = numbers<3>(value["axis"], where + ".axis");
   const double degrees = number(value["degrees"], where + ".degrees");
@@ -166,7 +166,8 @@ HandleEdit read_handle(
     const bool for_bones = key == "head" || key == "tail" || key == "stretch" || key == "twist";
     if (for_bones && rest.kind != HandleKind::bone)
     {
-      fail(at, std::string(" is for bones, but the handle is a ") + to_string(rest.kind));
+      fail(at,
+        std::string(" can only be used for bones, but the handle is a ") + to_string(rest.kind));
     }
     if (key == "mode")
     {
@@ -174,8 +175,8 @@ HandleEdit read_handle(
       if (holds_tail(*edit.mode) && rest.kind != HandleKind::bone)
       {
         fail(at,
-          " is '" + std::string(to_string(*edit.mode)) + "', for bones, but the handle is a " +
-            std::string(to_string(rest.kind)));
+          " is '" + std::string(to_string(*edit.mode)) +
+            "', which is only for bones, but the handle is a " + std::string(to_string(rest.kind)));
       }
     }
     else if (key == "translate")
@@ -215,12 +216,12 @@ HandleEdit read_handle(
   {
     if (edit.translate || edit.rotation || edit.scale)
     {
-      fail(where, " has head or tail and also translate, rotate or scale; give one or the other");
+      fail(where, " must not combine head or tail with translate, rotate or scale");
     }
     const bool known = (edit.head && edit.tail) || version < 2 || !edit.with_parent;
     if (known && edit.head.value_or(rest.head) == edit.tail.value_or(rest.tail))
     {
-      fail(where, " is posed to length zero");
+      fail(where, " must not have length zero in the pose");
     }
   }
   return edit;
@@ -303,7 +304,7 @@ PoseEdits read_pose(const Json& value, const std::string& where,
 {
   if (!value.contains("handles"))
   {
-    fail(where, " is empty; it needs the key 'handles'");
+    fail(where, " must have the key 'handles'");
   }
   if (!value["handles"].is_object())
   {
@@ -316,7 +317,7 @@ PoseEdits read_pose(const Json& value, const std::string& where,
     const auto found = index_of.find(item.key());
     if (found == index_of.end())
     {
-      fail(where, " names a handle '" + item.key() + "' that does not exist");
+      fail(where, " refers to the handle '" + item.key() + "', which does not exist");
     }
     const std::string handle = where + " handle '" + item.key() + "'";
     Json entry = item.value();
@@ -367,7 +368,7 @@ Json parse_without_doubled_keys(const std::string& text)
     else if (event == Json::parse_event_t::key &&
       !keys.back().insert(parsed.get<std::string>()).second)
     {
-      fail("the key '" + parsed.get<std::string>() + "'", " is given twice");
+      fail("the key '" + parsed.get<std::string>() + "'", " is defined twice");
     }
     return true;
   };
@@ -397,9 +398,9 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
     {
       if (!root.contains("version") && leaves_a_child(root, handles))
       {
-        status.warnings.push_back("the pose file has no \"version\", so children do not follow "
-                                  "their parents, as in version 1; add \"version\": 2 to let "
-                                  "them follow");
+        status.warnings.push_back(
+          "the pose file has no \"version\" and is read as version 1, in which children do not "
+          "follow their parents; add \"version\": 2 to let them follow");
       }
     };
     if (!root.is_object() || !root.contains("frames"))
@@ -719,7 +720,7 @@ void warn_of_inexact(const Handles& handles, const std::vector<char>& is_exact, 
     : " in " + std::to_string(inexact_poses) + " of " + std::to_string(pose_count) + " poses";
   status.warnings.push_back(who + count + first_names(handles, inexact) + (one ? "" : ")") +
     (one ? " has" : " have") +
-    " a shear, an uneven scale or a reflection that a pose file cannot hold" + when +
+    " a shear, a non-uniform scale or a reflection, which a pose file cannot store" + when +
     "; the nearest rotation and scale were written");
 }
 } // namespace
@@ -737,7 +738,7 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
     if (pose.size() != handles.size())
     {
       return Status::invalid_input("a pose has " + std::to_string(pose.size()) +
-        " handles, but there are " + std::to_string(handles.size()));
+        " handles; expected " + std::to_string(handles.size()));
     }
     Json frame;
     frame["handles"] = Json::object();
@@ -749,7 +750,7 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
         !pose[h].twist.allFinite())
       {
         return Status::invalid_input(
-          "the pose of handle '" + handles[h].name + "' has a number that is not finite");
+          "the pose of handle '" + handles[h].name + "' contains a value that is not finite");
       }
       bool exact = true;
       frame["handles"][handles[h].name] = format_handle(pose, handles, h, exact);
@@ -761,7 +762,7 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
   }
   if (frames.empty())
   {
-    return Status::invalid_input("there is no pose to write");
+    return Status::invalid_input("the sequence has no poses to write");
   }
   warn_of_inexact(handles, is_exact, inexact_poses, poses.size(), status);
   Json root;
@@ -782,7 +783,7 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
   catch (const nlohmann::json::type_error&)
   {
     return Status::invalid_input(
-      "the name of a handle is not UTF-8, and a pose file can hold nothing else");
+      "the name of a handle must be valid UTF-8 to be written to a pose file");
   }
   return status;
 }

@@ -77,17 +77,17 @@ Status pose_of_matrix(WeightsView matrix, const Handles& handles, Pose& pose)
   }
   if (!matrix.allFinite())
   {
-    return Status::invalid_input("the pose has a number that is not finite");
+    return Status::invalid_input("the pose contains a value that is not finite");
   }
   const bool transforms =
     (matrix.cols() == 2 || matrix.cols() == 3) && matrix.rows() == (matrix.cols() + 1) * count;
   const bool rotations = matrix.cols() == 1 && bones > 0 && matrix.rows() == 4 * bones;
   if (!transforms && !rotations)
   {
-    return Status::invalid_input("the pose is a matrix of " +
-      size_of(matrix.rows(), matrix.cols()) + "; of " + std::to_string(count) +
-      " handles it must be " + size_of(4 * count, 3) + ", in a plane " + size_of(3 * count, 2) +
-      " (transposed transforms)" +
+    return Status::invalid_input("the pose is a matrix of size " +
+      size_of(matrix.rows(), matrix.cols()) + "; for " + std::to_string(count) +
+      " handles it must be " + size_of(4 * count, 3) + ", or in the plane " +
+      size_of(3 * count, 2) + " (transposed transforms)" +
       (bones > 0 ? ", or " + size_of(4 * bones, 1) + " (rotations of the bones)" : ""));
   }
   pose.assign(handles.size(), HandlePose());
@@ -110,7 +110,7 @@ Status pose_of_matrix(WeightsView matrix, const Handles& handles, Pose& pose)
     if (!(length > 0.0))
     {
       return Status::invalid_input(
-        "the pose's rotation of bone '" + handles[h].name + "' has length zero");
+        "the quaternion of bone '" + handles[h].name + "' has length zero");
     }
     q.coeffs() /= length;
     turns[h] = q.toRotationMatrix();

@@ -177,10 +177,11 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
   if (edges.empty())
   {
     status.warnings.push_back(count < 2
-        ? "automatic pseudo-edges join point handles on the mesh, of which there are " +
+        ? "automatic pseudo-edges need at least 2 point handles on the mesh, but the number of "
+          "such handles is " +
           std::to_string(count)
-        : "there are no automatic pseudo-edges: no two point handles are on the same part of the "
-          "mesh");
+        : "no automatic pseudo-edges were created because no two point handles are on the same "
+          "connected part of the mesh");
   }
   return status;
 }
@@ -224,7 +225,7 @@ Status check_pseudo_edges(const Handles& handles, const PseudoEdges& edges)
     if (!is_point(a) || !is_point(b) || a == b)
     {
       return Status::invalid_input(
-        "pseudo-edge " + std::to_string(e) + " does not join two different points");
+        "pseudo-edge " + std::to_string(e) + " must connect two different point handles");
     }
   }
   return {};

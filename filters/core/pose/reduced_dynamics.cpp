@@ -27,15 +27,15 @@ Status check_options(const ReducedDynamicsOptions& options)
   const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
   if (!positive(options.time_step))
   {
-    return Status::invalid_input("the time step must be a number above 0");
+    return Status::invalid_input("the time step must be greater than 0");
   }
   if (!positive(options.density) || !positive(options.stiffness))
   {
-    return Status::invalid_input("density and stiffness must be numbers above 0");
+    return Status::invalid_input("density and stiffness must be greater than 0");
   }
   if (!std::isfinite(options.damping) || options.damping < 0.0)
   {
-    return Status::invalid_input("the damping must be a number of 0 or more");
+    return Status::invalid_input("the damping must be at least 0");
   }
   if (!options.gravity.allFinite())
   {

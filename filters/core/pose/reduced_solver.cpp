@@ -142,8 +142,8 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   }
   if (!this->redundant_.empty())
   {
-    status.warnings.push_back(
-      "these positions are redundant (others determine them, or no weight is there): " +
+    status.warnings.push_back("the position constraints of these handles are redundant (other "
+                              "constraints determine them, or no weight is there): " +
       quoted_names(space.handles, this->redundant_));
   }
 
@@ -260,8 +260,8 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   }
   if (!contradicting.empty())
   {
-    status.warnings.push_back("these positions contradict each other or cannot be reached, the "
-                              "worst is missed by " +
+    status.warnings.push_back(
+      "these handles have contradictory or unreachable positions, with a largest error of " +
       std::to_string(residual * space.diagonal) + ": " +
       quoted_names(space.handles, contradicting));
   }
@@ -282,9 +282,9 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   if (options.tolerance > 0.0 && !progress.converged && options.max_iterations > 0)
   {
     status.code = StatusCode::not_converged;
-    status.message = "the energy still fell by " + short_number(change) + " of " +
+    status.message = "the energy still decreased by " + short_number(change) + " of " +
       short_number(this->energies_.back()) + " in the last of " + std::to_string(iterations) +
-      " iterations" + (progress.in_time ? "" : ", when the time budget was spent");
+      " iterations" + (progress.in_time ? "" : ", when the time budget was used up");
   }
   return status;
 }

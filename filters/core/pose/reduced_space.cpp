@@ -331,7 +331,8 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
   }
   if (!empty_names.empty())
   {
-    status.warnings.push_back("handles without weight anywhere move nothing: " + empty_names);
+    status.warnings.push_back(
+      "these handles have no effect because all their weights are zero: " + empty_names);
   }
 
   Weights all = weights;

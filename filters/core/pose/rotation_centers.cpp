@@ -215,13 +215,13 @@ Status check(const RotationCentersOptions& options, PointsView points, WeightsVi
     !(options.smallest_pair >= 0.0 && options.smallest_pair < 1.0) || !(options.group_size >= 0.0))
   {
     return Status::invalid_input(
-      "the width must be above 0, the smallest weight and pair at least 0 and less "
-      "than 1, and the group size at least 0");
+      "the width must be greater than 0, the smallest weight and pair must be at least 0 and less "
+      "than 1, and the group size must be at least 0");
   }
   if (weights.rows() != points.rows())
   {
-    return Status::invalid_input("there are weights of " + std::to_string(weights.rows()) +
-      " vertices for " + std::to_string(points.rows()));
+    return Status::invalid_input("the weights have " + std::to_string(weights.rows()) +
+      " rows, but there are " + std::to_string(points.rows()) + " vertices");
   }
   return weights.allFinite() ? Status() : Status::invalid_input("a weight is not a finite number");
 }

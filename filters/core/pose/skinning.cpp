@@ -338,7 +338,7 @@ Status Skinning::bind(
   if (!(options.smallest_weight >= 0.0 && options.smallest_weight < 1.0) || options.influences < 0)
   {
     return Status::invalid_input("the smallest weight must be at least 0 and less than 1, and the "
-                                 "influences at least 0");
+                                 "number of influences at least 0");
   }
   struct Block
   {
@@ -410,7 +410,7 @@ Status Skinning::bind(
     status.warnings.push_back("the weights of " + std::to_string(all.off) + " of " +
       std::to_string(rows) + " vertices do not sum to one (worst: vertex " +
       std::to_string(all.worst) + ", off by " + std::to_string(all.error) +
-      "); the missing share stays at rest");
+      "); the missing fraction of a vertex stays at rest");
   }
   return status;
 }
@@ -506,7 +506,7 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
 {
   if (!this->single_)
   {
-    return Status::invalid_input("many instances are posed with weights in single precision");
+    return Status::invalid_input("posing many instances needs weights in single precision");
   }
   const auto of_instances = [&](std::size_t count, const char* what)
   {
@@ -625,9 +625,10 @@ Status Skinning::stretchable_bones(ExecutionContext& context, PointsView rest,
   if (status.ok() && endpoints.size() > 0 &&
     (endpoints.rows() != rest.rows() || endpoints.cols() != this->handles_))
   {
-    status = Status::invalid_input("there are " + std::to_string(endpoints.rows()) + " x " +
-      std::to_string(endpoints.cols()) + " endpoint weights for " + std::to_string(rest.rows()) +
-      " vertices and " + std::to_string(this->handles_) + " handles");
+    status = Status::invalid_input("the endpoint weights have size " +
+      std::to_string(endpoints.rows()) + " x " + std::to_string(endpoints.cols()) +
+      ", but there are " + std::to_string(rest.rows()) + " vertices and " +
+      std::to_string(this->handles_) + " handles");
   }
   if (!status.ok())
   {
@@ -888,7 +889,7 @@ Status skinning_transforms(
   if (!free.empty())
   {
     status.warnings.push_back(
-      "skinning cannot find the transform of a free handle; at rest stay: " +
+      "skinning cannot compute transforms of free handles; these handles stay at rest: " +
       quoted_names(handles, free));
   }
   return status;

@@ -173,7 +173,7 @@ Status skinning_eigenmodes(ExecutionContext& context, const SparseMatrix& stiffn
     {
       status.code = StatusCode::not_converged;
       status.message = "only " + std::to_string(vectors.cols()) + " of " + std::to_string(count) +
-        " eigenmodes were found";
+        " eigenmodes converged";
     }
   }
   for (Index e = 0; e < vectors.cols(); ++e)

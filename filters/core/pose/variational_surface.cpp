@@ -46,13 +46,13 @@ Status VariationalSurface::bind(ExecutionContext& context, PointsView points,
   }
   if (triangles.rows() == 0)
   {
-    return Status::invalid_input("there is no surface: the mesh has no triangles");
+    return Status::invalid_input("the mesh has no triangles; a surface is required");
   }
   if (!points.allFinite() || !options.parameters.allFinite() || !options.tangents.allFinite() ||
     !options.load.allFinite())
   {
     return Status::invalid_input(
-      "a coordinate of the mesh, its parameters, tangents or load is not a finite number");
+      "a coordinate, parameter, tangent or load of the mesh is not a finite number");
   }
   if (options.order < 1 || options.order > 3)
   {
@@ -62,7 +62,7 @@ Status VariationalSurface::bind(ExecutionContext& context, PointsView points,
   if (options.boundary == PatchBoundary::tangent &&
     options.tangent_source == PatchTangents::given && options.tangents.rows() == 0)
   {
-    return Status::invalid_input("there are no tangents to take derivatives from");
+    return Status::invalid_input("tangent source given needs tangents, but the mesh has none");
   }
   if (!handles.empty())
   {
@@ -124,8 +124,8 @@ Status VariationalSurface::prepare(ExecutionContext& context, const Pose& pose)
     {
       if (this->parts_.of_vertex[v] >= 0 && !held[this->parts_.of_vertex[v]])
       {
-        return Status::invalid_input("nothing is fixed in the connected part of point " +
-          std::to_string(v) + ": a patch without a boundary has no shape");
+        return Status::invalid_input("the connected part that contains point " + std::to_string(v) +
+          " must have at least one fixed point");
       }
     }
   }
@@ -140,24 +140,26 @@ Status VariationalSurface::prepare(ExecutionContext& context, const Pose& pose)
   const int order = options.order;
   if (options.boundary == PatchBoundary::curve && order > 1 && options.load.rows() == 0)
   {
-    status.warnings.push_back("with values alone and no load, order " + std::to_string(order) +
-      " is the membrane of order 1: its Laplacian is zero at the curve, so it is everywhere");
+    status.warnings.push_back("boundary curve without a load reduces order " +
+      std::to_string(order) +
+      " to the membrane of order 1, because the Laplacian is zero at the curve and therefore "
+      "everywhere");
   }
   if (options.boundary == PatchBoundary::tangent && order == 1)
   {
-    status.warnings.emplace_back("order 1 cannot meet tangents: they are not used");
+    status.warnings.emplace_back("tangents are ignored because order 1 cannot satisfy them");
   }
   if (options.boundary == PatchBoundary::tangent && order == 3)
   {
     status.warnings.emplace_back(
-      "order 3 with tangents has no curvature to continue: the Laplacian's own derivative across "
-      "the edge is zero; a region of three layers fixes all three");
+      "order 3 with boundary tangent does not continue the curvature: the derivative of the "
+      "Laplacian across the boundary is zero; use boundary region with three fixed layers instead");
   }
   if (options.fair && options.boundary == PatchBoundary::region && this->system_.layers() < order)
   {
-    status.warnings.push_back("the mesh ends " + std::to_string(this->system_.layers()) +
-      " one-ring layers from the patch, order " + std::to_string(order) +
-      " takes as many as its number from around it: slopes across that border are zero");
+    status.warnings.push_back("order " + std::to_string(order) + " needs " + std::to_string(order) +
+      " one-ring layers of fixed points around the patch, but the mesh has only " +
+      std::to_string(this->system_.layers()) + "; slopes across the border of the mesh are zero");
   }
   return status;
 }
@@ -258,8 +260,10 @@ Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
   {
     char text[16];
     std::snprintf(text, sizeof(text), "%.0e", refinement);
-    status.warnings.push_back(std::string("the last correction is still ") + text +
-      " of the largest coordinate: few digits are certain; take a lower order or a coarser mesh");
+    status.warnings.push_back(std::string("the last refinement step changed the result by ") +
+      text +
+      " of the largest coordinate, so the result is inaccurate; use a lower order or a coarser "
+      "mesh");
   }
   if (!this->grips_.holds().empty())
   {

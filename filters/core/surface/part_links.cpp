@@ -421,12 +421,12 @@ Status link_parts(PointsView points, TrianglesView triangles, const std::vector<
   links.clear();
   if (std::none_of(held.begin(), held.end(), [](char is_held) { return is_held != 0; }))
   {
-    return Status::invalid_input("no part of the surface is held");
+    return Status::invalid_input("no part of the surface is constrained by a handle");
   }
   if (!(options.touching >= 0.0) || !(options.spacing > 0.0))
   {
     return Status::invalid_input(
-      "links need a spacing above 0, and parts that touch a distance of at least 0");
+      "the spacing of links must be greater than 0 and the contact distance at least 0");
   }
   return Linker(points, triangles, parts, held, options, context).run(links) ? Status()
                                                                              : Status::canceled();

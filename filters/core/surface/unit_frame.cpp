@@ -35,12 +35,12 @@ Status check_frame(PointsView points, TrianglesView triangles)
   const double diagonal = bounding_box(points, triangles).diagonal();
   if (!(diagonal > 0.0))
   {
-    return Status::invalid_input("all points of the surface are one point");
+    return Status::invalid_input("all points of the surface coincide");
   }
   constexpr double largest = 1e100;
   if (!(diagonal < largest))
   {
-    return Status::invalid_input("the surface is larger than 1e100");
+    return Status::invalid_input("the surface must be at most 1e100 long in each direction");
   }
   return {};
 }

@@ -324,8 +324,8 @@ Status begin(
   result = {};
   if (problem.terms.any())
   {
-    return Status::invalid_input(
-      "rigidity, rigid sets, bounds, pins and mirrors are for bounded and monotone weights");
+    return Status::invalid_input("rigidity, rigid sets, bounds, pins and mirrors can only be used "
+                                 "with bounded and monotone weights");
   }
   const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
   if (!positive(options.power) || !positive(options.heat))
@@ -334,7 +334,7 @@ Status begin(
   }
   if (!(options.smoothing >= 0.0 && std::isfinite(options.smoothing)))
   {
-    return Status::invalid_input("smoothing must not be negative");
+    return Status::invalid_input("smoothing must be at least 0");
   }
   w = with_fixed_rows(problem);
   return {};

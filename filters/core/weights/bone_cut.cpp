@@ -158,7 +158,7 @@ Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles
   const double tolerance = on_bone * box.diagonal();
   if (triangles.rows() == 0 || box.size()[2] > tolerance)
   {
-    return Status::invalid_input("only a mesh in a plane z = const can be cut along bones");
+    return Status::invalid_input("a mesh must be in a plane z = const to be cut along bones");
   }
   BoneEdges edges;
   for (const Edge& edge : mesh_edges(triangles))
@@ -193,12 +193,12 @@ Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles
     if (!is_row)
     {
       return Status::invalid_input("bone '" + handles[b].name +
-        "' is not a row of edges of the mesh: make the mesh with these handles");
+        "' must consist of edges of the mesh; create the mesh with these handles");
     }
   }
   if (bones == 0)
   {
-    return Status::invalid_input("there is no bone to cut along");
+    return Status::invalid_input("the handles contain no bone to cut along");
   }
 
   std::map<Index, std::vector<Index>> around; // triangles around each vertex on a bone, ascending
@@ -275,10 +275,10 @@ Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles
     if (!opened[b])
     {
       return Status::invalid_input("bone '" + handles[b].name +
-        "' cannot open: it has no vertex between its ends; make the mesh finer");
+        "' cannot be cut because it has no vertex between its ends; use a finer mesh");
     }
     status.warnings.push_back("bone '" + handles[b].name +
-      "' has no vertex of its own between others: its sides are theirs; a finer mesh has some");
+      "' has no vertex of its own between its neighbors and uses their sides; use a finer mesh");
   }
   result.points.resize(static_cast<Index>(result.original.size()), 3);
   for (Index v = 0; v < result.points.rows(); ++v)

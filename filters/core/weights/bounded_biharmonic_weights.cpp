@@ -12,7 +12,7 @@ Status bounded_biharmonic_weights(const WeightsProblem& problem, const WeightsOp
   result = {};
   if (options.order != 2 && options.order != 3)
   {
-    return Status::invalid_input("the order of bounded weights is 2 or 3");
+    return Status::invalid_input("the order of bounded weights must be 2 or 3");
   }
   return solve_weights(problem, options.order,
     options.order == 2 ? "bounded-biharmonic" : "bounded-triharmonic", options, {}, context,

@@ -95,7 +95,7 @@ Status fill_faces(const std::vector<CageElement>& faces, PointsView points, cons
 Status fill_edges(const std::vector<CageElement>& edges, PointsView points, TrianglesView triangles,
   const Handles& handles, const CageOptions& cage, CageDomain& result, ExecutionContext& context)
 {
-  const char* needs = "domain cage needs a closed cage among the handles: of faces, or of edges in "
+  const char* needs = "domain cage needs handles with a closed cage of faces, or of edges in "
                       "the plane of a flat shape";
   if (edges.empty())
   {

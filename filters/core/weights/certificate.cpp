@@ -73,7 +73,7 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
 std::string not_certified(double relative_gap, double kkt_residual, double tolerance)
 {
   char numbers[96];
-  std::snprintf(numbers, sizeof(numbers), "relative gap %.2g, residual %.2g, asked for %.2g",
+  std::snprintf(numbers, sizeof(numbers), "relative gap %.2g, residual %.2g, tolerance %.2g",
     relative_gap, kkt_residual, tolerance);
   return "are not certified (" + std::string(numbers) + ")";
 }

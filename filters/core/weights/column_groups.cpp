@@ -195,7 +195,7 @@ private:
           {
             return Status::invalid_input("the weight of '" + this->handle_name(handle) +
               "' is pinned to " + text(pin) + " at vertex " + std::to_string(v) +
-              ", but the handle '" + this->handle_name(this->owner(v)) + "' makes it " +
+              ", but the handle '" + this->handle_name(this->owner(v)) + "' sets it to " +
               text(value) + " there");
           }
           value = row >= 0 ? value : pin;
@@ -269,23 +269,23 @@ private:
     const std::string what = "'" + this->handle_name(handle) + "' at vertex " + std::to_string(v);
     if (low > high)
     {
-      return Status::invalid_input(
-        "the least weight of " + what + " is " + text(low) + ", above the largest, " + text(high));
+      return Status::invalid_input("the lower bound of the weight of " + what + " is " + text(low) +
+        ", above the upper bound " + text(high));
     }
     if (!std::isnan(value) && (value < low - same_value || value > high + same_value))
     {
       return Status::invalid_input("the weight of " + what + " is " +
-        (this->row_of_[v] >= 0 ? "given by the handle '" + this->handle_name(this->owner(v)) + "'"
+        (this->row_of_[v] >= 0 ? "set by the handle '" + this->handle_name(this->owner(v)) + "'"
                                : std::string("pinned")) +
-        " as " + text(value) + ", outside of its bounds " + text(low) + " and " + text(high));
+        " to " + text(value) + ", outside its bounds " + text(low) + " and " + text(high));
     }
     bounds.lower[u] = std::max(bounds.lower[u], low);
     bounds.upper[u] = std::min(bounds.upper[u], high);
     if (bounds.lower[u] > bounds.upper[u])
     {
       return Status::invalid_input("the bounds of " + what +
-        " and of what is tied to it leave no weight: at least " + text(bounds.lower[u]) +
-        ", at most " + text(bounds.upper[u]));
+        " contradict the bounds of vertices with the same weight: at least " +
+        text(bounds.lower[u]) + " and at most " + text(bounds.upper[u]));
     }
     return {};
   }
@@ -300,13 +300,13 @@ private:
     if (on_handles && set > 0 && set == this->terms_.rigid_sets[w])
     {
       return Status::invalid_input("the rigid set " + std::to_string(set) +
-        " holds vertices of the handles '" + this->handle_name(this->owner(v)) + "' and '" +
+        " contains vertices of the handles '" + this->handle_name(this->owner(v)) + "' and '" +
         this->handle_name(this->owner(w)) + "', whose weights differ");
     }
     return Status::invalid_input("the weight of '" + this->handle_name(handles[a / this->n_]) +
       "' is " + text(first) + " at vertex " + std::to_string(v) + ", that of '" +
       this->handle_name(handles[b / this->n_]) + "' is " + text(second) + " at vertex " +
-      std::to_string(w) + ", and a rigid set or the mirror makes them equal");
+      std::to_string(w) + ", but a rigid set or the mirror requires equal weights");
   }
 
   /// Set the column's constant in each component whose given values are all equal and within all

@@ -226,7 +226,7 @@ Status CoupledQp::set_up()
     if (this->sum_[i] < least - tolerance || this->sum_[i] > most + tolerance)
     {
       this->result_.vertex = free[i];
-      return Status::invalid_input("bounds and pins leave no row that sums to one");
+      return Status::invalid_input("bounds and pins allow no weights that sum to one");
     }
     const auto count = static_cast<Index>(is_solved.sum());
     for (Index j = 0; j < this->m_ && count == 1; ++j)

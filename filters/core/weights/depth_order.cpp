@@ -21,15 +21,15 @@ Status depth_order(WeightsView weights, const Eigen::VectorXd& layers,
   const Index rows = weights.rows(), handles = weights.cols();
   if (handles != layers.size() || handles == 0)
   {
-    return Status::invalid_input("there are weights of " + std::to_string(handles) +
-      " handles, but " + std::to_string(layers.size()) + " layers");
+    return Status::invalid_input("the weights have " + std::to_string(handles) +
+      " columns, but there are " + std::to_string(layers.size()) + " layers");
   }
   for (Index j = 0; j < handles; ++j)
   {
     if (!std::isfinite(layers[j]))
     {
       return Status::invalid_input(
-        "the layer of handle number " + std::to_string(j) + " is not a finite number");
+        "the layer of handle " + std::to_string(j) + " is not a finite number");
     }
   }
   if (!(options.tie >= 0.0) || !std::isfinite(options.tie))

@@ -47,7 +47,7 @@ std::string reason_against_volume(const RepairedSurface& surface)
   }
   if (count > most_triangles)
   {
-    return "the surface is dense";
+    return "the surface has many triangles";
   }
   const Index bad = count_needles(surface.points, surface.triangles, bad_angle);
   return static_cast<double>(bad) > most_bad_triangles * static_cast<double>(count)

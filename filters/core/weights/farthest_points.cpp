@@ -35,7 +35,7 @@ Status farthest_points(PointsView points, TrianglesView triangles, Index count,
   if (count < 1)
   {
     return Status::invalid_input(
-      "at least one handle must be asked for, not " + std::to_string(count));
+      "the number of handles must be at least 1, not " + std::to_string(count));
   }
   Status status = check_mesh(points, triangles);
   if (!status.ok())
@@ -69,7 +69,7 @@ Status farthest_points(PointsView points, TrianglesView triangles, Index count,
     {
       chosen.clear();
       return Status::invalid_input("the surface has only " + std::to_string(n) +
-        " different vertices, fewer than the " + std::to_string(count) + " handles asked for");
+        " distinct vertices, fewer than the " + std::to_string(count) + " requested handles");
     }
     chosen.push_back(vertices[best]);
     from = points.row(vertices[best]).transpose();

@@ -194,7 +194,7 @@ std::string advice_about(const Handle& handle, const Box& box)
   const double away = std::min(distance(handle.head), distance(handle.tail));
   constexpr double near = 0.05;
   return away > near ? "it is " + short_number(away) +
-      " bounding-box diagonals outside of the mesh, so check the units and the position of the "
+      " bounding-box diagonals outside the mesh, so check the units and the position of the "
       "handles"
                      : "move it, or refine the mesh there";
 }
@@ -243,7 +243,7 @@ Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
     if (handles[j].ownership == Ownership::required)
     {
       return Status::invalid_input("handle '" + handles[j].name +
-        "' has no vertex of its own: other handles hold the same vertices; " +
+        "' has no vertex of its own because other handles constrain the same vertices; " +
         advice_about(handles[j], box));
     }
     idle.push_back(at);
@@ -262,7 +262,7 @@ Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
   if (idle.size() == handles.size())
   {
     return Status::invalid_input(
-      "no handle constrains a vertex; they lie on elements without area");
+      "no handle constrains a vertex because all handles are on elements without area");
   }
   if (!idle.empty())
   {
@@ -366,7 +366,7 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
     if (result.counts[i] == 0 && handle.ownership == Ownership::required)
     {
       return Status::invalid_input(
-        "handle '" + handle.name + "' constrains no vertex: it lies on elements without area");
+        "handle '" + handle.name + "' constrains no vertex because it is on elements without area");
     }
   }
 

@@ -45,7 +45,7 @@ bool is_number(const Handles& handles, Index which)
 
 std::string no_such(Index which)
 {
-  return "there is no handle number " + std::to_string(which);
+  return "handle " + std::to_string(which) + " does not exist";
 }
 
 bool has_name(const Handles& handles, const std::string& name)
@@ -187,7 +187,7 @@ Status rename_handle(
   Handle& handle = edited.handles[static_cast<std::size_t>(which)];
   if (name.empty())
   {
-    return refuse(before, after, "handle '" + handle.name + "' needs a name");
+    return refuse(before, after, "handle '" + handle.name + "' must have a name");
   }
   if (name != handle.name && has_name(before, name))
   {
@@ -371,7 +371,7 @@ Status snap_to_surface(const Handles& before, const std::vector<Index>& which,
       Vec3 place;
       if (!surface.nearest(tail ? handle.tail : handle.head, place))
       {
-        return refuse(before, after, "the surface has no triangle to snap to");
+        return refuse(before, after, "the surface has no triangles to snap to");
       }
       ends.push_back({ h, tail });
       places.push_back(place);
@@ -386,7 +386,7 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
   const double length = normal.norm();
   if (!(length > 0.0) || !normal.allFinite() || !place.allFinite())
   {
-    return refuse(before, after, "the plane to mirror at needs a normal");
+    return refuse(before, after, "the mirror plane must have a normal");
   }
   const Vec3 n = normal / length;
   const auto mirrored = [&](const Vec3& p) { return Vec3(p - 2.0 * n * n.dot(p - place)); };

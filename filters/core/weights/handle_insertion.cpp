@@ -506,9 +506,9 @@ void Inserter::finish()
   }
   if (this->cage_samples_outside_ > 0)
   {
-    this->result_.warnings.push_back("the cage lies outside of the mesh in " +
+    this->result_.warnings.push_back("the cage is outside the mesh at " +
       std::to_string(this->cage_samples_outside_) +
-      " of its samples, which were left out; a cage around a shape needs domain cage");
+      " of its samples, which were ignored; use domain cage for a cage around a shape");
   }
   if (count_outside > most)
   {
@@ -516,8 +516,9 @@ void Inserter::finish()
   }
   if (!outside.empty())
   {
-    this->result_.warnings.push_back(std::string("handles that lie outside of the ") +
-      (domain.is_volume() ? "volume" : "surface") + " were moved to its nearest point: " + outside);
+    this->result_.warnings.push_back(std::string("these handles were outside the ") +
+      (domain.is_volume() ? "volume" : "surface") +
+      " and were moved to its nearest point: " + outside);
   }
 }
 
@@ -618,11 +619,11 @@ Status insert_handles(const Domain& domain, const Handles& handles,
   result = {};
   if (!(options.snap > 0.0 && options.snap < 0.25))
   {
-    return Status::invalid_input("the snap fraction must lie between 0 and 0.25");
+    return Status::invalid_input("the snap fraction must be from 0 to 0.25");
   }
   if (!(options.spacing > 0.0 && options.spacing <= 1.0))
   {
-    return Status::invalid_input("the spacing of samples must lie above 0 and be at most 1");
+    return Status::invalid_input("the spacing of samples must be greater than 0 and at most 1");
   }
   Status status = check_domain(domain);
   if (status.ok())

@@ -37,7 +37,7 @@ Status check_parents(const Handles& handles)
     {
       if (up < 0 || up >= count)
       {
-        return Status::invalid_input("handle '" + handle.name + "' has a parent number " +
+        return Status::invalid_input("handle '" + handle.name + "' has the parent " +
           std::to_string(up) + ", but there are " + std::to_string(count) + " handles");
       }
       if (++steps > count)
@@ -62,8 +62,8 @@ Status check_cages(const Handles& handles)
       if (!is_corner(a) || !is_corner(b) || (c != -1 && !is_corner(c)) || a == b || a == c ||
         b == c || &handles[a] != &handle)
       {
-        return Status::invalid_input("an edge or face of the cage at '" + handle.name +
-          "' does not have two or three different cage vertices");
+        return Status::invalid_input("a cage edge or face at '" + handle.name +
+          "' must have two or three different cage vertices");
       }
     }
   }
@@ -96,7 +96,7 @@ Status check_handles(const Handles& handles)
 {
   if (handles.empty())
   {
-    return Status::invalid_input("there is no handle");
+    return Status::invalid_input("the input has no handles");
   }
   std::set<std::string> names;
   Box box;
@@ -104,7 +104,7 @@ Status check_handles(const Handles& handles)
   {
     if (handle.name.empty())
     {
-      return Status::invalid_input("a handle has no name");
+      return Status::invalid_input("every handle must have a name");
     }
     if (!names.insert(handle.name).second)
     {
@@ -141,7 +141,7 @@ Status check_handles(const Handles& handles)
       if (same_way || opposite_way)
       {
         return Status::invalid_input(
-          "handles '" + a.name + "' and '" + b.name + "' are at the same place");
+          "handles '" + a.name + "' and '" + b.name + "' have the same position");
       }
     }
   }
@@ -154,7 +154,7 @@ Status check_regions(const Handles& handles, const std::vector<Index>& region_id
   if (!region_ids.empty() && static_cast<Index>(region_ids.size()) != vertices)
   {
     return Status::invalid_input("there are " + std::to_string(region_ids.size()) +
-      " region labels for " + std::to_string(vertices) + " vertices");
+      " region labels, but " + std::to_string(vertices) + " vertices");
   }
   for (const Handle& handle : handles)
   {

@@ -163,7 +163,7 @@ Status InteriorPoint::set_up()
       row.position = matrices.position(std::max(row.low, row.high), std::min(row.low, row.high));
       if (row.position < 0)
       {
-        return Status::failure(StatusCode::internal_error, "an ordered pair is no entry of Q");
+        return Status::failure(StatusCode::internal_error, "an ordered pair is not an entry of Q");
       }
     }
     this->rows_.push_back(row);
@@ -185,7 +185,7 @@ Status InteriorPoint::set_up()
     const std::vector<Index> order = upward_order(this->column_.pairs, matrices.q.rows());
     if (static_cast<Index>(order.size()) != matrices.q.rows())
     {
-      return Status::failure(StatusCode::internal_error, "the ordered pairs run in a circle");
+      return Status::failure(StatusCode::internal_error, "the ordered pairs contain a cycle");
     }
     this->upwards_ = upward_pairs(this->column_.pairs, order);
   }

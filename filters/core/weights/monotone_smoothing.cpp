@@ -94,12 +94,12 @@ Status Smoothing::check() const
   const Index n = this->domain_.points.rows();
   if (o.order != 2 && o.order != 3)
   {
-    return Status::invalid_input("the order of monotone smoothing is 2 or 3");
+    return Status::invalid_input("the order of monotone smoothing must be 2 or 3");
   }
   if (!(o.tolerance > 0.0 && o.tolerance < 1.0) || o.maximum_iterations < 1)
   {
     return Status::invalid_input(
-      "the tolerance must lie between 0 and 1, and the iterations must be at least 1");
+      "the tolerance must be between 0 and 1, and the number of iterations at least 1");
   }
   if (!(o.data_weight >= 0.0 && std::isfinite(o.data_weight)))
   {
@@ -107,24 +107,24 @@ Status Smoothing::check() const
   }
   if (!(o.persistence >= 0.0 && o.persistence < 1.0) || o.extrema_count < 0)
   {
-    return Status::invalid_input("the persistence must be 0 or more and below 1, and the number "
-                                 "of extrema 0 or more");
+    return Status::invalid_input(
+      "the persistence must be at least 0 and less than 1, and the number of extrema 0 or more");
   }
   if (!(o.epsilon >= 0.0 && o.epsilon <= 1.0) || o.rebuilds < 0)
   {
     return Status::invalid_input(
-      "epsilon must lie between 0 and 1, and the rebuilds must be 0 or more");
+      "epsilon must be between 0 and 1, and the number of rebuilds 0 or more");
   }
   Status status = check_domain(this->domain_);
   if (status.ok() && this->data_.size() != n)
   {
     return Status::invalid_input("there are " + std::to_string(this->data_.size()) +
-      " data values for " + std::to_string(n) + " vertices");
+      " data values, but " + std::to_string(n) + " vertices");
   }
   if (status.ok() && !o.extrema.empty() && static_cast<Index>(o.extrema.size()) != n)
   {
     return Status::invalid_input("the list of extrema has " + std::to_string(o.extrema.size()) +
-      " entries for " + std::to_string(n) + " vertices");
+      " entries, but there are " + std::to_string(n) + " vertices");
   }
   return status;
 }
@@ -144,7 +144,7 @@ void Smoothing::take_measurable()
   if (unused > 0)
   {
     this->warnings_.push_back(places(static_cast<std::size_t>(unused), unused == 1 ? "is" : "are") +
-      " in no element that has a size; nothing changes there");
+      " not part of any element with an area or volume; their values do not change");
   }
   this->taking_part_ = this->used_;
   this->graph_ = vertex_graph(this->kept_);
@@ -229,8 +229,8 @@ Status Smoothing::check_list()
       return Status::invalid_input(whole ? "the list of extrema has no " + std::string(wanted) +
             " in the connected part of vertex " + std::to_string(part.front()) + ", only " + other
                                          : "the list of extrema has no " + std::string(wanted) +
-            " among " + places(part.size(), "that ") + other + " close off, vertex " +
-            std::to_string(part.front()) + " among them");
+            " among " + places(part.size(), "that ") + other +
+            " separate from the rest, including vertex " + std::to_string(part.front()));
     }
   }
   return {};
@@ -249,8 +249,8 @@ Status Smoothing::find_list()
     const Index c = this->components_.of_vertex[v];
     if (c < 0 && !list.empty() && list[v] != 0)
     {
-      return Status::invalid_input("the list of extrema names vertex " + std::to_string(v) +
-        ", which is in no element that has a size");
+      return Status::invalid_input("the list of extrema contains vertex " + std::to_string(v) +
+        ", which is not part of any element with an area or volume");
     }
     if (c >= 0)
     {
@@ -511,8 +511,8 @@ Status Smoothing::solve()
   if (tight >= 0)
   {
     return Status::invalid_input(
-      "no function keeps the values at the extrema and has no others: it fails at vertex " +
-      std::to_string(tight) + "; let their values be found, or list others");
+      "the values at the extrema cannot be kept without additional extrema (conflict at vertex " +
+      std::to_string(tight) + "); turn off the option to keep values, or list other extrema");
   }
   const bool ordered = std::all_of(column.pairs.begin(), column.pairs.end(),
     [&](const OrderedPair& pair) { return best.w[pair.low] + pair.least <= best.w[pair.high]; });
@@ -660,7 +660,7 @@ Status Smoothing::run()
   const bool varies = this->scale_data();
   if (varies && !std::isfinite(this->range_))
   {
-    return Status::invalid_input("the range of the data is too large for a number");
+    return Status::invalid_input("the range of the data exceeds double precision");
   }
   status.report.set(
     "method", this->options_.order == 2 ? "monotone-smoothing" : "monotone-smoothing-triharmonic");
@@ -672,7 +672,7 @@ Status Smoothing::run()
   {
     this->result_.values = this->data_;
     this->result_.list.assign(this->used_.size(), 0);
-    this->warnings_.emplace_back("the data are constant: there is nothing to smooth");
+    this->warnings_.emplace_back("the data are constant and were not smoothed");
     status.warnings = this->warnings_;
     return status;
   }

@@ -161,8 +161,8 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
         if (value < column.bounds.low(v) || value > column.bounds.high(v))
         {
           return Status::invalid_input("the weight of " + place_of(problem, group, j, v) +
-            " can only be " + std::to_string(static_cast<int>(value)) +
-            " if it is monotone, outside of its bounds");
+            " must be " + std::to_string(static_cast<int>(value)) +
+            " to be monotone, which is outside its bounds");
         }
         pinned[v] = 1;
         column.pinned.push_back(v);
@@ -211,7 +211,7 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
     if (tight >= 0)
     {
       return Status::invalid_input("the bounds and pins of " + place_of(problem, group, j, tight) +
-        " leave no monotone weight there");
+        " allow no monotone weight there");
     }
     if (context.canceled())
     {
@@ -227,7 +227,7 @@ Status monotone_weights(const WeightsProblem& problem, const WeightsOptions& opt
   result = {};
   if (options.order != 2 && options.order != 3)
   {
-    return Status::invalid_input("the order of monotone weights is 2 or 3");
+    return Status::invalid_input("the order of monotone weights must be 2 or 3");
   }
   if (options.partition == PartitionOfUnity::coupled)
   {

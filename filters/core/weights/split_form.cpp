@@ -103,7 +103,7 @@ Status without_minimum(Status of_factor)
   if (of_factor.code == StatusCode::invalid_input)
   {
     of_factor.message = "the energy of the mesh has no unique minimum in double precision (" +
-      of_factor.message + "); elements that are almost flat do that";
+      of_factor.message + "), perhaps because some elements are almost flat";
   }
   return of_factor;
 }

@@ -226,8 +226,8 @@ Status Solver::fill(TetrahedralizeResult& tets)
 Status Solver::refuse_single_points(const char* domain) const
 {
   return asks_of_vertices(this->weights_options_.terms)
-    ? Status::invalid_input("rigid sets, bounds, pins and mirrors of points need tets that keep "
-                            "the surface's points: domain volume, not " +
+    ? Status::invalid_input("rigid sets, bounds, pins and mirrors of points need tets that "
+                            "preserve the surface's points; use domain volume instead of " +
         std::string(domain))
     : Status();
 }
@@ -254,9 +254,9 @@ Status Solver::carry_terms_to(const Points& points, const std::vector<Index>& or
   if (lost > 0)
   {
     status.warnings.push_back(std::to_string(lost) +
-      (lost == 1 ? " point of the surface is no vertex"
-                 : " points of the surface are no vertices") +
-      " of the tets; bounds, pins, rigid sets and mirror points there are not kept");
+      (lost == 1 ? " point of the surface is not a vertex"
+                 : " points of the surface are not vertices") +
+      " of the tets; bounds, pins, rigid sets and mirror points there are ignored");
   }
   return carried;
 }
@@ -368,8 +368,8 @@ Status Solver::solve_volume(Status filled, SurfaceWeights& result)
     }
     if (std::all_of(labels.begin(), labels.end(), [](Index label) { return label <= 0; }))
     {
-      return Status::invalid_input("the tets share no labeled point with the surface; solve on the "
-                                   "surface itself, or give tets with labels");
+      return Status::invalid_input("the tets have no labeled points of the surface; solve on the "
+                                   "surface itself, or use tets with labels");
     }
   }
   result.domain = WeightsDomain::volume;
@@ -431,7 +431,7 @@ Status Solver::in_cage(SurfaceWeights& result)
     if (counts.nearest + counts.misses > 0)
     {
       carried.warnings = { std::to_string(counts.nearest + counts.misses) +
-        " points of the surface lie outside of the cage; they take the nearest weights" };
+        " points of the surface are outside the cage and get the nearest weights" };
     }
     return carried;
   };
@@ -513,9 +513,9 @@ Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
     status.report.set("counts.linked_parts", this->linked_parts_);
     status.report.set("counts.links", Report::Value(links));
     status.warnings.push_back(std::to_string(this->linked_parts_) +
-      (this->linked_parts_ == 1 ? " connected part has no handle: it is"
-                                : " connected parts have no handle: they are") +
-      " held by what they touch or are nearest to");
+      (this->linked_parts_ == 1 ? " connected part has no handle and is"
+                                : " connected parts have no handle and are") +
+      " linked to the parts that they touch or to the nearest parts");
   }
   return status;
 }
@@ -568,8 +568,8 @@ Status Solver::in_embedding(SurfaceWeights& result)
 {
   if (!this->region_ids_.empty())
   {
-    return Status::invalid_input(
-      "regions need tets that keep the surface's points: domain volume, not embedding");
+    return Status::invalid_input("regions need tets that preserve the surface's points; use domain "
+                                 "volume instead of embedding");
   }
   Status status = this->refuse_single_points("embedding");
   if (!status.ok())
@@ -735,8 +735,8 @@ Status Solver::automatic(SurfaceWeights& result)
   const bool asked = asks_of_vertices(this->weights_options_.terms);
   if (asked || !this->region_ids_.empty())
   {
-    return with_reason(
-      this->in_volume(result), asked ? "something is asked of single points" : "there are regions");
+    return with_reason(this->in_volume(result),
+      asked ? "weight terms apply to single points" : "the surface has region labels");
   }
   {
     const ProgressRange range(this->context_, 0.0, 0.05);
@@ -800,7 +800,7 @@ Status Solver::take_over(const Status& first, SurfaceWeights& result)
   status.report.set("domain_fallback.status", to_string(first.code));
   status.report.set("domain_fallback.message", Report::Value(first.message));
   status.warnings.insert(status.warnings.begin(),
-    "the weights are solved on a lattice that holds the surface, because domain " + domain +
+    "the weights were solved in a lattice that encloses the surface because domain " + domain +
       " failed: " + first.message);
   return with_reason(std::move(status), "domain " + domain + " failed");
 }
@@ -849,7 +849,8 @@ Status surface_weights(PointsView points, TrianglesView triangles,
   }
   if (options.resolution != 0 && (options.resolution < 6 || options.resolution > 1000))
   {
-    return Status::invalid_input("the embedding's resolution must lie between 6 and 1000");
+    return Status::invalid_input(
+      "the resolution of the embedding must be 0 (automatic) or between 6 and 1000");
   }
   // Check the handles first, so that invalid handles are reported before any tets are made.
   Status valid = check_handles(handles);

@@ -26,8 +26,8 @@ Status transfer(const Domain& mesh, WeightsView values, PointsView points,
   }
   if (values.rows() != mesh.points.rows())
   {
-    return Status::invalid_input("there are " + std::to_string(values.rows()) +
-      " rows of weights for " + std::to_string(mesh.points.rows()) + " vertices");
+    return Status::invalid_input("the weights have " + std::to_string(values.rows()) +
+      " rows, but there are " + std::to_string(mesh.points.rows()) + " vertices");
   }
   const SimplexLocator locator = mesh.is_volume() ? SimplexLocator(mesh.points, mesh.tets)
                                                   : SimplexLocator(mesh.points, mesh.triangles);
@@ -103,7 +103,7 @@ Status transfer(const Domain& mesh, WeightsView values, PointsView points,
   {
     status.warnings.push_back(std::to_string(counts.misses) + " of " +
       std::to_string(points.rows()) +
-      " points lie far from the mesh with weights; they take those of its nearest place");
+      " points are far from the mesh with weights and get the weights of its nearest point");
   }
   return status;
 }

@@ -84,8 +84,8 @@ SparseMatrix linear_subspace_energy(const WeightsProblem& problem, bool spanned)
 Status check_terms(const WeightsProblem& problem)
 {
   return problem.terms.any()
-    ? Status::invalid_input(
-        "rigidity, rigid sets, bounds, pins and mirrors are for bounded and monotone weights")
+    ? Status::invalid_input("rigidity, rigid sets, bounds, pins and mirrors can only be used "
+                            "with bounded and monotone weights")
     : Status();
 }
 

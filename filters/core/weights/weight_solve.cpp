@@ -50,8 +50,8 @@ public:
     Status status = make_column_groups(this->problem_, excluded, coupled, this->groups_);
     if (status.ok() && coupled && this->groups_.size() + this->groups_.front().copies > 2)
     {
-      status =
-        Status::invalid_input("weights that are mirrored cannot be coupled to sum to one as well");
+      status = Status::invalid_input(
+        "mirrored weights cannot be combined with the coupled partition of unity");
     }
     if (status.ok() && this->guide_)
     {
@@ -266,8 +266,8 @@ Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, i
       if (needed(order[i]))
       {
         return Status::invalid_input("more than " + std::to_string(most) +
-          " influences are pinned or bounded above 0 at vertex " + std::to_string(v) +
-          ", that of '" + problem.handles[order[i]].name + "' among them");
+          " influences are pinned to or bounded by a value above 0 at vertex " + std::to_string(v) +
+          ", including the influence of '" + problem.handles[order[i]].name + "'");
       }
       excluded[v * m + order[i]] = 1;
       any = any || weights(v, order[i]) > 0.0;
@@ -312,7 +312,7 @@ void report_mirror(const WeightsProblem& problem, Status& status)
   if (std::all_of(partner.begin(), partner.end(), [](Index other) { return other < 0; }))
   {
     status.warnings.emplace_back(
-      "no handle is the mirror image of a handle; the mirror changes nothing");
+      "the mirror has no effect because no handle is the mirror image of another handle");
   }
 }
 

@@ -25,9 +25,10 @@ Status check_matrix(const Eigen::MatrixXd& values, const std::string& what, Inde
   }
   if (values.rows() != vertex_count || values.cols() != m)
   {
-    return Status::invalid_input("there are " + std::to_string(values.cols()) + " " + what +
-      " for " + std::to_string(m) + " handles at " + std::to_string(values.rows()) + " of " +
-      std::to_string(vertex_count) + " vertices");
+    return Status::invalid_input("the " + what +
+      " must have one row per vertex and one column per handle (" + std::to_string(vertex_count) +
+      " x " + std::to_string(m) + "), not " + std::to_string(values.rows()) + " x " +
+      std::to_string(values.cols()));
   }
   for (Index v = 0; v < vertex_count; ++v)
   {
@@ -61,8 +62,8 @@ Status check_pins(const Eigen::MatrixXd& pinned, const Handles& handles)
     if (all && std::abs(sum - 1.0) > tolerance)
     {
       return Status::invalid_input("the pinned weights of vertex " + std::to_string(v) +
-        " sum to " + std::to_string(sum) + " and none of its " + std::to_string(handles.size()) +
-        " handles is free to make it 1");
+        " sum to " + std::to_string(sum) + " and the weights of all " +
+        std::to_string(handles.size()) + " handles are pinned, so the sum cannot be 1");
     }
     if (sum > 1.0 + tolerance && !(least < 0.0))
     {
@@ -78,7 +79,7 @@ Status check_mirror(const std::vector<Index>& mirror, Index vertex_count)
   if (!mirror.empty() && static_cast<Index>(mirror.size()) != vertex_count)
   {
     return Status::invalid_input("there are " + std::to_string(mirror.size()) +
-      " mirror vertices for " + std::to_string(vertex_count) + " vertices");
+      " mirror vertices, but " + std::to_string(vertex_count) + " vertices");
   }
   for (std::size_t v = 0; v < mirror.size(); ++v)
   {
@@ -86,12 +87,13 @@ Status check_mirror(const std::vector<Index>& mirror, Index vertex_count)
     if (other < -1 || other >= vertex_count)
     {
       return Status::invalid_input("the mirror vertex " + std::to_string(other) + " of vertex " +
-        std::to_string(v) + " is no vertex of the mesh");
+        std::to_string(v) + " does not exist");
     }
     if (other >= 0 && mirror[other] != static_cast<Index>(v))
     {
       return Status::invalid_input("vertex " + std::to_string(v) + " is mirrored to vertex " +
-        std::to_string(other) + ", but that one is mirrored to " + std::to_string(mirror[other]));
+        std::to_string(other) + ", but that vertex is mirrored to " +
+        std::to_string(mirror[other]));
     }
   }
   return {};
@@ -257,26 +259,27 @@ Status check_terms(const WeightTerms& terms, Index vertex_count, const Handles& 
   if (terms.rigidity.size() > 0 && terms.rigidity.size() != vertex_count)
   {
     return Status::invalid_input("there are " + std::to_string(terms.rigidity.size()) +
-      " values of rigidity for " + std::to_string(vertex_count) + " vertices");
+      " values of rigidity, but " + std::to_string(vertex_count) + " vertices");
   }
   for (Index v = 0; v < terms.rigidity.size(); ++v)
   {
     if (!(terms.rigidity[v] >= 0.0 && terms.rigidity[v] <= 1e12))
     {
       return Status::invalid_input("the rigidity of vertex " + std::to_string(v) + " is " +
-        std::to_string(terms.rigidity[v]) + ", not between 0 and 1e12");
+        std::to_string(terms.rigidity[v]) + "; it must be from 0 to 1e12");
     }
   }
   if (!terms.rigid_sets.empty() && static_cast<Index>(terms.rigid_sets.size()) != vertex_count)
   {
     return Status::invalid_input("there are " + std::to_string(terms.rigid_sets.size()) +
-      " labels of rigid sets for " + std::to_string(vertex_count) + " vertices");
+      " labels of rigid sets, but " + std::to_string(vertex_count) + " vertices");
   }
   if (terms.handle_bounds.size() > 0 &&
     (terms.handle_bounds.rows() != m || terms.handle_bounds.cols() != 2))
   {
     return Status::invalid_input("there are bounds for " +
-      std::to_string(terms.handle_bounds.rows()) + " of " + std::to_string(m) + " handles");
+      std::to_string(terms.handle_bounds.rows()) + " handles, but " + std::to_string(m) +
+      " handles");
   }
   for (Index j = 0; j < terms.handle_bounds.rows(); ++j)
   {
@@ -286,7 +289,7 @@ Status check_terms(const WeightTerms& terms, Index vertex_count, const Handles& 
     {
       return Status::invalid_input("the bounds of handle '" + handles[j].name + "' are " +
         std::to_string(low) + " and " + std::to_string(high) +
-        "; they must be finite and in order");
+        "; they must be finite, and the lower bound must not exceed the upper bound");
     }
   }
   Status status = check_matrix(terms.lower, "lower bounds", vertex_count, handles);
@@ -297,7 +300,7 @@ Status check_terms(const WeightTerms& terms, Index vertex_count, const Handles& 
   if (status.ok() && !terms.mirror_normal.isZero() &&
     !(terms.mirror_normal.allFinite() && terms.mirror_origin.allFinite()))
   {
-    status = Status::invalid_input("the mirror plane is not finite");
+    status = Status::invalid_input("the normal and origin of the mirror plane must be finite");
   }
   return status.ok() ? check_mirror(terms.mirror, vertex_count) : status;
 }

@@ -74,8 +74,8 @@ Status weighted_colors(WeightsView weights, ColorsView handle_colors,
   const Index rows = weights.rows();
   if (weights.cols() != handle_colors.rows() || weights.cols() == 0)
   {
-    return Status::invalid_input("there are weights of " + std::to_string(weights.cols()) +
-      " handles, but " + std::to_string(handle_colors.rows()) + " colors");
+    return Status::invalid_input("the weights have " + std::to_string(weights.cols()) +
+      " columns, but there are " + std::to_string(handle_colors.rows()) + " colors");
   }
   for (Index j = 0; j < handle_colors.rows(); ++j)
   {
@@ -83,7 +83,7 @@ Status weighted_colors(WeightsView weights, ColorsView handle_colors,
     if (!(color >= 0.0).all() || !(color <= 1.0).all())
     {
       return Status::invalid_input(
-        "the color of handle number " + std::to_string(j) + " is not within 0 to 1");
+        "the color of handle " + std::to_string(j) + " must be within 0 to 1");
     }
   }
   Colors blended = handle_colors;

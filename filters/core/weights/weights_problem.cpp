@@ -87,8 +87,8 @@ void report_problem(const WeightsProblem& problem, Status& status)
   {
     report.set("counts.unreferenced_vertices", Report::Value(std::int64_t(unreferenced)));
     status.warnings.push_back(std::to_string(unreferenced) +
-      (unreferenced == 1 ? " vertex is in no element; its weights are zero"
-                         : " vertices are in no element; their weights are zero"));
+      (unreferenced == 1 ? " vertex is not part of any element; its weights are zero"
+                         : " vertices are not part of any element; their weights are zero"));
   }
   report.set("largest_snap", Report::Value(problem.mesh.largest_snap));
   std::vector<std::string> names;
@@ -119,7 +119,7 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0) || options.maximum_iterations < 1)
   {
     return Status::invalid_input(
-      "the tolerance must lie between 0 and 1, and the iterations must be at least 1");
+      "the tolerance must be between 0 and 1, and the number of iterations at least 1");
   }
   if (options.maximum_influences < 0)
   {
@@ -152,7 +152,7 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
   {
     status.warnings.push_back(std::to_string(lost_pins) +
       (lost_pins == 1 ? " pinned vertex is" : " pinned vertices are") +
-      " in no element that has a size; nothing is pinned there");
+      " not part of any element with an area or volume and therefore ignored");
   }
   const std::string slow_blas = SparseSolver::blas_warning();
   if (!slow_blas.empty())
@@ -289,7 +289,8 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
   if (thin_rows > 0)
   {
     status.warnings.push_back(std::to_string(thin_rows) +
-      " rows sum to almost nothing; they were taken from the weights without bounds");
+      " vertices have a sum of weights near 0; their weights were replaced by weights without "
+      "bounds");
   }
 
   std::vector<char> exempt(static_cast<std::size_t>(n), 0);

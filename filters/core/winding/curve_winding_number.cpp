@@ -125,7 +125,7 @@ Status check_segments(PlanePointsView points, SegmentsView segments)
       const Index v = segments(e, k);
       if (v < 0 || v >= points.rows())
       {
-        return Status::invalid_input("segment " + std::to_string(e) + " names vertex " +
+        return Status::invalid_input("segment " + std::to_string(e) + " references vertex " +
           std::to_string(v) + ", but there are " + std::to_string(points.rows()) + " vertices");
       }
       if (!points.row(v).allFinite())
@@ -139,7 +139,7 @@ Status check_segments(PlanePointsView points, SegmentsView segments)
   if (segments.rows() > std::numeric_limits<Id>::max() / 4)
   {
     return Status::invalid_input(
-      "the curve has " + std::to_string(segments.rows()) + " segments, more than 2^29");
+      "the curve has " + std::to_string(segments.rows()) + " segments; the maximum is 2^29");
   }
   return {};
 }
@@ -567,8 +567,8 @@ Status CurveWindingNumber::build(
     if (welded.segments.empty())
     {
       status.warnings.push_back(segments.rows() == 0
-          ? "the curve has no segment: its winding number is 0 everywhere"
-          : "no segment has a length: the winding number is 0 everywhere");
+          ? "the curve has no segments, so its winding number is 0 everywhere"
+          : "all segments have length 0, so the winding number is 0 everywhere");
     }
 
     std::vector<Id> vertices;

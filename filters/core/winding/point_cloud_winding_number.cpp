@@ -290,14 +290,14 @@ Status check_input(PointsView points, PointsView normals, NumbersView areas,
   const Index count = points.rows();
   if (normals.rows() != count || (areas.size() != 0 && areas.size() != count))
   {
-    return Status::invalid_input(std::to_string(count) +
-      " points need as many normals, and areas or none, not " + std::to_string(normals.rows()) +
-      " normals and " + std::to_string(areas.size()) + " areas");
+    return Status::invalid_input("a cloud of " + std::to_string(count) +
+      " points must have the same number of normals, and of areas if there are any, not " +
+      std::to_string(normals.rows()) + " normals and " + std::to_string(areas.size()) + " areas");
   }
   if (count > std::numeric_limits<Id>::max() / 4)
   {
     return Status::invalid_input(
-      "the cloud has " + std::to_string(count) + " points, more than 2^29");
+      "the cloud has " + std::to_string(count) + " points; the maximum is 2^29");
   }
   for (Index i = 0; i < count; ++i)
   {
@@ -314,30 +314,30 @@ Status check_input(PointsView points, PointsView normals, NumbersView areas,
     if (areas.size() != 0 && !(areas[i] >= 0.0 && std::isfinite(areas[i])))
     {
       std::ostringstream text;
-      text << "the area " << areas[i] << "; areas are 0 or more, and finite";
+      text << "the area " << areas[i] << "; areas must be finite and at least 0";
       return bad(text.str());
     }
   }
   if (count == 1 && areas.size() == 0)
   {
-    return Status::invalid_input(
-      "a single point has no neighbors to tell its area from: give its area");
+    return Status::invalid_input("the area of a single point cannot be estimated because it has no "
+                                 "neighbors; provide the area");
   }
   if (options.method == WindingMethod::hierarchical || options.method == WindingMethod::crossings)
   {
     return Status::invalid_input(std::string("the method ") + to_string(options.method) +
-      " is for triangles; points have fast and direct");
+      " can only be used for triangles; use fast or direct for points");
   }
   if (!(options.tolerance >= 1e-8 && options.tolerance <= 0.1))
   {
     std::ostringstream text;
-    text << "the tolerance must lie between 1e-8 and 0.1, not at " << options.tolerance;
+    text << "the tolerance must be from 1e-8 to 0.1, not " << options.tolerance;
     return Status::invalid_input(text.str());
   }
   if (options.area_neighbors < 3 || options.area_neighbors > 64)
   {
     return Status::invalid_input(
-      "area_neighbors must be 3 … 64, not " + std::to_string(options.area_neighbors));
+      "area_neighbors must be from 3 to 64, not " + std::to_string(options.area_neighbors));
   }
   return {};
 }
@@ -746,7 +746,7 @@ Status PointCloudWindingNumber::build(PointsView points, PointsView normals, Num
   {
     report.set("method", to_string(parts.method));
     report.set("counts.points", 0);
-    status.warnings.emplace_back("the cloud has no point: its winding number is 0 everywhere");
+    status.warnings.emplace_back("the cloud has no points, so its winding number is 0 everywhere");
     return status;
   }
   parts.frame = ExactFrame(bounding_box(points));
@@ -798,8 +798,8 @@ Status PointCloudWindingNumber::build(PointsView points, PointsView normals, Num
   if (!(area <= largest_moment))
   {
     this->parts_.reset(new Parts);
-    this->parts_->status = Status::invalid_input(
-      "the areas are out of all proportion to the distances between the points");
+    this->parts_->status =
+      Status::invalid_input("the areas are too large relative to the distances between the points");
     return this->parts_->status;
   }
   report.set("counts.points", count);
@@ -811,12 +811,12 @@ Status PointCloudWindingNumber::build(PointsView points, PointsView normals, Num
   if (zero_normals > 0)
   {
     status.warnings.push_back(std::to_string(zero_normals) + " of " + std::to_string(count) +
-      " points have a normal of length 0; they count nothing");
+      " points have a normal of length 0 and are ignored");
   }
   if (zero_areas > zero_normals && areas.size() == 0)
   {
     status.warnings.push_back(std::to_string(zero_areas) + " of " + std::to_string(count) +
-      " points have no area, as they share their place with many others; they count nothing");
+      " points have no area because many points have the same position, and are ignored");
   }
 
   parts.take_dipoles(framed, moments, tree);
@@ -824,12 +824,12 @@ Status PointCloudWindingNumber::build(PointsView points, PointsView normals, Num
       (options.method == WindingMethod::automatic && count > few_points)
     ? WindingMethod::fast
     : WindingMethod::direct;
-  std::string reason = "asked for";
+  std::string reason = "requested";
   if (options.method == WindingMethod::automatic)
   {
     reason = std::to_string(count) +
-      (count > few_points ? " points: their plain sum would take longer"
-                          : " points: too few for a structure to pay");
+      (count > few_points ? " points: a direct sum would take longer"
+                          : " points: a direct sum is fastest for so few");
   }
   if (parts.method == WindingMethod::fast)
   {

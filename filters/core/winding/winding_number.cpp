@@ -141,43 +141,44 @@ WindingNumber& WindingNumber::operator=(WindingNumber&&) noexcept = default;
 void WindingNumber::Parts::choose(WindingMethod wanted, Index open_edges)
 {
   const Index count = this->triangles.rows();
-  std::string reason = "asked for";
+  std::string reason = "requested";
   this->method = wanted;
   const std::string numbers =
     std::to_string(count) + " triangles, " + std::to_string(open_edges) + " open edges: ";
   if (wanted == WindingMethod::fast && open_edges == 0)
   {
     this->method = WindingMethod::crossings;
-    reason = numbers + "closed, exact is as fast";
+    reason = numbers + "a closed surface, for which an exact method is as fast";
   }
   else if (wanted == WindingMethod::automatic && count > few_triangles && open_edges > hardly_open)
   {
     this->method = WindingMethod::fast;
-    reason = numbers + "exact sums over these would take many times longer";
+    reason = numbers + "exact sums over the open edges would take many times longer";
   }
   else if (wanted == WindingMethod::automatic || wanted == WindingMethod::exact)
   {
     if (count <= few_triangles && open_edges > 0)
     {
       this->method = WindingMethod::direct;
-      reason = numbers + "too few for a structure to pay";
+      reason = numbers + "a direct sum is fastest for so few triangles";
     }
     else if (2 * open_edges > 3 * count)
     {
       this->method = WindingMethod::direct;
-      reason = numbers + "a soup that hardly shares an edge, nothing beats the plain sum";
+      reason =
+        numbers + "a triangle soup with almost no shared edges, for which a direct sum is fastest";
     }
     else if (open_edges <= few_open_edges || 2 * open_edges >= count)
     {
       this->method = WindingMethod::crossings;
       reason = numbers +
-        (open_edges ? "cheapest to sum these beside the crossings of a ray"
-                    : "closed, the crossings of a ray are all there is");
+        (open_edges ? "ray crossings plus a sum over the open edges is fastest"
+                    : "a closed surface needs only ray crossings");
     }
     else
     {
       this->method = WindingMethod::hierarchical;
-      reason = numbers + "too many open edges to sum them at every point";
+      reason = numbers + "too many open edges for a sum at every point";
     }
   }
   this->status.report.set("method", to_string(this->method));
@@ -194,12 +195,12 @@ Status WindingNumber::build(
   if (status.ok() && triangles.rows() > std::numeric_limits<std::int32_t>::max() / 4)
   {
     status = Status::invalid_input(
-      "the surface has " + std::to_string(triangles.rows()) + " triangles, more than 2^29");
+      "the surface has " + std::to_string(triangles.rows()) + " triangles; the maximum is 2^29");
   }
   if (status.ok() && points.rows() > std::numeric_limits<std::int32_t>::max())
   {
     status = Status::invalid_input(
-      "the surface has " + std::to_string(points.rows()) + " points, more than 2^31 - 1");
+      "the surface has " + std::to_string(points.rows()) + " points; the maximum is 2^31 - 1");
   }
   if (status.ok() && options.expected_queries < 0)
   {
@@ -209,13 +210,13 @@ Status WindingNumber::build(
   if (status.ok() && !(options.tolerance >= 1e-8 && options.tolerance <= 0.1))
   {
     std::ostringstream text;
-    text << "the tolerance must lie between 1e-8 and 0.1, not at " << options.tolerance;
+    text << "the tolerance must be from 1e-8 to 0.1, not " << options.tolerance;
     status = Status::invalid_input(text.str());
   }
   if (status.ok() && (options.max_leaf_size < 1 || options.max_leaf_size > 10000))
   {
     status = Status::invalid_input(
-      "max_leaf_size must be 1 … 10000, not " + std::to_string(options.max_leaf_size));
+      "max_leaf_size must be from 1 to 10000, not " + std::to_string(options.max_leaf_size));
   }
   if (!status.ok())
   {
@@ -264,8 +265,8 @@ Status WindingNumber::build(
     if (parts.triangles.rows() == 0)
     {
       status.warnings.push_back(triangles.rows() == 0
-          ? "the surface has no triangle: its winding number is 0 everywhere"
-          : "all triangles are degenerate: the winding number is 0 everywhere");
+          ? "the surface has no triangles, so its winding number is 0 everywhere"
+          : "all triangles are degenerate, so the winding number is 0 everywhere");
       parts.method = WindingMethod::direct;
     }
   }

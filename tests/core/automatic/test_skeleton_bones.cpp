@@ -437,7 +437,7 @@ TEST(SkeletonBones, BallsArePointsAndComponentsHaveRootsOfTheirOwn)
   EXPECT_EQ(bones.handles[2].parent, -1);
   EXPECT_EQ(bones.handles[3].parent, 2);
   ASSERT_EQ(status.warnings.size(), 1u);
-  EXPECT_THAT(status.warnings[0], HasSubstr("2 bones, more than 1"));
+  EXPECT_THAT(status.warnings[0], HasSubstr("2 bones, more than maximum_bones (1)"));
 }
 
 TEST(SkeletonBones, OptionsOutOfRangeAreNamed)

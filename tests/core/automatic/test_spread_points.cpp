@@ -277,7 +277,7 @@ TEST(SpreadPoints, BadInputIsOneSentence)
   for (const PointDistance metric : { PointDistance::along_edges, PointDistance::straight })
   {
     EXPECT_EQ(run(mesh, on_surface(8, metric)).vertices.size(), 8u);
-    EXPECT_THAT(message(fail(mesh, on_surface(9, metric))), HasSubstr("only 8 different vertices"));
+    EXPECT_THAT(message(fail(mesh, on_surface(9, metric))), HasSubstr("only 8 distinct vertices"));
   }
   SpreadPointsOptions options;
   options.winding_threshold = 0.0;

@@ -40,7 +40,8 @@ protected:
   {
     if (!SparseSolver::has_cholmod())
     {
-      GTEST_SKIP() << "this build has no CHOLMOD (package libsuitesparse-dev)";
+      GTEST_SKIP()
+        << "this build has no CHOLMOD; install the package libsuitesparse-dev and rebuild";
     }
   }
 

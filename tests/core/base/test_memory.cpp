@@ -65,15 +65,17 @@ TEST(Memory, RefusesWithBothNumbers)
   EXPECT_TRUE(check_memory("a little", 1024.0, 0).ok());
   const Status far = check_memory("all of it", 1e18, 0);
   EXPECT_EQ(far.code, StatusCode::internal_error);
-  EXPECT_THAT(far.message, testing::StartsWith("all of it would bring this process to about 95"));
-  EXPECT_THAT(far.message, testing::HasSubstr(" are there: take a coarser mesh"));
+  EXPECT_THAT(far.message,
+    testing::StartsWith("all of it would increase the memory of this process to about 95"));
+  EXPECT_THAT(far.message, testing::HasSubstr(" are available: use a coarser mesh"));
 
   const auto held = static_cast<Index>(resident_memory() / mebibyte);
   EXPECT_TRUE(check_memory("a little", 16 * mebibyte, held + 128).ok());
   const Status over = check_memory("too much", 256 * mebibyte, held + 128);
   EXPECT_EQ(over.code, StatusCode::internal_error);
   EXPECT_THAT(over.message,
-    testing::HasSubstr(std::to_string(held + 128) + " MiB are its limit: take a coarser mesh or "));
+    testing::HasSubstr(
+      "the limit is " + std::to_string(held + 128) + " MiB: use a coarser mesh or "));
   EXPECT_LE(memory_left(held + 128), 129 * mebibyte);
   EXPECT_EQ(memory_left(1), 0.0);
 }

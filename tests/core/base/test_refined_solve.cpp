@@ -21,7 +21,8 @@ protected:
   {
     if (!SparseSolver::has_cholmod())
     {
-      GTEST_SKIP() << "this build has no CHOLMOD (package libsuitesparse-dev)";
+      GTEST_SKIP()
+        << "this build has no CHOLMOD; install the package libsuitesparse-dev and rebuild";
     }
     const TetMesh box = test::tet_box(6, 6, 6);
     const SparseMatrix k = stiffness_matrix(box.points, box.tets);

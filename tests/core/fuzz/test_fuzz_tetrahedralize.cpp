@@ -347,13 +347,13 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
     EXPECT_LT(volume, 2.2 * winding);
     const bool told = std::any_of(status.warnings.begin(), status.warnings.end(),
       [](const std::string& text)
-      { return text.find("but the winding number encloses") != std::string::npos; });
+      { return text.find("but the enclosed volume by winding number") != std::string::npos; });
     // The volume is sampled with 20,000 points inside, or with fewer if that takes too long.
     EXPECT_TRUE(told || std::abs(volume / winding - 1.0) < 0.15)
       << volume << " instead of " << winding << ", and no word of it";
   }
   const bool turned = std::any_of(status.warnings.begin(), status.warnings.end(),
-    [](const std::string& text) { return text.find("turned") != std::string::npos; });
+    [](const std::string& text) { return text.find("flipped") != std::string::npos; });
   if (!turned)
   {
     // The tolerance is six standard deviations of both samplings.

@@ -57,7 +57,7 @@ TEST(ChildProcess, EndsAreTold)
 {
   Shell seven("exit 7");
   ASSERT_TRUE(seven.run().ok());
-  EXPECT_EQ(seven.end.failure, "ended with code 7");
+  EXPECT_EQ(seven.end.failure, "failed with exit code 7");
   EXPECT_FALSE(seven.end.by_signal);
   Shell crash("kill -SEGV $$");
   ASSERT_TRUE(crash.run().ok());

@@ -136,7 +136,7 @@ TEST(MesherProcess, GarbageIsNoMesh)
     FakeHelper helper(script);
     const Status status = helper.run();
     EXPECT_EQ(status.code, StatusCode::internal_error) << script;
-    EXPECT_THAT(status.message, HasSubstr("no readable mesh")) << script;
+    EXPECT_THAT(status.message, HasSubstr("did not write a valid mesh")) << script;
   }
 }
 

@@ -179,20 +179,21 @@ TEST(Ftetwild, WhateverItDoesIsAStatusAndNothingIsLeft)
     const char* script;
     const char* words;
   };
-  for (const Case& c : { Case{ "echo last words; kill -SEGV $$", "signal 11" },
-         Case{ "echo last words; kill -SEGV $$", "last words" },
-         Case{ "echo 'terminate called: std::bad_alloc' >&2; kill -ABRT $$", "bad_alloc" },
-         Case{ "exit 1", "ended with code 1" }, Case{ "exit 0", "wrote no readable mesh" },
-         Case{ "echo garbage > \"$output\"", "wrote no readable mesh" },
-         Case{ "head -c 700 \"$here/tets.mesh\" > \"$output\"", "wrote no readable mesh" },
-         Case{ "sed 's/-0.5/nan/' \"$here/tets.mesh\" > \"$output\"", "wrote no readable mesh" },
-         // The tets are degenerate: all vertices are in one plane.
-         Case{ "sed -E 's/^(-?[0-9.]+ -?[0-9.]+) -?[0-9.]+ 0$/\\1 0 0/' \"$here/tets.mesh\" > "
-               "\"$output\"",
-           "has no positive volume" },
-         Case{ "mkdir -p \"$(dirname \"$output\")/deep/er\"; echo x > "
-               "\"$(dirname \"$output\")/deep/er/file\"; exit 3",
-           "ended with code 3" } })
+  for (const Case& c :
+    { Case{ "echo last words; kill -SEGV $$", "signal 11" },
+      Case{ "echo last words; kill -SEGV $$", "last words" },
+      Case{ "echo 'terminate called: std::bad_alloc' >&2; kill -ABRT $$", "bad_alloc" },
+      Case{ "exit 1", "failed with exit code 1" }, Case{ "exit 0", "did not write a valid mesh" },
+      Case{ "echo garbage > \"$output\"", "did not write a valid mesh" },
+      Case{ "head -c 700 \"$here/tets.mesh\" > \"$output\"", "did not write a valid mesh" },
+      Case{ "sed 's/-0.5/nan/' \"$here/tets.mesh\" > \"$output\"", "did not write a valid mesh" },
+      // The tets are degenerate: all vertices are in one plane.
+      Case{ "sed -E 's/^(-?[0-9.]+ -?[0-9.]+) -?[0-9.]+ 0$/\\1 0 0/' \"$here/tets.mesh\" > "
+            "\"$output\"",
+        "must have a positive volume" },
+      Case{ "mkdir -p \"$(dirname \"$output\")/deep/er\"; echo x > "
+            "\"$(dirname \"$output\")/deep/er/file\"; exit 3",
+        "failed with exit code 3" } })
   {
     SCOPED_TRACE(c.script);
     FakeFtetwild fake(c.script);

@@ -106,7 +106,7 @@ TEST(HandlePlaces, BadOnesAreRefused)
   EXPECT_TRUE(check_places(places).ok());
   places.triangles.resize(1, 3);
   places.triangles << 0, 1, 3;
-  EXPECT_THAT(check_places(places).message, HasSubstr("handle triangle 0 has point 3"));
+  EXPECT_THAT(check_places(places).message, HasSubstr("handle triangle 0 references point 3"));
   places.triangles << 0, 1, -1;
   EXPECT_EQ(check_places(places).code, StatusCode::invalid_input);
   places.triangles.resize(0, 3);

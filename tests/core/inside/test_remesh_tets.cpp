@@ -451,7 +451,7 @@ TEST(RemeshTets, BadInputIsNamed)
   EXPECT_THAT(refused(not_finite, {}), HasSubstr("3"));
   EXPECT_THAT(refused(out_of_range, {}), HasSubstr("99"));
   EXPECT_THAT(refused(none, {}), HasSubstr("no triangles"));
-  EXPECT_THAT(refused(point, {}), HasSubstr("one point"));
+  EXPECT_THAT(refused(point, {}), HasSubstr("points of the surface coincide"));
   RemeshOptions options;
   options.winding_threshold = 0.0;
   EXPECT_THAT(refused(good, options), HasSubstr("winding_threshold"));

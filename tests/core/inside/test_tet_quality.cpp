@@ -42,15 +42,16 @@ TEST(TetQuality, TetsMeetAtMostInPairsOnOppositeSides)
   const TetMesh same_side = fan({ Vec3(0.2, 0.2, 1), Vec3(0.3, 0.2, 0.5) });
   EXPECT_THAT(check_tets(same_side.points, same_side.tets).message, HasSubstr("overlap"));
   const TetMesh three = fan({ Vec3(0.2, 0.2, 1), Vec3(0.2, 0.2, -1), Vec3(0.3, 0.2, 2) });
-  EXPECT_THAT(check_tets(three.points, three.tets).message, HasSubstr("no closed boundary"));
+  EXPECT_THAT(check_tets(three.points, three.tets).message, HasSubstr("boundary is not closed"));
   EXPECT_TRUE(check_tets(three.points, three.tets, true).ok());
   TetMesh twice = three;
   twice.tets.row(2) << 1, 2, 0, 3; // this tet repeats the first one
   EXPECT_THAT(
-    check_tets(twice.points, twice.tets, true).message, HasSubstr("tet 2 is there twice"));
+    check_tets(twice.points, twice.tets, true).message, HasSubstr("tet 2 is a duplicate"));
   TetMesh turned = good;
   turned.tets.row(1).head<2>().reverseInPlace();
-  EXPECT_THAT(check_tets(turned.points, turned.tets).message, HasSubstr("tet 1 has no positive"));
+  EXPECT_THAT(
+    check_tets(turned.points, turned.tets).message, HasSubstr("tet 1 must have a positive"));
 }
 
 TEST(TetQuality, AnglesOfVeryFlatTetsAreNotZero)

@@ -44,7 +44,7 @@ TEST(Tetrahedralize, RemeshNeedsNoHelper)
     EXPECT_NEAR(automatic.volume() / automatic.number("winding_volume"), 1.0, 0.1);
     EXPECT_GE(automatic.number("min_dihedral_angle"), 10.7);
     ASSERT_FALSE(automatic.status.warnings.empty());
-    EXPECT_THAT(automatic.status.warnings.back(), HasSubstr("cdt was left"));
+    EXPECT_THAT(automatic.status.warnings.back(), HasSubstr("replaced method cdt"));
     options.method = TetMethod::cdt;
     EXPECT_EQ(run(mesh, options).status.code, StatusCode::unavailable);
     options.method = TetMethod::automatic;
@@ -179,7 +179,7 @@ TEST(Tetrahedralize, FtetwildIsJudgedLikeAnyOther)
   const Outcome off = run(longer, TetMethod::ftetwild);
   expect_valid(off, longer);
   ASSERT_EQ(off.status.warnings.size(), 1u);
-  EXPECT_THAT(off.status.warnings[0], HasSubstr("but the winding number encloses"));
+  EXPECT_THAT(off.status.warnings[0], HasSubstr("but the enclosed volume by winding number"));
   EXPECT_GT(off.number("distance_max"), 5.0);
   // If the volume differs by more than a factor of 2, there is no result.
   TriangleMesh thin = test::cube();
@@ -216,10 +216,11 @@ TEST(Tetrahedralize, BadInputIsOneSentence)
     TriangleMesh mesh;
     const char* words;
   };
-  for (const Case& c : { Case{ { Points(0, 3), Triangles(0, 3) }, "no triangles" },
-         Case{ nan, "vertex 4" }, Case{ ids, "triangle 5" }, Case{ triangle, "flat" },
-         Case{ test::grid(4, 3), "flat" }, Case{ needle, "no triangle of the surface has an area" },
-         Case{ far_apart, "encloses nothing" }, Case{ both_ways, "flat" } })
+  for (const Case& c :
+    { Case{ { Points(0, 3), Triangles(0, 3) }, "no triangles" }, Case{ nan, "vertex 4" },
+      Case{ ids, "triangle 5" }, Case{ triangle, "flat" }, Case{ test::grid(4, 3), "flat" },
+      Case{ needle, "all triangles of the surface have area 0" },
+      Case{ far_apart, "encloses nothing" }, Case{ both_ways, "flat" } })
   {
     SCOPED_TRACE(c.words);
     const Outcome outcome = run(c.mesh);
@@ -245,7 +246,8 @@ TEST(Tetrahedralize, TheBacksOfTrianglesAreLeftOut)
     EXPECT_NEAR(two_sided.volume(), one_sided.volume(), 0.02 * one_sided.volume());
     EXPECT_EQ(two_sided.number("counts.back_triangles"), ball.triangles.rows());
     EXPECT_EQ(two_sided.number("counts.duplicate_triangles"), ball.triangles.rows());
-    EXPECT_THAT(two_sided.status.warnings, testing::Contains(HasSubstr("the backs of others")));
+    EXPECT_THAT(
+      two_sided.status.warnings, testing::Contains(HasSubstr("the back sides of other triangles")));
   }
 }
 
@@ -267,8 +269,8 @@ TEST(Tetrahedralize, LooseTrianglesThatEncloseOnlySpecksAreNamed)
   }
   const Outcome outcome = run(loose);
   EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
-  EXPECT_THAT(
-    outcome.status.message, HasSubstr("loose triangles (12000) that enclose only specks"));
+  EXPECT_THAT(outcome.status.message,
+    HasSubstr("12000 mostly disconnected triangles that enclose only about"));
   EXPECT_THAT(outcome.status.message, HasSubstr("--method embed"));
   // A sphere whose triangles are separated by tiny gaps still encloses a ball.
   TriangleMesh ball = test::unwelded(test::sphere(5));
@@ -299,7 +301,8 @@ TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
     options.method = method;
     const Outcome outcome = run(test::cube(), options);
     EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
-    EXPECT_THAT(outcome.status.message, HasSubstr("reaches 1, below the threshold of 1.5"));
+    EXPECT_THAT(
+      outcome.status.message, HasSubstr("largest winding number is 1, below the threshold of 1.5"));
     const Report::Value* rungs = outcome.status.report.find("rungs[].name");
     if (method == TetMethod::cdt)
     {
@@ -330,7 +333,8 @@ TEST(Tetrahedralize, WhatIsTooThinForRemeshIsSaid)
   const double share = 100.0 * signed_volume(needle.points, needle.triangles) /
     bounding_box(needle.points).size().prod();
   EXPECT_THAT(outcome.status.message,
-    HasSubstr("encloses about " + short_number(share, 3) + " % of its box, but that is too thin"));
+    HasSubstr("encloses about " + short_number(share, 3) +
+      " % of its bounding box, but this region is too thin"));
   EXPECT_THAT(outcome.status.message, HasSubstr("--method cdt"));
   EXPECT_THAT(outcome.status.message, HasSubstr("above 40 (--resolution)"));
   if (!find_mesher().empty())

@@ -154,7 +154,7 @@ TEST_F(Cdt, TheSurfaceIsLeftForAnAngleThatItDoesNotAllow)
   EXPECT_EQ(left.method(), "remesh");
   EXPECT_GE(left.number("min_dihedral_angle"), 10.0);
   ASSERT_FALSE(left.status.warnings.empty());
-  EXPECT_THAT(left.status.warnings.back(), testing::HasSubstr("cdt was left"));
+  EXPECT_THAT(left.status.warnings.back(), testing::HasSubstr("replaced method cdt"));
   // The result contains no data of the rejected tets.
   options.handles = places_of({ Vec3(0.9, 0.5, 0.02) });
   const Outcome with_handle = run(wedge, options);
@@ -239,7 +239,7 @@ TEST_F(Cdt, UncleanCubesHoldTheirVolume)
   const Outcome outcome = run(flipped_top);
   EXPECT_EQ(outcome.number("counts.turned_triangles"), 2);
   ASSERT_EQ(outcome.status.warnings.size(), 1u);
-  EXPECT_THAT(outcome.status.warnings[0], HasSubstr("2 triangles were turned"));
+  EXPECT_THAT(outcome.status.warnings[0], HasSubstr("2 triangles were flipped"));
   EXPECT_EQ(run(test::flipped(test::cube())).number("counts.turned_components"), 1);
 }
 
@@ -399,7 +399,7 @@ TEST_F(Cdt, TooManyCrossingsAreLeftAtOnce)
   }
   else
   {
-    EXPECT_THAT(outcome.status.message, HasSubstr("the tets hold"));
+    EXPECT_THAT(outcome.status.message, HasSubstr("the tets have volume"));
   }
 }
 

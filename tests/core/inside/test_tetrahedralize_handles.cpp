@@ -143,5 +143,5 @@ TEST(Tetrahedralize, BadHandlesAreRefused)
   options.handles.segments << 0, 1;
   const Outcome outcome = run(test::cube(), options);
   EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
-  EXPECT_THAT(outcome.status.message, HasSubstr("handle segment 0 has point 1"));
+  EXPECT_THAT(outcome.status.message, HasSubstr("handle segment 0 references point 1"));
 }

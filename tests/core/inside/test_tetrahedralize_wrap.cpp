@@ -82,7 +82,7 @@ TEST_F(Wrap, HoldsAnySurface)
          Case{ "sheet", test::grid(3, 2), 1, 0.0, "10 boundary edges" },
          Case{ "soup", far_apart, 2, 0.0, "6 boundary edges" },
          Case{ "doubled both ways", test::join(test::cube(), test::flipped(test::cube())), 1, 8.0,
-           "the backs of others" },
+           "the back sides of other triangles" },
          Case{ "unwelded", test::unwelded(test::cube()), 1, 8.0, "" } })
   {
     SCOPED_TRACE(c.name);
@@ -120,7 +120,7 @@ TEST_F(Wrap, AnOpenSurfaceIsWarnedOfWithBothVolumes)
   ASSERT_FALSE(outcome.status.warnings.empty());
   const std::string& warning = outcome.status.warnings.back();
   EXPECT_THAT(warning, HasSubstr("4 boundary edges"));
-  EXPECT_THAT(warning, HasSubstr("the winding number encloses 8"));
+  EXPECT_THAT(warning, HasSubstr("the enclosed volume by winding number is 8"));
   // The open cube has five faces of area 4, wrapped in a shell that is two offsets thick. The alpha
   // ball does not reach into the eight inner edges of length 2. The cross section that remains
   // filled at each edge is smaller than the square of the ball's radius.
@@ -129,7 +129,7 @@ TEST_F(Wrap, AnOpenSurfaceIsWarnedOfWithBothVolumes)
   const double fillets = 16.0 * std::pow((options.wrap_alpha + options.wrap_offset) * diagonal, 2);
   EXPECT_GT(outcome.volume(), 0.97 * shell);
   EXPECT_LT(outcome.volume(), 1.1 * shell + fillets);
-  EXPECT_THAT(warning, HasSubstr("it holds 0."));
+  EXPECT_THAT(warning, HasSubstr("its volume is 0."));
 }
 
 TEST_F(Wrap, ThresholdsAndThreadsDoNotMatter)

@@ -252,7 +252,7 @@ TEST(WrapSurfaceInput, BadInputIsOneSentence)
   EXPECT_THAT(message({ Points(0, 3), Triangles(0, 3) }), HasSubstr("no triangles"));
   mesh = test::cube();
   mesh.points.setZero();
-  EXPECT_THAT(message(mesh), HasSubstr("one point"));
+  EXPECT_THAT(message(mesh), HasSubstr("points of the surface coincide"));
   mesh = test::cube();
   mesh.points *= 1e120;
   EXPECT_THAT(message(mesh), HasSubstr("1e100"));

@@ -81,7 +81,7 @@ TEST(AtomicFile, UnwritablePlacesAreOneSentence)
 {
   const test::Folder folder;
   folder.write("file", "");
-  EXPECT_THAT(AtomicFile::check("", false).message, HasSubstr("no name"));
+  EXPECT_THAT(AtomicFile::check("", false).message, HasSubstr("name of the output file is empty"));
   EXPECT_THAT(AtomicFile::check(folder.path(), true).message, HasSubstr("directory"));
   EXPECT_THAT(AtomicFile::check(folder / "no/out", true).message, HasSubstr("No such file"));
   EXPECT_THAT(AtomicFile::check(folder / "file/out", true).message, HasSubstr("Not a directory"));

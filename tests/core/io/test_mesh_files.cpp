@@ -183,10 +183,10 @@ TEST_F(TextFiles, OffVariantsOfTheWild)
 
 TEST_F(TextFiles, OffErrorsNameTheLine)
 {
-  EXPECT_THAT(
-    this->off_error("hello world\n"), HasSubstr("m.off, line 1: this is not an OFF file"));
+  EXPECT_THAT(this->off_error("hello world\n"),
+    HasSubstr("m.off, line 1: an OFF file must begin with the word OFF"));
   EXPECT_THAT(this->off_error("OFF BINARY\n1 1 1\n"), HasSubstr("binary"));
-  EXPECT_THAT(this->off_error("4OFF\n1 1 1\n"), HasSubstr("dimensions"));
+  EXPECT_THAT(this->off_error("4OFF\n1 1 1\n"), HasSubstr("not three-dimensional"));
   EXPECT_THAT(this->off_error("OFF\n-3 1 0\n"), HasSubstr("line 2"));
   EXPECT_THAT(this->off_error("OFF\n4 x 0\n" + square), HasSubstr("'x'"));
   EXPECT_THAT(this->off_error("OFF\n4 1 0\n0 0 0\n1 nan 0\n1 1 0\n0 1 0\n3 0 1 2\n"),
@@ -198,7 +198,8 @@ TEST_F(TextFiles, OffErrorsNameTheLine)
   EXPECT_THAT(this->off_error("OFF\n4 1 0\n" + square + "3 0 1 4\n"),
     HasSubstr("line 7: a vertex id of a face is out of range: '4'"));
   EXPECT_THAT(this->off_error("OFF\n4 1 0\n" + square + "3 0 1 -1\n"), HasSubstr("line 7"));
-  EXPECT_THAT(this->off_error("OFF\n4 2 0\n" + square + "3 0 1 2\n"), HasSubstr("the file ends"));
+  EXPECT_THAT(
+    this->off_error("OFF\n4 2 0\n" + square + "3 0 1 2\n"), HasSubstr("unexpected end of file"));
   EXPECT_THAT(this->off_error("OFF\n1000000000 2 0\n" + square), HasSubstr("truncated"));
   EXPECT_THAT(this->off_error("OFF\n4 99999999999999999999 0\n" + square), HasSubstr("line 2"));
 }
@@ -264,7 +265,7 @@ TEST_F(TextFiles, PlyHeadersThatContradictThemselves)
                            vertex + face + numbers),
                 this->mesh)
                 .message,
-    HasSubstr("t.ply, line 13: the header lists the vertices twice"));
+    HasSubstr("t.ply, line 13: the header has two elements vertex"));
 }
 
 TEST_F(TextFiles, StlIsWeldedAndSizedExactly)
@@ -280,7 +281,7 @@ TEST_F(TextFiles, StlIsWeldedAndSizedExactly)
   const std::string whole = this->folder.read("t.stl");
   EXPECT_THAT(
     read_stl(this->folder.write("p.stl", whole.substr(0, whole.size() - 1)), this->mesh).message,
-    HasSubstr("p.stl is no STL file"));
+    HasSubstr("p.stl is not a valid STL file"));
 
   const std::string text =
     "solid my vertex\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
@@ -310,9 +311,9 @@ TEST_F(TextFiles, MeditReadsTetsAndSkipsTheRest)
     HasSubstr("line 6"));
   EXPECT_THAT(this->medit_error("MeshVersionFormatted 1\nDimension 3\nVertices\n1\n0 0 0 0\n"
                                 "Tetrahedra\n1\n1 1 1 2 0\nEnd\n"),
-    HasSubstr("tet 1 names vertex 2"));
+    HasSubstr("tet 1 references vertex 2"));
   EXPECT_THAT(
-    this->medit_error("MeshVersionFormatted 1\nDimension 3\nEnd\n"), HasSubstr("no vertex"));
+    this->medit_error("MeshVersionFormatted 1\nDimension 3\nEnd\n"), HasSubstr("no vertices"));
 }
 
 TEST_F(TextFiles, MeditReadsBackWhatWasWritten)

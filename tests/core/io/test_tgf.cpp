@@ -48,12 +48,15 @@ TEST_F(TgfFiles, NodesAndEdges)
 
 TEST_F(TgfFiles, ErrorsNameTheLine)
 {
-  EXPECT_THAT(this->error("1 0 0 0\n1 0 0 1\n"), HasSubstr("h.tgf, line 2: node 1 is there twice"));
-  EXPECT_THAT(this->error("1 0 0\n"), HasSubstr("line 1: node 1 needs three coordinates"));
+  EXPECT_THAT(
+    this->error("1 0 0 0\n1 0 0 1\n"), HasSubstr("h.tgf, line 2: node 1 is defined twice"));
+  EXPECT_THAT(
+    this->error("1 0 0\n"), HasSubstr("line 1: node 1 must have three numbers as coordinates"));
   EXPECT_THAT(this->error("1 0 nan 0\n"), HasSubstr("not a finite number"));
   EXPECT_THAT(this->error("a 0 0 0\n"), HasSubstr("line 1"));
-  EXPECT_THAT(this->error("1 0 0 0\n2 1 0 0\n#\n1 3\n"), HasSubstr("line 4: an edge names node 3"));
-  EXPECT_THAT(this->error("1 0 0 0\n#\n1 1\n"), HasSubstr("to itself"));
+  EXPECT_THAT(
+    this->error("1 0 0 0\n2 1 0 0\n#\n1 3\n"), HasSubstr("line 4: an edge references node 3"));
+  EXPECT_THAT(this->error("1 0 0 0\n#\n1 1\n"), HasSubstr("must connect two different nodes"));
   EXPECT_THAT(this->error("1 0 0 0\n2 1 0 0\n#\n1\n"), HasSubstr("line 4"));
   EXPECT_THAT(this->error("1 0 0 0\n2 1 0 0\n#\n1 2 yes\n"), HasSubstr("flags"));
   EXPECT_THAT(this->error("#\n"), HasSubstr("no node"));

@@ -457,7 +457,7 @@ TEST_F(Vdb, WhatCannotBeWrittenIsOneSentence)
   wrong.threshold = not_a_number;
   refuses_options(wrong, "threshold");
   wrong.threshold = 0.0;
-  refuses_options(wrong, "equal to the threshold");
+  refuses_options(wrong, "differ from the threshold");
 }
 
 TEST_F(Vdb, FilesAreThereWholeOrNotAtAll)

@@ -308,7 +308,8 @@ TEST(ImageOutline, Refuses)
   }
   for (const double simplify : { -0.1, 1.1, double(NAN) })
   {
-    EXPECT_THAT(outline_of({ { 1.0f } }, outline, simplify).message, HasSubstr("simplified"));
+    EXPECT_THAT(
+      outline_of({ { 1.0f } }, outline, simplify).message, HasSubstr("from 0 to 1 pixel"));
   }
   EXPECT_THAT(
     image_outline(1, 1, never, { 0.0, 0.5 }, outline, context).message, HasSubstr("threshold"));

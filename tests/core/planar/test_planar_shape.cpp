@@ -493,7 +493,7 @@ TEST_F(PlanarShapeTest, Refuses)
   refuses(Curves().add({ { 0, 0 }, { INFINITY, 1 }, { 3, 3 } }), "finite");
   Curves wrong = Curves().add(square);
   wrong.segments(2, 1) = 4;
-  refuses(wrong, "segment 2 has vertex 4");
+  refuses(wrong, "segment 2 references vertex 4");
   // The winding number between the two arms is below 1/2.
   Curves arms;
   arms.add({ { 0, 0 }, { 1, 0 } }, false).add({ { 1, 2 }, { 0, 2 } }, false);

@@ -135,7 +135,7 @@ TEST(ElementStretch, OneReflectedTetIsFoundAndNamed)
   EXPECT_EQ(status.report.number("counts.stretched_elements", -1), 0)
     << "mirrored, as long as it was";
   ASSERT_EQ(status.warnings.size(), 1u);
-  EXPECT_EQ(status.warnings[0], "the pose turns 1 of 2 tets inside out");
+  EXPECT_EQ(status.warnings[0], "the pose inverts 1 of 2 tets");
   EXPECT_NEAR(stretch.smallest[0], 1.0, 1e-15);
   EXPECT_NEAR(stretch.smallest[1], -1.0, 1e-15);
   EXPECT_NEAR(stretch.largest[1], 1.0, 1e-15);

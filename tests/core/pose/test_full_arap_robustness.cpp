@@ -128,7 +128,7 @@ TEST(FullArapRobustness, PointsThatNearlyMeetAndArePulledApartNeverRaiseTheEnerg
         energies.back(), 1e-6 * energies.back());
       for (const std::string& warning : status.warnings)
       {
-        kept += warning.find("raised the energy") != std::string::npos;
+        kept += warning.find("increased the energy") != std::string::npos;
       }
     }
   }

@@ -376,22 +376,22 @@ TEST(PoseFile, WhatIsWrongIsNamed)
 {
   EXPECT_THAT(message(""), HasSubstr("empty"));
   EXPECT_THAT(message(" \n"), HasSubstr("empty"));
-  EXPECT_THAT(message("{}"), HasSubstr("empty"));
+  EXPECT_THAT(message("{}"), HasSubstr("must have the key 'handles'"));
   EXPECT_THAT(message("[]"), HasSubstr("must be an object"));
   EXPECT_THAT(message(R"({"handles": {"p": )"), HasSubstr("not valid JSON"));
   EXPECT_THAT(message(R"({"handles": []})"), HasSubstr("handles"));
-  EXPECT_THAT(message(R"({"handles": {"q": {}}})"), HasSubstr("'q' that does not exist"));
+  EXPECT_THAT(message(R"({"handles": {"q": {}}})"), HasSubstr("'q', which does not exist"));
   EXPECT_THAT(message(R"({"handles": {}, "frame": 1})"), HasSubstr("'frame'"));
   EXPECT_THAT(message(R"({"handles": {"p": {"color": 1}}})"), HasSubstr("'color'"));
   EXPECT_THAT(message(R"({"handles": {"p": 3}})"), HasSubstr("is a number"));
-  EXPECT_THAT(message(R"({"handles": {"p": {}, "p": {}}})"), HasSubstr("'p' is given twice"));
+  EXPECT_THAT(message(R"({"handles": {"p": {}, "p": {}}})"), HasSubstr("'p' is defined twice"));
   EXPECT_THAT(
     message(R"({"handles": {"p": {"mode": "half"}}})"), HasSubstr("full, position, free"));
   EXPECT_THAT(message(R"({"handles": {"p": {"mode": 1}}})"), HasSubstr("full, position, free"));
   EXPECT_THAT(message(R"({"handles": {"p": {"mode": "ends"}}})"),
-    HasSubstr("mode is 'ends', for bones, but the handle is a point"));
+    HasSubstr("mode is 'ends', which is only for bones, but the handle is a point"));
   EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2]}}})"), HasSubstr("3 numbers"));
-  EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2, "x"]}}})"), HasSubstr("a text"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2, "x"]}}})"), HasSubstr("a string"));
   EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2, null]}}})"), HasSubstr("null"));
   EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2, NaN]}}})"), HasSubstr("JSON"));
   EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2, 1e999]}}})"), HasSubstr("JSON"));
@@ -407,7 +407,7 @@ TEST(PoseFile, WhatIsWrongIsNamed)
   EXPECT_THAT(message(R"({"handles": {"p": {"head": [0, 0, 0]}}})"), HasSubstr("for bones"));
   EXPECT_THAT(message(R"({"handles": {"fore": {"head": [2, 0, 0]}}})"), HasSubstr("length zero"));
   EXPECT_THAT(message(R"({"handles": {"fore": {"head": [1, 1, 1], "scale": 2}}})"),
-    HasSubstr("one or the other"));
+    HasSubstr("must not combine head or tail"));
   EXPECT_THAT(message(R"({"handles": {"fore": {"twist": [1]}}})"), HasSubstr("2 numbers"));
   EXPECT_THAT(message(R"({"version": 3, "handles": {}})"), HasSubstr("expected 1 or 2"));
   EXPECT_THAT(message(R"({"version": "2", "handles": {}})"), HasSubstr("version is \"2\""));
@@ -479,7 +479,7 @@ TEST(PoseFile, WhatIsWrittenCanBeRead)
   PoseSequence sequence;
   EXPECT_TRUE(parse_pose_file(text, handles, sequence).ok());
   EXPECT_EQ(message(text),
-    "the pose file: the pose names a handle 'two?lines \"quoted\"' that does not exist");
+    "the pose file: the pose refers to the handle 'two?lines \"quoted\"', which does not exist");
   // JSON cannot represent infinity.
   Pose pose(3);
   pose[1].stretch = std::numeric_limits<double>::infinity();

@@ -113,10 +113,11 @@ TEST(PoseMatrix, SizesAndNumbersThatCannotBeAreNamed)
     return status.message;
   };
   EXPECT_EQ(message(Weights::Zero(12, 3)),
-    "the pose is a matrix of 12 x 3; of 4 handles it must be 16 x 3, in a plane 12 x 2 (transposed "
+    "the pose is a matrix of size 12 x 3; for 4 handles it must be 16 x 3, or in the plane 12 x 2 "
+    "(transposed "
     "transforms), or 12 x 1 (rotations of the bones)");
-  EXPECT_THAT(message(Weights::Zero(0, 0)), HasSubstr("a matrix of 0 x 0"));
-  EXPECT_THAT(message(Weights::Zero(16, 4)), HasSubstr("a matrix of 16 x 4"));
+  EXPECT_THAT(message(Weights::Zero(0, 0)), HasSubstr("a matrix of size 0 x 0"));
+  EXPECT_THAT(message(Weights::Zero(16, 4)), HasSubstr("a matrix of size 16 x 4"));
   EXPECT_THAT(message(Weights::Zero(12, 1)), HasSubstr("bone 'b1' has length zero"));
   Weights matrix = Weights::Zero(16, 3);
   matrix(3, 1) = std::nan("");

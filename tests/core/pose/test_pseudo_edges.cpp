@@ -363,5 +363,5 @@ TEST(PseudoEdges, JoinTwoDifferentPoints)
   EXPECT_EQ(check_pseudo_edges(list, { { -1, 0 } }).code, StatusCode::invalid_input);
   list[2].kind = HandleKind::region;
   EXPECT_EQ(check_pseudo_edges(list, { { 0, 1 }, { 2, 1 } }).message,
-    "pseudo-edge 1 does not join two different points");
+    "pseudo-edge 1 must connect two different point handles");
 }

@@ -598,6 +598,6 @@ TEST(ReducedArapRobustness, ModesOfEndsAreForBones)
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     EXPECT_EQ(status.message,
       "the mode " + std::string(to_string(mode)) + " of handle '" + rig.handles[1].name +
-        "' is for bones");
+        "' can only be used for bones");
   }
 }

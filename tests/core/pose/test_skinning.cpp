@@ -592,7 +592,8 @@ TEST(StretchableBones, SizesThatDoNotFitAreNamed)
   EXPECT_THAT(status.message, HasSubstr("0 bones"));
   status = skinning.stretchable_bones(
     context, points, { identity_affine() }, { unit_bone }, Weights(Weights::Zero(3, 1)), posed);
-  EXPECT_THAT(status.message, HasSubstr("3 x 1 endpoint weights for 2 vertices"));
+  EXPECT_THAT(
+    status.message, HasSubstr("endpoint weights have size 3 x 1, but there are 2 vertices"));
 }
 
 namespace

@@ -467,7 +467,7 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
   const Status refused = none.prepare(context, columns);
   EXPECT_EQ(refused.code, StatusCode::internal_error);
   EXPECT_THAT(
-    refused.message, testing::StartsWith("solving for 3 columns on 4913 vertices would bring"));
+    refused.message, testing::StartsWith("solving for 3 columns on 4913 vertices would increase"));
   EXPECT_EQ(none.factorizations(), 0);
   EXPECT_GT(none.memory_estimate(), resident_memory());
 

@@ -210,11 +210,11 @@ TEST_F(CagesInTets, AroundASurfaceAreItsDomain)
     ball.points, ball.triangles, {}, cube_cage(0.4), options, {}, method, context, result);
   ASSERT_TRUE(status.usable()) << status.message;
   ASSERT_FALSE(status.warnings.empty());
-  EXPECT_THAT(status.warnings.back(), HasSubstr("outside of the cage"));
+  EXPECT_THAT(status.warnings.back(), HasSubstr("outside the cage"));
 
   status = surface_weights(ball.points, ball.triangles, {},
     { test::point_handle("p", { 0, 0, 0 }) }, options, {}, method, context, result);
-  EXPECT_THAT(status.message, HasSubstr("needs a closed cage"));
+  EXPECT_THAT(status.message, HasSubstr("needs handles with a closed cage"));
 }
 
 TEST_F(CagesInTets, OfEdgesAroundAFlatShapeAreItsDomain)
@@ -273,8 +273,7 @@ TEST_F(CagesInTets, OfEdgesAroundAFlatShapeAreItsDomain)
     surface_weights(shifted, shape.triangles, {}, cage, options, {}, method, context, result);
   ASSERT_TRUE(status.usable()) << status.message;
   ASSERT_EQ(status.warnings.size(), 1u);
-  EXPECT_THAT(
-    status.warnings.front(), HasSubstr("55 points of the surface lie outside of the cage"));
+  EXPECT_THAT(status.warnings.front(), HasSubstr("55 points of the surface are outside the cage"));
 
   shifted(0, 2) = 0.1;
   status =
@@ -291,9 +290,9 @@ TEST(Cages, ThatAreWrongAreRefused)
       CageElement{ 0, -1, -1 }, CageElement{ 0, 1, 1 }, CageElement{ 0, 1, 7 } })
   {
     handles[0].cage = { wrong };
-    EXPECT_THAT(check_handles(handles).message, HasSubstr("cage at 'c0'"));
+    EXPECT_THAT(check_handles(handles).message, HasSubstr("cage edge or face at 'c0'"));
   }
   handles[0].cage = { { 0, 1, -1 } };
   handles[1].kind = HandleKind::point;
-  EXPECT_THAT(check_handles(handles).message, HasSubstr("cage at 'c0'"));
+  EXPECT_THAT(check_handles(handles).message, HasSubstr("cage edge or face at 'c0'"));
 }

@@ -91,10 +91,9 @@ TEST(DepthOrder, WhatCannotBeUsedIsOneSentence)
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     return status.message;
   };
-  EXPECT_NE(
-    message(weights, Eigen::Vector3d::Zero()).find("2 handles, but 3 layers"), std::string::npos);
-  EXPECT_NE(
-    message(weights, Eigen::Vector2d(0, std::nan(""))).find("handle number 1"), std::string::npos);
+  EXPECT_NE(message(weights, Eigen::Vector3d::Zero()).find("2 columns, but there are 3 layers"),
+    std::string::npos);
+  EXPECT_NE(message(weights, Eigen::Vector2d(0, std::nan(""))).find("handle 1"), std::string::npos);
   EXPECT_NE(message(weights, Eigen::Vector2d::Zero(), -1.0).find("tie"), std::string::npos);
   Weights bad = weights;
   bad(1, 1) = std::nan("");

@@ -382,7 +382,8 @@ TEST(HandleInsertion, BadInputsAreNamed)
   const Handles points = test::point_handles({ Vec3(0.1, 0.1, 0.1), Vec3(0.9, 0.9, 0.9) });
   EXPECT_NE(message(Domain(), points).find("empty"), std::string::npos);
   EXPECT_NE(message(good, {}).find("no handle"), std::string::npos);
-  EXPECT_NE(message(good, test::point_handles({ Vec3::Zero(), Vec3::Zero() })).find("same place"),
+  EXPECT_NE(
+    message(good, test::point_handles({ Vec3::Zero(), Vec3::Zero() })).find("same position"),
     std::string::npos);
   EXPECT_NE(message(good, test::point_handles({ Vec3(0, std::nan(""), 0) })).find("'p1'"),
     std::string::npos);

@@ -342,7 +342,7 @@ TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
   status = solve(dense, handles, {}, result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(result.domain, WeightsDomain::embedding);
-  EXPECT_EQ(status.report.text("domain_reason"), "the surface is dense");
+  EXPECT_EQ(status.report.text("domain_reason"), "the surface has many triangles");
 }
 
 TEST_F(SurfaceWeightsInTets, TheEmbeddingTakesOverWhereTheVolumeFails)

@@ -690,7 +690,7 @@ TEST(WeightTerms, CoupledKeepsPinsBoundsSetsAndInfluences)
   options.terms.upper.row(100).setConstant(0.1);
   options.terms.pinned(100, 1) = std::nan("");
   options.maximum_influences = 0;
-  expect_error(solve(domain, handles, options).status, { "vertex 100", "sums to one" });
+  expect_error(solve(domain, handles, options).status, { "vertex 100", "sum to one" });
   WeightsOptions monotone;
   monotone.partition = PartitionOfUnity::coupled;
   expect_error(solve(domain, handles, monotone, {}, monotone_weights).status, { "coupled" });

@@ -203,13 +203,13 @@ TEST(WeightedColors, WhatCannotBeUsedIsOneSentence)
     return status.message;
   };
   const Weights weights = Weights::Constant(3, 2, 0.5);
-  EXPECT_NE(
-    message(weights, Colors::Zero(3, 3)).find("2 handles, but 3 colors"), std::string::npos);
+  EXPECT_NE(message(weights, Colors::Zero(3, 3)).find("2 columns, but there are 3 colors"),
+    std::string::npos);
   Colors colors = Colors::Zero(2, 3);
   colors(1, 2) = 1.5;
-  EXPECT_NE(message(weights, colors).find("handle number 1"), std::string::npos);
+  EXPECT_NE(message(weights, colors).find("handle 1"), std::string::npos);
   colors(1, 2) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(message(weights, colors).find("handle number 1"), std::string::npos);
+  EXPECT_NE(message(weights, colors).find("handle 1"), std::string::npos);
   Weights bad = weights;
   bad(2, 0) = std::numeric_limits<double>::infinity();
   EXPECT_NE(message(bad, Colors::Zero(2, 3)).find("vertex 2"), std::string::npos);

@@ -497,7 +497,7 @@ TEST(CurveWindingNumber, BadInputIsNamed)
   curve.segments(2, 1) = 4;
   Status status = winding.build(curve.points, curve.segments, context);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
-  EXPECT_NE(status.message.find("segment 2 names vertex 4"), std::string::npos);
+  EXPECT_NE(status.message.find("segment 2 references vertex 4"), std::string::npos);
   Eigen::VectorXd w;
   EXPECT_EQ(winding.evaluate(curve.points, context, w).code, StatusCode::invalid_input);
   curve.segments(2, 1) = -1;

@@ -415,7 +415,7 @@ TEST(PointCloudWindingNumber, BadInputIsNamed)
   expect_refused(cloud, "3 areas");
   cloud = good;
   cloud.areas *= 1e200;
-  expect_refused(cloud, "out of all proportion");
+  expect_refused(cloud, "too large relative to the distances");
   expect_refused({ good.points.topRows(1), good.normals.topRows(1), no_areas }, "single point");
   options.tolerance = 0.0;
   expect_refused(good, "tolerance");

@@ -73,7 +73,7 @@ def test_weights_of_a_skeleton(folder):
 def test_bad_input(folder):
     folder.write("flat.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")
     assert folder.run("handles", "flat.off", "-o", "flat.vtp", "--report", "-").is_good().report["surface"] == "lattice"
-    folder.run("handles", "flat.off", "--method", "points", "--number-of-points", "5", "-o", "x.vtp").is_refused("only 4 different vertices")
+    folder.run("handles", "flat.off", "--method", "points", "--number-of-points", "5", "-o", "x.vtp").is_refused("only 4 distinct vertices")
     bar(folder)
     folder.run("handles", "bar.off", "--bone-tolerance", "2", "-o", "x.vtp").is_refused("bone_tolerance")
     folder.run("handles", "bar.off", "--skeleton-triangles", "5", "-o", "x.vtp").is_refused("skeleton_triangles")

@@ -43,7 +43,7 @@ def test_handles(folder):
     folder.write("square.obj", SQUARE + "f 1 2 3 4\n")
     folder.write("handles.tgf", "1 0.5 0.5 0\n2 1 1 0\n3 1.5 1.2 0\n4 9 9 0\n#\n2 3 1 0 0\n")
     done = folder.run("outline", "square.obj", "--handles", "handles.tgf", "-o", "s.vtp", "--report", "-").is_good()
-    assert "lie outside" in done.err
+    assert "are outside the shape" in done.err
     handles = done.report["handles"]
     assert [handle["name"] for handle in handles] == ["p1", "p2", "b1"]
     assert handles[0]["vertex"] >= 0 and handles[1]["vertex"] == -1 and handles[2]["vertex"] >= 0
@@ -64,7 +64,7 @@ def test_bad_input(folder):
                            (name, name) for name in ("broken.png", "text.png", "text.jpg", "text.tif", "text.bmp")]:
         folder.run("outline", name, "-o", "out.vtp").is_refused(word)
     folder.write("disc.png", shapes.png(80, 60, disc))
-    for option, value, word in [("--min-angle", "40", "angle"), ("--edge", "-1", "edge"), ("--simplify", "2", "simplified"),
+    for option, value, word in [("--min-angle", "40", "angle"), ("--edge", "-1", "edge"), ("--simplify", "2", "from 0 to 1 pixel"),
                                 ("--winding-threshold", "0", "threshold")]:
         folder.run("outline", "disc.png", option, value, "-o", "out.vtp").is_refused(word)
     folder.run("outline", "disc.png", "-o", "out.off").is_refused("out.off")

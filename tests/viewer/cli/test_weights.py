@@ -127,7 +127,7 @@ def test_what_memory_has_no_room_for_is_refused_before_it_is_begun(bar):
     tets = ("weights", "tets.vtu", "--handles", "bones.tgf", "--threads", "1")
     report = bar.run(*tets, "-o", "w.dmat", "--report", "-").is_good().report
     assert report["memory_estimate_bytes"] == pytest.approx(report["peak_memory_bytes"], rel=0.15)
-    bar.run(*tets, "-o", "no.dmat", "--memory-limit", "40").is_refused("2 columns on", "40 MiB are its limit", code=5)
+    bar.run(*tets, "-o", "no.dmat", "--memory-limit", "40").is_refused("2 columns on", "the limit is 40 MiB", code=5)
     limit = str(report["memory_estimate_bytes"] // 2**20 + 20)
     bar.run(*tets, "-o", "same.dmat", "--memory-limit", limit).is_good()
     assert (bar / "same.dmat").read_bytes() == (bar / "w.dmat").read_bytes()
@@ -147,7 +147,7 @@ def test_automatic_handles(bar):
     for wrong in ("auto:0", "auto:x", "auto:"):
         bar.run("weights", "bar.off", "--handles", wrong, "-o", "w2.vtp").is_refused(
             "--handles auto:N needs an integer N between 1 and 100000", f"(got '{wrong[5:]}')")
-    bar.run("weights", "bar.off", "--handles", "auto:5000", "-o", "w2.vtp").is_refused("different vertices")
+    bar.run("weights", "bar.off", "--handles", "auto:5000", "-o", "w2.vtp").is_refused("distinct vertices")
 
 
 def test_regions(bar):
@@ -173,7 +173,7 @@ def test_bad_handles(bar):
         bar.write("h.tgf", text)
         bar.run("weights", "bar.off", "--handles", "h.tgf", "-o", "out.vtp").is_refused(*words)
 
-    refused("1 1 0.5 0.5\n2 1 0.5 0.5\n#\n", "'p1' and 'p2'", "same place")
+    refused("1 1 0.5 0.5\n2 1 0.5 0.5\n#\n", "'p1' and 'p2'", "same position")
     refused("1 1 0.5 0.5 a\n2 5 0.5 0.5 a\n#\n", "two handles are named 'a'")
     refused("1 1 0.5 0.5\n2 1 0.5 0.5\n#\n1 2\n", "length zero")
     refused("1 1 0.5 nan\n", "h.tgf, line 1")
@@ -297,7 +297,7 @@ def test_terms_by_arrays_of_the_surface(bar):
     assert block.sum() > 1 and np.ptp(weights[block], axis=0).max() == 0
     assert run.report["relative_gap"] <= 1e-6
     bar.run(*words, "--partition-of-unity", "coupled", "--bounds=-0.5,1.5", "--mirror", "x").is_refused("mirrored")
-    bar.run(*words, "--domain", "embedding").is_refused("domain volume, not embedding")
+    bar.run(*words, "--domain", "embedding").is_refused("use domain volume instead of embedding")
     run = bar.run(*words, "--partition-of-unity", "coupled").is_good()
     assert run.report["partition"]["of_unity"] == "coupled" and run.report["partition"]["largest_difference"] >= 0
     run = bar.run(*words, "--maximum-influences", "1", "--rigid-set", "RigidSet").is_good()

@@ -115,7 +115,7 @@ TEST(HandleEditing, TwoPointsAtOnePlaceAreRefused)
   stage.click(Vec3(0.3, 0.2, 0));
   EXPECT_EQ(stage.list().size(), 1u);
   EXPECT_EQ(stage.events[vtkCommand::WarningEvent], 1);
-  EXPECT_NE(stage.representation()->GetEditMessage().find("same place"), std::string::npos);
+  EXPECT_NE(stage.representation()->GetEditMessage().find("same position"), std::string::npos);
   EXPECT_TRUE(stage.widget->GetCanceled());
   stage.click(Vec3(-0.3, 0.2, 0));
   EXPECT_EQ(stage.events[vtkCommand::WarningEvent], 1) << "said once";

@@ -42,10 +42,10 @@ from vtkmodules.vtkRenderingCore import (
     vtkTextActor,
     vtkWindowToImageFilter,
 )
-import vtkmodules.vtkRenderingFreeType  # noqa: F401  draws texts
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
+import vtkmodules.vtkRenderingFreeType  # noqa: F401  needed to draw texts
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  needed to draw
 
-import quickstart  # next to this file: finds the demo meshes
+import quickstart  # quickstart.py, next to this file, finds the demo meshes
 
 
 # ---- Comparison with vtkSelectEnclosedPoints ---------------------------------------------------
@@ -63,7 +63,7 @@ def select_enclosed_points(surface, points, check):
     selection.SetCheckSurface(check)
     selection.AddObserver("ErrorEvent", lambda *_: None)
     if check and not selection.IsSurfaceClosed(surface):
-        return None  # the filter would leave its output without a result
+        return None  # the check requires a closed surface; otherwise the filter has no result
     selection.Update()
     return vtk_to_numpy(selection.GetOutput().GetPointData().GetArray("SelectedPoints")).astype(bool)
 
@@ -226,7 +226,8 @@ def write_picture(path, surface, points, ours, theirs):
         side.SetAmbient(0.25)
         side.SetDiffuse(0.8)
     glass.GetProperty().SetOpacity(0.22)
-    # Both sides of a cut coincide. Shift them slightly apart, so that the surface's rim stays in front of them.
+    # The field is shown on the two planes of the cut, where the cut surface has its rim. Shift the planes slightly, so
+    # that the rim is drawn in front of them.
     hair = 1e-4 * size
     cuts = [field_on(surface, [x0 - pad, x, y0 - pad, y1 + pad, z - hair, z - hair], table),
             field_on(surface, [x + hair, x + hair, y0 - pad, y1 + pad, z, z1 + pad], table)]
@@ -279,14 +280,15 @@ def main(options):
     numbers = {}
     demo = options.mesh is None
     mesh = options.mesh or quickstart.demo_mesh(options.output / "meshes")
-    surface = bindpose.read(mesh)  # a vtkPolyData; arrays (vertices #V x 3, triangles #F x 3) also work
+    # a vtkPolyData; a pair of arrays (vertices #V x 3, triangles #F x 3) is also accepted
+    surface = bindpose.read(mesh)
     if not surface.IsA("vtkPolyData"):
         raise bindpose.InvalidInput(f"{mesh} holds a {surface.GetClassName()}, not a surface")
     bounds = np.reshape(surface.GetBounds(), (3, 2))
     random = np.random.default_rng(1)
     points = random.uniform(*bounds.T, (1000 if options.small else 20000, 3))
 
-    # The boolean result, and the winding number.
+    # First the boolean result, then the winding number.
     inside = bindpose.contains(surface, points)
     values = bindpose.winding_number(surface, points)
     counts = values.report["counts"]
@@ -294,7 +296,8 @@ def main(options):
     print(f"{inside.sum()} of {len(points)} points are inside; winding numbers from {values.min():.2f} to {values.max():.2f};")
     print(f"method {values.report['method']}: {values.report['method_reason']}\n")
 
-    # VTK's own test on the same points. The demo mesh also exists without holes, which gives the true result.
+    # Compare with VTK's own filter on the same points. The demo mesh also exists without holes, which gives the true
+    # result.
     print(f"  {'surface':<16} {'inside':>7} {'by VTK':>7} {'disagree':>9}    vtkSelectEnclosedPoints")
     closed = bindpose.read(quickstart.demo_mesh(options.output / "meshes", "elephant.off")) if demo else None
     truth = bindpose.contains(closed, points, method="exact") if demo else None
@@ -306,7 +309,7 @@ def main(options):
     if demo:
         compare("without holes", closed, points, numbers, truth)
 
-    # The accuracy is a parameter and is guaranteed.
+    # The tolerance is a parameter; the error is guaranteed to be smaller.
     few = points[:1000]
     exact = bindpose.winding_number(surface, few, method="exact")
     print(f"\n  exact: {1e6 * exact.report['seconds']['evaluate'] / len(few):8.2f} µs a point ({exact.report['method']})")
@@ -317,28 +320,30 @@ def main(options):
         print(f"  within {tolerance:.0e}: {1e6 * fast.report['seconds']['evaluate'] / len(few):8.2f} µs a point, "
               f"errs by {np.abs(fast - exact).max():.1e}")
 
-    # The gradient, compared with differences of the field.
+    # Compare the gradient with finite differences of the field.
     _, gradient = bindpose.winding_number(surface, few, compute_gradient=True, method="exact")
     step = 1e-5 * length
     beside = [bindpose.winding_number(surface, few + s * step * np.eye(3)[0], method="exact") for s in (-1, 1)]
     slope = (beside[1] - beside[0]) / (2 * step)
-    smooth = np.abs(beside[1] - beside[0]) < 0.5  # no jump in between
+    smooth = np.abs(beside[1] - beside[0]) < 0.5  # exclude points with a jump between the two samples
     error = np.median(np.abs(slope - gradient[:, 0])[smooth] / (1e-9 + np.abs(gradient[smooth, 0])))
     numbers["gradient"] = float(error)
     print(f"\n  gradient: differs from differences by {error:.1e} of itself (median)")
 
-    # A grid: a vtkImageData. Any other vtkDataSet can be used, too: the field is evaluated at its points.
+    # The result can also be a grid, a vtkImageData. For any other vtkDataSet the field is evaluated at its points.
     start = time.perf_counter()
-    grid = bindpose.winding_number(surface, 32 if options.small else 128)  # samples along the longest side
+    grid = bindpose.winding_number(surface, 32 if options.small else 128)  # number of samples along the longest side
     report = bindpose.report(grid)
     numbers["winding_volume"] = report["winding_volume"]
     print(f"  grid {' x '.join(map(str, grid.GetDimensions()))}: {time.perf_counter() - start:.2f} s, "
           f"{report['winding_volume']:.4g} enclosed")
-    at_vertices = bindpose.winding_number(surface, surface)  # of the surface at its own vertices: about 1/2
+    # winding number of the surface at its own vertices: about 1/2
+    at_vertices = bindpose.winding_number(surface, surface)
     print(f"  at its own vertices on average "
           f"{vtk_to_numpy(at_vertices.GetPointData().GetArray('WindingNumber')).mean():.3f}")
 
-    # Triangles with the wrong orientation subtract, unless they are turned first.
+    # Triangles with the wrong orientation have a negative winding number. Their contribution is subtracted, unless they
+    # are flipped first.
     cut = vtkTriangleFilter()  # triangulates polygons, if any
     cut.SetInputData(surface)
     cut.PassVertsOff()
@@ -353,11 +358,11 @@ def main(options):
         numbers[f"flipped, orient_patches={orient}"] = int((answer != inside).sum())
         print(f"  a tenth of the triangles flipped, orient_patches={orient}: {(answer != inside).sum()} answers change")
 
-    # The open boundary of the surface: the second output of the VTK class, which can be used in any pipeline.
+    # The second output of the VTK class is the open boundary of the surface. The class can be used in any pipeline.
     field = bindpose.vtkWindingNumberField()
     field.SetInputData(surface)
     field.SetDimensions(2, 2, 2)
-    bindpose.run(field)  # Update() with exceptions
+    bindpose.run(field)  # like Update(), but raises an exception on failure
     boundary = field.GetBoundaryOutput()
     numbers["boundary_lines"] = boundary.GetNumberOfLines()
     numbers["open_edges"] = counts["open_edges"]
@@ -379,7 +384,7 @@ def arguments():
 
 if __name__ == "__main__":
     given = arguments()
-    if not os.environ.get("DISPLAY"):  # otherwise VTK ends the process
+    if not os.environ.get("DISPLAY"):  # without a display VTK would end the process
         if not shutil.which("xvfb-run"):
             print("01_inside_outside.py: there is no display; install the Debian package xvfb", file=sys.stderr)
             sys.exit(2)

@@ -44,7 +44,8 @@ def demo_mesh(folder, name=DEMO_MESH):
     archives = [line for line in listed.stdout.splitlines() if line.endswith("data.tar.gz")]
     with tempfile.TemporaryDirectory() as scratch:
         if archives and not os.path.exists(archives[0]):
-            # Minimal systems leave out /usr/share/doc, which contains the package's data.
+            # Minimal systems exclude /usr/share/doc, where the package has its data, so download and unpack the
+            # package.
             subprocess.run(["apt-get", "download", DEMO_PACKAGE], cwd=scratch, check=False,
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             for package in pathlib.Path(scratch).glob("*.deb"):
@@ -244,7 +245,7 @@ def main():
     staging = pathlib.Path(tempfile.mkdtemp(prefix=f".{options.output.name}-", dir=options.output.absolute().parent))
     staging.chmod(0o755)
     program = Program(options.build, staging)
-    # Ctrl-C also reaches the child process, which ends in an orderly way; so does this program.
+    # Handle SIGTERM like Ctrl-C, which also reaches the child process: both processes clean up and end.
     signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
     try:
         mesh, pictures = main_job(options, program, bindpose)

@@ -1,4 +1,4 @@
-// Code shared by the filters of as-rigid-as-possible deformation.
+// Input conversion and binding shared by the filters of as-rigid-as-possible (ARAP) deformation.
 #include "arap_input.h"
 
 #include "vtkReducedARAP.h"

@@ -8,7 +8,8 @@
 namespace bindpose
 {
 
-/// A mesh in the form that the energies use: tets if it has volume cells, otherwise triangles.
+/// A mesh in the form that the as-rigid-as-possible (ARAP) energies use: tets if the mesh has
+/// volume cells, otherwise triangles.
 struct ArapElements
 {
   bool volume = false;
@@ -16,8 +17,9 @@ struct ArapElements
   SurfaceInput surface;
 };
 
-/// Convert a mesh and an energy. Return invalid_input if the cells are neither tets nor triangles,
-/// and for an energy of tets on a surface or of triangles on tets.
+/// Convert a mesh and an energy type to the kernel's types. Return invalid_input if the cells are
+/// neither tets nor triangles, if a surface has an energy of tets, or if tets have an energy of
+/// triangles.
 /// @param energy  a value of vtkReducedARAP::EnergyType
 Status to_arap(vtkPointSet* mesh, int energy, ArapElements& elements, ArapEnergy& result);
 

@@ -8,9 +8,10 @@
 namespace bindpose
 {
 
-/// The inputs of a bind: objects and their modification times. The time of a dataset is not used,
-/// because editing a transform raises the handle dataset's own time, and a filter that executes
-/// again raises that of its output. If two keys are equal, the bind is still valid.
+/// Cache key of a bind, the computation that does not depend on the pose. It contains the addresses
+/// and modification times of all objects that the bind reads. If two keys are equal, the bind is
+/// still valid. The key contains arrays instead of datasets: editing a transform raises the handle
+/// dataset's own time, and a filter that executes again raises the time of its output.
 class BindKey
 {
 public:

@@ -382,8 +382,8 @@ double cell_value(vtkPolyData* data, const char* name, vtkIdType cell, double fa
   vtkDataArray* array = data->GetCellData()->GetArray(name);
   return array && cell < array->GetNumberOfTuples() ? array->GetComponent(cell, 0) : fallback;
 }
-/// Add the cells that are edges and faces of cages, polygons as fans. Their points must be those of
-/// cage vertices, or at the same positions.
+/// Add the edges and faces of cages as cells; split polygons into fans. The points of these cells
+/// must be the points of cage vertices or have the same positions.
 Status add_cages(vtkPolyData* data, const std::vector<Index>& handle_of_cell, Handles& handles)
 {
   std::map<vtkIdType, Index> by_point;
@@ -516,7 +516,7 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
       cells->push_back(cell);
     }
   }
-  // Parent is a cell of the dataset here, and a handle in the kernel.
+  // The array Parent contains cells of the dataset; the kernel's `parent` is the index of a handle.
   for (std::size_t i = 0; i < handles.size(); ++i)
   {
     const Index cell = parents[i];
@@ -588,7 +588,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
     regions->InsertNextValue(handle.region_id);
     ownerships->InsertNextValue(static_cast<int>(handle.ownership));
   }
-  // Edges of cages follow the bones, faces follow all lines.
+  // Store the edges of cages after the bones, and the faces of cages after all lines.
   vtkNew<vtkCellArray> faces;
   for (const bool face : { false, true })
   {

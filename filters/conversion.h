@@ -21,6 +21,9 @@ class vtkUnstructuredGrid;
 namespace bindpose
 {
 
+// Conversion between VTK datasets and the types of the kernels (points, triangles, tets, handles
+// and poses). Memory is shared instead of copied if the layout of the arrays allows it.
+
 /// A matrix that refers to VTK's memory if the layout allows it, and otherwise owns a copy.
 template <typename Matrix>
 class SharedMatrix
@@ -47,8 +50,8 @@ public:
       ? View(Eigen::Map<const Matrix>(this->data_, this->rows_, this->cols_))
       : View(this->owned_);
   }
-  /// Return rows [begin, end), which share memory with this matrix. If this matrix owns a copy, it
-  /// must outlive them.
+  /// Return rows [begin, end) as a matrix that shares memory with this matrix. If this matrix owns
+  /// a copy, this matrix must outlive the result.
   SharedMatrix rows(Index begin, Index end) const
   {
     SharedMatrix part;
@@ -86,8 +89,8 @@ struct SurfaceInput
 };
 
 /// Convert the 2D cells of a polydata or unstructured grid to triangles; strips and polygons are
-/// split. Ids and coordinates are checked. Return invalid_input if there is no 2D cell; the message
-/// names the existing cells.
+/// split. Ids and coordinates are checked. If there is no 2D cell, return invalid_input with a
+/// message that names the cell types of the dataset.
 BINDPOSEFILTERS_EXPORT Status to_surface(vtkDataSet* data, SurfaceInput& surface);
 
 struct TetInput
@@ -96,7 +99,8 @@ struct TetInput
   SharedMatrix<Tets> tets;
 };
 
-/// Convert tets. Return invalid_input, with the first other cell, unless every cell is a tet.
+/// Convert tets. If a cell is not a tet, return invalid_input with a message that names the first
+/// such cell.
 BINDPOSEFILTERS_EXPORT Status to_tets(vtkDataSet* data, TetInput& tets);
 
 /// Return a point or cell array as #tuples x #components doubles; shared if it is a vtkDoubleArray.
@@ -126,14 +130,15 @@ BINDPOSEFILTERS_EXPORT Status to_handles(
 /// Return a handle dataset with all documented cell arrays, in the rest pose, mode full.
 BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles);
 
-/// Return Mode, Transform, Stretch and Twist of the cells; missing arrays mean rest and mode full.
-/// Return invalid_input, with the handle's name, for numbers that are not finite or arrays of a
-/// wrong size.
+/// Return Mode, Transform, Stretch and Twist of the cells. A missing array means the rest pose and
+/// mode full. Return invalid_input, with the handle's name, for values that are not finite or
+/// arrays of a wrong size.
 BINDPOSEFILTERS_EXPORT Status to_pose(
   vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells, Pose& pose);
 
-/// Return a cell array of one number per handle; 0 if it is missing. Return invalid_input for an
-/// array of several components and, with the handle's name, for a number that is not finite.
+/// Return a cell array of layers, one value per handle; 0 if the array is missing. Return
+/// invalid_input for an array of several components and, with the handle's name, for a value that
+/// is not finite.
 BINDPOSEFILTERS_EXPORT Status to_layers(vtkPolyData* data, const Handles& handles,
   const std::vector<Index>& cells, const std::string& name, Eigen::VectorXd& layers);
 

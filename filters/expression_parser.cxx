@@ -1,5 +1,5 @@
-// The parser reports errors by events with several lines. The first line that names the error
-// becomes the clause.
+// VTK's parser reports errors as events whose texts have several lines. The first line that names
+// the error becomes the status message.
 #include "expression_parser.h"
 
 #include "vtkCallbackCommand.h"
@@ -13,7 +13,8 @@ namespace bindpose
 
 namespace
 {
-/// Return the message of "ERROR: In …\nvtkExprTkFunctionParser (0x…): message\n\n" in one line.
+/// Return the message part of an event text "ERROR: In …\nvtkExprTkFunctionParser (0x…):
+/// message\n\n" in one line.
 std::string message_of(const std::string& event)
 {
   const std::size_t begin = event.find("): ");
@@ -45,7 +46,7 @@ ExpressionParser::ExpressionParser()
     });
   this->parser_->AddObserver(vtkCommand::ErrorEvent, keep);
   this->parser_->AddObserver(vtkCommand::WarningEvent, keep);
-  // Otherwise the parser would report a value that is not finite like any other error.
+  // Without this option the parser would report a value that is not finite as an ordinary error.
   this->parser_->ReplaceInvalidValuesOn();
   this->parser_->SetReplacementValue(std::numeric_limits<double>::quiet_NaN());
 }

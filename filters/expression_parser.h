@@ -19,8 +19,9 @@ public:
   ExpressionParser();
   ~ExpressionParser();
 
-  /// Evaluate an expression. Return invalid_input, with a clause that names the error, if the text
-  /// is not an expression with one number as its value. The value may be infinite or NaN.
+  /// Evaluate an expression at time t. If the text is not an expression with one number as its
+  /// value, return invalid_input with a message that names the error. The value may be infinite or
+  /// NaN.
   Status evaluate(const std::string& text, double t, double& value);
 
 private:

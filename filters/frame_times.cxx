@@ -1,4 +1,5 @@
-// Frames of a sequence as time steps of a pipeline: frame k covers k / fps to (k + 1) / fps.
+// Provides the frames of a sequence as time steps of a VTK pipeline. Frame k is shown from time k /
+// fps to (k + 1) / fps.
 #include "frame_times.h"
 
 #include "vtkInformation.h"

@@ -8,6 +8,8 @@ class vtkInformation;
 namespace bindpose
 {
 
+// Frames of a sequence as time steps of a VTK pipeline: frame k is at the time k / fps.
+
 /// Set the time steps of an output port, in ascending order; an empty list removes them.
 void offer_times(vtkInformation* output, const std::vector<double>& times);
 
@@ -19,8 +21,8 @@ void offer_frames(vtkInformation* output, int frames, double frames_per_second);
 /// time in seconds.
 bool asked_time(vtkInformation* output, double& time);
 
-/// Return the frame at a time in seconds: the last frame that is not later, clamped to the first
-/// and last frames.
+/// Return the frame that is shown at a time in seconds: the last frame whose time is not later,
+/// clamped to the first and last frames.
 int frame_at(double time, int frames, double frames_per_second);
 
 } // namespace bindpose

@@ -1,6 +1,6 @@
-// Conversion between handles and joints. glTF's joints have a frame and a parent, but no tail and
-// no handle type. Joints of Bindpose store both as a note in the file. For joints of other programs
-// the children determine the end of a bone.
+// Conversion between handles and glTF joints. A glTF joint has a frame and a parent, but no tail
+// and no handle type. Bindpose stores both in the extras of the joint: `joint.note`, the record of
+// the handle. For files of other programs the children of a joint determine the end of its bone.
 #include "gltf_data.h"
 
 #include "pose/pose_file.h"
@@ -24,7 +24,7 @@ Eigen::Affine3d joint_frame(const Handle& handle)
   frame.translation() = handle.head;
   if (handle.kind == HandleKind::bone)
   {
-    // Blender draws bones along y.
+    // Align the y axis with the bone, because Blender draws bones along y.
     frame.linear() = minimal_arc(Vec3::UnitY(), handle.tail - handle.head);
   }
   return frame;
@@ -73,10 +73,10 @@ bool kind_of(const std::string& word, HandleKind& kind)
   return false;
 }
 
-/// Creates a handle for each joint. A note that agrees with the inverse bind matrix is used. A
-/// joint that was moved since, or that has no note, becomes a bone to the mean of its children, or
-/// a point if it has no children. Joints at the same position become short bones along their y
-/// axes, because two handles cannot be at the same position.
+/// Creates a handle for each joint. A record of the handle in the extras is used if it agrees with
+/// the inverse bind matrix. A joint without such a record becomes a bone to the mean of its
+/// children, or a point if it has no children. Joints at the same position become short bones along
+/// their y axes, because two handles cannot be at the same position.
 class HandleMaker
 {
 public:
@@ -101,7 +101,7 @@ public:
 
   double extent() const { return this->extent_; }
 
-  /// Handles in the order of the joints.
+  /// Return one handle per joint, in the order of the joints.
   Handles make()
   {
     Handles handles;
@@ -124,8 +124,8 @@ public:
   }
 
 private:
-  /// Report whether the joint is a control bone: it has no weights, although others have. If one
-  /// joint has all weights of a skin, the weights are a placeholder and the result is false.
+  /// Report whether the joint is a control bone, i.e. it has no weights although other joints have.
+  /// If one joint has all weights of a skin, the weights are a placeholder and the result is false.
   bool moves_nothing(std::size_t j) const
   {
     return (this->largest_.array() > 0.0).count() > 1 &&
@@ -306,7 +306,8 @@ Status read_gltf(const std::string& path, GltfData& data)
   {
     return Status::invalid_input(path + ": " + usable.message);
   }
-  // If a handle comes from its note, its frame replaces the joint's frame, to have all digits.
+  // If a handle comes from the record in the extras, its frame replaces the joint's frame, because
+  // the record stores all digits.
   std::vector<Eigen::Affine3d> rest;
   std::vector<Eigen::Affine3d> posed;
   Weights weights(skin.weights.rows(), skin.weights.cols());

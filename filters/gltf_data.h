@@ -11,13 +11,14 @@
 namespace bindpose
 {
 
-/// Return the frame of the joint for a handle: its origin is the pivot, its y axis is along a bone.
+/// Return the frame of the joint for a handle. Its origin is the handle's pivot; for a bone its y
+/// axis points along the bone.
 Eigen::Affine3d joint_frame(const Handle& handle);
 
 Eigen::Affine3d to_affine(const Affine& transform);
 
-/// Return one joint per handle, in the order of the handles, posed by the transforms. Notes store
-/// the properties of handles that glTF cannot express.
+/// Return one joint per handle, in the order of the handles, posed by the transforms. Each joint
+/// gets a record of the handle (`note`) for the properties that glTF cannot express.
 std::vector<GltfJoint> to_joints(const Handles& handles, const std::vector<Affine>& transforms);
 
 /// Contents of a glTF file.
@@ -26,7 +27,7 @@ struct GltfData
   vtkSmartPointer<vtkPolyData> mesh; ///< with `Weights` if there is a skin
   vtkSmartPointer<vtkPolyData> handles; ///< without cells if there is no skin
   Handles handle_list;
-  std::vector<Pose> poses; ///< the frames of its animation
+  std::vector<Pose> poses; ///< the frames of the animation, one pose per frame
   double frames_per_second = 24.0;
 };
 

@@ -1,5 +1,5 @@
-// A grid is centered on its box. If the box is not a whole number of steps wide, the grid extends
-// beyond it equally on both sides.
+// Computes the sample grid that a user requests. The grid is centered on the requested box. If the
+// box is not a whole number of voxels wide, the grid extends equally beyond both ends.
 #include "grid_request.h"
 
 #include <cmath>
@@ -15,14 +15,14 @@ namespace
 /// error.
 constexpr double most_samples = 1e12;
 
-/// Return the number of samples along each side for a step size. The 1e-9 keeps rounding from
-/// adding a sample to a side that is a whole number of steps long.
+/// Return the number of samples along each side of a box for a distance between samples. The 1e-9
+/// keeps rounding from adding a sample to a side that is a whole number of distances long.
 Vec3 counts_at(const Vec3& size, const Vec3& step)
 {
   return (size.cwiseQuotient(step).array() - 1e-9).ceil().max(0.0) + 1.0;
 }
 
-/// Return the smallest step of cubic voxels with at most this number of samples.
+/// Return the smallest sample distance of a grid of cubic voxels with at most `count` samples.
 double step_for_count(const Vec3& size, double count)
 {
   double fine = 0.0;
@@ -84,7 +84,7 @@ Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid
   if (has_dimensions)
   {
     count = Vec3(n[0], n[1], n[2]);
-    // A single sample has no extent: it is in the middle.
+    // If a side has a single sample, the sample is in the middle of the side.
     const Vec3 step =
       (count.array() > 1.0).select((size.array() / (count.array() - 1.0)).matrix(), Vec3::Zero());
     const double largest = step.maxCoeff() > 0.0 ? step.maxCoeff() : 1.0;

@@ -8,22 +8,23 @@
 namespace bindpose
 {
 
-/// User settings of a grid around an object. The first of dimensions, spacing, count and
-/// samples_along_longest_side that is given determines the resolution.
+/// User settings of a grid of samples around an object. The first of dimensions, spacing, count and
+/// samples_along_longest_side that is specified determines the resolution.
 struct GridRequest
 {
-  int dimensions[3] = { 0, 0, 0 }; ///< samples along x, y, z; all 0: not given
-  double spacing[3] = { 0.0, 0.0, 0.0 }; ///< between samples; all 0: not given
-  Index count = 0; ///< maximum number of samples in total, at least 8; 0: not given
+  int dimensions[3] = { 0, 0, 0 }; ///< samples along x, y, z; all 0: not specified
+  double spacing[3] = { 0.0, 0.0, 0.0 }; ///< distance between samples; all 0: not specified
+  Index count = 0; ///< maximum number of samples in total, at least 8; 0: not specified
   int samples_along_longest_side = 64;
-  double bounds[6] = { 0.0, -1.0, 0.0, -1.0, 0.0, -1.0 }; ///< lower end above upper end: not given
-  double padding = 0.1; ///< on every side of `around`, in diagonals, unless bounds are given
+  double bounds[6] = { 0.0, -1.0, 0.0, -1.0, 0.0, -1.0 }; ///< lower > upper: not specified
+  double padding = 0.1; ///< added to `around`, in its diagonals; not used with bounds
   int flat = -1; ///< axis along which there is neither padding nor more than one sample; -1: none
 };
 
-/// Compute the grid that covers the bounds, or the padded box; its extent starts at 0. Voxels are
-/// cubes unless spacing is given, or both bounds and dimensions. Return invalid_input for invalid
-/// requests and for more than 1e12 samples.
+/// Compute the grid that covers `request.bounds`, or the padded box `around` if there are no
+/// bounds. The extent of the grid starts at 0. Voxels are cubes unless spacing is specified, or
+/// both bounds and dimensions are. Return invalid_input for invalid requests and for more than 1e12
+/// samples.
 Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid);
 
 } // namespace bindpose

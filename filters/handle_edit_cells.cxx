@@ -1,5 +1,6 @@
-// The dataset is converted to a list of handles, the list is edited, and a new dataset is created
-// from it. Then every array that is not part of the list is copied, cell by cell.
+// Edits a handle dataset: the dataset is converted to a list of handles, the list is edited, and a
+// new dataset is created from the list. Then every array that the list does not contain is copied,
+// cell by cell.
 #include "handle_edit_cells.h"
 
 #include "pseudo_edge_cells.h"
@@ -19,7 +20,8 @@ namespace bindpose
 {
 namespace
 {
-constexpr double none = std::numeric_limits<double>::quiet_NaN(); // no color
+// marks a handle without its own color
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 const char* const pose_arrays[4] = { "Mode", "Transform", "Stretch", "Twist" };
 
@@ -55,15 +57,15 @@ vtkDataArray* colors_of(vtkPolyData* data)
   return data->GetCellData()->GetArray("Color");
 }
 
-/// Copy the arrays of `before` that `now` lacks, and the pose arrays, whose values follow the
-/// handles.
+/// Copy the arrays of `before` that `now` lacks. Also copy the values of the pose arrays, which are
+/// assigned to the same handles as before.
 void carry_arrays(vtkPolyData* before, vtkPolyData* now, const std::vector<Index>& source,
   const std::vector<Index>& model)
 {
   vtkCellData* from = before->GetCellData();
   if (from->GetArray("Color"))
   {
-    colors_of(before); // new handles have NaN, which unsigned chars cannot store
+    colors_of(before); // convert to doubles: new handles get NaN, which unsigned chars cannot store
   }
   for (int a = 0; a < from->GetNumberOfArrays(); ++a)
   {
@@ -129,7 +131,7 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
     return status;
   }
   const vtkSmartPointer<vtkPolyData> now = to_polydata(after.handles);
-  // to_polydata() numbers bones last.
+  // to_polydata() stores bones as the last cells, so cells and handles have different orders.
   std::vector<Index> cell_of_handle(after.handles.size(), -1);
   Index next = 0;
   for (const bool bones : { false, true })
@@ -198,7 +200,8 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
 
 namespace
 {
-/// Set the value of one cell in an array of one number per cell; create it with zeros if absent.
+/// Set the value of one cell in an array with one value per cell. Create the array with zeros if it
+/// is absent.
 template <typename Array>
 void set_number(vtkPolyData* data, const char* name, Index cell, double value)
 {

@@ -21,20 +21,22 @@ BINDPOSEFILTERS_EXPORT Status to_editable(
 using HandleListEdit = std::function<Status(const Handles& before, EditedHandles& after)>;
 
 /// Edit a handle dataset in place. Its points, cells and handle arrays are replaced by new ones.
-/// All other cell arrays (Mode, Transform, Stretch, Twist, Color, Locked and any others) follow
-/// their handles. A new handle is at rest with mode full. If it is a copy, it has Color, Locked and
-/// unknown arrays of the original handle; otherwise it has no color and zeros. A pseudo-edge is
-/// kept if both its points are kept. A rejected edit changes nothing.
+/// All other cell arrays (Mode, Transform, Stretch, Twist, Color, Locked and any others) keep their
+/// values for each handle. A new handle is at rest with mode full. A copied handle gets Color,
+/// Locked and all arrays unknown to Bindpose from the original handle. Any other new handle has no
+/// color and zeros in the other arrays. A pseudo-edge is kept if both its points are kept. A
+/// rejected edit changes nothing.
 ///
-/// Cells are numbered points first, then bones, so a new point changes the numbers of bones.
-/// @param cell_of  for each cell before the edit, its number after the edit, or -1
-/// @param added  cells that are new
+/// In the dataset all points come before all bones, so adding a point changes the cell ids of the
+/// bones.
+/// @param cell_of  for each cell before the edit, its id after the edit, or -1
+/// @param added  ids of the new cells
 BINDPOSEFILTERS_EXPORT Status edit_handles(vtkPolyData* data, const HandleListEdit& edit,
   std::vector<Index>* cell_of = nullptr, std::vector<Index>* added = nullptr);
 
-/// Set the cell array `Color`: red, green and blue from 0 to 1 if a handle has its own color, three
-/// NaN if it is drawn in the color of its mode. The array is created if absent. An array of
-/// unsigned chars is converted to doubles.
+/// Set the cell array `Color` of one handle: red, green and blue from 0 to 1. Without `color` the
+/// cell gets three NaN: the handle is then drawn in the color of its mode. The array is created if
+/// absent. An array of unsigned chars is converted to doubles.
 BINDPOSEFILTERS_EXPORT void set_handle_color(
   vtkPolyData* data, Index cell, const std::optional<std::array<double, 3>>& color);
 
@@ -42,8 +44,8 @@ BINDPOSEFILTERS_EXPORT void set_handle_color(
 /// created if absent.
 BINDPOSEFILTERS_EXPORT void set_handle_locked(vtkPolyData* data, Index cell, bool locked);
 
-/// Set the cell array `Layer`: a larger layer is in front (vtkDepthOrder). The array is created
-/// with zeros if absent.
+/// Set the cell array `Layer` of one handle: handles with a larger layer are in front
+/// (vtkDepthOrder). The array is created with zeros if absent.
 BINDPOSEFILTERS_EXPORT void set_handle_layer(vtkPolyData* data, Index cell, double layer);
 
 } // namespace bindpose

@@ -14,7 +14,7 @@ namespace bindpose
 
 namespace
 {
-/// Return the bones and the sides of all cage elements.
+/// Return the bones, and the edges of cages and of cage faces.
 std::vector<std::array<Index, 2>> segments_of(const HandleGeometry& geometry)
 {
   std::vector<std::array<Index, 2>> segments = geometry.bones;
@@ -62,7 +62,7 @@ Status to_handle_geometry(vtkPolyData* data, HandleGeometry& geometry)
       geometry.bones.push_back({ geometry.point_of.back(), add(handle.tail) });
     }
   }
-  // Cage elements are not handles, but weights are linear along them.
+  // Edges and faces of cages are not handles, but weights are linear along them.
   vtkDataArray* kinds = data->GetCellData()->GetArray("HandleKind");
   vtkNew<vtkIdList> ids;
   for (vtkIdType cell = 0; kinds && cell < data->GetNumberOfCells(); ++cell)

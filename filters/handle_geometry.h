@@ -15,7 +15,7 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Positions of the handles of a dataset, for meshers that make them part of the mesh.
+/// Points and elements of a handle dataset, for meshers that make them part of the mesh.
 struct HandleGeometry
 {
   std::vector<Vec3> points;
@@ -25,17 +25,19 @@ struct HandleGeometry
   std::vector<Index> point_of; ///< the point of each handle, for a bone its head; -1 for regions
 };
 
-/// Convert all handles (see vtkHandleFileReader) and the cage elements, which are not handles.
+/// Convert all handles (see vtkHandleFileReader) and the edges and faces of cages, which are not
+/// handles.
 BINDPOSEFILTERS_EXPORT Status to_handle_geometry(vtkPolyData* data, HandleGeometry& geometry);
 
-/// Return faces of cages as triangles, and their sides and the bones as segments.
+/// Return the faces of cages as triangles, and the edges of the faces and the bones as segments.
 BINDPOSEFILTERS_EXPORT HandlePlaces to_handle_places(const HandleGeometry& geometry);
 
-/// Return the handles without z; sides of cage elements and bones become segments.
+/// Return the handles projected to the xy plane. Bones, and the edges of cages and of cage faces,
+/// become segments.
 PlanarHandles to_planar_handles(const HandleGeometry& geometry);
 
-/// Report handles[].name and handles[].vertex: the vertex of each handle's point, -1 if there is
-/// none.
+/// Add handles[].name and handles[].vertex to a report. The vertex is the mesh vertex at the
+/// handle's point, -1 if there is none.
 void report_handles(
   const HandleGeometry& geometry, const std::vector<Index>& vertex_of_point, Report& report);
 

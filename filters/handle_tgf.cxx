@@ -1,5 +1,6 @@
-// The inverse of vtkHandleFileReader: points first, then bones, so that the columns of the file are
-// those of the handles.
+// Converts handles to a graph for a .tgf file, the inverse of vtkHandleFileReader. Points are
+// written first, then bones, so that weight columns computed with the file match those of the
+// handles.
 #include "handle_tgf.h"
 
 #include <algorithm>
@@ -11,7 +12,8 @@ namespace bindpose
 
 namespace
 {
-/// Return the parent that vtkHandleFileReader finds: the first bone whose tail is the head.
+/// Return the parent that vtkHandleFileReader derives from shared nodes: the first bone whose tail
+/// is the handle's head; -1 if there is none.
 Index parent_by_joint(const Handles& handles, const Handle& handle)
 {
   const auto found = std::find_if(handles.begin(), handles.end(),

@@ -1,6 +1,6 @@
-// A table has one row, and a point set one point, per instance. Arrays named after handles contain
-// their transforms; handles without an array keep the base pose. A composite has one handle dataset
-// per instance.
+// Reads the poses of the instances of a crowd. A table has one row per instance, a point set one
+// point, and a composite one handle dataset. In tables and point sets, arrays named after handles
+// contain the transforms. Handles without an array keep the base pose.
 #include "instance_poses.h"
 
 #include "vtkCompositeDataIterator.h"

@@ -12,14 +12,14 @@ namespace bindpose
 struct InstancePoses
 {
   std::vector<Pose> poses; ///< one per instance
-  std::vector<Affine> placements; ///< one per instance; empty: no instance is placed
+  std::vector<Affine> placements; ///< one per instance; empty: instances have no placement
 };
 
 /// Convert the poses of instances as documented in vtkCrowdDeformation: rows of a table, points, or
 /// a composite of handle datasets. `base` is the pose of handles without an array. Return
-/// invalid_input, with instance and handle, if there is no instance, or for arrays of a wrong size,
-/// an unknown mode, other handles, or numbers that are not finite. A warning is issued if there is
-/// neither an array named after a handle nor a Mode array.
+/// invalid_input if there is no instance. Also return it, with instance and handle, for arrays of a
+/// wrong size, an unknown mode, handles that differ from the input's, or values that are not
+/// finite. A warning is issued if there is neither an array named after a handle nor a Mode array.
 Status to_instance_poses(
   vtkDataObject* data, const Handles& handles, const Pose& base, InstancePoses& instances);
 

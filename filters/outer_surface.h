@@ -6,8 +6,8 @@
 namespace bindpose
 {
 
-/// Return the outer surface of a dataset: the boundary of its tets, otherwise its 2D cells. The
-/// errors are those of to_surface().
+/// Return the outer surface of a dataset: the boundary of its tets, or its 2D cells if it is not a
+/// mesh of tets. The errors are those of to_surface().
 BINDPOSEFILTERS_EXPORT Status to_outer_surface(vtkDataSet* data, SurfaceInput& surface);
 
 } // namespace bindpose

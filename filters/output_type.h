@@ -11,8 +11,8 @@
 namespace bindpose
 {
 
-/// Replace the output of a port by an empty object of the class of `like`, unless it has this class
-/// already; for RequestDataObject. Do nothing if `like` is null.
+/// Make an output port's object an empty object of the class of `like`; keep the current object if
+/// it has this class. Call this in RequestDataObject. Do nothing if `like` is null.
 inline void match_output_type(vtkDataObject* like, vtkInformationVector* output, int port = 0)
 {
   vtkInformation* info = output->GetInformationObject(port);

@@ -22,7 +22,7 @@ namespace bindpose
 
 namespace
 {
-/// Array and component of an image's alpha.
+/// The array and the component of that array that contain an image's alpha.
 struct Alpha
 {
   vtkDataArray* array = nullptr;
@@ -200,7 +200,8 @@ Status to_planar_input(vtkPolyData* curves, PlanarInput& input)
     }
     box.add(points.row(v).transpose());
   }
-  constexpr double flat = 1e-6; // fraction of the diagonal; file formats round coordinates
+  // largest z deviation of a flat shape, as a fraction of the diagonal; files round coordinates
+  constexpr double flat = 1e-6;
   if (box.upper.z() - box.lower.z() > flat * (box.upper - box.lower).head<2>().norm())
   {
     std::string range = std::to_string(box.lower.z()) + " to " + std::to_string(box.upper.z());

@@ -21,17 +21,17 @@ struct PlanarInput
   PlanePoints points;
   Segments segments;
   double z = 0.0;
-  Vec2 lower = Vec2::Zero(); ///< lower corner of the box that texture coordinates 0 to 1 cover
+  Vec2 lower = Vec2::Zero(); ///< lower corner of the box whose texture coordinates are 0 to 1
   Vec2 upper = Vec2::Zero();
-  Report report; ///< domain and counts
+  Report report; ///< `domain` and counts
 };
 
-/// Return the outline of an image: of its alpha, or the border of the image if it has no alpha or
-/// with `rectangle`.
+/// Return the outline of an image. This is the contour of its alpha, or the border of the image if
+/// it has no alpha or if `rectangle` is true.
 Status to_planar_input(vtkImageData* image, bool rectangle, const ImageOutlineOptions& options,
   PlanarInput& input, ExecutionContext& context);
 
-/// Return the lines and the sides of the polygons of a polydata in a plane z = const.
+/// Return the lines and the edges of the polygons of a polydata in a plane z = const.
 Status to_planar_input(vtkPolyData* curves, PlanarInput& input);
 
 } // namespace bindpose

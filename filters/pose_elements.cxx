@@ -1,4 +1,5 @@
-// FE meshes can be posed too: a cell that is not a tet is split with VTK's triangulation.
+// Splits the cells of a mesh into simplices to measure their stretch. Meshes with hexes and other
+// finite elements can be posed too: VTK's triangulation splits each such cell.
 #include "pose_elements.h"
 
 #include "vtkCell.h"

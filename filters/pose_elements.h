@@ -17,16 +17,17 @@ struct PoseElements
   bool volume = false; ///< the elements are the tets, otherwise the triangles
 };
 
-/// Return the volume cells as tets (hexes and others are split), otherwise the 2D cells as
-/// triangles. If the cells are invalid, the result is empty; filters that need the cells report the
-/// error.
+/// Split the volume cells into tets (including hexes and other cell types). If there are none,
+/// return the 2D cells as triangles. If the cells are invalid, the result is empty; filters that
+/// need the cells report the error.
 PoseElements to_pose_elements(vtkPointSet* mesh);
 
 /// Return the rest shapes of the tets or triangles.
 RestElements to_rest_elements(const PoseElements& elements, PointsView rest);
 
-/// Measure the stretch. Return the kernel's report. With options.values the cell array Stretch of
-/// the result gets the largest and smallest stretch of each cell, NaN for cells without elements.
+/// Measure the stretch and return the kernel's report. If options.values is true, add the cell
+/// array Stretch to the result: the largest and smallest stretch of each cell, NaN for cells
+/// without elements.
 Status measure_stretch(ExecutionContext& context, const ElementStretchOptions& options,
   const PoseElements& elements, const RestElements& rest, PointsView posed, vtkDataSet* result);
 

@@ -13,17 +13,19 @@ struct vtkBindAlgorithm::PoseInput
   bindpose::WeightsView weights; ///< #V x #handles
   const bindpose::Handles& handles;
   const bindpose::Pose& pose;
-  vtkPolyData* handle_data; ///< including cells that are not handles: pseudo-edges
-  const std::vector<bindpose::Index>& cells; ///< cells of the handles in handle_data
+  vtkPolyData* handle_data; ///< also has cells that are not handles (pseudo-edges)
+  const std::vector<bindpose::Index>& cells; ///< the cell of each handle in handle_data
 };
 
 /// Output of the subclasses of vtkPoseAlgorithm.
 struct vtkPoseAlgorithm::PosedPoints
 {
   bindpose::Points points;
-  /// The transforms that were used, one per handle; if empty, none are attached to the output.
+  /// The transforms that were used, one per handle. If empty, the output gets no array of
+  /// transforms.
   std::vector<bindpose::Affine> transforms;
-  /// The groups and rotations of the energy, if the filter attaches them; otherwise null and empty.
+  /// The vertex groups and the rotations of the energy if the filter adds them to the output;
+  /// otherwise null and empty.
   const bindpose::RotationGroups* groups = nullptr;
   std::vector<Eigen::Matrix3d> rotations;
 };

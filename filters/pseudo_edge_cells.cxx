@@ -1,4 +1,6 @@
-// Pseudo-edges are cells of the handle dataset, but they are not handles.
+// Reads and writes pseudo-edges: lines between point handles that determine how points rotate
+// (Jacobson et al., "Bounded Biharmonic Weights", 2011). They are cells of the handle dataset, but
+// they are not handles.
 #include "pseudo_edge_cells.h"
 
 #include "vtkCellArray.h"
@@ -87,7 +89,7 @@ void add_pseudo_edges(vtkPolyData* data, const std::vector<Index>& cells, const 
     lines->InsertNextCell(2, points.data());
   }
   data->SetLines(lines);
-  data->DeleteCells(); // cells with the old numbering
+  data->DeleteCells(); // removes VTK's internal index of the old cells
   const vtkIdType count = data->GetNumberOfCells();
   for (int i = 0; i < data->GetCellData()->GetNumberOfArrays(); ++i)
   {

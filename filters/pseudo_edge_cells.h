@@ -8,12 +8,12 @@
 namespace bindpose
 {
 
-/// The HandleKind of a pseudo-edge's cell, a line between two point handles. It is not a handle and
-/// only affects poses.
+/// The HandleKind of a pseudo-edge's cell, a line between two point handles. A pseudo-edge is not a
+/// handle; it only determines how its points rotate in a pose.
 constexpr int pseudo_edge_kind = -2;
 
 /// Return the pseudo-edges of a handle dataset without duplicates. Their ends must be the points of
-/// point handles or at the same positions; otherwise return invalid_input with the cell.
+/// point handles, or have the same positions. Otherwise return invalid_input, with the cell.
 /// @param cells  the cells of the handles, from to_handles()
 BINDPOSEFILTERS_EXPORT Status to_pseudo_edges(
   vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells, PseudoEdges& edges);

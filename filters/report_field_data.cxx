@@ -60,7 +60,8 @@ vtkSmartPointer<vtkAbstractArray> make_array(const Report::Value& value)
     value);
 }
 
-/// Report whether a key is that of a list, so that a list of one entry is read as a list.
+/// Report whether a report key is the key of a list, so that an array with one value is read as a
+/// list.
 bool is_list(const std::string& key)
 {
   return key.find("[]") != std::string::npos;
@@ -146,7 +147,7 @@ Report read_report(vtkDataObject* data)
     }
     else if (auto* numbers = vtkDataArray::SafeDownCast(array))
     {
-      vtkNew<vtkIdTypeArray> integers; // files may store them as another integer type
+      vtkNew<vtkIdTypeArray> integers; // files may store the array with another integer type
       integers->DeepCopy(numbers);
       report.set(key, values_of<std::int64_t>(key, integers.Get()));
     }

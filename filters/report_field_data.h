@@ -11,6 +11,9 @@ class vtkDataObject;
 namespace bindpose
 {
 
+// Conversion between the report of a kernel (measurements by key) and the field data arrays
+// `Report.KEY` of a dataset.
+
 class ExecutionContext;
 
 /// Report whether an entry of a report measures the run rather than its result: seconds,
@@ -19,20 +22,20 @@ class ExecutionContext;
 BINDPOSEFILTERS_EXPORT bool measures_run(const std::string& key);
 
 /// Replace all `Report.*` field data arrays of the data by the report's entries: integers as
-/// vtkIdTypeArray, numbers as vtkDoubleArray, texts as vtkStringArray, one tuple per value. Entries
-/// that measure the run are left out, so that equal results give equal files.
+/// vtkIdTypeArray, floating-point values as vtkDoubleArray, texts as vtkStringArray, one tuple per
+/// value. Entries that measure the run are left out, so that equal results give equal files.
 BINDPOSEFILTERS_EXPORT void attach_report(vtkDataObject* data, const Report& report);
 
 /// Return the report of a data object; empty if it has none.
 BINDPOSEFILTERS_EXPORT Report read_report(vtkDataObject* data);
 
-/// Return a failure that repeats the failure in the data's report; ok if the data is null or has a
-/// result.
+/// If the report of a data object contains a failure, return a status with this failure. Return ok
+/// if the data is null or has a result.
 BINDPOSEFILTERS_EXPORT Status upstream_failure(vtkDataObject* data);
 
-/// Add the entries that are common to all reports to the status's report: status, message and
-/// warnings at the beginning, then the report's own entries, then seconds per phase, their total
-/// and the peak memory.
+/// Complete the status's report with the entries that all reports have. Status, message and
+/// warnings are inserted at the beginning; seconds per phase, their total and the peak memory are
+/// added at the end.
 BINDPOSEFILTERS_EXPORT void complete_report(Status& status, const ExecutionContext& context);
 
 } // namespace bindpose

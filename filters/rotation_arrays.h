@@ -11,10 +11,10 @@ class vtkPointData;
 namespace bindpose
 {
 
-/// Add the point arrays RotationCluster, the index of the rotation that each vertex follows (-1:
-/// none), and Rotation, its axis times its angle in degrees.
-/// @param clusters  the array RotationCluster; created if null, because it is the same for all
-/// poses of a bind
+/// Add two point arrays. RotationCluster is the index of the rotation that each vertex follows (-1:
+/// none). Rotation is that rotation as axis times angle in degrees.
+/// @param clusters  the array RotationCluster; created if null and then reused, because all poses
+/// of a bind have the same clusters
 void add_rotations(const RotationGroups& groups, const std::vector<Eigen::Matrix3d>& rotations,
   vtkSmartPointer<vtkIntArray>& clusters, vtkPointData* data);
 

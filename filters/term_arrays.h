@@ -13,8 +13,9 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Names of the mesh's point arrays with the terms of weights (see vtkWeightsAlgorithm). An empty
-/// name disables the array.
+/// Names of the mesh's point arrays with the terms of weights. Terms are optional constraints and
+/// energies that a user adds to the weights problem: rigidity, rigid sets, bounds, pinned weights
+/// and mirror symmetry (see vtkWeightsAlgorithm). An empty name disables the array.
 struct TermArrayNames
 {
   std::string rigidity = "Rigidity";
@@ -27,7 +28,7 @@ struct TermArrayNames
   std::vector<std::string> all() const;
 };
 
-/// Convert the mesh's arrays to terms; missing arrays disable their term. Return invalid_input if
+/// Convert the mesh's arrays to terms; a missing array disables its term. Return invalid_input if
 /// an array has the wrong number of components, or a label or id is not an integer.
 Status to_terms(
   vtkDataSet* mesh, const TermArrayNames& names, Index handle_count, WeightTerms& terms);
@@ -36,8 +37,8 @@ Status to_terms(
 /// (two components).
 constexpr const char* handle_bounds_name = "WeightBounds";
 
-/// Convert the bounds of the handles. NaN is replaced by `everywhere`. If there is no array and
-/// `everywhere` is 0, 1, the terms have no bounds.
+/// Read the bounds of the handles' weights. NaN is replaced by the default `everywhere` (lower,
+/// upper). If there is no array and `everywhere` is 0, 1, the terms have no bounds.
 /// @param cells  cells of the dataset, one per handle
 Status to_handle_bounds(vtkPolyData* handles, const std::vector<Index>& cells,
   const double (&everywhere)[2], WeightTerms& terms);

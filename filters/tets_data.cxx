@@ -51,7 +51,8 @@ vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(
   {
     grid->GetCellData()->AddArray(to_array("InsideFraction", result.inside_fractions));
   }
-  // Unlike the report, this array is kept when the tets are written and read again.
+  // A reader replaces the report when the tets are written to a file and read again, but keeps this
+  // array.
   vtkNew<vtkStringArray> name;
   name->SetName("Method");
   name->InsertNextValue(method);

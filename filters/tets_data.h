@@ -13,9 +13,10 @@ class vtkUnstructuredGrid;
 namespace bindpose
 {
 
-/// Return output 0 of vtkTetrahedralizeSurface: tets with `OriginalPointIds`, `WindingNumber`,
-/// `Label`, `MinDihedralAngle` and, for embed, `InsideFraction`; field data `Method`.
-/// @param method  the method as in the report
+/// Return output 0 of vtkTetrahedralizeSurface: tets with the arrays `OriginalPointIds`,
+/// `WindingNumber`, `Label`, `MinDihedralAngle` and the field data `Method`. The method embed adds
+/// `InsideFraction`.
+/// @param method  name of the meshing method, as in the report
 BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(
   const TetrahedralizeResult& result, const std::string& method);
 

@@ -1,4 +1,5 @@
-// Connects automatic/automatic_handles.h to VTK: converts the surface and turns handles into cells.
+// Connects the kernel of automatic/automatic_handles.h to VTK. This filter converts the surface to
+// the kernel's types, and the resulting handles to cells.
 #include "vtkAutomaticHandles.h"
 
 #include "automatic/automatic_handles.h"

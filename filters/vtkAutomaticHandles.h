@@ -4,24 +4,26 @@
  *   shape
  *
  * **Input**: a surface (vtkPointSet with 2D cells), which may be unclean, or tets, whose boundary
- * is used. **Output**: a handle dataset in the rest pose, as vtkBoundedBiharmonicWeights takes it.
+ * is used. **Output**: a handle dataset in the rest pose, for example as input of
+ * vtkBoundedBiharmonicWeights.
  *
  * SKELETON contracts the surface to a curve (mean curvature flow, in the helper executable
  * bindpose-mesher) and simplifies the curve. Ends and junctions are joints. Branches shorter than
  * the thickness of the shape are pruned. The other branches are split where they bend into bones
  * b1, b2, … Bones point away from the joint nearest to the centroid of mass. The `Parent` of a bone
- * is the bone whose tail is its head. Each component has its own bones; a ball-like component has a
- * point. Exactly one bone has no parent: among the bones at the root of the largest component, the
- * one with the largest volume. It is the parent of the others at that root. The first bone of every
- * other component, and every point, has the nearest bone of the largest component as its parent.
- * A cycle is cut where it is farthest from the root, with a warning. A surface that is not clean
- * (open, crossing, doubled, flat) or that is very dense is replaced. The replacement is the
- * boundary of a lattice of its inside and of a layer around its thin parts.
+ * is the bone whose tail is its head. Each component has its own bones; a ball-like component gets
+ * a point handle instead. Exactly one bone has no parent: among the bones at the root of the
+ * largest component, the bone with the largest volume. This bone is the parent of the other bones
+ * at that root. The first bone of every other component, and every point, has the nearest bone of
+ * the largest component as its parent. A cycle of the curve is cut where it is farthest from the
+ * root, with a warning. A surface that is not clean (open, crossing, doubled, flat) or that is very
+ * dense is replaced by the boundary of a lattice. The lattice covers the inside of the surface and
+ * a layer around its thin parts.
  *
- * POINTS spreads points p1, p2, … over the vertices. Each is the farthest vertex from all earlier
- * points, along edges or through space. The points are then moved into the middle of the shape if
- * it has an inside. Components get points in proportion to their area; a component below 1/100 of
- * the largest component's area may get none.
+ * POINTS spreads points p1, p2, … over the vertices. Each point is the vertex farthest from all
+ * earlier points, measured along edges or through space. The points are then moved into the middle
+ * of the shape if it has an inside. Components get points in proportion to their area; a component
+ * below 1/100 of the largest component's area may get none.
  *
  * The same shape gives the same handles, for any order of its points and cells and for any number
  * of threads.
@@ -70,7 +72,7 @@ public:
   };
 
   ///@{
-  /// SKELETON (default) or POINTS.
+  /// Method of placing the handles: SKELETON (default) or POINTS.
   vtkSetClampMacro(Method, int, SKELETON, POINTS);
   vtkGetMacro(Method, int);
   void SetMethodToSkeleton() { this->SetMethod(SKELETON); }
@@ -78,7 +80,7 @@ public:
   ///@}
 
   ///@{
-  /// POINTS: number of points, at least 1; default 8.
+  /// POINTS: number of point handles, at least 1; default 8.
   vtkSetClampMacro(NumberOfPoints, int, 1, VTK_INT_MAX);
   vtkGetMacro(NumberOfPoints, int);
   ///@}
@@ -126,16 +128,17 @@ public:
 
   ///@{
   /**
-   * SKELETON: pruning factor, 0 to 10; default 1. Branches shorter than this times half of the
-   * thickness at their start are pruned. Junctions closer to each other than that are merged.
+   * SKELETON: pruning factor, 0 to 10; default 1. The pruning length is this factor times half of
+   * the thickness of the shape at the start of the branch. Shorter branches are pruned, and
+   * junctions closer to each other than this length are merged.
    */
   vtkSetMacro(Prune, double);
   vtkGetMacro(Prune, double);
   ///@}
 
   ///@{
-  /// SKELETON: approximate number of evenly sized triangles that are contracted, 100 to 1000000;
-  /// default 10000.
+  /// SKELETON: number of triangles of about equal size to which the surface is remeshed before the
+  /// contraction, 100 to 1000000; default 10000. The actual number is approximate.
   vtkSetMacro(SkeletonTriangles, int);
   vtkGetMacro(SkeletonTriangles, int);
   ///@}

@@ -1,6 +1,7 @@
-// The cache key contains the modification times of the arrays that a bind reads, and none of a
-// dataset. Editing `Transform` raises the handle dataset's time, and an upstream filter that
-// executes again raises its output's time, but neither changes the input of the bind.
+// The cache key contains the modification times of the arrays that a bind reads. It contains no
+// modification time of a dataset. Editing `Transform` raises the handle dataset's time, and an
+// upstream filter that executes again raises its output's time, but neither changes the input of
+// the bind.
 #include "vtkBindAlgorithm.h"
 
 #include "base/execution.h"
@@ -43,11 +44,10 @@ struct vtkBindAlgorithm::Cache
 
 namespace
 {
-/// Determinant, relative to the size of a transform's columns, below which the transform has no
-/// volume.
+/// Threshold below which a transform is singular: determinant / (norm of the linear part)^3.
 constexpr double no_volume = 1e-12;
 
-/// Return warnings, with names, for handles in mode full whose transform is a reflection or is
+/// Return warnings that name the handles in mode full whose transform is a reflection or is
 /// singular.
 std::vector<std::string> warnings_of(const Handles& handles, const Pose& pose)
 {
@@ -111,8 +111,8 @@ void vtkBindAlgorithm::BindModified()
 int vtkBindAlgorithm::RequestInformation(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
 {
-  // The executive copies the time steps of port 0. Those of poses take precedence over those of a
-  // mesh.
+  // The executive copies the time steps of port 0 (the mesh). If another port (the poses) has time
+  // steps, they replace those of the mesh.
   using SDDP = vtkStreamingDemandDrivenPipeline;
   vtkInformation* info = output->GetInformationObject(0);
   for (int port = this->GetNumberOfInputPorts() - 1; port > 0; --port)

@@ -11,11 +11,11 @@
  * parameter of the filter runs it again. Arrays are compared by their own modification times.
  * GetNumberOfBinds() counts the runs.
  *
- * **Errors**: no mesh, no handles, no array of that name, an array whose number of tuples is not
- * the number of points or whose number of components is not the number of handles, a component that
- * is named after a different handle, weights that are not finite. Warnings: rows that do not sum to
- * one; the names of handles in mode full whose transform is a reflection or scales a direction to
- * zero.
+ * **Errors**: no mesh, no handles, no weights array of the specified name, a weights array whose
+ * number of tuples differs from the number of points or whose number of components differs from the
+ * number of handles, a component that is named after a different handle, weights that are not
+ * finite. Warnings: rows of weights that do not sum to one; the names of handles in mode full whose
+ * transform is a reflection or scales a direction to zero.
  */
 
 #ifndef vtkBindAlgorithm_h
@@ -34,7 +34,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Name of the point array of weights. Default "Weights". A bind parameter.
+  /// Name of the point array of weights. Default "Weights". This is a bind parameter: a change runs
+  /// Bind() again.
   void SetArrayName(const std::string& name);
   std::string GetArrayName() { return this->ArrayName; }
   ///@}
@@ -53,8 +54,8 @@ protected:
   /// empty.
   virtual bool NeedsHandles() const { return true; }
 
-  /// Return the names of the mesh's point arrays that the bind reads. Default: the weights, if they
-  /// are needed.
+  /// Return the names of the mesh's point arrays that the bind reads. By default it reads the
+  /// weights if they are needed.
   virtual std::vector<std::string> BindArrays();
 
   /// Mesh, weights, handles and pose in the types of the kernels; valid during a call.
@@ -67,8 +68,8 @@ protected:
    */
   virtual bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) = 0;
 
-  /// Report whether the method finds the rotations that a pose leaves free. If true, handles in
-  /// mode automatic that are only translated get mode position.
+  /// Report whether the method computes the rotations that a pose does not prescribe. If true,
+  /// handles in mode automatic that are only translated get mode position.
   virtual bool FindsRotations() { return false; }
 
   /// Mark a bind parameter as modified; setters of bind parameters call this instead of Modified().
@@ -85,21 +86,21 @@ protected:
   }
 
   /// Copy the time steps of the inputs to the output, so that handles that move with time move the
-  /// output. If several ports have time steps, the last port counts.
+  /// output. If several ports have time steps, those of the last port are used.
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
   ///@{
   /**
-   * Convert the inputs, and bind them unless the last bind is still valid; for Execute(). If the
-   * status is usable, GetPoseInput() is valid until Execute() returns.
+   * Convert the inputs, and run Bind() unless the last bind is still valid. Subclasses call this in
+   * Execute(). If the status is usable, GetPoseInput() is valid until Execute() returns.
    */
   bindpose::Status Prepare(vtkInformationVector** input, bindpose::ExecutionContext& context);
   const PoseInput& GetPoseInput() const;
   ///@}
 
-  /// Return the status of a pose with the report of the bind in front. Warnings of a bind are
-  /// issued only once, when it is computed.
+  /// Return the status of a pose with the entries of the bind's report inserted before its own. The
+  /// warnings of a bind are issued only once, when the bind is computed.
   bindpose::Status WithBindReport(const bindpose::Status& posed) const;
 
 private:

@@ -1,6 +1,6 @@
-// Connects the kernels to the pipeline. An execution context with the algorithm's progress and
-// abort flag is created, Execute() is called, and its status is converted to report, error event
-// and error code.
+// Connects the kernels to the pipeline. This class creates an execution context with the
+// algorithm's progress and abort flag and calls Execute(). It then converts the returned status to
+// a report, an error event and an error code.
 //
 // GetMTime is overridden because in VTK 9.1 a filter whose RequestData failed or was aborted counts
 // as executed. Without the override the executive would reuse its empty output in all later
@@ -8,8 +8,8 @@
 //
 // Pieces: by default the executive requests from a filter's inputs the piece that is requested from
 // its output. But half a surface encloses nothing, and half a mesh has other weights. Therefore
-// piece 0 is the whole. The other pieces request the same piece upstream, which is empty there,
-// too, and costs nothing.
+// piece 0 is computed from the whole input. The other pieces are empty. They request the same piece
+// upstream, which is also empty and costs nothing.
 #include "vtkBindposeAlgorithm.h"
 
 #include "base/execution.h"

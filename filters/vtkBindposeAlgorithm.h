@@ -59,8 +59,8 @@ public:
 
   ///@{
   /**
-   * Outcome of the last execution: one of StatusType, its name ("ok", "invalid_input", …), and a
-   * message of one sentence, which is empty on success.
+   * Return the outcome of the last execution: one of StatusType, its name ("ok", "invalid_input",
+   * …), and a message of one sentence, which is empty on success.
    */
   int GetStatus();
   std::string GetStatusAsString();
@@ -74,7 +74,7 @@ public:
   VTK_WRAPEXCLUDE const bindpose::Report& GetReport();
 
   /// Return the report in the field data of a data object as a JSON object, "{}" if there is none.
-  /// The report may come from any filter. It contains no seconds.
+  /// Any filter may have written the report. It contains no seconds.
   static std::string GetReportJSONOf(vtkDataObject* data);
 
   ///@{
@@ -106,7 +106,7 @@ protected:
   ~vtkBindposeAlgorithm() override;
 
   ///@{
-  /// Earlier passes of the pipeline. The default implementations return 1.
+  /// Handle the pipeline passes before RequestData. The default implementations return 1.
   virtual int RequestDataObject(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output);
   virtual int RequestInformation(
@@ -115,11 +115,12 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output);
   ///@}
 
-  /// Report whether Execute() produces only the requested piece or extent, and
-  /// RequestUpdateExtent() requests the input that it needs. Default: false, see above.
+  /// Report whether the filter supports pieces: Execute() then produces only the requested piece or
+  /// extent, and RequestUpdateExtent() requests only the necessary input. Default: false; see
+  /// above.
   virtual bool MakesPieces() { return false; }
 
-  /// Request the whole input; for RequestUpdateExtent().
+  /// Request the whole input, not a piece. Call this in RequestUpdateExtent().
   static void AskForAll(vtkInformation* input);
 
   /// Return the requested piece of an output.

@@ -1,6 +1,6 @@
-// Connects the kernel bindpose::endpoint_weights() to VTK. The kernel calls back for bounded
-// biharmonic weights of its own handles. Tets are solved as they are, surfaces in the domains of
-// the weights filters.
+// Connects the kernel bindpose::endpoint_weights() to VTK. The kernel calls a function of this
+// filter to compute bounded biharmonic weights for handles that the kernel defines. Tets are solved
+// directly; surfaces are solved in the domains of the weights filters.
 #include "vtkBoneEndpointWeights.h"
 
 #include "bind_key.h"
@@ -29,7 +29,7 @@ namespace
 {
 constexpr const char* array_name = "EndpointWeights";
 
-/// Compute bounded biharmonic weights at the domain's own points.
+/// Compute bounded biharmonic weights and return the rows of the domain's own points.
 Status solve_bounded(const bindpose::Domain& domain, WeightsDomain where, const Handles& handles,
   ExecutionContext& context, Weights& weights)
 {
@@ -147,7 +147,7 @@ Status vtkBoneEndpointWeights::Execute(
   status.report.set("binds", this->NumberOfBinds);
   if (!bind && !status.warnings.empty())
   {
-    // Warnings are issued only when they are new.
+    // Warnings are issued only by the update that computes the weights; the report keeps them.
     status.report.set("warnings[]", status.warnings);
     status.warnings.clear();
   }

@@ -5,24 +5,25 @@
  * Stretchable, twistable bones (Jacobson and Sorkine 2011; vtkSkinningDeformation) need a second
  * weight per bone, 0 at its head to 1 at its tail. It determines the fraction of a stretch and the
  * mixture of both twists that apply to a point. The methods are:
- * - **PROJECTION** onto the bone, clamped: immediate, but constant in planes across the bone;
+ * - **PROJECTION** onto the bone, clamped: immediate, but constant in planes perpendicular to the
+ *   bone;
  * - **JOINTS**: W_tail / (W_head + W_tail) of bounded biharmonic weights with all ends of bones as
  *   point handles, one problem for all bones: shape-aware, smooth beyond the ends;
  * - **BOUNDED**: one bounded biharmonic problem per bone in which the weight is linear along the
- *   bone: exact on the bone, the most expensive.
+ *   bone: exact on the bone, but the most expensive method.
  *
  * Ports: see vtkMeshAndHandlesAlgorithm. The output is the mesh with the point array
  * `EndpointWeights`, with one component per handle, named after the handle; NaN for handles that
  * are not bones. Users may paint over the array before it is used.
  *
- * Surfaces are solved in the Domain of vtkWeightsAlgorithm, default AUTO; tets are solved as they
- * are. The result is cached until points, cells, the handles' rest data or this filter's parameters
+ * Surfaces are solved in the Domain of vtkWeightsAlgorithm, default AUTO; tets are solved directly.
+ * The result is cached until points, cells, the handles' rest data or this filter's parameters
  * change.
  *
  * Errors: no bone; all input that vtkBoundedBiharmonicWeights rejects. The status is not_converged
- * (with the result) if a column misses the certificate. Cost: PROJECTION is free; JOINTS costs as
- * much as bounded weights for the joints, BOUNDED as much as bounded weights for two handles per
- * bone.
+ * (with the result) if the optimality certificate of a column exceeds its tolerance. Cost:
+ * PROJECTION needs almost no time; JOINTS costs as much as bounded weights for the joints, BOUNDED
+ * as much as bounded weights for two handles per bone.
  *
  * Report: method, counts.{vertices, handles, bones, problems}, binds.
  */
@@ -49,7 +50,7 @@ public:
   };
 
   ///@{
-  /// Default JOINTS. Values out of range are clamped.
+  /// Method of computing the endpoint weights. Default JOINTS. Values out of range are clamped.
   vtkSetClampMacro(Method, int, PROJECTION, BOUNDED);
   vtkGetMacro(Method, int);
   void SetMethodToProjection() { this->SetMethod(PROJECTION); }

@@ -4,11 +4,12 @@
  *
  * The weight of a handle is the function of least bending energy (the integral of its squared
  * Laplacian) that is 1 on the handle, 0 on all other handles and between 0 and 1 everywhere. It is
- * smooth, also at handles, shape-aware and local. An active-set method solves it to a certificate;
- * an interior-point method takes over where the active-set method does not terminate. All handles
- * share one symbolic analysis and are solved in parallel. Cost: 3 to 6 sparse factorizations per
- * handle, three to five times that where the interior-point method is needed (10k vertices of a
- * lattice: 0.3 to 0.7 s per handle on one core).
+ * smooth, also at handles, shape-aware and local. An active-set method solves the problem until its
+ * optimality certificate (duality gap and KKT residual) is within Tolerance. An interior-point
+ * method is used for columns where the active-set method does not terminate. All handles share one
+ * symbolic analysis and are solved in parallel. Cost: 3 to 6 sparse factorizations per handle, and
+ * three to five times as many where the interior-point method is needed. A lattice of 10k vertices
+ * takes 0.3 to 0.7 s per handle on one core.
  *
  * Ports, arrays, certificate, bind cache, report and errors: see vtkWeightsAlgorithm.
  *
@@ -33,7 +34,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Order of the energy: 2 biharmonic (default), 3 triharmonic. A bind parameter.
+  /// Order of the energy: 2 biharmonic (default), 3 triharmonic. This is a bind parameter: a change
+  /// computes the weights again.
   void SetOrder(int order);
   vtkGetMacro(Order, int);
   ///@}

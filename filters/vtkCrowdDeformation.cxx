@@ -1,5 +1,6 @@
-// Connects the kernel bindpose::Crowd to VTK. The bind stores one space of deformations. An
-// execution computes the transforms of all instances and blends all instances in one call.
+// Connects the kernel bindpose::Crowd to VTK. The bind stores the space of deformations, which all
+// instances share. An execution computes the transforms of all instances and blends them in one
+// call.
 #include "vtkCrowdDeformation.h"
 
 #include "arap_input.h"

@@ -3,18 +3,19 @@
  * @brief   poses many instances of a mesh, each as rigidly as its own pose allows
  *
  * A mesh is bound once, as by vtkReducedARAP, and posed once per instance. Each instance has its
- * own pose and placement (Jacobson et al. 2012: their crowd). An instance adds its points in single
- * precision and 72 bytes per cluster to the memory.
+ * own pose and placement (Jacobson et al., "Fast Automatic Skinning Transformations", 2012, pose a
+ * crowd in this way). Each instance needs memory for its points in single precision and 72 bytes
+ * per cluster, a set of vertices that share one fitted rotation.
  *
  * **Inputs 0 and 1**: the mesh at rest with its weights and the handles (see vtkBindAlgorithm).
  * **Input 2**: the instances, as one of
  * - points (vtkPointSet), one point per instance: the point is added to the positions of the posed
  *   mesh;
- * - a vtkTable, one row per instance.
- *   Point (row) arrays, all optional: an array named after a handle contains its `Transform`. It
- *   has 12 components (3x4, row by row, rest to posed, before the placement) or 3 (a translation).
- *   `Mode` has one component per handle. `Placement` positions the instance, 12 numbers (3x4) or
- *   3, and takes precedence over the points. A handle without an array has the pose of input 1;
+ * - a vtkTable, one row per instance. Point (row) arrays, all optional: an array named after a
+ *   handle contains its `Transform`. It has 12 components (a 3x4 matrix, row by row, from rest to
+ *   posed, applied before the placement) or 3 (a translation). `Mode` has one component per handle.
+ *   `Placement` positions the instance, with 12 components (a 3x4 matrix) or 3 (a translation), and
+ *   takes precedence over the points. A handle without an array has the pose of input 1;
  * - a composite of vtkPolyData (vtkMultiBlockDataSet, vtkPartitionedDataSetCollection, …), one
  *   block per instance: the handles of input 1 in the pose of the instance, as vtkPoseHandles
  *   returns them. The field data array `Placement` positions the instance.
@@ -57,7 +58,7 @@ public:
   }
 
   ///@{
-  /// Like those of vtkReducedARAP; all are bind parameters.
+  /// See the setters of vtkReducedARAP. All four are bind parameters: a change runs the bind again.
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);
   void SetNumberOfClusters(int clusters);
@@ -69,8 +70,8 @@ public:
   ///@}
 
   ///@{
-  /// Weights up to this size count as zero when points are moved, 0 to 1. Default 0. A bind
-  /// parameter.
+  /// Weights up to this value are treated as zero when points are moved, 0 to 1. Default 0. This is
+  /// a bind parameter.
   void SetSmallestWeight(double smallest);
   vtkGetMacro(SmallestWeight, double);
   ///@}
@@ -95,15 +96,15 @@ public:
   ///@}
 
   ///@{
-  /// Start an instance from its last rotations (on, the default) or from an estimate based on its
-  /// handles' own motions (off: the result depends only on the pose).
+  /// Initial rotations of an instance. On (the default): the rotations of its last pose. Off: an
+  /// estimate based on the motions of its handles, so that the result depends only on the pose.
   vtkSetMacro(WarmStart, bool);
   vtkGetMacro(WarmStart, bool);
   vtkBooleanMacro(WarmStart, bool);
   ///@}
 
   ///@{
-  /// Like that of vtkReducedARAP. Default on.
+  /// See vtkReducedARAP::SetMixedPrecision. Default on.
   vtkSetMacro(MixedPrecision, bool);
   vtkGetMacro(MixedPrecision, bool);
   vtkBooleanMacro(MixedPrecision, bool);
@@ -116,12 +117,13 @@ public:
   };
 
   ///@{
-  /// One dataset per instance, or one dataset with all instances. Default COLLECTION.
+  /// Type of output: one dataset per instance (COLLECTION, the default), or one dataset with all
+  /// instances (APPENDED).
   vtkSetClampMacro(OutputType, int, COLLECTION, APPENDED);
   vtkGetMacro(OutputType, int);
   ///@}
 
-  /// Return the collection, or the dataset of all instances.
+  /// Return the output: the collection, or the dataset of all instances.
   vtkDataObject* GetOutput() { return this->GetOutputDataObject(0); }
 
 protected:

@@ -1,4 +1,5 @@
-// Connects the kernel bindpose::cut_along_bones() to VTK: sides become labels and region handles.
+// Connects the kernel bindpose::cut_along_bones() to VTK. The left and right sides of bones become
+// labels of vertices and region handles.
 #include "vtkCutAlongBones.h"
 
 #include "base/execution.h"
@@ -52,7 +53,7 @@ Status to_color_arrays(vtkPolyData* handles, ColorArrays& colors)
   return {};
 }
 
-/// Find the first bone of each bone's curve; for other handles, the handle itself.
+/// Return the first bone of the curve of each bone. For other handles return the handle itself.
 Status to_curves(vtkPolyData* handle_data, const Handles& handles, const std::vector<Index>& cells,
   std::vector<Index>& first)
 {
@@ -75,7 +76,7 @@ Status to_curves(vtkPolyData* handle_data, const Handles& handles, const std::ve
   return {};
 }
 
-/// The output handles and their colors.
+/// The output handles, which include the sides of curves, and their colors.
 struct Sides
 {
   Handles handles;

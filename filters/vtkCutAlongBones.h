@@ -6,22 +6,22 @@
  * Curves", 2008; with biharmonic weights Finch et al., "Freeform Vector Graphics with Controlled
  * Thin-Plate Splines", 2011). Weights reproduce this if the mesh is cut along the curve. This
  * filter duplicates the vertices along each bone and creates a region handle for each side. The
- * usual pipeline follows:
+ * usual pipeline is:
  *
  *     vtkPlanarShape (with the bones) - vtkCutAlongBones - a weights filter - vtkWeightedColors
  *
  * **Input 1**: the handles. The mesh is cut along bones. Left and right refer to the direction from
  * head to tail, seen from +z. All other handles are passed on, except cage elements, which are left
- * out. Bones with the same number in the cell array `Curve` form one curve, which has the name and
- * colors of its first bone. Without the array each bone is a curve. The cell arrays `LeftColor` and
- * `RightColor` (of bones) and `Color` (of the other handles), with 3 components each, become
- * `Color` of the output handles.
+ * out. Bones with the same value in the cell array `Curve` form one curve, which has the name and
+ * colors of its first bone. Without the array each bone is a separate curve. The cell arrays
+ * `LeftColor` and `RightColor` (of bones) and `Color` (of the other handles), with 3 components
+ * each, become `Color` of the output handles.
  * **Output 0**: the cut surface: the input points with their ids, then the duplicated points; the
  * point arrays of the input, `OriginalPointIds`, and the label `RegionId` of each side. An end of a
- * curve inside of the shape is one point that belongs to neither side. Different colors meet there,
- * and unconstrained weights overshoot there; the finer the mesh, the larger the overshoot. **Output
- * 1**: the handles. Each curve is replaced by the regions `NAME left` and `NAME right` (a side
- * without points is left out), with `Color`.
+ * curve inside of the shape is one point that belongs to neither side. Different colors are
+ * adjacent at this point, so unconstrained weights overshoot near it; the overshoot is larger on
+ * finer meshes. **Output 1**: the handles. Each curve is replaced by the regions `NAME left` and
+ * `NAME right` (a side without points is left out), with `Color`.
  *
  * Report: counts.{vertices, handles, doubled_vertices}, seconds.cut. Errors: a surface that is not
  * flat, no bone, a bone that is not a chain of edges or is a single interior edge, LeftColor

@@ -1,5 +1,5 @@
-// Connects the kernel bindpose::depth_order() to VTK. Points are stored as doubles, because ties
-// are a millionth of the shape's diagonal.
+// Connects the kernel bindpose::depth_order() to VTK. Points are stored as doubles, because the
+// displacements that break ties are only a millionth of the shape's diagonal.
 #include "vtkDepthOrder.h"
 
 #include "base/execution.h"

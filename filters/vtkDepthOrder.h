@@ -2,11 +2,12 @@
  * @class   vtkDepthOrder
  * @brief   computes which part of a planar shape is in front where its pose overlaps itself
  *
- * Each handle has a layer. The depth of a point is depth = sum_j w_j d_j: smooth over the shape and
- * nearly the handle's own layer around the handle. A larger depth is in front for a camera that
- * looks along -z. With Displace on, the points move to z + Scale * depth, so that an ordinary depth
- * buffer shows limbs in the order of their layers. If layers are equal, handles later in the list
- * are in front: the displacement in z grows by up to Tie layers from the first to the last handle.
+ * Each handle j has a layer d_j and each point its weights w_j. The depth of a point is sum_j w_j
+ * d_j. It varies smoothly over the shape and is nearly equal to the layer of a handle around that
+ * handle. A larger depth is in front for a camera that looks along -z. With Displace on, the points
+ * move to z + Scale * depth, so that an ordinary depth buffer shows limbs in the order of their
+ * layers. If layers are equal, handles later in the list are in front: the displacement in z grows
+ * by up to Tie layers from the first to the last handle.
  *
  * **Input 0**: a mesh with weights, usually posed and with z = const (any vtkPointSet; see
  * vtkWeightsAlgorithm). **Input 1**: the handles, with the cell array `Layer`, one integer or real
@@ -14,8 +15,8 @@
  * `Depth`, and with displaced points if Displace is on.
  *
  * Report: counts.{vertices, handles}, least_depth, largest_depth, scale (used), seconds.order.
- * Errors: no weights of that name, weights of other handles or with a number that is not finite, a
- * layer that is not finite or has several components.
+ * Errors: no weights of that name, weights that belong to other handles or are not finite, layers
+ * that are not finite, a layer array with several components.
  *
  * @sa vtkSkinningDeformation vtkWeightedColors
  */
@@ -60,8 +61,8 @@ public:
   ///@}
 
   ///@{
-  /// Depth difference between the last and the first handle where layers are equal, in layers, >=
-  /// 0. Default 0.001.
+  /// Depth added to the last handle relative to the first, in layers, >= 0; handles in between get
+  /// proportional amounts. This orders handles of equal layers. Default 0.001.
   vtkSetClampMacro(Tie, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Tie, double);
   ///@}

@@ -4,7 +4,8 @@
  *   unknown
  *
  * As-rigid-as-possible deformation (Sorkine and Alexa 2007, As-rigid-as-possible surface modeling;
- * Liu et al. 2008; Chao et al. 2010). The energies and the handles' modes are those of
+ * Liu et al. 2008, A local/global approach to mesh parameterization; Chao et al. 2010, A simple
+ * geometric model for elastic deformations). The energies and the handles' modes are those of
  * vtkReducedARAP, but every vertex is an unknown, and every vertex or element has its own rotation.
  * The result bends less than that of vtkReducedARAP and may have kinks at handles. An iteration
  * takes milliseconds per ten thousand vertices instead of microseconds. Use it for comparison and
@@ -14,13 +15,13 @@
  * position, a bone the vertices along it, a region the vertices with its label (point array
  * RegionArrayName). In mode `position` (1) the `Transform` gives the target of the pivot; the pivot
  * of a region is the mean of its vertices. In mode `free` (2) the handle constrains nothing. If no
- * vertex is at the position of a handle, the handle constrains the point of the cell there. If the
- * handle is off the mesh, it constrains the nearest point of the mesh, with a warning. Components
- * without constraints do not move.
+ * vertex is at the position of a handle, the handle constrains the point of the mesh at this
+ * position. If the handle is off the mesh, it constrains the nearest point of the mesh, with a
+ * warning. Components without constraints do not move.
  *
  * A solve alternates between optimal rotations and optimal positions with Anderson acceleration
- * (Peng et al. 2018). It uses one sparse factorization per choice of modes, cached between poses.
- * It never raises the energy.
+ * (Peng et al. 2018). It uses one sparse factorization, which is cached until the mode of a handle
+ * changes. An iteration never raises the energy.
  *
  * Ports, bind cache and errors: see vtkPoseAlgorithm. The mesh needs no weights, and ArrayName is
  * not used. Port 0 is a surface (vtkPolyData, or a grid of 2D cells) or a vtkUnstructuredGrid of
@@ -62,19 +63,19 @@ public:
 
   ///@{
   /**
-   * Sets of edges that share a rotation: the edges of the elements around a vertex
-   * (SPOKES_AND_RIMS), the edges that end at a vertex (SPOKES, without edges of negative cotangent
-   * weight), the edges of a tet, or the edges of a triangle. Default AUTO: TETRAHEDRA on tets,
-   * SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a surface and TRIANGLES on tets are errors. A bind
-   * parameter.
+   * Sets of edges that share a rotation. SPOKES_AND_RIMS: the edges of the elements around a
+   * vertex. SPOKES: the edges that end at a vertex, without edges of negative cotangent weight.
+   * TETRAHEDRA: the edges of a tet. TRIANGLES: the edges of a triangle. AUTO (default): TETRAHEDRA
+   * on tets, SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a surface and TRIANGLES on tets are errors.
+   * This is a bind parameter: a change runs the bind again.
    */
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);
   ///@}
 
   ///@{
-  /// Name of the mesh's point array of region labels (0: free). Default "RegionId". A bind
-  /// parameter.
+  /// Name of the mesh's point array of region labels; vertices with label 0 belong to no region.
+  /// Default "RegionId". This is a bind parameter.
   void SetRegionArrayName(const std::string& name);
   std::string GetRegionArrayName() { return this->RegionArrayName; }
   ///@}
@@ -103,9 +104,9 @@ public:
 
   ///@{
   /**
-   * Start a solve from the rotations of the last solve (on, the default: drags converge in few
-   * iterations and keep their twists) or from an estimate based on the handles' own motions (off:
-   * the result depends only on the pose).
+   * Initial rotations of a solve. On (the default): the rotations of the last solve, so that drags
+   * converge in few iterations and keep their twists. Off: an estimate based on the handles' own
+   * motions, so that the result depends only on the pose.
    */
   vtkSetMacro(WarmStart, bool);
   vtkGetMacro(WarmStart, bool);

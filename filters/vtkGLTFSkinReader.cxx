@@ -1,4 +1,5 @@
-// The kernel reads the file; gltf_data converts its joints to handles.
+// Connects the kernel of io/gltf_skin.h to VTK. The kernel reads the file; gltf_data.h converts its
+// joints to handles.
 #include "vtkGLTFSkinReader.h"
 
 #include "base/execution.h"
@@ -44,7 +45,7 @@ int vtkGLTFSkinReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
 {
   int frames = 0;
-  // Execute() reports errors of the file.
+  // Ignore the status here; Execute() reports errors of the file.
   if (this->Frame < 0 && this->FileName &&
     check_extension(this->FileName, GetFileExtensions()).ok() &&
     this->Internal->file.read(this->FileName, this->GetMTime()).ok())
@@ -102,7 +103,8 @@ Status vtkGLTFSkinReader::Execute(
   mesh->ShallowCopy(data.mesh);
   handles->ShallowCopy(data.handles);
   int frame = this->Frame;
-  // The handles' time takes precedence; the mesh is the same at all times.
+  // If times are requested from both outputs, use that of the handles (port 1), because the mesh is
+  // the same at all times.
   for (int port = 0; port < 2; ++port)
   {
     double time = 0.0;

@@ -10,13 +10,13 @@
  * Rows sum to one, except that the weights of vtkGLTFSkinWriter's rest joint are left out. Normals,
  * texture coordinates (`TCoords`) and vertex colors (`Colors`) are read if the file has them.
  * **Output 1**: the handles (see filters/README.md). A joint that vtkGLTFSkinWriter wrote for a
- * handle becomes that handle again, unless its bind position has changed since. Of the other
- * joints, those with children become bones that end at the mean of the children; those without
- * children become points. Their `Ownership` is 1, so that a bind skips helper joints that share all
- * vertices with other joints. It is 2 for joints without weights in the file (control bones). The
- * inverse bind matrices give the rest positions. The `Transform` is that of the nodes, or of the
- * animation at Frame. Posing the mesh by linear blend skinning therefore gives the shape that a
- * glTF viewer shows.
+ * handle becomes that handle again, unless another program has changed its bind position. Other
+ * joints with children become bones that end at the mean position of the children. Other joints
+ * without children become points. The `Ownership` of these bones and points is 1, so that a bind
+ * skips helper joints that share all vertices with other joints. The `Ownership` of joints without
+ * weights in the file (control bones) is 2. The inverse bind matrices give the rest positions.
+ * `Transform` contains the transforms of the nodes, or those of the animation at Frame. Posing the
+ * mesh by linear blend skinning therefore gives the shape that a glTF viewer shows.
  *
  * **Animation**: the first animation that moves a joint is read. It has one frame per key if keys
  * are evenly spaced, otherwise 24 frames per second. It is available as GetPoseJSON(), which
@@ -71,8 +71,9 @@ public:
   ///@}
 
   ///@{
-  /// Results of the last Update(): the number of frames of the animation (0 without an animation),
-  /// and the animation as a pose file (empty without an animation).
+  /// Results of the last Update(): NumberOfFrames is the number of frames of the animation (0
+  /// without an animation), and GetPoseJSON() returns the animation as a pose file (empty without
+  /// an animation).
   vtkGetMacro(NumberOfFrames, int);
   vtkGetMacro(FramesPerSecond, double);
   std::string GetPoseJSON() { return this->PoseJSON; }

@@ -1,5 +1,5 @@
-// The kernel writes the file. This filter converts the mesh to triangles, the handles to joints,
-// and the frames to positions of points and joints.
+// Connects the kernel of io/gltf_skin.h to VTK. The kernel writes the file. This filter converts
+// the mesh to triangles, the handles to joints, and the frames to positions of points and joints.
 #include "vtkGLTFSkinWriter.h"
 
 #include "base/execution.h"
@@ -28,7 +28,7 @@ vtkStandardNewMacro(vtkGLTFSkinWriter);
 
 namespace
 {
-/// The written part of the mesh: the points on its surface.
+/// The part of the mesh that is written: its surface.
 struct Surface
 {
   Triangles triangles; ///< ids are indices into `points`
@@ -45,8 +45,8 @@ struct Surface
   }
 };
 
-/// Return the surface. A surface keeps all its points in order; tets keep only the boundary's
-/// points.
+/// Return the surface to write. All points of a surface are kept, in order; of tets only the points
+/// on the boundary are kept.
 Status to_written_surface(vtkDataSet* mesh, Surface& surface)
 {
   Domain domain;
@@ -129,7 +129,8 @@ Status take_colors(vtkPointData* data, const char* name, const Surface& surface,
   return {};
 }
 
-/// Return the transforms stored with a posed mesh.
+/// Return the transforms that a pose filter stored with a posed mesh (field data
+/// `HandleTransforms`).
 Status take_transforms(vtkDataSet* frame, const Handles& handles, std::vector<Affine>& transforms)
 {
   vtkDataArray* array = frame->GetFieldData()->GetArray("HandleTransforms");
@@ -163,7 +164,7 @@ void add_warnings(const Status& from, Status& to)
   to.warnings.insert(to.warnings.end(), from.warnings.begin(), from.warnings.end());
 }
 
-/// Return weights, joints and the pose of the joints.
+/// Convert weights, handles and pose to the kernel's weights, joints and posed joints.
 Status take_skin(vtkPointSet* mesh, const std::string& array_name, vtkPolyData* handle_data,
   const Surface& surface, Handles& handles, Pose& pose, GltfSkin& skin)
 {

@@ -9,30 +9,31 @@
  * triangles. Normals, texture coordinates and vertex colors (ColorArrayName) are written too.
  * **Input 1** (optional): the handles for which the point array `Weights` was computed; without
  * handles only the mesh is written. **Input 2** (optional, several connections): the frames of an
- * animation, which are the mesh as posed by vtkPoseAlgorithm's filters. PoseFileName, a sequence of
- * poses, is the alternative. **Output 0**: the surface that was written.
+ * animation: one output of a subclass of vtkPoseAlgorithm per frame. PoseFileName, a sequence of
+ * poses, is an alternative to input 2. **Output 0**: the surface that was written.
  *
  * **Joints**: each handle becomes a joint. Points, regions and cage vertices are joints at their
- * positions; bones are joints at their heads with the y axis along the bone. Joints are children of
- * the joint of their `Parent` (bones that share ends are), so that in other programs a forearm
- * follows its upper arm. Transforms of handles are absolute and are converted. Kind, tail, region
- * and cage are stored as extras for vtkGLTFSkinReader. The `Transform` of the handles determines
- * the nodes; the mesh is bound at rest.
+ * positions; bones are joints at their heads with the y axis along the bone. A joint is a child of
+ * the joint of its handle's `Parent`; in other programs a forearm therefore follows its upper arm.
+ * Transforms of handles are absolute and are converted. Handle type, tail, region and cage are
+ * stored in the extras of the joint for vtkGLTFSkinReader. The `Transform` of the handles
+ * determines the nodes; the mesh is bound at rest.
  *
- * **Weights**: all nonzero weights are written, in as many sets of four (JOINTS_0, WEIGHTS_0,
- * JOINTS_1, …) as the vertex with most weights needs, or only the MaximumInfluences largest
- * weights. glTF requires rows that sum to one. If a row lacks more than 1e-6, an additional joint
- * `rest`, which never moves, gets the remainder. This reproduces exactly how Bindpose's skinning
- * handles such rows. glTF does not allow negative weights or rows above one; they are clamped and
- * divided by their sum, with a warning.
+ * **Weights**: all nonzero weights are written, or only the MaximumInfluences largest weights of
+ * each vertex. glTF stores them in sets of four (JOINTS_0, WEIGHTS_0, JOINTS_1, …); the vertex with
+ * the most weights determines the number of sets. glTF requires rows that sum to one. If the sum of
+ * a row is below 1 - 1e-6, an additional joint `rest`, which never moves, gets the remainder. This
+ * reproduces exactly how Bindpose's skinning handles such rows. glTF does not allow negative
+ * weights or rows above one; they are clamped and divided by their sum, with a warning.
  *
  * **Animation**: JOINTS writes translation, rotation and scale of the joints per frame, for linear
- * blend rigs. Joints cannot represent shear or non-uniform scale off the joint's axes. They also
- * cannot represent frames of other methods that are not a blend of the handles' transforms (field
- * data `HandleTransforms`). animation_error reports the largest distance between a vertex as the
- * file moves it and its correct position, as a fraction of the diagonal. MORPH writes the frames'
- * points as morph targets. This is correct for every method (reduced and full as-rigid-as-possible,
- * dual quaternions) and takes 12 bytes per vertex and frame. The joints are then at rest.
+ * blend rigs. Joints cannot represent shear, or non-uniform scale along directions other than the
+ * joint's axes. They also cannot represent the frames of pose methods other than linear blends of
+ * the handles' transforms (field data `HandleTransforms`). animation_error reports the largest
+ * distance between a vertex as the file moves it and its correct position, as a fraction of the
+ * diagonal. MORPH writes the frames' points as morph targets. This is correct for every method
+ * (reduced and full as-rigid-as-possible, dual quaternions) and takes 12 bytes per vertex and
+ * frame. The joints are then at rest.
  *
  * The file is written under a temporary name next to its target and renamed at the end; a failure
  * or cancel leaves no file. An existing file is an error unless Overwrite is on.
@@ -97,14 +98,14 @@ public:
   ///@}
 
   ///@{
-  /// Maximum number of weights written per vertex, the largest; 4 for programs that read no more. 0
-  /// (default): no limit.
+  /// Maximum number of weights that are written per vertex; the largest weights are kept. Set it to
+  /// 4 for programs that read only one set of weights. 0 (default): no limit.
   vtkSetClampMacro(MaximumInfluences, int, 0, 65535);
   vtkGetMacro(MaximumInfluences, int);
   ///@}
 
   ///@{
-  /// JOINTS (default) or MORPH.
+  /// Representation of the frames: JOINTS (default) or MORPH.
   vtkSetClampMacro(Animation, int, JOINTS, MORPH);
   vtkGetMacro(Animation, int);
   ///@}
@@ -117,7 +118,7 @@ public:
   ///@}
 
   ///@{
-  /// Frames per second of input 2, above 0. Default: 24.
+  /// Frames per second of the frames on input 2, above 0. Default: 24.
   vtkSetMacro(FramesPerSecond, double);
   vtkGetMacro(FramesPerSecond, double);
   ///@}
@@ -129,7 +130,7 @@ public:
   ///@}
 
   ///@{
-  /// Frames of the animation, in order.
+  /// Add a frame to the end of the animation.
   void AddFrameData(vtkDataObject* frame) { this->AddInputDataObject(2, frame); }
   void AddFrameConnection(vtkAlgorithmOutput* frame) { this->AddInputConnection(2, frame); }
   void RemoveFrames() { this->RemoveAllInputConnections(2); }

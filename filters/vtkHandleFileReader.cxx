@@ -1,6 +1,6 @@
-// A .tgf graph is converted to handles: first the nodes without a bone, then the bones, with
-// parents from shared nodes. A .vtp file is read by vtkMeshFileReader, and missing arrays are
-// added. gltf_data converts the joints of a glTF file.
+// Reads handles from files. A .tgf graph is converted in this file: nodes without a bone become the
+// first handles, then the bones follow, with parents derived from shared nodes. vtkMeshFileReader
+// reads .vtp files, and missing arrays are added. gltf_data.h converts the joints of a glTF file.
 #include "vtkHandleFileReader.h"
 
 #include "base/execution.h"
@@ -178,7 +178,7 @@ Status read_vtp(const std::string& path, vtkPolyData* output)
   output->ShallowCopy(data);
   if (static_cast<Index>(handles.size()) == data->GetNumberOfCells())
   {
-    // Every cell is a handle, so the cells of the complete dataset and of the file agree.
+    // Every cell is a handle, so cell i is the same handle in the complete dataset and in the file.
     auto complete = bindpose::to_polydata(handles);
     for (int i = 0; i < complete->GetCellData()->GetNumberOfArrays(); ++i)
     {
@@ -197,7 +197,7 @@ Status read_gltf_handles(const std::string& path, vtkPolyData* output)
 {
   bindpose::GltfData gltf;
   Status status = bindpose::read_gltf(path, gltf);
-  status.warnings.clear(); // those concern the mesh
+  status.warnings.clear(); // the warnings of the glTF reader are about the mesh
   status.report = {};
   if (status.ok() && gltf.handle_list.empty())
   {

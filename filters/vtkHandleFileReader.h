@@ -6,23 +6,24 @@
  * with the cell arrays HandleName, HandleKind, Parent, RegionId, Mode, Transform, Stretch and
  * Twist.
  *
- * A .tgf file (Jacobson's Trivial Graph Format) has lines "id x y z [text]", a line "#", and edges
- * "from to [is_bone is_pseudo is_cage]". Every node that no bone uses is a point handle. Its text
- * is its name; without text it is p1, p2, … by its order among the points. Bones are named b1, b2,
- * … in file order. Columns are points, then bones. If the head of a bone is the tail of another
- * bone, that bone (the first in file order) is its parent. Nodes of cage edges are cage vertices,
- * and weights are linear along the cage edges. Pseudo-edges between points are lines of HandleKind
- * -2. They are not handles but determine how points rotate (vtkSkinningDeformation). All other
- * edges are left out, and a warning counts them.
+ * A .tgf file (Jacobson's Trivial Graph Format) has lines "id x y z [text]", a separator line "#",
+ * and lines of edges "from to [is_bone is_pseudo is_cage]" with two node ids. Every node that no
+ * bone uses is a point handle. Its text is its name; without text it is p1, p2, … by its order
+ * among the points. Bones are named b1, b2, … in file order. The columns of the weights are points,
+ * then bones. If the head of a bone is the tail of another bone, that bone (the first in file
+ * order) is its parent. Nodes of cage edges are cage vertices, and weights are linear along the
+ * cage edges. Pseudo-edges between points are lines of HandleKind -2. They are not handles but
+ * determine how points rotate (vtkSkinningDeformation). All other edges are left out, and a warning
+ * counts them.
  *
  * A .vtp file is read cell by cell: vertices are points and lines are bones unless HandleKind
  * states another type. Missing arrays get their defaults; all other arrays are kept.
  *
  * The joints of the skin in a .glb or .gltf file become handles as in vtkGLTFSkinReader.
  *
- * The status is INVALID_INPUT, with the file name, for a file that cannot be read and for handles
- * that cannot be used: an empty or duplicate name, a coordinate that is not finite, a bone of
- * length zero, two handles at the same position, a cycle of parents.
+ * The status is INVALID_INPUT, with the file name, for a file that cannot be read and for invalid
+ * handles: an empty or duplicate name, a coordinate that is not finite, a bone of length zero, two
+ * handles at the same position, a cycle of parents.
  *
  * Report: `counts.handles`, `handles[].name`, `handles[].kind`.
  */

@@ -1,7 +1,8 @@
 // The file name extension determines the reader. Bindpose's kernels read the formats that VTK does
-// not support or reads with a loss (floats, vertices duplicated where normals differ). A VTK reader
-// with observers reads the others, and its errors become the one sentence of the status. The result
-// is checked before it is passed on, because VTK's readers do not check that ids are in range.
+// not support or reads with a loss (coordinates as floats, vertices duplicated where normals
+// differ). VTK's readers read all other formats; observers catch their errors, which become the one
+// sentence of the status. The result is checked before it is passed on, because VTK's readers do
+// not check that ids are in range.
 #include "vtkMeshFileReader.h"
 
 #include "base/execution.h"
@@ -167,10 +168,10 @@ template <typename Reader>
 void watch(ErrorCatcher& errors, Reader* reader)
 {
   errors.Watch(reader);
-  errors.Watch(reader->GetExecutive()); // it reports a failed request a second time
+  errors.Watch(reader->GetExecutive()); // the executive reports a failed request a second time
   if constexpr (std::is_base_of_v<vtkXMLReader, Reader>)
   {
-    // An XML reader uses two internal objects.
+    // Observe the internal reader and parser of an XML reader too.
     reader->SetReaderErrorObserver(errors.GetCommand());
     reader->SetParserErrorObserver(errors.GetCommand());
   }
@@ -249,8 +250,8 @@ Status check_output(const std::string& path, vtkDataObject* output)
   return status;
 }
 
-/// Report whether a MEDIT file has tets: then it is a grid, otherwise a surface. Its keywords are
-/// on separate lines, so a text search is sufficient.
+/// Report whether a MEDIT file has tets; it then becomes a grid, otherwise a surface. MEDIT
+/// keywords are on separate lines, so a text search is sufficient.
 bool has_tets(const std::string& path)
 {
   std::string text;
@@ -322,7 +323,7 @@ int vtkMeshFileReader::RequestDataObject(
 int vtkMeshFileReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
 {
-  // Downstream filters request an image by extents, so the whole extent is needed beforehand.
+  // Downstream filters request an image by extents, so they need the whole extent before the data.
   const std::string path = this->FileName ? this->FileName : "";
   std::string text;
   if (bindpose::file_extension(path) != "vti" || !bindpose::read_file(path, text).ok())
@@ -356,8 +357,8 @@ bindpose::Status vtkMeshFileReader::Execute(
   std::string text;
   if (status.ok())
   {
-    // This reports in the same way for all formats that a file is missing, a directory, unreadable
-    // or empty.
+    // Read the file here, so that the error for a missing or unreadable file, a directory or an
+    // empty file is the same for all formats.
     status = bindpose::read_file(path, text);
     text.clear();
   }

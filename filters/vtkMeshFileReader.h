@@ -14,8 +14,8 @@
  * | .glb .gltf | triangles, `Weights` of a skin: see vtkGLTFSkinReader | vtkPolyData |
  *
  * Bindpose's own readers read OFF, OBJ, PLY, STL and MEDIT files. Coordinates are doubles. Texture
- * coordinates and normals are not read and do not split vertices. An OBJ file without a face gives
- * its lines.
+ * coordinates and normals are not read and do not split vertices. If an OBJ file has no faces, its
+ * lines are read.
  *
  * A missing, empty, truncated or invalid file gives INVALID_INPUT with one sentence that names the
  * file and, for text formats, the line; so do coordinates in text formats that are not finite. Such

@@ -43,7 +43,8 @@ void choose_encoding(Writer* writer)
 {
   if constexpr (std::is_base_of_v<vtkXMLWriter, Writer>)
   {
-    // Raw appended data, because base64 is a third larger. LZ4 is as fast as the disk.
+    // Raw appended data is used because base64 is a third larger. LZ4 compresses as fast as a disk
+    // writes.
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
     writer->SetCompressorTypeToLZ4();
@@ -224,7 +225,7 @@ bindpose::Status vtkMeshFileWriter::Execute(
     data, bindpose::file_extension(path), this->ArrayName ? this->ArrayName : "", file.temporary());
   if (!status.ok())
   {
-    // The message may contain the temporary file name, which means nothing to users.
+    // If the message contains the temporary file name, replace it, because users do not know it.
     const std::size_t at = status.message.find(file.temporary());
     status.message = at == std::string::npos
       ? "cannot write " + path + ": " + status.message

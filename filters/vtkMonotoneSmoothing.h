@@ -1,11 +1,12 @@
 /**
  * @class   vtkMonotoneSmoothing
- * @brief   smooths data on a mesh and keeps only the requested extrema
+ * @brief   smooths data on a mesh and keeps only the selected local extrema
  *
- * Topological simplification: of all functions whose only local extrema are the listed ones, the
- * filter computes the smooth function nearest to the data. It minimizes int |k-harmonic derivative
- * of w|^2 + DataWeight int (w - data)^2. The mesh is scaled to size 1 and the data to a range of 1,
- * so that the result does not depend on their units, nor on the position and rotation of the mesh.
+ * Topological simplification: the filter selects a list of extrema. Among all functions w whose
+ * only local extrema are those of the list, it computes the one that minimizes int |k-harmonic
+ * derivative of w|^2 + DataWeight int (w - data)^2, i.e. a smooth function near the data. The mesh
+ * is scaled to size 1 and the data to a range of 1, so that the result does not depend on their
+ * units or on the position and rotation of the mesh.
  *
  * **Input**: tets (of positive volume) or a triangle surface, as for vtkWeightsAlgorithm, with a
  * point array of one component: the active scalars, or the array set by SetInputArrayToProcess(0,
@@ -19,16 +20,17 @@
  *
  * With KeepValues the extrema keep the data's values. With a DataWeight of 0 only these values
  * matter: the result is the smoothest function with the listed extrema and values. This gives
- * weights with arbitrary extrema (a weight of vtkMonotoneWeights has its maximum on one handle and
- * its minima on the others).
+ * weights with arbitrary extrema. (A weight of vtkMonotoneWeights, in contrast, has its maximum on
+ * one handle and its minima on the other handles.)
  *
  * **Output**: input 0 with the double point array `Smoothed` (SetResultArrayName), the active
- * scalars, and `SmoothedExtrema`, the list that was used (signed chars), which can be edited and
- * used as input. Field data: `SmoothedRelativeGap` and `SmoothedKKTResidual`, the certificate of
- * the quadratic program. **Output 1**: the local extrema of the result (vtkPolyData, one vertex per
- * extremum): point arrays `Kind` (1 maximum, -1 minimum), `Value`, `DataValue`, `Persistence`
- * (fraction of the range), `PointId`, `Listed` (0: an extremum with a persistence above 1e-3 that
- * is not in the list; the result has no such extremum).
+ * scalars, and `SmoothedExtrema`, the list that was used. This array (signed chars) can be edited
+ * and used as the input array `Extrema`. Field data: `SmoothedRelativeGap` and
+ * `SmoothedKKTResidual`, the optimality certificate of the quadratic program (duality gap and
+ * residual). **Output 1**: the local extrema of the result (vtkPolyData, one vertex per extremum):
+ * point arrays `Kind` (1 maximum, -1 minimum), `Value`, `DataValue`, `Persistence` (fraction of the
+ * range), `PointId`, `Listed` (1: in the list; 0: not in the list, with a persistence above 1e-3,
+ * which the order constraints exclude).
  *
  * Points that belong only to cells without area or volume keep their data. Constant data do not
  * change, with a warning.
@@ -39,10 +41,11 @@
  * rounds[].energy, data_length (detail finer than about six times this length is removed; in the
  * mesh's unit), largest_difference and rms_difference to the data, extrema[].{vertex, kind, value,
  * data, persistence}. Errors: no array, an array with several components or with values that are
- * not finite, a list without a maximum or minimum in a connected component, kept values that no
- * such function can have. The status is NOT_CONVERGED if the certificate is not reached.
+ * not finite, a list without a maximum or minimum in a connected component, values at extrema
+ * (KeepValues) that no function with the listed extrema can have. The status is NOT_CONVERGED if
+ * the certificate exceeds Tolerance.
  *
- * Cost: 15 to 30 factorizations of the energy, and the same again for each rebuild.
+ * Cost: 15 to 30 factorizations of the energy's matrix, and as many for each rebuild.
  *
  * @par Thanks:
  * Jacobson, Weinkauf, Sorkine, "Smooth Shape-Aware Functions with Controlled Extrema", Computer
@@ -73,10 +76,10 @@ public:
 
   ///@{
   /**
-   * Fidelity to the data, >= 0. Detail finer than about six times DataWeight^(-1 / 2 k) of the
-   * mesh's size is smoothed away: 0.03 for the default 1e6 and k = 2, 0.1 for k = 3. The size is
-   * sqrt(12) times the root mean square distance from the centroid: the diagonal of a box. For 0
-   * see above.
+   * Weight of the data term relative to the smoothness, >= 0. Detail finer than about six times
+   * DataWeight^(-1 / 2 k) of the mesh's size is smoothed away: 0.03 for the default 1e6 and k = 2,
+   * 0.1 for k = 3. The size is sqrt(12) times the root mean square distance from the centroid,
+   * which is the diagonal for a box. For the value 0 see above.
    */
   vtkSetMacro(DataWeight, double);
   vtkGetMacro(DataWeight, double);
@@ -89,21 +92,22 @@ public:
   ///@}
 
   ///@{
-  /// Without a list: extrema of the data are kept if their persistence exceeds this fraction of the
-  /// data's range. At least 0 and below 1, default 0.05.
+  /// Threshold that is used if the mesh has no list of extrema: extrema of the data are kept if
+  /// their persistence exceeds this fraction of the data's range. At least 0 and below 1, default
+  /// 0.05.
   vtkSetMacro(Persistence, double);
   vtkGetMacro(Persistence, double);
   ///@}
 
   ///@{
-  /// Without a list: number of the most persistent extrema that are kept, and at least a maximum
-  /// and a minimum per connected component. Default 0: use Persistence.
+  /// Number of extrema that are kept if the mesh has no list: the most persistent ones, and at
+  /// least a maximum and a minimum per connected component. Default 0: use Persistence.
   vtkSetMacro(NumberOfExtrema, vtkIdType);
   vtkGetMacro(NumberOfExtrema, vtkIdType);
   ///@}
 
   ///@{
-  /// Extrema keep the data's values. Default off: the values at extrema are unknowns too.
+  /// Constrain extrema to the data's values. Default off: the values at extrema are unknowns too.
   vtkSetMacro(KeepValues, bool);
   vtkGetMacro(KeepValues, bool);
   vtkBooleanMacro(KeepValues, bool);
@@ -117,10 +121,10 @@ public:
 
   ///@{
   /**
-   * Function that determines the direction in which the result increases. UNCONSTRAINED (default):
-   * the smooth function without order constraints, after removal of other extrema; it is nearest to
-   * the data. HARMONIC: the harmonic function with the extrema as boundary values, which does not
-   * depend on the data between them.
+   * Guide function, which determines the direction in which the result increases along each edge.
+   * UNCONSTRAINED (default): the minimizer without order constraints, from which all other extrema
+   * are removed; it is nearest to the data. HARMONIC: the harmonic function with the extrema as
+   * boundary values, which does not depend on the data between the extrema.
    */
   vtkSetClampMacro(Guide, int, 0, 1);
   vtkGetMacro(Guide, int);
@@ -135,14 +139,15 @@ public:
   ///@}
 
   ///@{
-  /// Minimum difference between each point and a lower and a higher neighbor, as a fraction of the
-  /// data's range, 0 to 1. Default 0; above 0 extrema are strict.
+  /// Minimum difference between each point and a lower neighbor, and between each point and a
+  /// higher neighbor, as a fraction of the data's range, 0 to 1. Default 0; with a value above 0
+  /// extrema are strict.
   vtkSetMacro(Epsilon, double);
   vtkGetMacro(Epsilon, double);
   ///@}
 
   ///@{
-  /// Largest relative gap and residual, above 0 and below 1. Default 1e-6; 1e-9 is tight.
+  /// Largest accepted relative gap and residual, above 0 and below 1. Default 1e-6; 1e-9 is strict.
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);
   ///@}

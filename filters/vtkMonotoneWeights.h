@@ -3,8 +3,9 @@
  * @brief   bounded weights without extrema between handles
  *
  * The weights are those of vtkBoundedBiharmonicWeights with one more constraint: each weight
- * increases and decreases like a guide function whose extrema are only at the handles. This avoids
- * distant bumps and small features that swell. It takes about twice the time of bounded weights.
+ * increases and decreases along the same edges as a guide function that has extrema only at the
+ * handles. This avoids weights that rise again far from their handle, which make distant or small
+ * features swell. It takes about twice the time of bounded weights.
  *
  * For maxima and minima at arbitrary points instead of handles see vtkMonotoneSmoothing.
  *
@@ -31,7 +32,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Order of the energy: 2 biharmonic (default), 3 triharmonic. A bind parameter.
+  /// Order of the energy: 2 biharmonic (default), 3 triharmonic. This is a bind parameter: a change
+  /// computes the weights again.
   void SetOrder(int order);
   vtkGetMacro(Order, int);
   ///@}

@@ -9,10 +9,10 @@
  * the hip. Use it for comparison, and for images that are bent as a whole.
  *
  * Points, cage vertices and regions (their pivots) contribute by their posed positions, bones by
- * their posed segments. The rotation of a point, and of a bone about itself, has no effect. Handles
- * in mode position count as a translation; handles in mode free do not count. A flat mesh (z =
- * const) whose handles keep one common z is rotated within its plane; all other meshes are rotated
- * in space.
+ * their posed segments. The rotation of a point handle, and the rotation of a bone about itself,
+ * have no effect. Handles in mode position contribute a translation; handles in mode free are
+ * ignored. A flat mesh (z = const) whose handles all keep the same z is rotated within its plane;
+ * all other meshes are rotated in space.
  *
  * Ports and bind cache: see vtkPoseAlgorithm. The mesh needs no weights, and ArrayName is not used.
  * The bind stores 24 bytes per point and handle. A pose costs one rotation fit per point.
@@ -38,8 +38,9 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Handles are weighted by 1 / distance^(2 Exponent); a larger exponent makes their surroundings
-  /// more rigid. 1 to 8. Default 1. A bind parameter.
+  /// Exponent of the weights 1 / distance^(2 Exponent) of the handles, 1 to 8; a larger exponent
+  /// makes the surroundings of handles more rigid. Default 1. This is a bind parameter: a change
+  /// runs the bind again.
   void SetExponent(double exponent);
   vtkGetMacro(Exponent, double);
   ///@}

@@ -14,9 +14,9 @@
  *   Without alpha, or with Rectangle on, it is the whole image. An image extends half a spacing
  *   beyond its outer points.
  * - a vtkPolyData with lines or polygons in a plane z = const (other cells are ignored and
- *   counted). They run counter-clockwise around the inside and clockwise around holes, and are
- *   split exactly where they cross. The generalized winding number determines the inside
- *   (WindingThreshold).
+ *   counted). The curves run counter-clockwise around the inside and clockwise around holes. The
+ *   filter splits them exactly where they cross. The generalized winding number determines the
+ *   inside (WindingThreshold).
  *
  * **Input 1** (optional): handles (see vtkHandleFileReader); z is ignored. Inside the shape,
  * points, cage vertices and the ends of bones become points of the mesh, and bones and cage edges
@@ -30,13 +30,13 @@
  * Report: counts.{points, segments, crossings, open_ends, vertices, triangles, kept_points,
  * outside_handles, ignored_cells, pixels, inside_pixels, contour_points, outline_points, loops},
  * area, min_angle (degrees), longest_edge, turned (1: the curves ran clockwise and were reversed),
- * grid (distance below which points were merged, usually 0), domain ("alpha", "rectangle" or
- * "curves"), handles[].{name, vertex} (the id of the handle's point, for a bone of its head; -1
- * outside), seconds.{outline, arrange, winding, fill}.
+ * grid (distance below which points were merged; usually 0, i.e. no merging), domain ("alpha",
+ * "rectangle" or "curves"), handles[].{name, vertex} (the id of the handle's point, for a bone of
+ * its head; -1 outside), seconds.{outline, arrange, winding, fill}.
  *
  * Errors: invalid_input for an image without pixels, with several layers, with a rotated direction,
- * or transparent everywhere; for missing curves and curves that are not in a plane z = const, all
- * on one line, not finite, with ids out of range, or that enclose nothing; for parameters out of
+ * or transparent everywhere; for curves that are missing, not in a plane z = const, all on one
+ * line, not finite, with ids out of range, or that enclose nothing; and for parameters out of
  * range. The status is unavailable without the helper program bindpose-mesher (built with the
  * packages libcgal-dev and libtet1.5-dev).
  *

@@ -1,5 +1,5 @@
-// Output and stretch are the same for all methods; only the bind and the motion of the points
-// differ.
+// Base class of the pose filters. It creates the output and measures the stretch for all pose
+// methods; subclasses implement the bind and the motion of the points.
 #include "vtkPoseAlgorithm.h"
 
 #include "base/execution.h"

@@ -6,13 +6,13 @@
  * is the mesh with moved points (doubles); its cells and arrays are the input's own objects. The
  * active point normals of a vtkPolyData are updated. The field data array `HandleTransforms`
  * contains the transforms that were used, #handles x 12 (3x4, row by row, rest to posed). For
- * handles that are not in mode full they are the transforms that the filter found.
+ * handles that are not in mode full these are the transforms that the filter computed.
  *
  * **Stretch.** The report of every pose states how much the pose stretches the mesh's tets, or its
  * triangles if there are no tets (other cells are split): counts.elements, counts.inverted_elements
- * (turned inside out; for triangles only in flat shapes, z = const), counts.stretched_elements
- * (beyond StretchLimit), largest_stretch and smallest_stretch (singular values of the deformation
- * gradient, 1 at rest). Inverted elements cause a warning.
+ * (inside out; triangles are counted only in flat shapes, z = const), counts.stretched_elements
+ * (stretched or compressed beyond StretchLimit), largest_stretch and smallest_stretch (singular
+ * values of the deformation gradient, 1 at rest). Inverted elements cause a warning.
  *
  * Only stretchable bones (vtkSkinningDeformation) use the `Stretch` and `Twist` of bones. For all
  * other methods a pose with such values causes a warning.
@@ -61,7 +61,7 @@ protected:
   vtkPoseAlgorithm();
   ~vtkPoseAlgorithm() override;
 
-  /// A bindpose::Points, #V x 3, and the transforms that moved the points.
+  /// The posed points (bindpose::Points, #V x 3) and the transforms that moved them.
   struct PosedPoints;
 
   /// Compute the posed points.
@@ -74,7 +74,8 @@ protected:
     bindpose::ExecutionContext& context, const PosedPoints& posed, PosedPoints& normals);
 
   /// Return how the method uses the `Stretch` and `Twist` of bones. A warning is issued if the pose
-  /// has values that the method ignores. The default is that of the methods that find transforms.
+  /// has values that the method ignores. The default is the use by methods that compute transforms
+  /// (as-rigid-as-possible).
   virtual bindpose::StretchUse GetStretchUse();
 
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
@@ -87,7 +88,7 @@ private:
   double StretchLimit = 2.0;
   bool StretchArray = false;
   struct BindParts;
-  std::unique_ptr<BindParts> OfBind; ///< Shared by all poses of a bind; computed on first use.
+  std::unique_ptr<BindParts> OfBind; ///< data shared by all poses of a bind; computed on first use
 };
 
 #endif

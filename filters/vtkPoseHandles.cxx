@@ -1,5 +1,6 @@
-// The text is parsed with the handles' names. One frame is combined with the pose of the input, and
-// the resulting arrays replace the pose arrays of the input.
+// Applies a pose file to handles. The text is parsed with the names of the handles. One frame is
+// combined with the pose of the input, and the resulting arrays replace the pose arrays of the
+// input.
 #include "vtkPoseHandles.h"
 
 #include "base/execution.h"
@@ -34,7 +35,8 @@ vtkStandardNewMacro(vtkPoseHandles);
 struct vtkPoseHandles::Internals
 {
   GltfFile gltf;
-  /// Path of the pose file whose warnings were issued; empty for PoseJSON.
+  /// Source of the last warnings, so that they are issued once: path of the pose file, empty for
+  /// PoseJSON.
   std::optional<std::string> warned_of;
 };
 
@@ -71,7 +73,8 @@ bool vtkPoseHandles::IsFrom(const char* endings) const
   return this->FileName && is_listed(file_extension(this->FileName), endings);
 }
 
-/// Return the text of the pose, and its source as the beginning of a message (empty for PoseJSON).
+/// Return the text of the pose. `source` becomes the beginning of messages: the file name, empty
+/// for PoseJSON.
 Status vtkPoseHandles::ReadText(std::string& text, std::string& source)
 {
   text = this->PoseJSON;
@@ -96,7 +99,7 @@ int vtkPoseHandles::RequestInformation(
 {
   vtkInformation* info = output->GetInformationObject(0);
   offer_times(info, {});
-  // Execute() reports errors of the file or the text.
+  // Ignore errors of the file or the text here; Execute() reports them.
   if (this->IsFrom("glb gltf"))
   {
     if (this->Internal->gltf.read(this->FileName, this->GetMTime()).ok())
@@ -207,7 +210,7 @@ Status vtkPoseHandles::Execute(
   return status;
 }
 
-/// Assign a matrix as the pose of all handles.
+/// Set the pose of all handles from the matrix of a .dmat file.
 Status vtkPoseHandles::TakeDMAT(const Handles& handles, Pose& pose)
 {
   Weights matrix;
@@ -240,7 +243,7 @@ Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose
   }
   const std::vector<std::string> warnings = status.warnings;
   const GltfData& data = this->Internal->gltf.data();
-  std::vector<Pose> standing; // transforms of the nodes, if there is no animation
+  std::vector<Pose> standing; // the transforms of the nodes, if there is no animation
   if (data.poses.empty())
   {
     std::vector<Index> cells;

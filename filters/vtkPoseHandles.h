@@ -11,39 +11,40 @@
  *     "head": [x, y, z], "tail": [x, y, z], "stretch": s, "twist": [deg, deg]}}}
  *   {"version": 2, "frames": [pose, …], "fps": n}
  * </pre>
- * **Parents.** A handle with pivot c is transformed by x -> c + translation + R S (x - c), and then
- * by the transform that it inherits from its parent (cell array `Parent`), as in glTF. Handles that
- * the pose does not mention inherit it as well. "space": "world" disables the inheritance. A child
- * of a bone that stretches or twists moves with the cross-section of the bone to which it is
- * attached. `head` and `tail` are world positions. The resulting transform replaces that of the
- * input.
+ * **Parents.** A handle with pivot c is transformed by x -> c + translation + R S (x - c), where R
+ * is its rotation and S its scale. Then the transform that it inherits from its parent (cell array
+ * `Parent`) is applied, as in glTF. Handles that the pose does not mention inherit the parent's
+ * transform as well. "space": "world" disables the inheritance. A child of a bone that stretches or
+ * twists moves with the cross-section of the bone to which it is attached. `head` and `tail` are
+ * world positions. The resulting transform replaces that of the input.
  *
  * **Modes.** A handle without "mode" keeps its mode of the input, or gets mode automatic (5) if
  * there is no array Mode. If the mode is automatic and the pose contains more than a translation,
- * the mode becomes full. As-rigid-as-possible methods therefore find the rotations of points and of
- * translated bones (see vtkReducedARAP), and skinning uses transforms as they are.
+ * the mode becomes full. As-rigid-as-possible methods therefore compute the rotations of points and
+ * of translated bones (see vtkReducedARAP). Skinning applies all transforms unchanged.
  *
  * A text without "version" has version 1: the default space is "world", and handles that are not
  * mentioned keep their transform. A warning is issued once if version 2 would give another pose.
  *
  * **Expressions.** Any number of a handle may be given as a string with an expression in `t`, the
  * time in seconds: "translate": ["0.2 * sin(6.28 * t)", 0, 0]. vtkExprTkFunctionParser defines the
- * functions and constants. In a sequence t is the time of the frame: its number / fps.
+ * functions and constants. In a sequence t is the time of the frame: its index / fps.
  *
- * **Time.** The filter provides time steps to the pipeline: a sequence or the animation of a glTF
- * file has the times of its frames, expressions have the range from 0 to EndTime. If a time is
+ * **Time.** The filter provides time steps to the pipeline: for a sequence or the animation of a
+ * glTF file the times of the frames, for expressions the range from 0 to EndTime. If a time is
  * requested, the output is the frame at that time or the values of the expressions. If no time is
  * requested, Frame and Time are used.
  *
  * Errors: an invalid file, an unknown handle, an expression that cannot be parsed or has no finite
- * value at the time. Without FileName and PoseJSON the input is passed on.
+ * value at the requested time. Without FileName and PoseJSON the input is passed on.
  *
  * FileName may also name a .glb or .gltf file. Its animation, or the transforms of its nodes if
  * there is none, is assigned by the names of joints and handles (see vtkGLTFSkinReader). Handles
  * that are not joints follow their parents. FileName may also name a .dmat file of libigl, which
- * poses all handles, points before bones. It contains (d + 1) m x d numbers, a transposed transform
- * per handle (d = 3, or 2 in a plane), or 4 b x 1 numbers, a rotation (x, y, z, w) per bone about
- * its head, which is applied before its parent's rotation.
+ * poses all handles, points before bones. For m handles in d dimensions (d = 3, or 2 in a plane) it
+ * is a matrix of (d + 1) m x d numbers, one transposed transform per handle. For b bones it is a
+ * matrix of 4 b x 1 numbers, one quaternion (x, y, z, w) per bone: a rotation about the head,
+ * applied before the parent's rotation.
  *
  * All other arrays are the input's own objects, so that downstream filters keep their bind.
  */
@@ -96,7 +97,7 @@ public:
   ///@}
 
   ///@{
-  /// End of the time range of expressions in seconds, >= 0. Default 10.
+  /// End of the time range of expressions, in seconds, >= 0. Default 10.
   vtkSetClampMacro(EndTime, double, 0.0, 1e9);
   vtkGetMacro(EndTime, double);
   ///@}
@@ -105,9 +106,10 @@ public:
   vtkGetMacro(HasExpressions, bool);
 
   ///@{
-  /// Number of frames of the last Update(): 1 for a single pose, 0 before the first Update().
+  /// Return the number of frames of the last Update(): 1 for a single pose, 0 before the first
+  /// Update().
   vtkGetMacro(NumberOfFrames, int);
-  /// Report whether the last pose was a sequence, which may have one frame.
+  /// Report whether the last pose was a sequence; a sequence may have only one frame.
   vtkGetMacro(Sequence, bool);
   vtkGetMacro(FramesPerSecond, double);
   ///@}

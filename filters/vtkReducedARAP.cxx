@@ -1,5 +1,5 @@
-// Connects the kernel bindpose::ReducedArap to VTK. The bind stores its projected matrices; a pose
-// computes transforms and blends them.
+// Connects the kernel bindpose::ReducedArap to VTK. The bind stores projected matrices; a pose
+// computes the transforms of the handles and blends them.
 #include "vtkReducedARAP.h"
 
 #include "arap_input.h"
@@ -100,7 +100,8 @@ void vtkReducedARAP::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
   os << indent << "NumberOfClusters: " << this->NumberOfClusters << "\n";
   os << indent << "NumberOfExtraWeights: " << this->NumberOfExtraWeights << "\n";
-  os << indent << "ExtraWeightsKind: " << (this->ExtraWeightsKind == EIGENMODES ? "eigenmodes" : "bumps")
+  os << indent
+     << "ExtraWeightsKind: " << (this->ExtraWeightsKind == EIGENMODES ? "eigenmodes" : "bumps")
      << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";

@@ -6,16 +6,16 @@
  * of one affine transform per handle, as in vtkSkinningDeformation. The user prescribes only some
  * of the transforms, and the filter computes the others so that the mesh bends as little as
  * possible:
- * - a handle in mode `full` (0) has its `Transform`;
+ * - a handle in mode `full` (0) keeps its `Transform`;
  * - a handle in mode `position` (1) has its pivot at the position given by `Transform`; the filter
  *   computes its rotation;
  * - a bone in mode `tail` (3) has its tail, and in mode `ends` (4) both ends, at the positions
- *   given by Transform and Stretch; the filter computes the rest (the rotation about the bone
- *   itself, or about the end);
+ *   given by Transform and Stretch; the filter computes the remaining rotation (about the tail in
+ *   mode `tail`, about the bone in mode `ends`);
  * - the filter computes the whole transform of a handle in mode `free` (2);
- * - a handle in mode `automatic` (5, also without an array Mode) has mode position if it is a point
- *   or a cage vertex that is at most translated, in the world or relative to its parent, or a bone
- *   that is translated. Otherwise it has mode full.
+ * - a handle in mode `automatic` (5, also without an array Mode) has mode position in two cases,
+ *   otherwise mode full: it is a point or a cage vertex that is at rest or only translated (in the
+ *   world or relative to its parent), or it is a bone that is translated.
  *
  * If every handle is in mode full, the result is linear blend skinning. The energy is the sum of
  * |e' - R e|^2 over the edges e of clusters of vertices with similar weights. A solve alternates
@@ -24,14 +24,14 @@
  * of the mesh.
  *
  * Ports, arrays, bind cache and errors: see vtkPoseAlgorithm. Port 0 is a surface (vtkPolyData, or
- * a grid of 2D cells) or a vtkUnstructuredGrid of tets. The energy is that of the input mesh: with
- * tets it preserves volume, with surfaces it preserves only the skin. The field data array
- * `HandleTransforms` of the output contains the computed transforms, #handles x 12 (3x4, row by
- * row, rest to posed).
+ * a grid of 2D cells) or a vtkUnstructuredGrid of tets. The energy is that of the input mesh: an
+ * energy of tets preserves volume, an energy of a surface only the shape of the skin. The field
+ * data array `HandleTransforms` of the output contains the computed transforms, #handles x 12 (3x4,
+ * row by row, rest to posed).
  *
- * Contradictory positions are satisfied in the least-squares sense. Warnings name contradictory and
- * redundant positions and handles without any weight. Weight columns that are empty, duplicate or
- * nearly dependent are harmless.
+ * Contradictory positions are satisfied in the least-squares sense. Warnings name handles with
+ * contradictory or redundant positions, and handles without any weight. Weight columns may be zero,
+ * duplicate or nearly linearly dependent.
  *
  * Report: method (the energy), counts (including clusters and extra_weights), energy, iterations,
  * single_precision_iterations, residual (fraction of the energy by which the last iteration lowered
@@ -64,27 +64,27 @@ public:
 
   ///@{
   /**
-   * Sets of edges that share a rotation: the edges of the elements around a vertex
-   * (SPOKES_AND_RIMS), the edges that end at a vertex (SPOKES, without edges of negative cotangent
-   * weight), the edges of a tet, or the edges of a triangle. Default AUTO: TETRAHEDRA on tets,
-   * SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a surface and TRIANGLES on tets are errors. A bind
-   * parameter.
+   * Sets of edges that share a rotation. SPOKES_AND_RIMS: the edges of the elements around a
+   * vertex. SPOKES: the edges that end at a vertex, without edges of negative cotangent weight.
+   * TETRAHEDRA: the edges of a tet. TRIANGLES: the edges of a triangle. AUTO (default): TETRAHEDRA
+   * on tets, SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a surface and TRIANGLES on tets are errors.
+   * This is a bind parameter: a change runs the bind again.
    */
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);
   ///@}
 
   ///@{
-  /// Number of rotations that are fitted per iteration. Default 0: four per handle. A bind
-  /// parameter.
+  /// Number of clusters, sets of vertices with similar weights; one rotation is fitted per cluster
+  /// and iteration. Default 0: four clusters per handle. This is a bind parameter.
   void SetNumberOfClusters(int clusters);
   vtkGetMacro(NumberOfClusters, int);
   ///@}
 
   ///@{
   /**
-   * Number of additional weights that let the mesh bend away from the handles. Default 0; 15 is a
-   * good number. A bind parameter.
+   * Number of additional weight functions, which let the mesh bend away from the handles. Default
+   * 0; 15 is a good value. This is a bind parameter.
    */
   void SetNumberOfExtraWeights(int extra);
   vtkGetMacro(NumberOfExtraWeights, int);
@@ -98,9 +98,9 @@ public:
 
   ///@{
   /**
-   * Type of the extra weights: smooth bumps around positions that are far apart in weights, or
-   * skinning eigenmodes (Benchekroun et al. 2023), the smoothest weights that vanish at the
-   * handles. Default BUMPS. A bind parameter.
+   * Type of the extra weight functions: smooth bumps around vertices with very different weights
+   * (BUMPS, default), or skinning eigenmodes (EIGENMODES; Benchekroun et al. 2023), the smoothest
+   * functions that vanish at the handles. This is a bind parameter.
    */
   void SetExtraWeightsKind(int kind);
   vtkGetMacro(ExtraWeightsKind, int);
@@ -125,8 +125,8 @@ public:
   ///@{
   /**
    * Time limit of a solve in microseconds: a solve ends after the iteration that exceeds it.
-   * Default 0: no limit. The report contains the number of iterations. The same number as
-   * MaximumIterations, with Tolerance 0 and the same initial rotations, reproduces the result.
+   * Default 0: no limit. To reproduce a result, set MaximumIterations to the number of iterations
+   * in its report and Tolerance to 0, and start from the same rotations.
    */
   vtkSetClampMacro(TimeBudget, double, 0.0, 1e12);
   vtkGetMacro(TimeBudget, double);
@@ -140,9 +140,9 @@ public:
 
   ///@{
   /**
-   * Start a solve from the rotations of the last solve (on, the default: drags converge in few
-   * iterations and keep their twists) or from an estimate based on the handles' own motions (off:
-   * the result depends only on the pose).
+   * Initial rotations of a solve. On (the default): the rotations of the last solve, so that drags
+   * converge in few iterations and keep their twists. Off: an estimate based on the handles' own
+   * motions, so that the result depends only on the pose.
    */
   vtkSetMacro(WarmStart, bool);
   vtkGetMacro(WarmStart, bool);
@@ -151,10 +151,10 @@ public:
 
   ///@{
   /**
-   * Iterate in single precision until its round-off hides the decrease of the energy, and then in
-   * double precision for at least one iteration (on, the default: an iteration takes a third of the
-   * time). Off: iterate in double precision from the start. The tolerance is the same for both
-   * settings, and the rest pose is reproduced by both.
+   * On (the default): iterate in single precision until its round-off hides the decrease of the
+   * energy, and then in double precision for at least one iteration. A single-precision iteration
+   * takes a third of the time. Off: iterate in double precision from the start. Both settings reach
+   * the same tolerance and reproduce the rest pose.
    */
   vtkSetMacro(MixedPrecision, bool);
   vtkGetMacro(MixedPrecision, bool);
@@ -165,8 +165,8 @@ public:
   /**
    * Add two point arrays to the output: `RotationCluster`, the index of the rotation that a vertex
    * follows, and `Rotation`, its axis times its angle in degrees, 0 to 180. If rotations belong to
-   * elements, the rotation of a vertex is that of most of its elements; without elements it is -1
-   * and 0. Default off.
+   * elements, a vertex follows the rotation of most of its elements; a vertex without elements gets
+   * the index -1 and the rotation 0. Default off.
    */
   vtkSetMacro(RotationArrays, bool);
   vtkGetMacro(RotationArrays, bool);

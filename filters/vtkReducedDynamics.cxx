@@ -1,10 +1,10 @@
-// Connects the kernel bindpose::ReducedDynamics to VTK. The executive calls once per missing step
-// (CONTINUE_EXECUTING, like other temporal filters), so that the handles can be requested at each
-// step's time.
+// Connects the kernel bindpose::ReducedDynamics to VTK. The executive calls the filter once per
+// time step that is not simulated yet (CONTINUE_EXECUTING, like other temporal filters), so that
+// the handles can be requested at the time of each step.
 //
-// Simulated steps are valid until one of their inputs changes. Pose arrays change with time, so
-// their modification times cannot detect this. Instead the filter compares the pipeline
-// modification times of everything upstream, which the inputs' executives store.
+// Simulated steps are valid until an input changes. The modification times of the pose arrays
+// cannot detect this, because these arrays change with time. Instead the filter compares the
+// pipeline modification times of everything upstream, which the inputs' executives store.
 #include "vtkReducedDynamics.h"
 
 #include "arap_input.h"
@@ -34,10 +34,11 @@ struct vtkReducedDynamics::Internals
 {
   ReducedDynamics body;
   bool started = false;
-  Index target = 0; ///< step that is requested
-  Index next = 0; ///< step for which the handles are requested; 0 starts
-  bool more = false; ///< more steps are needed after this one
-  std::vector<vtkMTimeType> upstream; ///< pipeline modification times of the simulated steps
+  Index target = 0; ///< time step that is requested
+  Index next = 0; ///< time step for which the handles are requested; 0 starts the simulation
+  bool more = false; ///< more time steps are needed after this one
+  std::vector<vtkMTimeType> upstream; ///< pipeline modification times at which the steps were
+                                      ///< simulated
 };
 
 vtkReducedDynamics::vtkReducedDynamics() : Internal(new Internals) {}
@@ -166,8 +167,8 @@ int vtkReducedDynamics::RequestUpdateExtent(
     return 1;
   }
   const bool timed = info->Has(SDDP::UPDATE_TIME_STEP()) != 0 && this->TimeStep > 0.0;
-  // A time between two steps shows the earlier step. The 1e-6 allows for round-off in the times of
-  // steps.
+  // At a time between two steps the earlier step is shown. The 1e-6 allows for round-off in the
+  // times of steps.
   state.target = timed ? static_cast<Index>(std::floor(std::clamp(
                            info->Get(SDDP::UPDATE_TIME_STEP()) / this->TimeStep + 1e-6, 0.0, 1e7)))
                        : this->Step;
@@ -226,7 +227,7 @@ Status vtkReducedDynamics::Deform(
   options.solve.mixed_precision = this->MixedPrecision;
   if (!state.started && state.next > 0)
   {
-    state.more = true; // the bind is new, and these handles are not those of time 0
+    state.more = true; // a new bind starts at time 0, but these handles are of a later time
   }
   else
   {

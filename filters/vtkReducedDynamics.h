@@ -4,19 +4,20 @@
  *
  * Dynamics in the space of vtkReducedARAP (Jacobson et al. 2012). Handles in mode `full` and
  * `position` prescribe motion. Inertia, Gravity and the shape's resistance to deformation determine
- * the rest. A step is implicit Euler and costs about as much as a solve of vtkReducedARAP. It is
- * stable for any TimeStep; longer steps damp oscillations more. If a handle changes to mode `free`,
- * it stops constraining the body, and the body keeps its velocity.
+ * the rest. A time step uses implicit Euler and costs about as much as a solve of vtkReducedARAP.
+ * It is stable for any TimeStep; longer steps damp oscillations more. If a handle changes to mode
+ * `free`, it stops constraining the body, and the body keeps its velocity.
  *
  * **Time.** The filter provides the time steps 0, TimeStep, …, NumberOfSteps * TimeStep to the
  * pipeline, and requests the handles at the time of each step (vtkPoseHandles returns the frame of
  * a sequence, or the value of expressions, at that time). At time 0 the body has the pose of
- * vtkReducedARAP and no velocity. A requested time is simulated from the start, or from the last
- * step if that was earlier and nothing has changed since. The same time gives the same bits. If no
- * time is requested, the output is Step.
+ * vtkReducedARAP and no velocity. The simulation of a requested time continues from the last
+ * simulated step if that is earlier and no input has changed, otherwise it starts at time 0. The
+ * result for a time has the same bits in both cases. If no time is requested, the output is the
+ * step with index Step.
  *
- * With Interactive on, the filter ignores the pipeline's time: every execution is one step with the
- * current handles, until Restart().
+ * With Interactive on, the filter ignores the pipeline's time: every execution computes one step
+ * with the current handles. Restart() returns to time 0.
  *
  * Ports, arrays, bind cache and errors: see vtkPoseAlgorithm; meshes and energies: see
  * vtkReducedARAP.
@@ -42,7 +43,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Like those of vtkReducedARAP; all are bind parameters.
+  /// See the setters of vtkReducedARAP. All four are bind parameters: a change runs the bind again.
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);
   void SetNumberOfClusters(int clusters);
@@ -66,13 +67,13 @@ public:
   ///@}
 
   ///@{
-  /// Step that is output if no time is requested, 0 to 1e7. Default 0.
+  /// Index of the time step that is output if no time is requested, 0 to 1e7. Default 0.
   vtkSetClampMacro(Step, int, 0, 10000000);
   vtkGetMacro(Step, int);
   ///@}
 
   ///@{
-  /// Acceleration in length units / s^2. Default 0, 0, 0.
+  /// Acceleration by gravity, in length units per second squared. Default 0, 0, 0.
   void SetGravity(double x, double y, double z);
   void SetGravity(const double gravity[3]);
   vtkGetVector3Macro(Gravity, double);
@@ -86,16 +87,17 @@ public:
 
   ///@{
   /**
-   * Resistance to bending: energy per volume (area) at a strain of one, above 0. Default 1000.
-   * Waves travel at sqrt(Stiffness / Density) length units per second. Under gravity g a part of
-   * length l sags by about Density g l^2 / Stiffness.
+   * Resistance to bending: energy per volume (per area for surfaces) at a strain of one, above 0.
+   * Default 1000. Waves travel at sqrt(Stiffness / Density) length units per second. With gravity
+   * g, a limb of length l sags by about Density g l^2 / Stiffness.
    */
   void SetStiffness(double stiffness);
   vtkGetMacro(Stiffness, double);
   ///@}
 
   ///@{
-  /// Drag coefficient in 1 / s, >= 0: the drag is this times mass times velocity. Default 0.
+  /// Drag coefficient in 1 / s, >= 0: the drag force is coefficient times mass times velocity.
+  /// Default 0.
   void SetDamping(double damping);
   vtkGetMacro(Damping, double);
   ///@}
@@ -107,21 +109,21 @@ public:
   ///@}
 
   ///@{
-  /// Convergence tolerance: a step ends when an iteration lowers the minimized function by no more
-  /// than this fraction. Default 1e-6; 0 runs all iterations.
+  /// Convergence tolerance: the iterations of a step end when one lowers the minimized function by
+  /// no more than this fraction. Default 1e-6; 0 runs all iterations.
   void SetTolerance(double tolerance);
   vtkGetMacro(Tolerance, double);
   ///@}
 
   ///@{
-  /// Like that of vtkReducedARAP, for each step. Default on.
+  /// See vtkReducedARAP::SetMixedPrecision; used in each step. Default on.
   void SetMixedPrecision(bool mixed);
   vtkGetMacro(MixedPrecision, bool);
   vtkBooleanMacro(MixedPrecision, bool);
   ///@}
 
   ///@{
-  /// Compute one step per execution, see above. Default off.
+  /// Compute one step per execution and ignore the pipeline's time, see above. Default off.
   void SetInteractive(bool interactive);
   vtkGetMacro(Interactive, bool);
   vtkBooleanMacro(Interactive, bool);

@@ -47,10 +47,10 @@ Status check_endpoints(WeightsView endpoints, const Handles& handles, const std:
 struct vtkSkinningDeformation::Internals
 {
   Skinning skinning;
-  SharedMatrix<Weights> endpoints; // size 0: none
-  Points centers; // at rest, computed on first use
+  SharedMatrix<Weights> endpoints; // no columns: the mesh has no endpoint weights
+  Points centers; // centers of rotation at rest, computed on first use
   Status of_centers;
-  std::optional<bindpose::PseudoEdges> edges; // automatic ones, computed on first use
+  std::optional<bindpose::PseudoEdges> edges; // the automatic pseudo-edges, computed on first use
   std::vector<Affine> transforms;
 };
 
@@ -143,7 +143,7 @@ Status vtkSkinningDeformation::FindCenters(
   return internal.of_centers;
 }
 
-/// Compute the transforms of the pose, with the rotations of pseudo-edges.
+/// Compute the transforms of the pose, including the rotations from pseudo-edges.
 Status vtkSkinningDeformation::FindTransforms(const PoseInput& input, ExecutionContext& context)
 {
   Internals& internal = *this->Internal;
@@ -242,8 +242,8 @@ Status vtkSkinningDeformation::DeformNormals(
 {
   if (this->Method == STRETCHABLE_BONES)
   {
-    // A stretch also changes slopes through the endpoint weights. Use the normals of the posed
-    // polygons.
+    // With a stretch the endpoint weights also change the slope of the surface, so the skinned
+    // normals are wrong. Use the normals of the posed polygons.
     return this->Superclass::DeformNormals(input, context, posed, normals);
   }
   const SharedMatrix<Weights> rest = to_matrix(input.mesh->GetPointData()->GetNormals());

@@ -8,26 +8,27 @@
  *   affine handles; twists by large angles lose volume.
  * - **dual quaternion** (Kavan et al. 2008): blends rigid motions, after scale and shear have been
  *   blended linearly. Twists keep their radius.
- * - **stretchable bones** (Jacobson and Sorkine 2011): linear blend in which bones also apply their
- *   `Stretch` and `Twist` along themselves. Points beyond the tail are moved, not scaled, and a
- *   twist keeps the radius. The position of a point along a bone is its endpoint weight, 0 at the
+ * - **stretchable bones** (Jacobson and Sorkine 2011): linear blend in which each bone also applies
+ *   its `Stretch` and `Twist` along its own axis. Points beyond the tail are moved, not scaled, and
+ *   a twist keeps the radius. The position of a point along a bone is its endpoint weight, 0 at the
  *   head to 1 at the tail: the component of that handle in the point array `EndpointWeights` (from
  *   vtkBoneEndpointWeights, or painted). If it is missing or NaN, the projection to the bone is
  *   used. Other handles are blended linearly.
- * - **centers of rotation** (Le and Hodgins 2016): a point is rotated by the blended rotations
- *   about its own center, the mean position of the parts of the mesh with similar weights, which
- *   moves by linear blend. Twists and bends keep their radius, without the bulge of dual
- *   quaternions. The centers are computed on first use and cached with the bind.
+ * - **centers of rotation** (Le and Hodgins 2016): a point is rotated by the blended rotation about
+ *   its center of rotation. This center is the mean position of the parts of the mesh with weights
+ *   similar to the point's; it moves by linear blend. Twists and bends keep their radius, without
+ *   the bulge of dual quaternions. The centers are computed on first use and cached with the bind.
  *
  * **Pseudo-edges** (Jacobson et al. 2011) are lines between point handles (HandleKind -2, or found
- * automatically). With them users only need to translate points. They are not part of the blend
- * themselves. Each point is rotated by the mean of the smallest rotations that take its edges from
- * rest to the posed ends, in addition to the rotation of its `Transform`. In a plane a rigid motion
- * of all points is found exactly; in space an edge does not determine the rotation about itself.
+ * automatically). They determine the rotations of point handles, so that users only need to
+ * translate the points. Pseudo-edges have no weights. For each edge at a point there is a smallest
+ * rotation that takes the edge from rest to its posed ends. The point is rotated by the mean of
+ * these rotations, in addition to the rotation of its `Transform`. In a plane a rigid motion of all
+ * points is reproduced exactly; in space an edge does not determine the rotation about itself.
  * Points without edges keep their own rotation.
  *
- * Ports, arrays, bind cache and errors: see vtkPoseAlgorithm. Handles in mode position count as a
- * translation, handles in mode free as identity (with a warning). Skinning does not compute
+ * Ports, arrays, bind cache and errors: see vtkPoseAlgorithm. Handles in mode position contribute a
+ * translation, handles in mode free the identity (with a warning). Skinning does not compute
  * transforms; see vtkReducedARAP for that. The filter accepts any vtkPointSet, including FE meshes.
  *
  * Report: method, seconds.bind, seconds.skin, counts (including pseudo_edges and centers),
@@ -56,8 +57,8 @@ public:
   };
 
   ///@{
-  /// Method of blending transforms. Default LINEAR_BLEND. A pose parameter: changing it keeps the
-  /// bind.
+  /// Method of blending transforms. Default LINEAR_BLEND. This is a pose parameter: a change does
+  /// not run the bind again.
   vtkSetClampMacro(Method, int, LINEAR_BLEND, CENTERS_OF_ROTATION);
   vtkGetMacro(Method, int);
   void SetMethodToLinearBlend() { this->SetMethod(LINEAR_BLEND); }
@@ -77,7 +78,7 @@ public:
   /**
    * Pseudo-edges that rotate points: none, those of the handle dataset (default), or automatic
    * ones. The automatic ones are the minimum spanning tree of the point handles by distances along
-   * the mesh's edges. They follow the shape and cross no gap. A pose parameter.
+   * the mesh's edges. They follow the shape and cross no gap. This is a pose parameter.
    */
   vtkSetClampMacro(PseudoEdges, int, NO_PSEUDO_EDGES, AUTOMATIC_PSEUDO_EDGES);
   vtkGetMacro(PseudoEdges, int);
@@ -92,8 +93,9 @@ public:
 
   ///@{
   /**
-   * Store weights and transforms as floats: half the memory, about twice as fast, accurate to a
-   * millionth of the mesh's diagonal. Default off. A bind parameter.
+   * Store weights and transforms as floats. This takes half the memory, is about twice as fast, and
+   * is accurate to a millionth of the mesh's diagonal. Default off. This is a bind parameter: a
+   * change runs the bind again.
    */
   void SetSinglePrecision(bool single);
   vtkGetMacro(SinglePrecision, bool);
@@ -102,10 +104,11 @@ public:
 
   ///@{
   /**
-   * Weights up to SmallestWeight count as zero, 0 (default: none) to 1. MaximumInfluences is the
-   * maximum number of weights per point, the largest; 0 (default) keeps all. Dropped weight is
-   * distributed over the remaining weights of the point. The report contains counts.dropped_weights
-   * and dropped_share (the largest dropped fraction of a point). Bind parameters.
+   * Limits of the stored weights. Weights up to SmallestWeight are treated as zero, 0 (default:
+   * none) to 1. MaximumInfluences is the maximum number of weights per point; the largest weights
+   * are kept. 0 (default): no limit. Dropped weight is distributed over the remaining weights of
+   * the point. The report contains counts.dropped_weights and dropped_share (the largest dropped
+   * fraction of a point). Both are bind parameters.
    */
   void SetSmallestWeight(double smallest);
   vtkGetMacro(SmallestWeight, double);
@@ -116,7 +119,7 @@ public:
   ///@{
   /**
    * Name of the mesh's point array of endpoint weights, one component per handle, 0 to 1 or NaN.
-   * Default EndpointWeights; an empty name disables the array. A bind parameter.
+   * Default EndpointWeights; an empty name disables the array. This is a bind parameter.
    */
   void SetEndpointArrayName(const std::string& name);
   std::string GetEndpointArrayName() { return this->EndpointArrayName; }

@@ -1,5 +1,5 @@
-// Connects surface/surface_repair.h, which finds the defects, and surface/surface_defects.h, which
-// lists them, to VTK.
+// Connects two kernels to VTK: surface/surface_repair.h finds the defects of a surface, and
+// surface/surface_defects.h lists them.
 #include "vtkSurfaceDefects.h"
 
 #include "base/execution.h"

@@ -18,11 +18,12 @@
  * | 7 | crossing triangle | intersects another triangle beyond shared vertices and edges |
  * | 8 | inward component | belongs to a closed component that is inside out |
  *
- * Further cell arrays are `OriginalCellIds` (the input's cell; -1: none), `CrossedCellIds` (the
- * lowest cell that it crosses; -1: none), `Component` (index of the connected component; -1: none)
- * and `InwardComponent` (index of the component that is inside out; -1: none). Point array:
- * `OriginalPointIds`. Edges, components and crossings are those of the surface with equal points
- * merged, so that files that repeat the corners of every triangle do not consist of boundary edges.
+ * Further cell arrays are `OriginalCellIds` (the input's cell; -1: none), `CrossedCellIds` (lowest
+ * id of the cells that a crossing triangle intersects; -1: none), `Component` (index of the
+ * connected component; -1: none) and `InwardComponent` (index of the component that is inside out;
+ * -1: none). Point array: `OriginalPointIds`. Edges, components and crossings are those of the
+ * surface with equal points merged, so that a file that stores three separate points per triangle
+ * (STL) does not have a boundary edge at every edge.
  *
  * Report: counts.{vertices, triangles, duplicate_vertices, unreferenced_vertices,
  * degenerate_triangles, duplicate_triangles, boundary_edges, nonmanifold_edges, misoriented_edges,

@@ -48,7 +48,8 @@ int vtkTetrahedralizeSurface::FillOutputPortInformation(int port, vtkInformation
 
 namespace
 {
-/// Return the surface with the tet of every point and its barycentric coordinates.
+/// Return the surface with two point arrays: the tet that contains each point, and the barycentric
+/// coordinates of the point in this tet.
 vtkSmartPointer<vtkPolyData> to_bound_surface(
   const bindpose::SurfaceInput& surface, const bindpose::PointBinding& binding)
 {

@@ -1,10 +1,10 @@
 /**
  * @class   vtkTetrahedralizeSurface
- * @brief   computes tets of the inside of a surface, for any surface
+ * @brief   computes tets that fill the inside of any surface
  *
  * The surface may be open, cross itself, be doubled, non-manifold, made of loose triangles or
  * partly inside out. Its generalized winding number determines the inside. The orientation is
- * repaired first; a warning reports triangles that were turned.
+ * repaired first; a warning reports triangles that were flipped.
  *
  * **Input 0**: a vtkPointSet with 2D cells (polygons and strips are split into triangles; other
  * cells are ignored and counted).
@@ -14,11 +14,11 @@
  * split the cells of other methods where handles need it.
  * **Output**: a vtkUnstructuredGrid of tets (VTK_TETRA, all of positive volume) with the point
  * array `OriginalPointIds` (id of the input point, ascending, then -1 for new points) and three
- * cell arrays. `WindingNumber` (double) is evaluated at the tets' centers. `Label` (int) is 1
- * inside, 2 inside although the winding number is below the threshold, 0 outside, -1 outside
- * although it is not below; tets outside occur only with KeepOutside and EMBED. `MinDihedralAngle`
- * (double) is the tet's smallest dihedral angle in degrees. The field data array `Method` contains
- * the method (as in the report).
+ * cell arrays. `WindingNumber` (double) is evaluated at the tets' centers. `Label` (int) is 1 for
+ * tets inside and 0 outside. It is 2 for tets that are inside although their winding number is
+ * below the threshold, and -1 for tets that are outside although it is not below. Tets outside
+ * occur only with KeepOutside and EMBED. `MinDihedralAngle` (double) is the tet's smallest dihedral
+ * angle in degrees. The field data array `Method` contains the method (as in the report).
  * **Output 1**: a vtkPolyData with the defects of the surface, as from vtkSurfaceDefects (which
  * also works if the tetrahedralization fails).
  * **Output 2**: the surface's points and triangles as a vtkPolyData for EMBED, otherwise empty. Its
@@ -28,31 +28,32 @@
  * tet that is inside).
  *
  * Methods:
- * - CDT keeps the input's points and triangles, cut where triangles cross, and adds points inside.
- *   Clean surfaces are passed to TetGen unchanged. Other surfaces are refined exactly, their hull
- *   is filled, and tets are kept that the segmentation by winding numbers classifies as inside
- *   (see Segmentation). A helper process does the work (bindpose-mesher, built with the packages
+ * - CDT (constrained Delaunay tetrahedralization) keeps the input's points and triangles, cut where
+ *   triangles cross, and adds points inside. Clean surfaces are passed to TetGen unchanged. Other
+ *   surfaces are cut with exact arithmetic along their crossings, and their convex hull is filled
+ *   with tets. The tets that the segmentation by winding numbers classifies as inside are kept (see
+ *   Segmentation). A helper process does the work (bindpose-mesher, built with the packages
  *   libcgal-dev and libtet1.5-dev).
  * - REMESH makes well-shaped tets of the region where the winding number reaches the threshold,
  *   graded by the surface's edges, by Delaunay refinement in the helper process. It keeps points
  *   that are not too close to each other, but not the triangles. If there is no helper or the
  *   refinement fails, it cuts a body-centered cubic lattice: no point is kept, dihedral angles are
  *   above 10 degrees, and parts thinner than a lattice cube are lost.
- * - EMBED is a body-centered cubic lattice that covers the surface and its inside. Every point of
- *   the surface is in a tet; dihedral angles are 60 and 90 degrees. Parts that are close to each
+ * - EMBED creates a body-centered cubic lattice that covers the surface and its inside. Every point
+ *   of the surface is in a tet; dihedral angles are 60 and 90 degrees. Parts that are close to each
  *   other but not connected inside share no point, even within one lattice cube.
- * - WRAP fills, as CDT does, a closed surface around the surface: CGAL's alpha wrap, computed by
- *   the helper process. It does not use winding numbers, so it suits surfaces whose orientation
- *   cannot be repaired. Flat surfaces and loose triangles have a wrap, too. A surface that is
- *   closed up to gaps of two WrapAlpha becomes solid. An open surface becomes a **thin shell**; a
- *   warning states its volume and the volume of the winding number. The whole surface is in the
- *   wrap or on its boundary; no point is kept.
+ * - WRAP computes a closed surface around the input surface (CGAL's alpha wrap, in the helper
+ *   process) and fills it like CDT. It does not use winding numbers, so it also works for surfaces
+ *   whose orientation cannot be repaired, for flat surfaces and for loose triangles. A surface
+ *   whose gaps are all narrower than twice WrapAlpha becomes solid. An open surface becomes a
+ *   **thin shell**; a warning states its volume and the volume where the winding number reaches the
+ *   threshold. The whole surface is in the wrap or on its boundary; no point is kept.
  * - FTETWILD runs the program fTetWild (https://github.com/wildmeshing/fTetWild). Its executable
  *   FloatTetwild_bin or ftetwild must be on PATH or be named by the environment variable
  *   BINDPOSE_FTETWILD. Its tets are well shaped and within FtetwildEpsilon of the surface; no point
  *   is kept; WindingThreshold must be 0.5. Files are exchanged in a temporary folder, which is
  *   always removed. A run usually takes minutes.
- * - AUTO (default) tries CDT, then REMESH, and no other method.
+ * - AUTO (default) tries CDT and, if that fails, REMESH. It never uses another method.
  *
  * Report: method, rungs[].{name, seconds, outcome} (all methods that were tried and why they were
  * rejected), counts.{vertices, triangles, duplicate_vertices, unreferenced_vertices,
@@ -61,23 +62,23 @@
  * triangulated_cells, ignored_cells} of the input, counts.{tets, tet_vertices, kept_vertices,
  * tets_below_5_degrees}, volume, winding_volume (exact for clean surfaces, sampled otherwise),
  * min_dihedral_angle (degrees), resolution (of the lattice), distance_max, distance_mean (REMESH by
- * refinement, WRAP, FTETWILD: between the tets' boundary and the surface where that bounds the
- * inside, in % of its diagonal), counts.wrap_triangles (WRAP), spacing, counts.{lattice_tets,
- * duplicated_nodes, branching_facets, tet_components} (EMBED), segmentation, energy,
- * threshold_energy, counts.changed_by_cut (of the graph cut), counts.tets_inside (KeepOutside),
- * quality[].{dihedral_angle, tets} (histogram of the tets' smallest dihedral angles: lower end of
- * the bin in degrees, number of tets), winding_volume_error (relative standard error of the
- * sampling), counts.{handle_points, handle_vertices} and handles[].{name, vertex} (CDT, WRAP with
- * handles: the id of the handle's point, for a bone of its head; -1 if it is not a point of the
- * mesh), seconds.*.
+ * refinement, WRAP, FTETWILD: distances between the boundary of the tets and the parts of the
+ * surface that bound the inside, in % of the surface's diagonal), counts.wrap_triangles (WRAP),
+ * spacing, counts.{lattice_tets, duplicated_nodes, branching_facets, tet_components} (EMBED),
+ * segmentation, energy, threshold_energy, counts.changed_by_cut (these four are about the graph
+ * cut), counts.tets_inside (KeepOutside), quality[].{dihedral_angle, tets} (histogram of the tets'
+ * smallest dihedral angles: lower end of the bin in degrees, number of tets), winding_volume_error
+ * (relative standard error of the sampling), counts.{handle_points, handle_vertices} and
+ * handles[].{name, vertex} (CDT, WRAP with handles: the id of the handle's point, for a bone of its
+ * head; -1 if it is not a point of the mesh), seconds.*.
  *
  * Errors: invalid_input for a surface without 2D cells, with ids out of range or with coordinates
  * that are not finite; for a flat surface and one that encloses nothing (except with EMBED and
  * WRAP); and for a surface that neither CDT nor REMESH can fill (the message recommends EMBED,
  * which accepts any surface). The status is unavailable for CDT and WRAP without the helper, for
- * FTETWILD without fTetWild, and for REMESH if the whole inside is too thin for its tets. It is
- * internal_error if the requested method gave no valid mesh.
- * Cost: 0.3 s for 5k triangles, 4 s for 90k clean triangles.
+ * FTETWILD without fTetWild, and for REMESH if the whole inside is too thin for its tets. The
+ * status is internal_error if the requested method gave no valid mesh. Cost: 0.3 s for 5k
+ * triangles, 4 s for 90k clean triangles.
  *
  * @par Thanks:
  * Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding
@@ -117,7 +118,7 @@ public:
   };
 
   ///@{
-  /// AUTO (default), CDT, REMESH, EMBED, WRAP or FTETWILD.
+  /// Meshing method: AUTO (default), CDT, REMESH, EMBED, WRAP or FTETWILD.
   vtkSetClampMacro(Method, int, AUTO, FTETWILD);
   vtkGetMacro(Method, int);
   void SetMethodToAuto() { this->SetMethod(AUTO); }
@@ -130,8 +131,8 @@ public:
 
   ///@{
   /**
-   * Winding number at or above which a point is inside, above 0; default 0.5. Larger values move
-   * the lid of an opening inwards; 1.5 keeps only regions that are enclosed twice.
+   * Winding number at or above which a point is inside, above 0; default 0.5. With larger values
+   * the boundary across an opening moves inwards; 1.5 keeps only regions that are enclosed twice.
    */
   vtkSetMacro(WindingThreshold, double);
   vtkGetMacro(WindingThreshold, double);
@@ -145,11 +146,11 @@ public:
 
   ///@{
   /**
-   * Segmentation of the tets of an open surface by CDT. GRAPH_CUT (default) labels all tets
-   * together, so that the boundary follows the surface and is small and smooth across openings.
-   * THRESHOLD uses each tet's winding number alone. It is also used if the volume of the graph cut
-   * differs from that of the winding number by more than 5 %. For closed surfaces both give the
-   * same result.
+   * Segmentation of the tets of an open surface by CDT. GRAPH_CUT (default) labels all tets in one
+   * optimization, so that the boundary follows the surface and is small and smooth across openings.
+   * THRESHOLD labels each tet by its own winding number alone; it is also used if the volume of the
+   * graph cut differs from the volume of the winding number by more than 5 %. For closed surfaces
+   * both methods give the same result.
    */
   vtkSetClampMacro(Segmentation, int, GRAPH_CUT, THRESHOLD);
   vtkGetMacro(Segmentation, int);
@@ -158,7 +159,8 @@ public:
   ///@}
 
   ///@{
-  /// Weight of a small boundary relative to the winding numbers in GRAPH_CUT, >= 0; default 1.
+  /// Weight of the boundary's area in GRAPH_CUT relative to the winding numbers, >= 0; a larger
+  /// weight gives a smaller boundary. Default 1.
   vtkSetMacro(CutSmoothness, double);
   vtkGetMacro(CutSmoothness, double);
   ///@}
@@ -166,8 +168,8 @@ public:
   ///@{
   /**
    * Difference of winding numbers between neighboring tets that GRAPH_CUT attributes to the
-   * surface, above 0; default 0.1. Larger values also allow cuts where the winding number hardly
-   * changes.
+   * surface, above 0; default 0.1. Larger values also allow cuts where the winding number changes
+   * little.
    */
   vtkSetMacro(CutSigma, double);
   vtkGetMacro(CutSigma, double);
@@ -200,9 +202,10 @@ public:
 
   ///@{
   /**
-   * Smallest allowed dihedral angle of a tet in degrees, 0 (default) to 20. If the surface's
-   * triangles do not allow it, AUTO gives up the triangles. REMESH reaches 10.7 on any surface. A
-   * result below this angle is NOT_CONVERGED. 0: as large as the surface's triangles allow.
+   * Smallest allowed dihedral angle of a tet in degrees, 0 to 20; 0 (default): as large as the
+   * surface's triangles allow. If the triangles do not allow the requested angle, AUTO uses a
+   * method that does not keep them. REMESH reaches 10.7 degrees on any surface. A result with a
+   * smaller angle is NOT_CONVERGED.
    */
   vtkSetMacro(Quality, double);
   vtkGetMacro(Quality, double);
@@ -210,8 +213,8 @@ public:
 
   ///@{
   /**
-   * CDT and WRAP only: add no points inside and keep flat tets; InteriorEdge and Quality must be 0.
-   * Default off.
+   * CDT and WRAP only: add no points inside, and keep flat tets; `InteriorEdge` and `Quality` must
+   * be 0. Default off.
    */
   vtkSetMacro(Bare, bool);
   vtkGetMacro(Bare, bool);
@@ -220,11 +223,11 @@ public:
 
   ///@{
   /**
-   * Longest interior edge of CDT and WRAP, as a fraction of the surface's diagonal, >= 0. Default
-   * 0: automatic, as long as the surface's own edges nearby and longer with increasing distance
-   * from it, about 4.5 tets per triangle. Smooth weights need points inside, in addition to those
-   * on the surface. For FTETWILD it is the target length everywhere; 0 means fTetWild's default
-   * 0.05.
+   * Longest interior edge of CDT and WRAP, as a fraction of the surface's diagonal, >= 0. Default 0
+   * (automatic): edges are as long as the surface's own edges nearby and longer with increasing
+   * distance from the surface, which gives about 4.5 tets per triangle. Smooth weights need points
+   * inside, in addition to those on the surface. For FTETWILD this is the target length of all
+   * edges; 0 means fTetWild's default 0.05.
    */
   vtkSetMacro(InteriorEdge, double);
   vtkGetMacro(InteriorEdge, double);
@@ -232,10 +235,10 @@ public:
 
   ///@{
   /**
-   * CDT only (INVALID_INPUT otherwise): keep all tets of the surface's convex hull, or of a box
-   * around it if that was needed, for inspection. Tets with `Label` above 0 are inside.
-   * `WindingNumber` is then the number that the segmentation used, and no points are added for
-   * InteriorEdge. Default off.
+   * Keep all tets of the surface's convex hull, or of a box around the surface if a box was needed,
+   * for inspection. CDT only (INVALID_INPUT otherwise). Tets with `Label` above 0 are inside.
+   * `WindingNumber` is then the winding number that the segmentation used, and no points are added
+   * for InteriorEdge. Default off.
    */
   vtkSetMacro(KeepOutside, bool);
   vtkGetMacro(KeepOutside, bool);
@@ -245,8 +248,9 @@ public:
   ///@{
   /**
    * Radius of the ball that carves the wrap of WRAP from outside, as a fraction of the surface's
-   * diagonal, 0.0001 to 1; default 0.02. Gaps narrower than twice this are closed; edges are up to
-   * about twice as long; the number of triangles and the time grow with 1 over its square.
+   * diagonal, 0.0001 to 1; default 0.02. Gaps narrower than twice this radius are closed, and edges
+   * are up to about twice as long as the radius. The number of triangles and the time grow with 1 /
+   * WrapAlpha^2.
    */
   vtkSetMacro(WrapAlpha, double);
   vtkGetMacro(WrapAlpha, double);
@@ -254,8 +258,8 @@ public:
 
   ///@{
   /**
-   * Distance of the wrap's points outside of the surface, as a fraction of the diagonal, 0.000001
-   * to 1; default 0.001. It is half of the thickness of the shell around a sheet.
+   * Distance of the wrap's points from the surface, as a fraction of the diagonal, 0.000001 to 1;
+   * default 0.001. The shell around an open sheet is twice as thick.
    */
   vtkSetMacro(WrapOffset, double);
   vtkGetMacro(WrapOffset, double);
@@ -263,8 +267,8 @@ public:
 
   ///@{
   /**
-   * Largest distance of the boundary of FTETWILD from the surface, as a fraction of its diagonal,
-   * 0.00001 to 0.1; default 0.001. Smaller values take longer.
+   * Largest distance between the boundary of FTETWILD's tets and the surface, as a fraction of its
+   * diagonal, 0.00001 to 0.1; default 0.001. Smaller values take longer.
    */
   vtkSetMacro(FtetwildEpsilon, double);
   vtkGetMacro(FtetwildEpsilon, double);

@@ -1,6 +1,6 @@
-// Connects the kernel bindpose::transfer() to VTK, with a cache like that of the weights filters.
-// An upstream edit of the pose must not create a new array, or the downstream filters would bind
-// again.
+// Connects the kernel bindpose::transfer() to VTK. The transferred array is cached like that of the
+// weights filters: an upstream edit of the pose must not create a new array, because downstream
+// filters would then bind again.
 #include "vtkTransferWeights.h"
 
 #include "base/execution.h"
@@ -78,8 +78,7 @@ Status vtkTransferWeights::Execute(
   vtkDataArray* weights = mesh ? mesh->GetPointData()->GetArray(this->ArrayName.c_str()) : nullptr;
   if (!weights)
   {
-    return Status::invalid_input(
-      "the source mesh has no point array '" + this->ArrayName + "'");
+    return Status::invalid_input("the source mesh has no point array '" + this->ArrayName + "'");
   }
   BindKey key;
   key.add(this->BindTime.GetMTime());
@@ -108,9 +107,8 @@ Status vtkTransferWeights::Execute(
     {
       return status;
     }
-    // A mesh that is cut open has several vertices at the same position. The vertex with the
-    // point's own id is the right one, because the weights filters keep the ids of the input
-    // vertices.
+    // A mesh that is cut open has several vertices at the same position. Use the vertex with the id
+    // of the target point, because the weights filters keep the ids of the input vertices.
     const SharedMatrix<Points> points = to_points(target);
     const SharedMatrix<Weights> rows = to_matrix(weights);
     for (Index v = 0; v < std::min<Index>(values.rows(), domain.points.rows()); ++v)

@@ -3,15 +3,17 @@
  * @brief   transfers weights from one mesh to points in or near it
  *
  * The filter transfers the weights of a tet mesh or surface to any vtkPointSet: the surface of the
- * tets, another surface, a finer or FE mesh, a point cloud. A point at a vertex (within 1e-9 of the
- * mesh's diagonal) gets that vertex's row unchanged. If several vertices are at the point, as on a
- * mesh that is cut open, the vertex with the point's own id is used. A point in a tet (or on a
- * triangle) gets the barycentric mean of the corners. A point outside gets the weights at the
- * nearest position of the mesh. Rows that sum to one still do.
+ * tets, another surface, a finer or finite-element mesh, a point cloud. A point at a vertex (within
+ * 1e-9 of the mesh's diagonal) gets that vertex's row unchanged. If several vertices are at the
+ * point, as on a mesh that is cut open, the vertex with the point's own id is used. A point in a
+ * tet (or on a triangle) gets the barycentric mean of the corners' weights. A point outside gets
+ * the weights at the nearest position of the mesh. If rows of the mesh sum to one, rows of the
+ * target do too.
  *
  * **Input 0**: the target, any vtkPointSet. **Input 1**: the mesh with the point array `Weights`
  * (see vtkWeightsAlgorithm). **Output**: input 0 with a double point array of the same name and
- * component names, and the certificates of the weights.
+ * component names, and the optimality certificates of the weights as field data (see
+ * vtkWeightsAlgorithm).
  *
  * The result is cached until points, cells or weights of the mesh or the points of the target
  * change. An unchanged transfer returns the same array. GetNumberOfBinds() counts the transfers.

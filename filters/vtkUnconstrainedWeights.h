@@ -21,8 +21,8 @@
  *
  * WeightsMinimum, WeightsMaximum and WeightsInteriorExtrema show how far the weights are from the
  * bounds of bounded weights and from the monotonicity of monotone weights. The first five methods
- * minimize an energy, to which the certificate applies. For the others the gap is 0, and the
- * residual is that of a linear system.
+ * minimize an energy, to which the optimality certificate (gap and residual) applies. For the other
+ * methods the gap is 0, and the residual is that of a linear system.
  *
  * Ports, arrays, certificate, bind cache, report and errors: see vtkWeightsAlgorithm.
  *

@@ -1,5 +1,5 @@
-// The kernel writes the file. This filter converts the image to a grid of samples and the array to
-// floats or doubles.
+// Connects the kernel bindpose::write_vdb() to VTK. The kernel writes the file. This filter
+// converts the image to a grid of samples and the array to floats or doubles.
 #include "vtkVDBWriter.h"
 
 #include "base/execution.h"
@@ -24,7 +24,7 @@ namespace
 {
 using bindpose::Status;
 
-/// Return the array to write; null, with the reason in the status, if there is none.
+/// Return the array to write. Return null, with the reason in the status, if no array is suitable.
 vtkDataArray* find_array(vtkImageData* image, const char* name, Status& status)
 {
   vtkPointData* arrays = image->GetPointData();
@@ -54,7 +54,8 @@ std::string name_of_grid(const char* wanted, vtkDataArray* array)
     return wanted;
   }
   const std::string name = array->GetName() ? array->GetName() : "";
-  // OpenVDB grid names are in lower case: "density", "winding_number".
+  // Return the default name of the grid; OpenVDB names are in lower case: "density",
+  // "winding_number".
   return name.empty() || name == "WindingNumber" ? bindpose::VdbOptions().grid_name : name;
 }
 

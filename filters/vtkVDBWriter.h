@@ -2,14 +2,15 @@
  * @class   vtkVDBWriter
  * @brief   writes a point array of a volume as an OpenVDB grid of floats (.vdb)
  *
- * The file is for Houdini, Blender and other programs that read OpenVDB: the winding number of a
- * surface as a fog volume, 0 outside and 1 inside. Voxel centers are the image's points, in the
- * same world coordinates, for any origin, spacing, direction and extent of the vtkImageData.
+ * Houdini, Blender and other programs can read the file. A typical array is the winding number of a
+ * surface, which becomes a fog volume, 0 outside and 1 inside. Voxel centers are the image's
+ * points, in the same world coordinates, for any origin, spacing, direction and extent of the
+ * vtkImageData.
  *
- * Band FULL keeps every value that differs from the background. NARROW keeps only the voxels near
- * the surface (where the values cross Threshold) and replaces the others by two inactive constants.
- * The file then has a few per cent of the size and the same isosurface. See bindpose::write_vdb for
- * the active voxels and the grid class.
+ * With Band FULL every value that differs from the background is kept. With NARROW only the voxels
+ * near the surface (where the values cross Threshold) are kept; all others are replaced by two
+ * inactive constants. The file then has a few per cent of the size and the same isosurface. See
+ * bindpose::write_vdb for the active voxels and the grid class.
  *
  * The file is written under a temporary name next to its target and renamed at the end; a failure,
  * a cancel or an exception leaves no file. The same values give the same bytes. An existing file is
@@ -37,7 +38,7 @@ public:
   vtkTypeMacro(vtkVDBWriter, vtkBindposeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Which voxels are active.
+  /// The band determines which voxels are active.
   enum BandType
   {
     FULL = 0,
@@ -77,14 +78,14 @@ public:
   ///@}
 
   ///@{
-  /// FULL (default) or NARROW.
+  /// Which voxels are active: FULL (default) or NARROW.
   vtkSetClampMacro(Band, int, FULL, NARROW);
   vtkGetMacro(Band, int);
   ///@}
 
   ///@{
-  /// NARROW: half width of the band on each side of the surface, in voxels along each axis, 1 …
-  /// 2^30. Default: 3.
+  /// NARROW: half of the band's width, i.e. the width on each side of the surface, in voxels along
+  /// each axis, 1 … 2^30. Default: 3.
   vtkSetClampMacro(BandWidth, int, 1, 1 << 30);
   vtkGetMacro(BandWidth, int);
   ///@}

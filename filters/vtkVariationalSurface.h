@@ -1,48 +1,53 @@
 /**
  * @class   vtkVariationalSurface
- * @brief   smooth surfaces between fixed points: membranes, thin plates and smoother surfaces
+ * @brief   smooth surfaces between constrained points: membranes, thin plates and smoother surfaces
  *
- * Each coordinate of the free points solves Laplace's equation of order 1, 2 or 3 by mixed finite
- * elements (Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite elements for variational surface
- * modeling). The filter moves a patch smoothly with its handles. With Fair it computes the patch
- * only from its surroundings, for holes and blends.
+ * Each coordinate of the free points solves the equation Laplacian^Order x = 0 (Order 1, 2 or 3),
+ * discretized by mixed finite elements (Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite elements
+ * for variational surface modeling). The filter moves a patch smoothly with its handles. With Fair
+ * on, the patch (the region of free points) is computed only from its surroundings, for holes and
+ * blends.
  *
  * **Ports**: those of vtkPoseAlgorithm. The mesh is a surface of triangles without weights, and the
- * handles are optional. **Fixed points** are constrained by handles in mode `full` (a point or cage
- * vertex constrains the point at its position, a bone the points along it, a region the points with
- * its label in RegionArrayName), or have a nonzero value in the point array FixedArrayName and do
- * not move. A handle in mode `position` constrains the position of its pivot, which may be inside
- * of a triangle. All other points are free.
+ * handles are optional. **Fixed points** are the points that handles in mode `full` constrain: a
+ * point or cage vertex constrains the point at its position, a bone the points along it, a region
+ * the points with its label in RegionArrayName. Points with a nonzero value in the point array
+ * FixedArrayName are fixed too, and do not move. A handle in mode `position` constrains the
+ * position of its pivot, which may be inside of a triangle. All other points are free.
  *
  * **Boundary.** REGION: the fixed points are a band of `Order` layers of triangles around the
  * patch. The patch continues the band with its positions for order 1, its tangent planes for 2, its
- * curvatures for 3. Single points, curves and narrower bands work as well; the surface is then as
- * smooth across them as the energy makes it. Where the mesh ends, slopes across its border are
- * zero. CURVE: only the positions on the patch's edge are fixed, and its bending there is zero
- * (simply supported). Without a Load this gives the surface of order 1 for any order. TANGENT: the
- * positions on the edge and the derivatives across it (from TangentSource) are fixed. Order 3 needs
- * one more condition, which is then the natural condition of its energy, with a warning.
+ * curvatures for 3. Single points, curves and narrower bands work as well; the smoothness of the
+ * surface across them then follows from the energy. Where the mesh ends, slopes perpendicular to
+ * its border are zero. CURVE: only the positions on the patch's edge are fixed, and its bending
+ * there is zero (simply supported). Without a Load this gives the surface of order 1 for any order.
+ * TANGENT: the positions on the edge and the derivatives perpendicular to it (from TangentSource)
+ * are fixed. Order 3 needs one more condition, which is then the natural condition of its energy,
+ * with a warning.
  *
  * **Parameter domain.** The operator does not change with the pose: its cotangents and areas are
  * those of the mesh at rest, or of the point array ParameterArrayName (2 or 3 components: texture
  * coordinates of a flat patch, positions on a tube). The shape of the result depends on the domain:
  * a round patch needs a domain with about the same lengths.
  *
- * One factorization per choice of modes is cached between poses; moving a handle only solves with
+ * One factorization is cached until the mode of a handle changes; moving a handle only solves with
  * it. The filter factors the condensed matrix (Cholesky) and refines with residuals of the mixed
- * equations. This has the accuracy of the larger indefinite system at a fraction of its cost.
+ * equations. This is as accurate as solving the larger indefinite system of the mixed equations, at
+ * a fraction of its cost.
  *
  * Report: method, order, boundary, counts (vertices, triangles, handles, free, constrained),
- * condition (of the factored matrix with ones on its diagonal, estimated from below; up to about
- * 1e14 the refinement compensates for it), refinement (the last correction, as a fraction of the
- * largest coordinate), constraint_residual (in bounding-box diagonals), seconds.bind,
- * seconds.factor. Warnings: few accurate digits, boundary conditions that fix less than they
- * should, handles that are off the mesh, redundant or contradictory.
+ * condition (a lower estimate of the condition number of the factored matrix, scaled to a unit
+ * diagonal; the refinement compensates for condition numbers up to about 1e14), refinement (the
+ * last correction, as a fraction of the largest coordinate), constraint_residual (in bounding-box
+ * diagonals), seconds.bind, seconds.factor. Warnings: a result with few accurate digits, boundary
+ * conditions that constrain fewer derivatives than requested, handles that are off the mesh,
+ * redundant or contradictory.
  *
  * Errors: those of vtkPoseAlgorithm; cells that are not triangles; arrays of the wrong size or with
  * numbers that are not finite; a triangle of the patch without area; an edge of the patch with
  * three triangles; Fair with a component without fixed points. The status is UNAVAILABLE if the
- * system is too ill-conditioned for double precision (order 3 from about a thousand points across).
+ * system is too ill-conditioned for double precision (order 3 on patches that are about a thousand
+ * points wide or wider).
  *
  * @sa vtkFullARAP
  */
@@ -61,8 +66,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Order: 1 sets the Laplacian to 0 (membrane), 2 its square (thin plate), 3 its cube. Default 2.
-  /// A bind parameter.
+  /// Order: 1 sets the Laplacian of the positions to 0 (membrane), 2 the squared Laplacian (thin
+  /// plate), 3 its cube. Default 2. This is a bind parameter: a change runs the bind again.
   void SetOrder(int order);
   vtkGetMacro(Order, int);
   ///@}
@@ -75,7 +80,7 @@ public:
   };
 
   ///@{
-  /// Boundary condition at the edge of the patch. Default REGION. A bind parameter.
+  /// Boundary condition at the edge of the patch. Default REGION. This is a bind parameter.
   void SetBoundary(int boundary);
   vtkGetMacro(Boundary, int);
   ///@}
@@ -89,53 +94,54 @@ public:
 
   ///@{
   /**
-   * Source of the derivatives across the edge for TANGENT. SURROUNDINGS (default): the triangles
-   * beyond the edge, where there are some. GIVEN: the point array TangentArrayName (3 components:
-   * derivative of the position outwards, per unit of the parameter domain). CLAMPED: zero; for
-   * displacements this keeps the tangents at rest. A bind parameter.
+   * Source of the derivatives perpendicular to the edge for TANGENT. SURROUNDINGS (default): the
+   * triangles beyond the edge, where there are some. GIVEN: the point array TangentArrayName (3
+   * components: derivative of the position outwards, per unit of the parameter domain). CLAMPED:
+   * zero; for displacements this keeps the tangents at rest. This is a bind parameter.
    */
   void SetTangentSource(int source);
   vtkGetMacro(TangentSource, int);
   ///@}
 
   ///@{
-  /// Solve for positions instead of displacements: the rest shape of the patch has no effect.
-  /// Default off. A bind parameter.
+  /// Solve for positions instead of displacements, so that the rest shape of the patch has no
+  /// effect. Default off. This is a bind parameter.
   void SetFair(bool fair);
   vtkGetMacro(Fair, bool);
   vtkBooleanMacro(Fair, bool);
   ///@}
 
   ///@{
-  /// Name of the mesh's point array of region labels (0: free). Default "RegionId". A bind
-  /// parameter.
+  /// Name of the mesh's point array of region labels; points with label 0 belong to no region.
+  /// Default "RegionId". This is a bind parameter.
   void SetRegionArrayName(const std::string& name);
   std::string GetRegionArrayName() { return this->RegionArrayName; }
   ///@}
 
   ///@{
   /// Name of the mesh's point array that is nonzero at fixed points. Default "Fixed"; the array is
-  /// optional. A bind parameter.
+  /// optional. This is a bind parameter.
   void SetFixedArrayName(const std::string& name);
   std::string GetFixedArrayName() { return this->FixedArrayName; }
   ///@}
 
   ///@{
   /// Name of the mesh's point array of positions in the parameter domain. Default
-  /// "Parameterization"; the array is optional. A bind parameter.
+  /// "Parameterization"; the array is optional. This is a bind parameter.
   void SetParameterArrayName(const std::string& name);
   std::string GetParameterArrayName() { return this->ParameterArrayName; }
   ///@}
 
   ///@{
-  /// Name of the mesh's point array of tangents. Default "Tangents". A bind parameter.
+  /// Name of the mesh's point array of tangents. Default "Tangents". This is a bind parameter.
   void SetTangentArrayName(const std::string& name);
   std::string GetTangentArrayName() { return this->TangentArrayName; }
   ///@}
 
   ///@{
-  /// Name of the mesh's point array (3 components) of the right side of (-Laplacian)^Order, which
-  /// inflates the patch; zero if absent. Default "Load"; the array is optional. A bind parameter.
+  /// Name of the mesh's point array (3 components) of the right-hand side of (-Laplacian)^Order x =
+  /// load, which inflates the patch; zero if absent. Default "Load"; the array is optional. This is
+  /// a bind parameter.
   void SetLoadArrayName(const std::string& name);
   std::string GetLoadArrayName() { return this->LoadArrayName; }
   ///@}

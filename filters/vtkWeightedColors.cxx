@@ -23,7 +23,7 @@ vtkStandardNewMacro(vtkWeightedColors);
 
 namespace
 {
-/// Return the cells' colors, one row per handle; 255 of unsigned chars becomes 1. The row of a cell
+/// Read the cells' colors, one row per handle. For unsigned chars, 255 becomes 1. The row of a cell
 /// without a color (three NaN) is not changed.
 Status to_colors(vtkDataArray* array, const WeightsInput& input, Colors& colors)
 {

@@ -1,9 +1,9 @@
-// The kernels insert the handles and solve. This filter converts their result to arrays, and
-// transfers the arrays of the input to the mesh with inserted points.
+// Computes weights on a mesh. The kernels insert the handles into the mesh and solve. This filter
+// converts the result to arrays, and interpolates the arrays of the input at the inserted points.
 //
 // The result of the bind is stored as VTK objects (weights, certificates, and points and cells if
-// handles were inserted). An unchanged bind passes on the same objects, so that downstream filters
-// see no change.
+// handles were inserted). As long as the bind is valid, the output gets the same objects, so that
+// downstream filters see no change.
 #include "vtkWeightsAlgorithm.h"
 
 #include "base/execution.h"
@@ -49,7 +49,7 @@ bool is_integral(vtkDataArray* array)
   return array && array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
 }
 
-/// Return an array with its values at inserted points.
+/// Return a copy of an array that also has values at the inserted points.
 vtkSmartPointer<vtkAbstractArray> extended(
   vtkAbstractArray* array, vtkIdType count, const std::vector<InsertedVertex>& inserted)
 {
@@ -101,10 +101,10 @@ struct SolvedMesh
   vtkSmartPointer<vtkDoubleArray> raw; // null: not requested
   vtkSmartPointer<vtkUnsignedCharArray> mask; // null: all vertices have weights
   std::vector<vtkSmartPointer<vtkDoubleArray>> certificates;
-  // Null unless handles were inserted:
+  // The following members are null unless handles were inserted.
   vtkSmartPointer<vtkPoints> points;
   vtkSmartPointer<vtkCellArray> cells;
-  vtkSmartPointer<vtkUnsignedCharArray> types; // cell types of a grid
+  vtkSmartPointer<vtkUnsignedCharArray> types; // cell types of an unstructured grid
   std::vector<InsertedVertex> inserted;
   std::vector<Index> parent_cell;
 
@@ -162,7 +162,7 @@ void SolvedMesh::take_mesh(const WeightsProblem& problem, const std::vector<Inde
   }
 }
 
-/// Write the mesh with weights and inserted points, if any.
+/// Write the mesh with weights; if handles were inserted, with the inserted points.
 void SolvedMesh::write(vtkPointSet* mesh, vtkPointSet* output) const
 {
   if (this->points)
@@ -190,7 +190,7 @@ void SolvedMesh::write(vtkPointSet* mesh, vtkPointSet* output) const
   }
 }
 
-/// Write the mesh with inserted points and its arrays.
+/// Write the points and cells of the mesh with inserted points, and extend its arrays.
 void SolvedMesh::refine(vtkPointSet* mesh, vtkPointSet* output) const
 {
   output->Initialize();
@@ -241,7 +241,7 @@ struct vtkWeightsAlgorithm::Cache
   Status status;
   SolvedMesh mesh;
   vtkSmartPointer<vtkPolyData> extrema;
-  vtkSmartPointer<vtkUnstructuredGrid> volume; // null: solved on the mesh itself
+  vtkSmartPointer<vtkUnstructuredGrid> volume; // null: the weights were solved on the mesh itself
 };
 
 vtkWeightsAlgorithm::vtkWeightsAlgorithm() : TermNames(new TermArrayNames), Bound(new Cache)
@@ -463,8 +463,9 @@ Status vtkWeightsAlgorithm::Bind(
   };
   const auto tell_preview = [&](const Weights& weights)
   { this->InvokeEvent(PreviewEvent, to_weights_array(array_name, weights, handles)); };
-  // Rigid sets that join components without handles to others make their energy definite; the
-  // preview ignores these sets.
+  // The energy may be definite only because rigid sets join components without handles to other
+  // components. The preview ignores rigid sets, so its energy would be singular; then there is no
+  // preview.
   const bool wants_preview =
     this->Stage == CERTIFIED && this->HasObserver(PreviewEvent) && options.terms.rigid_sets.empty();
   if (domain.is_volume() || this->Domain == SURFACE)
@@ -578,7 +579,7 @@ Status vtkWeightsAlgorithm::Execute(
       return status;
     }
     made.status = status;
-    // The report of a bind stays complete while the bind is valid.
+    // The bind's report keeps the seconds of the bind as long as the bind is valid.
     made.status.report.merge(context.seconds());
     made.key = key;
     made.valid = true;
@@ -598,7 +599,7 @@ Status vtkWeightsAlgorithm::Execute(
   status.report.set("binds", this->NumberOfBinds);
   if (!bind && !status.warnings.empty())
   {
-    // Warnings are issued only when the bind is computed; the report keeps them.
+    // Warnings are issued only by the update that computes the bind; the report keeps them.
     status.report.set("warnings[]", status.warnings);
     status.warnings.clear();
   }

@@ -2,19 +2,20 @@
  * @class   vtkWeightsAlgorithm
  * @brief   base class of the filters that compute weights: ports, arrays and bind cache
  *
- * A weight states how much a handle moves a vertex. The subclasses compute bounded biharmonic,
- * monotone and unconstrained weights.
+ * A weight is the fraction of a handle's motion that a vertex follows. The subclasses compute
+ * bounded biharmonic, monotone and unconstrained weights.
  *
  * **Input 0**: the mesh, a vtkUnstructuredGrid of tets (of positive volume) or a triangle surface
  * (vtkPolyData or grid with 2D cells; polygons are split for the computation).
  * **Input 1**: the handles, a vtkPolyData (see filters/README.md): points, bones and regions, at
  * any position. Regions need an integer point array of labels on the mesh (RegionArrayName).
  * **Output**: input 0 with the double point array `Weights`, with one component per handle, named
- * after the handle. Rows sum to one. Handles that are not at vertices become vertices: the cells
- * around them are split and new points are added after the mesh's own points. Point arrays are
- * interpolated. A label is kept if all surrounding points agree and is 0 otherwise;
- * OriginalPointIds is -1. The output then contains only tets or triangles. With KeepMesh the mesh
- * does not change, and the corners of the cell that contains the handle represent it.
+ * after the handle. Rows (one per point) sum to one. Handles that are not at vertices become
+ * vertices: the cells around them are split and new points are added after the mesh's own points.
+ * Point arrays are interpolated. Integer labels are not interpolated: a new point gets the label of
+ * the surrounding points if they all have the same label, and 0 otherwise. The OriginalPointIds of
+ * a new point is -1. The output then contains only tets or triangles. With KeepMesh on, the mesh
+ * does not change, and the corners of the cell that contains a handle represent the handle.
  *
  * **Output 1**: the local extrema of the solved columns that are away from handles and have a
  * persistence above 1e-3: a vtkPolyData with one vertex per extremum and the point arrays `Kind` (1
@@ -23,24 +24,26 @@
  * **Output 2**: the tets on which a surface's weights were solved, with `Weights` and the arrays of
  * vtkTetrahedralizeSurface. It is empty if the weights were solved on the mesh itself (see Domain).
  *
- * KeepRaw adds the point array `RawWeights`: the columns as they were solved, to which the
- * certificate applies. Its rows need not sum to one.
+ * KeepRaw adds the point array `RawWeights`: the columns (one per handle) before rows are divided
+ * by their sums. The certificate applies to this array. Its rows need not sum to one.
  *
- * **Terms** of bounded and monotone weights are point arrays of the mesh with the names below. All
- * are optional; an empty name disables the array. vtkUnconstrainedWeights has no terms.
+ * **Terms** are additional constraints and energies of bounded and monotone weights. They are point
+ * arrays of the mesh with the names below. All are optional; an empty name disables the array.
+ * vtkUnconstrainedWeights has no terms.
  * - `Rigidity`, >= 0: weights are nearly constant where it is large. The value 1 stiffens all
  *   features longer than a hundredth of the mesh's diagonal, for any unit and resolution; gradients
  *   decrease with 1 / rigidity. It adds 1/2 int rho |grad w|^2 to the energy, rho = 1e4 /
  *   diagonal^2 times the array.
- * - `RigidSet`, integers: every weight is exactly constant on the points of one label > 0. A set
- *   that contains a point of a handle has that point's weights.
+ * - `RigidSet`, integers: every weight is exactly constant on the points with the same label > 0. A
+ *   set that contains a point of a handle gets the weights of that point.
  * - `WeightsLower`, `WeightsUpper`, one component per handle: smallest and largest weight at each
  *   point. NaN means the bounds of the handle, in the handles' cell array `WeightBounds` (two
- *   components). If that array is missing or NaN, SetBounds() applies. All bounds hold for
- *   RawWeights. Dividing rows by their sums can violate them (report: normalized_bounds_violation);
- *   PartitionOfUnity COUPLED does not violate them.
- * - `PinnedWeights`, one component per handle: prescribed weights; NaN: free. They do not change
- *   when rows are divided by their sums: the other weights of the row are scaled to the remainder.
+ *   components). If that array is missing or NaN, the bounds of SetBounds() are used. All bounds
+ *   hold for RawWeights. Dividing rows by their sums can violate them (report:
+ *   normalized_bounds_violation); PartitionOfUnity COUPLED does not violate them.
+ * - `PinnedWeights`, one component per handle: prescribed weights; NaN: not prescribed. Prescribed
+ *   weights do not change when rows are divided by their sums; only the other weights of the row
+ *   are scaled.
  * - `SymmetricPoint`, the id of each point's mirror point, or -1: handles that are mirror images of
  *   each other get weights w_a(v) = w_b(mirror of v). The symmetry is exact, and the energy is
  *   minimized under it. SetMirrorNormal() is an alternative to this array. Points without a mirror
@@ -51,17 +54,17 @@
  * lattice (EMBEDDING) supports no terms; AUTO uses the volume if there are terms. Previews ignore
  * terms.
  *
- * **Certificate**, in field data, one value per column. It applies to the solved columns, before
- * rows are divided by their sums: `WeightsRelativeGap` (upper bound of the relative distance of the
- * energy from its minimum), `WeightsKKTResidual`, `WeightsMinimum`, `WeightsMaximum`,
- * `WeightsInteriorExtrema` (local extrema away from handles with a persistence above 1e-3), and
- * `WeightsRowSumError`.
+ * The **certificate** of optimality is stored in field data arrays, one value per column. It
+ * applies to the columns before rows are divided by their sums: `WeightsRelativeGap` (upper bound
+ * of the relative distance of the energy from its minimum), `WeightsKKTResidual`, `WeightsMinimum`,
+ * `WeightsMaximum`, `WeightsInteriorExtrema` (local extrema away from handles with a persistence
+ * above 1e-3), and `WeightsRowSumError`.
  *
  * Vertices that belong to no cell get rows of zeros. In this case, and only then, the output has
  * the unsigned char point array `WeightsMask`, which is 0 at these vertices. A connected component
- * without a handle gets the weights of the nearest handle, with a warning. On a lattice it is
- * linked to the components that it touches, or to the nearest one, and gets their weights. Handles
- * outside of the mesh are moved to its nearest point, with a warning.
+ * without a handle gets the weights of the nearest handle, with a warning. On a lattice such a
+ * component is linked to the components that it touches, or to the nearest component, and gets
+ * their weights. Handles outside of the mesh are moved to its nearest point, with a warning.
  *
  * **Bind cache.** The weights are cached. They are solved again only after a change of the mesh's
  * points, cells or labels, of the handles' rest data (points, cells, names, kinds) or of this
@@ -72,14 +75,14 @@
  * components, inserted_vertices}, handles[].{name, kind, constrained_vertices, distance_outside,
  * relative_gap, kkt_residual, energy, iterations, factorizations, interior_extrema}, relative_gap
  * and kkt_residual (of the worst column), bounds_violation, normalized_bounds_violation (with
- * bounds), counts.capped_vertices and influences.{largest_difference, rms_difference} (from the
- * weights without MaximumInfluences), partition.{of_unity, energy, largest_difference,
- * rms_difference} (COUPLED; from weights that are divided by their row sums), counts.{linked_parts,
- * links} (components without a handle on a lattice, and their links), handles[].mirror (with
- * mirrors), row_sum_error, largest_snap (in edge lengths), iterations, memory_estimate_bytes
- * (estimated peak memory of the process, computed before the factorizations; for bounded and
- * monotone weights), seconds.{insert, analyze, weights}, and seconds.{factor, solve}, which are
- * sums over handles that are solved in parallel.
+ * bounds), counts.capped_vertices and influences.{largest_difference, rms_difference} (differences
+ * from the weights without MaximumInfluences), partition.{of_unity, energy, largest_difference,
+ * rms_difference} (COUPLED; differences from weights that are divided by their row sums),
+ * counts.{linked_parts, links} (components without a handle on a lattice, and their links),
+ * handles[].mirror (with mirrors), row_sum_error, largest_snap (in edge lengths), iterations,
+ * memory_estimate_bytes (estimated peak memory of the process, computed before the factorizations;
+ * for bounded and monotone weights), seconds.{insert, analyze, weights}, and seconds.{factor,
+ * solve}, which are sums over handles that are solved in parallel.
  *
  * The status is not_converged (with the result) if a column does not reach Tolerance within
  * MaximumIterations. Errors: an empty or invalid mesh, tets without volume, no handles, two handles
@@ -111,16 +114,16 @@ public:
 
   ///@{
   /**
-   * Largest relative gap and residual of a column, in (0, 1). Default 1e-6; 1e-9 is tight. All
-   * parameters of this class are bind parameters.
+   * Largest accepted relative gap and residual of a column, in (0, 1). Default 1e-6; 1e-9 is
+   * strict. All parameters of this class are bind parameters: a change computes the weights again.
    */
   void SetTolerance(double tolerance);
   vtkGetMacro(Tolerance, double);
   ///@}
 
   ///@{
-  /// Maximum number of iterations per column, at least 1; each needs one factorization. Default
-  /// 100; 1 to 20 are usual.
+  /// Maximum number of iterations per column, at least 1. Default 100. Each iteration needs one
+  /// factorization; 1 to 20 iterations are usual.
   void SetMaximumIterations(int iterations);
   vtkGetMacro(MaximumIterations, int);
   ///@}
@@ -128,16 +131,17 @@ public:
   ///@{
   /**
    * Memory limit of the whole process in MiB; 0 (default): the available memory of the machine. A
-   * computation that needs more is refused before the factorization, and the message states both
-   * numbers. If the memory is too small for one factor per thread, fewer threads are used. Changing
-   * the limit keeps cached weights.
+   * computation that needs more is refused before the factorization, with a message that states the
+   * limit and the need. If the memory is too small for one factor per thread, fewer threads are
+   * used. Changing the limit keeps cached weights.
    */
   vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(MemoryLimit, int);
   ///@}
 
   ///@{
-  /// Name of the mesh's point array of region labels (0: free). Default "RegionId".
+  /// Name of the mesh's point array of region labels; points with label 0 belong to no region.
+  /// Default "RegionId".
   void SetRegionArrayName(const std::string& name);
   std::string GetRegionArrayName() { return this->RegionArrayName; }
   ///@}
@@ -153,15 +157,16 @@ public:
 
   ///@{
   /**
-   * Domain on which the weights of a surface are solved: its triangles (SURFACE, the default),
-   * conforming tets of its inside (VOLUME), a lattice that contains it (EMBEDDING; takes seconds
-   * for any size), the closed cage that the handles form around it (CAGE), or AUTO. AUTO solves a
-   * flat shape on itself, a closed, clean surface in its volume if that is predicted to be well
-   * conditioned and cheap, and all others in the embedding. With AUTO the embedding also takes over
-   * if the first choice fails, with a warning. AUTO therefore returns certified weights for every
-   * surface that a lattice can represent. Output 0 is the input surface with Weights at its own
-   * points, and output 2 is the mesh on which the weights were solved. Meshes of tets are solved on
-   * directly. Values out of range are clamped.
+   * Domain on which the weights of a surface are solved. SURFACE (default): its triangles. VOLUME:
+   * conforming tets of its inside. EMBEDDING: a lattice that contains the surface, which takes
+   * seconds for any size. CAGE: the closed cage that the handles form around the surface. AUTO
+   * solves a flat shape on its triangles, and a closed, clean surface in its volume if that is
+   * predicted to be well conditioned and cheap. AUTO solves all other surfaces in the embedding. It
+   * also uses the embedding, with a warning, if the first choice fails. AUTO therefore returns
+   * certified weights for every surface that a lattice can represent. Output 0 is the input surface
+   * with Weights at its own points, and output 2 is the mesh on which the weights were solved. The
+   * option has no effect on meshes of tets, which are solved directly. Values out of range are
+   * clamped.
    */
   void SetDomain(int domain);
   vtkGetMacro(Domain, int);
@@ -190,17 +195,18 @@ public:
   void SetStageToPreview() { this->SetStage(PREVIEW); }
   ///@}
 
-  /// Invoked once while CERTIFIED weights are computed, on the thread that updates the filter, if
-  /// there is an observer. The call data is a vtkDoubleArray of the preview's weights at the
-  /// input's points.
+  /// Event that is invoked once while CERTIFIED weights are computed, on the thread that updates
+  /// the filter, if there is an observer. The call data is a vtkDoubleArray of the preview's
+  /// weights at the input's points.
   enum
   {
     PreviewEvent = vtkCommand::UserEvent + 4201
   };
 
   ///@{
-  /// EMBEDDING and AUTO: number of lattice cubes along the longest side, 6 to 1000. Default 0:
-  /// lattices of increasing resolution are solved until two agree.
+  /// Number of lattice cubes along the longest side for EMBEDDING and AUTO, 6 to 1000. Default 0:
+  /// lattices of increasing resolution are solved until the weights of two successive lattices
+  /// agree.
   void SetEmbeddingResolution(vtkIdType resolution);
   vtkGetMacro(EmbeddingResolution, vtkIdType);
   ///@}
@@ -241,8 +247,9 @@ public:
 
   ///@{
   /**
-   * Smallest and largest weight of every handle for which no array states other bounds; default
-   * 0 and 1. Handles themselves have weights 0 and 1, so only a wider range can be satisfied.
+   * Smallest and largest weight of every handle for which no array specifies bounds; default 0 and
+   * 1. Handles themselves have weights 0 and 1, so only a range that contains 0 to 1 can be
+   * satisfied.
    */
   void SetBounds(double least, double largest);
   vtkGetVector2Macro(Bounds, double);
@@ -262,7 +269,7 @@ public:
   ///@{
   /**
    * Maximum number of handles with a nonzero weight at a point. The largest weights are kept, and
-   * all weights are solved again under this restriction. Default 0: no limit.
+   * all weights are solved again with the others constrained to zero. Default 0: no limit.
    */
   void SetMaximumInfluences(int influences);
   vtkGetMacro(MaximumInfluences, int);
@@ -276,10 +283,10 @@ public:
 
   ///@{
   /**
-   * How rows are made to sum to one. NORMALIZE (default): every column is solved separately, then
+   * Method of making rows sum to one. NORMALIZE (default): every column is solved separately, then
    * rows are divided by their sums. COUPLED (bounded weights only): all columns are solved together
-   * with the row sums as constraints, as in the original definition. This takes several times as
-   * long and many times the memory.
+   * with the row sums as constraints, as in the original definition (Jacobson et al. 2011). This
+   * takes several times as long and many times the memory.
    */
   void SetPartitionOfUnity(int mode);
   vtkGetMacro(PartitionOfUnity, int);
@@ -292,7 +299,7 @@ protected:
   vtkWeightsAlgorithm();
   ~vtkWeightsAlgorithm() override;
 
-  /// Compute the weights of a mesh whose handles are vertices.
+  /// Compute the weights on a mesh in which the handles are vertices.
   virtual bindpose::Status Solve(const bindpose::WeightsProblem& problem,
     const bindpose::WeightsOptions& options, bindpose::ExecutionContext& context,
     bindpose::WeightsResult& result) = 0;

@@ -1,7 +1,8 @@
-// The kernel computes the numbers. This filter determines the samples and the form of the output.
-// The grid follows from the surface's bounds, which the pipeline must know before it requests data,
-// so RequestInformation updates the surface. Execute() computes the grid again from the surface it
-// gets. If this is not the grid that was announced, Execute() computes the whole grid.
+// Connects the kernels of winding_field.h to VTK. The kernels compute the winding numbers; this
+// filter determines the samples and the form of the output. The grid follows from the surface's
+// bounds, which the pipeline requires before it requests data, so RequestInformation updates the
+// surface. Execute() computes the grid again from its input surface. If the result differs from the
+// announced grid, Execute() ignores the requested extent and computes the whole grid.
 //
 // Doubles are evaluated directly into the output arrays, floats block by block through a buffer.
 // The values do not depend on the blocks.
@@ -51,9 +52,10 @@ vtkStandardNewMacro(vtkWindingNumberField);
 
 namespace
 {
-/// The arrays of the last grid, as long as they are in use. With several processes ParaView
-/// requests the field and then the boundary with ghost levels, which only unstructured outputs can
-/// have. For the executive this is another request, and the field would be computed twice.
+/// The arrays of the last grid; weak pointers, so they are available only while an output uses
+/// them. With several processes ParaView requests the field and then the boundary with ghost
+/// levels, which only unstructured outputs can have. For the executive this is another request;
+/// without this cache the field would be computed twice.
 struct LastGrid
 {
   vtkMTimeType parameters = 0;
@@ -70,7 +72,7 @@ struct vtkWindingNumberField::Cache
   bindpose::BindKey key;
   bindpose::WindingField::Options options;
   bindpose::Box box;
-  int flat = -1; // axis across a curve's plane
+  int flat = -1; // axis perpendicular to a curve's plane; -1: no curve
   bindpose::WindingField field;
   bindpose::Status status;
   LastGrid last;
@@ -108,8 +110,8 @@ bindpose::BindKey key_of(vtkPointSet* surface, const std::string& area_array)
 
 using Arrays = std::vector<vtkSmartPointer<vtkDataArray>>;
 
-/// Create an array for the values of all samples in large pages, which a cancel can release
-/// quickly.
+/// Create an array for the values of all samples. It uses large pages, so that memory is released
+/// quickly after a cancel.
 template <typename Array>
 vtkSmartPointer<Array> make_array(const char* name, int components, Index count)
 {
@@ -161,7 +163,7 @@ struct Outputs
     }
   }
 
-  /// Return the requested arrays, the values first.
+  /// Return the requested arrays; the winding numbers are first.
   Arrays arrays() const
   {
     Arrays wanted{ this->values, this->on_surface };
@@ -187,7 +189,8 @@ void attach(const Arrays& arrays, vtkDataSetAttributes* attributes)
   attributes->SetActiveScalars(arrays.front()->GetName());
 }
 
-/// Return the arrays of the last grid if it was the same and they still exist; otherwise none.
+/// Return the arrays of the last grid if the parameters and the extent are the same and the arrays
+/// still exist. Otherwise return no arrays.
 Arrays again(const LastGrid& last, vtkMTimeType parameters, const SampleGrid& grid)
 {
   const bool same = last.parameters == parameters && last.extent == grid.extent;
@@ -203,8 +206,8 @@ Arrays again(const LastGrid& last, vtkMTimeType parameters, const SampleGrid& gr
   return arrays;
 }
 
-/// Return the memory for computed values: the array itself if it stores doubles, otherwise a
-/// buffer.
+/// Return the memory into which the kernel writes values: the array's memory if it stores doubles,
+/// otherwise a buffer.
 double* place_for(vtkDataArray* array, Index first, Index count, std::vector<double>& buffer)
 {
   if (auto* doubles = vtkDoubleArray::SafeDownCast(array))
@@ -224,8 +227,8 @@ void put(const double* from, vtkDataArray* array, Index first, Index count)
   }
 }
 
-/// Evaluate all samples into the outputs. The reports of the blocks are added up; `sum` is the sum
-/// of all values.
+/// Evaluate all samples into the outputs. The reports of the blocks are added up. `sum` is the sum
+/// of all winding numbers.
 Status evaluate(const WindingField& winding, const Samples& samples, ExecutionContext& context,
   Outputs& outputs, double& sum)
 {
@@ -314,8 +317,8 @@ bool is_flat(const SampleGrid& grid)
   return grid.size(0) < 2 || grid.size(1) < 2 || grid.size(2) < 2;
 }
 
-/// Return invalid_input if the arrays would be larger than the machine's memory, before the system
-/// kills the process.
+/// Return invalid_input if the arrays would be larger than the machine's memory. Otherwise the
+/// system might kill the process.
 Status check_memory(Index samples, std::size_t bytes_a_sample)
 {
   const double needed = static_cast<double>(samples) * static_cast<double>(bytes_a_sample);
@@ -382,7 +385,8 @@ int vtkWindingNumberField::RequestInformation(
   vtkInformation* info = output->GetInformationObject(0);
   if (vtkInformation* points = input[1]->GetInformationObject(0))
   {
-    // The output has the structure of the points, but the executive copied that of input 0.
+    // The executive has copied the structure of input 0 (the surface), but the output has the
+    // structure of the points on input 1.
     for (vtkInformationKey* key : std::initializer_list<vtkInformationKey*>{ SDDP::WHOLE_EXTENT(),
            vtkDataObject::ORIGIN(), vtkDataObject::SPACING(), vtkDataObject::DIRECTION(),
            CAN_PRODUCE_SUB_EXTENT(), CAN_HANDLE_PIECE_REQUEST() })
@@ -396,8 +400,8 @@ int vtkWindingNumberField::RequestInformation(
   vtkDataObject* data = vtkDataObject::GetData(surface_info);
   if (vtkCompositeDataSet::SafeDownCast(data))
   {
-    // This pass is for the whole composite. One pass per block follows, in which the block replaces
-    // the producer's output, which must not be updated then.
+    // This pass is for the whole composite dataset. In the following passes, one per block, the
+    // block replaces the producer's output, and the producer must not be updated.
     this->CompositeTime.Modified();
     return 1;
   }
@@ -406,14 +410,15 @@ int vtkWindingNumberField::RequestInformation(
   vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(surface_info);
   if (producer && !is_block)
   {
-    AskForAll(surface_info); // another consumer may have requested a piece
+    AskForAll(surface_info); // another consumer may have requested only a piece
     producer->Update(vtkExecutive::PRODUCER()->GetPort(surface_info));
     data = vtkDataObject::GetData(surface_info);
   }
 
   int whole[6] = { 0, 0, 0, 0, 0, 0 };
   SampleGrid grid;
-  if (this->Grid(vtkPointSet::SafeDownCast(data), grid).ok()) // else Execute() reports the error
+  // otherwise Execute() reports the error
+  if (this->Grid(vtkPointSet::SafeDownCast(data), grid).ok())
   {
     std::copy(grid.extent.begin(), grid.extent.end(), whole);
   }
@@ -463,8 +468,8 @@ bindpose::Status vtkWindingNumberField::Grid(vtkPointSet* input, bindpose::Sampl
 
 namespace
 {
-/// Return the power of 4 that is nearest to a number of points. The build depends only on it, so
-/// that values do not depend on earlier evaluations.
+/// Return the power of 4 that is nearest to a number of points. The acceleration structure depends
+/// on this power only, so that values do not depend on earlier evaluations.
 bindpose::Index size_class(bindpose::Index points)
 {
   return bindpose::Index(1) << 2 *
@@ -482,14 +487,14 @@ bindpose::Status vtkWindingNumberField::Build(
   options.area_array = this->AreaArrayName;
   // A gradient takes several times as long as a value.
   options.expected_queries = size_class(queries * (this->ComputeGradient ? 9 : 1));
-  // Exact methods extend their structure when necessary.
+  // Exact methods extend their structure when necessary, so they accept more queries.
   const bool fits = this->Built->valid &&
     (this->Built->options.expected_queries == options.expected_queries ||
       !this->Built->field.depends_on_expected_queries());
   if (input && fits && this->Built->options == options &&
     this->Built->key == key_of(input, this->AreaArrayName))
   {
-    // Warnings are issued only when they are new.
+    // Warnings are issued only by the update that builds the structure.
     Status again = this->Built->status;
     if (!again.warnings.empty())
     {
@@ -524,7 +529,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   SampleGrid whole;
   if (!points)
   {
-    // Check the grid before the build, which may take long.
+    // Check the grid before the structure is built, because the build may take long.
     const Status status = this->Grid(surface, whole);
     if (!status.ok())
     {
@@ -544,7 +549,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   {
     return status;
   }
-  // The first of several pieces contains the boundary.
+  // Output 1, the boundary, is computed only for the first of several pieces.
   vtkPolyData* boundary = vtkPolyData::GetData(output, 1);
   boundary->Initialize();
   if (GetPiece(output->GetInformationObject(1)) == 0)
@@ -582,7 +587,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   Arrays arrays = points ? Arrays() : again(last, parameters, grid);
   Status evaluated = last.status;
   double sum = last.sum;
-  result->Initialize(); // frees the last block before the next one is allocated, when streaming
+  result->Initialize(); // when streaming, frees the last block before the next one is allocated
   if (arrays.empty())
   {
     Outputs outputs(samples.count(), single, this->ComputeGradient, this->ComputeInside);
@@ -596,7 +601,7 @@ bindpose::Status vtkWindingNumberField::Execute(
     if (!points)
     {
       last = { parameters, grid.extent, { arrays.begin(), arrays.end() }, sum, evaluated };
-      last.status.warnings.clear(); // issued only once
+      last.status.warnings.clear(); // warnings are issued only once
     }
   }
   if (points)

@@ -9,10 +9,10 @@
  *
  * **Input 0**: the surface, a vtkPointSet with 2D cells (polygons and strips are split into
  * triangles; other cells are ignored and counted). If it has no 2D cells, its lines are a curve in
- * a plane across x, y or z, counter-clockwise around its inside. The field is then that of the
- * plane, and the grid is one sample thick. If it has no lines either, its points are samples of a
- * surface, with point normals that face outwards and areas (AreaArrayName). Their field is
- * meaningful at distances above about the spacing of the samples (`Report.spacing`).
+ * a plane perpendicular to x, y or z, counter-clockwise around its inside. The field is then the
+ * winding number in that plane, and the grid is one sample thick. If it has no lines either, its
+ * points are samples of a surface, with point normals that face outwards and areas (AreaArrayName).
+ * Their field is meaningful at distances above about the spacing of the samples (`Report.spacing`).
  * **Input 1** (optional): any vtkDataSet. The field is evaluated at its points, or at its cell
  * centers with SampleCellCenters.
  * **Output 0**: a vtkImageData, or a copy of input 1, with point arrays (or cell arrays)
@@ -20,25 +20,27 @@
  *   the principal value: 1/2 on a smooth face. It is NaN, with a warning, where coordinates are not
  *   finite.
  * - `OnSurface`, unsigned char: 1 where a triangle touches the point, else 0.
- * - `Inside` with ComputeInside, unsigned char: 1 where the winding number is at least WindingThreshold.
+ * - `Inside` with ComputeInside, unsigned char: 1 where the winding number is at least
+ * WindingThreshold.
  * - `WindingNumberGradient` with ComputeGradient, three components: the gradient of the smooth
- *   part, without the jump across the surface; 0 everywhere for a closed surface. The gradient of
- *   oriented points has no jump: it is large near the points.
+ *   part, without the jump at the surface; it is 0 everywhere for a closed surface. The field of
+ *   oriented points has no jump; its gradient is large near the points.
  *
  * **Output 1**: the open boundary of the surface, a vtkPolyData with one line for every edge whose
- * triangles' directions do not cancel, along that direction. Its cell arrays are `Multiplicity`
- * (the excess of triangles in this direction over those in the other direction) and `Component`,
- * its point array is `OriginalPointIds`. Its field data has a tuple per connected component of the
- * surface: `ComponentTriangles`, `ComponentOpenEdges` (with multiplicity, 0: closed) and
- * `ComponentVolume` (holes filled by caps; below 0: inside out). It is empty for curves and points.
- * Up to integers, winding numbers depend only on this boundary.
+ * triangles use it more often in one direction than in the other. The line has that direction. Its
+ * cell arrays are `Multiplicity` (the excess of triangles in this direction over those in the other
+ * direction) and `Component`, its point array is `OriginalPointIds`. Its field data arrays have one
+ * tuple per connected component of the surface: `ComponentTriangles`, `ComponentOpenEdges` (with
+ * multiplicity, 0: closed) and `ComponentVolume` (holes filled by caps; below 0: inside out). The
+ * output is empty for curves and points. Surfaces with the same boundary have winding numbers that
+ * differ only by integers.
  *
  * The grid covers either Bounds or the bounds of the points used by the surface's 2D cells, padded
  * by Padding times their diagonal. The first of Dimensions, Spacing, TargetNumberOfSamples and
- * Resolution that is given determines the resolution. Voxels are cubes unless Spacing
- * is given, or both Bounds and Dimensions. The position of the grid depends on the surface, so a
- * request for information updates the input. Sub-extents are supported and have the same bits as in
- * the whole grid, so that a grid of any size can be computed in parts (vtkImageDataStreamer,
+ * Resolution that is set determines the resolution. Voxels are cubes unless Spacing is set, or both
+ * Bounds and Dimensions are. The position of the grid depends on the surface, so a request for
+ * information updates the input. Sub-extents are supported, and their values have the same bits as
+ * in the whole grid. A grid of any size can therefore be computed in parts (vtkImageDataStreamer,
  * pieces).
  *
  * **Methods.** EXACT is exact to round-off (1e-12). FAST keeps the error within Tolerance. Its
@@ -104,7 +106,7 @@ public:
   };
 
   ///@{
-  /// AUTO (default), EXACT or FAST.
+  /// Method of computation: AUTO (default), EXACT or FAST.
   vtkSetClampMacro(Method, int, AUTO, FAST);
   vtkGetMacro(Method, int);
   void SetMethodToAuto() { this->SetMethod(AUTO); }
@@ -113,17 +115,17 @@ public:
   ///@}
 
   ///@{
-  /// Largest error of FAST, 1e-8 … 0.1; default 1e-3.
+  /// Largest allowed error of FAST, 1e-8 … 0.1; default 1e-3.
   vtkSetClampMacro(Tolerance, double, 1e-8, 0.1);
   vtkGetMacro(Tolerance, double);
   ///@}
 
   ///@{
   /**
-   * Turn triangles so that neighbors are consistent (the smaller part of a patch is turned) and
-   * turn closed components that are inside out, before all other steps; default off. The input does
-   * not change; counts.turned_triangles and counts.turned_components are the numbers of turned
-   * triangles and components.
+   * Repair the orientation before all other steps; default off. In each patch of connected
+   * triangles the smaller part is flipped, so that neighbors are consistent. Then closed components
+   * that are inside out are flipped. The input does not change. counts.turned_triangles and
+   * counts.turned_components are the numbers of flipped triangles and components.
    */
   vtkSetMacro(OrientPatches, bool);
   vtkGetMacro(OrientPatches, bool);
@@ -145,20 +147,22 @@ public:
   ///@}
 
   ///@{
-  /// Samples along x, y, z, each at least 1; 0, 0, 0 (default): not given.
+  /// Number of samples along x, y, z, each at least 1. With 0, 0, 0 (default) another option
+  /// determines it.
   vtkSetVector3Macro(Dimensions, int);
   vtkGetVector3Macro(Dimensions, int);
   ///@}
 
   ///@{
-  /// Distance between samples along x, y, z, in world units, above 0; 0, 0, 0 (default): not given.
+  /// Distance between samples along x, y, z, in world units, above 0. With 0, 0, 0 (default)
+  /// another option determines it.
   vtkSetVector3Macro(Spacing, double);
   vtkGetVector3Macro(Spacing, double);
   ///@}
 
   ///@{
   /// Maximum number of samples, at least 8: the grid is the finest one of cubic voxels within this
-  /// limit. 0 (default): not given.
+  /// limit. With 0 (default) Resolution determines the grid.
   vtkSetClampMacro(TargetNumberOfSamples, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(TargetNumberOfSamples, vtkIdType);
   ///@}
@@ -213,7 +217,7 @@ public:
   ///@}
 
   ///@{
-  /// Winding number at or above which `Inside` is 1; default 0.5.
+  /// Winding number at or above which the array `Inside` is 1; default 0.5.
   vtkSetMacro(WindingThreshold, double);
   vtkGetMacro(WindingThreshold, double);
   ///@}
@@ -228,7 +232,8 @@ public:
   /// Return the open boundary of the surface: output 1.
   vtkPolyData* GetBoundaryOutput();
 
-  /// Number of times that a structure was built; evaluations at other points do not count.
+  /// Number of times that an acceleration structure was built; evaluations at other points do not
+  /// count.
   vtkGetMacro(NumberOfBuilds, int);
 
 protected:
@@ -273,7 +278,7 @@ private:
   double WindingThreshold = 0.5;
   int OutputPrecision = DOUBLE_PRECISION;
   int NumberOfBuilds = 0;
-  vtkTimeStamp CompositeTime; // time at which a composite input was last checked
+  vtkTimeStamp CompositeTime; // time of the last check of a composite input
   struct Cache;
   std::unique_ptr<Cache> Built;
 };

@@ -18,21 +18,24 @@ class vtkPolyData;
 namespace bindpose
 {
 
+// Conversion of computed weights, their optimality certificates (duality gap and residual per
+// column) and their local extrema to VTK arrays and datasets.
+
 /// Return the array of weights: one component per handle, named after the handle.
 BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkDoubleArray> to_weights_array(
   const std::string& name, const Weights& weights, const Handles& handles);
 
-/// Return the certificates of a weights array as arrays with one value per column: NAME followed by
-/// RelativeGap, KKTResidual, Minimum, Maximum, InteriorExtrema, Zeros, Ones, Iterations, and
-/// RowSumError (one value).
+/// Return the optimality certificates of a weights array as arrays with one value per column. Their
+/// names are the array's name followed by RelativeGap, KKTResidual, Minimum, Maximum,
+/// InteriorExtrema, Zeros, Ones, Iterations, and RowSumError (one value in total).
 BINDPOSEFILTERS_EXPORT std::vector<vtkSmartPointer<vtkDoubleArray>> to_certificate_arrays(
   const std::string& name, const WeightsResult& result);
 
 /// Return the extrema of all columns: see output 1 of vtkWeightsAlgorithm.
 vtkSmartPointer<vtkPolyData> to_extrema(const WeightsProblem& problem, const WeightsResult& result);
 
-/// Pass the certificates of a weights array from one dataset's field data to another's, and remove
-/// the previous certificates of that name.
+/// Copy the certificate arrays of a weights array from one dataset's field data to another's, and
+/// remove the previous certificates of that array.
 void pass_certificates(vtkFieldData* from, vtkFieldData* to, const std::string& name);
 
 } // namespace bindpose

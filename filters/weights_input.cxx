@@ -1,4 +1,4 @@
-// Checks of the weights, for all filters that use weights.
+// Checks and converts weights and their handles, for all filters that use weights.
 #include "weights_input.h"
 
 #include "vtkDataArray.h"

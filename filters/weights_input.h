@@ -14,12 +14,12 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Check that weights were computed for a mesh and handles: their numbers of rows and columns
-/// match, and named columns have the names of the handles.
+/// Check that weights were computed for a mesh and its handles: there is one row per point and one
+/// column per handle, and named columns have the names of the handles.
 BINDPOSEFILTERS_EXPORT Status check_weights(
   vtkDataArray* weights, vtkIdType points, const Handles& handles);
 
-/// Weights of a mesh, and their handles.
+/// Weights of a mesh, and the handles for which they were computed.
 struct WeightsInput
 {
   SharedMatrix<Weights> weights; ///< #V x #handles
@@ -27,13 +27,14 @@ struct WeightsInput
   std::vector<Index> cells; ///< cells of the handle dataset, one per handle
 };
 
-/// Convert weights and handles. Return invalid_input if there is no mesh, no array of that name
-/// (the message lists the existing arrays) or no handle, or if the weights belong to other handles.
+/// Convert weights and handles. Return invalid_input if there is no mesh or no handle, if the mesh
+/// has no array of that name (the message lists the existing arrays), or if the weights belong to
+/// other handles.
 Status to_weights_input(
   vtkPointSet* mesh, const std::string& array_name, vtkPolyData* handles, WeightsInput& input);
 
-/// Return the labels of regions, one per point; empty if the mesh has no such array. Return
-/// invalid_input for numbers that are not integers.
+/// Return the region labels of the points, one per point; empty if the mesh has no such array.
+/// Return invalid_input for labels that are not integers.
 BINDPOSEFILTERS_EXPORT Status to_region_ids(
   vtkPointSet* mesh, const std::string& name, std::vector<Index>& region_ids);
 

@@ -1,5 +1,6 @@
-// There is one kernel per type of input, with the same three functions. A curve is in a plane, and
-// points are projected onto it along the axis across it.
+// Evaluates winding numbers of surfaces, curves and oriented points with one class per type of
+// input. Curves are in a plane: points are projected onto it along the axis perpendicular to the
+// plane.
 #include "winding_field.h"
 
 #include "base/execution.h"
@@ -132,8 +133,8 @@ enum class Kind
   cloud
 };
 
-/// Return the type of an input. Inputs that are neither curves nor oriented points are treated, and
-/// rejected, as surfaces.
+/// Return the type of an input. An input that is neither a curve nor a set of oriented points is
+/// treated as a surface, and rejected if it is not one.
 Kind kind_of(vtkPointSet* input)
 {
   if (!input || has_cells_of_dimension(input, 2))
@@ -150,7 +151,7 @@ struct CurveInput
   SharedMatrix<Points> points;
   Segments segments;
   Box box;
-  int across = 2; ///< axis across the plane
+  int across = 2; ///< axis perpendicular to the plane
 };
 
 Status to_curve(vtkPointSet* input, CurveInput& curve)
@@ -197,7 +198,8 @@ Status to_curve(vtkPointSet* input, CurveInput& curve)
   return {};
 }
 
-/// Return coordinates in the plane across an axis, counter-clockwise seen from the axis' tip.
+/// Return 2D coordinates in the plane perpendicular to an axis, counter-clockwise seen from the
+/// positive end of the axis.
 PlanePoints in_plane(PointsView points, int across)
 {
   PlanePoints flat(points.rows(), 2);
@@ -206,7 +208,7 @@ PlanePoints in_plane(PointsView points, int across)
   return flat;
 }
 
-/// Return a part of the samples as points.
+/// Return all samples as a list of points.
 Points points_of(const Samples& samples)
 {
   const SampleGrid* grid = samples.grid();
@@ -229,8 +231,8 @@ WindingMethod method_of(int method)
   return methods[method];
 }
 
-/// Convert the boundary to lines, and the table of components to field data. `original` maps ids to
-/// the input's ids, unless it is empty.
+/// Convert the boundary to lines, and the table of components to field data. `original` contains
+/// the input's id of each point; if it is empty, ids are not changed.
 void to_polydata(const SurfaceBoundary& boundary, PointsView points,
   const std::vector<Index>& original, vtkPolyData* polydata)
 {

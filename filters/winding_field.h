@@ -17,25 +17,26 @@ namespace bindpose
 {
 class ExecutionContext;
 
-/// Return the expected fraction of the total time that the build takes, in [0, 1). Measured on
-/// clean figures and on soups of leaves.
+/// Return the expected fraction of the total time that the build of the acceleration structure
+/// takes, in [0, 1). The constants were measured on clean surfaces of figures and on triangle soups
+/// of leaves.
 double winding_build_fraction(Index triangles, Index queries);
 
-/// The points of an evaluation: a grid or a list of points. Both can be split into parts of whole
-/// layers (one z of the grid, one point).
+/// The points of an evaluation: a grid or a list of points. Both can be split into layers. A layer
+/// is one z slice of a grid, or one point of a list.
 class Samples
 {
 public:
   explicit Samples(const SampleGrid& grid) : grid_(grid) {}
-  /// Use the points of a dataset, or the centers of its cells. The points of an image are a grid
-  /// unless its direction is rotated.
+  /// Use the points of a dataset, or the centers of its cells if `cell_centers` is true. The points
+  /// of an image are stored as a grid unless its direction is rotated.
   Samples(vtkDataSet* data, bool cell_centers);
 
-  /// Return the grid, or null.
+  /// Return the grid; null if the samples are a list of points.
   const SampleGrid* grid() const { return this->grid_ ? &*this->grid_ : nullptr; }
   PointsView points() const { return this->points_.view(); }
   Index count() const;
-  /// Return the number of samples of a layer.
+  /// Return the number of samples in one layer.
   Index layer() const;
   Samples layers(Index begin, Index end) const;
 
@@ -46,8 +47,10 @@ private:
   SharedMatrix<Points> points_;
 };
 
-/// Evaluates the winding number of a dataset: of its 2D cells as a surface; without 2D cells, of
-/// its lines as a curve in a plane across x, y or z; without lines, of its points with normals.
+/// Evaluates the generalized winding number (Jacobson, Kavan, Sorkine-Hornung 2013) of a dataset.
+/// If the dataset has 2D cells, they are the surface. Otherwise its lines are a curve in a plane
+/// perpendicular to x, y or z. If it has no lines either, its points with normals are samples of a
+/// surface.
 class WindingField
 {
 public:
@@ -57,8 +60,8 @@ public:
     double tolerance = 1e-3;
     bool orient = false; ///< surfaces only
     std::string area_array = "Area"; ///< point array of areas; estimated if it is missing
-    /// Total number of points to evaluate, gradients counted several times; 0: very many. Surfaces
-    /// only.
+    /// Expected total number of evaluated points (a gradient counts as several points), used to
+    /// choose the fastest structure; 0: very many. Surfaces only.
     Index expected_queries = 0;
 
     /// Compare all options except expected_queries, which only affects the speed of an evaluation.
@@ -74,19 +77,21 @@ public:
   WindingField(WindingField&&) noexcept;
   WindingField& operator=(WindingField&&) noexcept;
 
-  /// Compute the bounding box of the input without building anything. `flat` is the axis across a
-  /// curve's plane, otherwise -1. Return invalid_input in the same cases as build().
+  /// Compute the bounding box of the input without building anything. `flat` is the axis
+  /// perpendicular to a curve's plane, -1 for other inputs. Return invalid_input in the same cases
+  /// as build().
   static Status extent(vtkPointSet* input, Box& box, int& flat);
 
   Status build(vtkPointSet* input, const Options& options, ExecutionContext& context);
 
-  /// Compute samples.count() winding numbers, and flags for samples on the surface.
+  /// Compute the winding numbers of all samples, and flags for samples that are on the surface.
   Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
     unsigned char* on_surface) const;
-  /// Compute 3 x samples.count() derivatives.
+  /// Compute the gradients: 3 x samples.count() derivatives.
   Status evaluate_gradient(const Samples& samples, ExecutionContext& context, double* out) const;
 
-  /// Report whether values depend, within the tolerance, on Options::expected_queries.
+  /// Report whether values depend, within the tolerance, on Options::expected_queries. If so,
+  /// another number of queries needs a new build.
   bool depends_on_expected_queries() const;
 
   /// Return the open boundary of a surface; empty for curves and points.

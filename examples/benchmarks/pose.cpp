@@ -1,8 +1,11 @@
-// Pose time on one thread: reduced ARAP by handles, clusters and energies (independent of the mesh,
-// as three sizes show), with bind, memory and change of modes; full ARAP (by the mesh only);
-// skinning of 100k vertices; stretch; a crowd. Weights are inverse distances, which need no solver.
-// Those of the crowd, and of skinning where stated, are bounded biharmonic. pose_table.py creates
-// the tables of README.md from the results.
+// Benchmarks of pose time on one thread. Reduced as-rigid-as-possible (ARAP) is measured for
+// different numbers of handles and clusters and different energies, with bind, memory and changes
+// of modes. Its time does not depend on the mesh, as three mesh sizes show. Full ARAP depends only
+// on the mesh. Further rows measure skinning of 100k vertices, the report of stretch, and a crowd.
+//
+// Weights are inverse distances, which need no solver. The weights of the crowd, and of skinning
+// where stated, are bounded biharmonic. pose_table.py creates the tables of README.md from the
+// results.
 #include "surfaces.h"
 
 #include "base/memory.h"
@@ -38,7 +41,7 @@ struct Rig
   Weights weights;
 };
 
-/// Return weights 1 / distance^4, normalized: 1 at the handle itself.
+/// Return weights 1 / distance^4 with rows divided by their sums; 1 at the handle itself.
 Weights distance_weights(const Points& points, const Handles& handles)
 {
   Weights weights(points.rows(), static_cast<Index>(handles.size()));
@@ -52,7 +55,8 @@ Weights distance_weights(const Points& points, const Handles& handles)
   return (weights.array().colwise() / weights.rowwise().sum().array()).matrix();
 }
 
-/// Return a closed surface and point handles at farthest points, without weights.
+/// Return a closed surface and point handles that are spread over it (farthest points), without
+/// weights.
 Rig make_bare_rig(Index triangles, Index count)
 {
   Rig rig;
@@ -93,7 +97,8 @@ Status add_bounded_weights(Rig& rig)
   return status;
 }
 
-/// Return a pose in which every second handle is dragged by its position and the others are free.
+/// Return a pose in which every second handle is moved by `by` in mode position; all other handles
+/// are in mode free.
 Pose dragged(const Handles& handles, double by)
 {
   Pose pose(handles.size());
@@ -105,8 +110,8 @@ Pose dragged(const Handles& handles, double by)
   return pose;
 }
 
-/// Return the median of the processor time of several calls, in seconds. It is independent of other
-/// processes.
+/// Return the median processor time of several calls, in seconds. Processor time does not depend on
+/// other processes.
 template <typename Call>
 double processor_seconds(int calls, const Call& call)
 {
@@ -121,14 +126,15 @@ double processor_seconds(int calls, const Call& call)
   return seconds[static_cast<std::size_t>(calls / 2)];
 }
 
-/// Reset the peak of peak_memory() (Linux only).
+/// Reset the peak of peak_memory() to the current memory (Linux only).
 void forget_peak()
 {
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
-/// Measure one row of the table: bind, iterations without and with acceleration, a cold solve to
-/// convergence, a change of modes. Google Benchmark's own time is that of the cold solve.
+/// Measure one row of the table: the bind, iterations without and with acceleration, a cold solve
+/// (from the rest pose) to convergence, and a change of modes. Google Benchmark's own time is that
+/// of the cold solve.
 template <typename Elements>
 void measure_reduced(benchmark::State& state, const Points& points, const Elements& elements,
   const Weights& weights, const Handles& handles, const ReducedArapOptions& options)
@@ -147,12 +153,13 @@ void measure_reduced(benchmark::State& state, const Points& points, const Elemen
   Pose pose = dragged(handles, 0.3);
   const bool large = handles.size() >= 100;
   const int calls = large ? 5 : 15, solves = large ? 5 : 100;
-  // The iterations start at rest and end before convergence. The first and the last are excluded.
+  // The time per iteration is a difference: 9 iterations minus 2 iterations. All start at rest and
+  // end before convergence, so the first and the last iteration are not measured.
   const auto seconds = [&](Index iterations, Index window, bool mixed)
   {
     const ReducedArap::SolveOptions solve{ 0.0, iterations, ReducedArap::Start::rest, window, 0.0,
       mixed };
-    arap.solve(context, pose, solve); // factors
+    arap.solve(context, pose, solve); // computes the factorization, which is not measured
     return processor_seconds(calls,
       [&]()
       {
@@ -188,7 +195,8 @@ void measure_reduced(benchmark::State& state, const Points& points, const Elemen
   state.counters["clusters"] = static_cast<double>(arap.groups().count);
 }
 
-/// Arguments: triangles, handles, clusters, energy (bindpose::ArapEnergy).
+/// Measure reduced ARAP on a surface. Arguments: triangles, handles, clusters, energy
+/// (bindpose::ArapEnergy).
 void reduced_arap(benchmark::State& state)
 {
   const Rig rig = make_rig(state.range(0), state.range(1));
@@ -238,11 +246,12 @@ TetMesh tet_box(Index side)
   return mesh;
 }
 
-/// Arguments: handles, clusters. The energy of tets in a box of 43k vertices.
+/// Measure reduced ARAP with the energy of tets, in a box of 43k vertices. Arguments: handles,
+/// clusters.
 void reduced_arap_of_tets(benchmark::State& state)
 {
   const TetMesh mesh = tet_box(34);
-  // Handles are spread over the box: a sparse walk through its vertices.
+  // Place the handles at random vertices of the box.
   Handles handles;
   const Index count = state.range(0);
   benchmarks::Random random;
@@ -270,8 +279,8 @@ BENCHMARK(reduced_arap_of_tets)
   ->Iterations(1)
   ->Unit(benchmark::kMillisecond);
 
-/// Return the number of iterations of a solve until its energies, given after half-steps, are at
-/// most `energy`.
+/// Return the number of iterations until the energy of a solve is at most `energy`. `energies` has
+/// two entries per iteration, one after each half-step.
 Index iterations_until(const std::vector<double>& energies, double energy)
 {
   Index iterations = 0;
@@ -283,8 +292,9 @@ Index iterations_until(const std::vector<double>& energies, double energy)
   return iterations;
 }
 
-/// Arguments: handles, clusters, number of iterates used by the acceleration, drag in tenths of the
-/// radius. A cold solve to within 1e-4 of the lowest energy that thousands of iterations reach.
+/// Measure a cold solve until its energy is within 1e-4 of the lowest energy that thousands of
+/// iterations reach. Arguments: handles, clusters, number of iterates used by the acceleration,
+/// drag in tenths of the radius.
 void reduced_arap_to_energy(benchmark::State& state)
 {
   const Rig rig = make_rig(20000, state.range(0));
@@ -321,7 +331,8 @@ BENCHMARK(reduced_arap_to_energy)
   ->ArgsProduct({ { 50 }, { 150 }, { 0, 5, 10 }, { 3, 10, 20 } })
   ->Unit(benchmark::kMicrosecond);
 
-/// Arguments: triangles, number of iterates used by the acceleration.
+/// Measure one iteration of full ARAP. Arguments: triangles, number of iterates used by the
+/// acceleration.
 void full_arap_iteration(benchmark::State& state)
 {
   const Rig rig = make_rig(state.range(0), 20);
@@ -351,13 +362,13 @@ BENCHMARK(full_arap_iteration)
   ->Args({ 86000, 0 })
   ->Unit(benchmark::kMillisecond);
 
-/// Arguments: handles; 0 linear blend, 1 dual quaternions or 2 stretchable bones; 1 for single
-/// precision; 1 for bounded biharmonic weights (otherwise no weight is zero). 100k vertices.
-/// Weights up to 1e-6 are dropped, and the loss is reported.
+/// Measure skinning of 100k vertices. Arguments: handles; method (0 linear blend, 1 dual
+/// quaternions, 2 stretchable bones); 1 for single precision; 1 for bounded biharmonic weights
+/// (otherwise no weight is zero). Weights up to 1e-6 are dropped, and the loss is reported.
 void skinning(benchmark::State& state)
 {
   const Index count = state.range(0);
-  // Handles and weights are cached between rows: they take a minute for all three.
+  // Handles and weights are cached between rows, because computing all three takes a minute.
   static std::map<std::pair<Index, bool>, Rig> rigs;
   Rig& rig = rigs[{ count, state.range(3) != 0 }];
   if (rig.handles.empty())
@@ -437,8 +448,8 @@ BENCHMARK(skinning)
   ->ArgsProduct({ { 5, 20, 50 }, { 0, 1, 2 }, { 0, 1 }, { 0, 1 } })
   ->Unit(benchmark::kMillisecond);
 
-/// Measure the report of elements after each pose. The pose is a bend, so that few elements are
-/// alike.
+/// Measure the report of stretch after a pose. The pose is a bend, so that few elements have equal
+/// stretch.
 template <typename Elements>
 void measure(benchmark::State& state, const Points& rest, const Elements& elements)
 {
@@ -473,9 +484,10 @@ void stretch_of_tets(benchmark::State& state)
 }
 BENCHMARK(stretch_of_tets)->Unit(benchmark::kMillisecond);
 
-/// Arguments: triangles, handles, clusters. 100 instances, each with its own pose that changes from
-/// frame to frame. A frame consists of a warm solve with at most 10 iterations and the motion of
-/// all vertices. Weights are bounded biharmonic; those up to 1e-6 are dropped.
+/// Measure a crowd of 100 instances, each with its own pose that changes from frame to frame.
+/// Arguments: triangles, handles, clusters. A frame consists of a warm solve (from the last frame)
+/// with at most 10 iterations and the motion of all vertices. Weights are bounded biharmonic;
+/// weights up to 1e-6 are dropped.
 void crowd(benchmark::State& state)
 {
   Rig rig = make_bare_rig(state.range(0), state.range(1));
@@ -527,7 +539,8 @@ BENCHMARK(crowd)
   ->Args({ 86000, 20, 80 })
   ->Unit(benchmark::kMillisecond);
 
-/// 1024 random 3x3 matrices; time per matrix is the time divided by 1024.
+/// Measure the fit of a rotation to a 3x3 matrix. A call fits 1024 random matrices, so divide the
+/// time by 1024.
 void rotation_fit(benchmark::State& state)
 {
   constexpr Index count = 1024;

@@ -8,7 +8,7 @@ namespace bindpose::benchmarks
 
 namespace
 {
-/// Return a sphere of rings of latitude with one vertex at each pole.
+/// Return a sphere of vertices on circles of latitude, with one vertex at each pole.
 TriangleMesh rings(Index triangles)
 {
   const Index across = std::max<Index>(4, std::llround(std::sqrt(0.25 * triangles)));
@@ -75,7 +75,8 @@ TriangleMesh open_bumpy_sphere(Index triangles)
 TriangleMesh patches(Index triangles)
 {
   const TriangleMesh whole = rings(triangles);
-  constexpr Index patch = 64; // consecutive triangles share corners, others do not
+  // number of consecutive triangles that share corners; triangles of different patches do not
+  constexpr Index patch = 64;
   TriangleMesh mesh;
   std::map<std::pair<Index, Index>, Index> ids;
   std::vector<Vec3> points;

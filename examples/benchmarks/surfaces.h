@@ -1,7 +1,7 @@
 #ifndef bindpose_examples_benchmarks_surfaces_h
 #define bindpose_examples_benchmarks_surfaces_h
 
-// Surfaces of any size for benchmarks, generated without files.
+// Surfaces of any size for benchmarks, which are computed instead of read from files.
 
 #include "base/mesh.h"
 
@@ -12,14 +12,15 @@ namespace bindpose::benchmarks
 
 /// Return a closed, bumpy sphere with about the given number of triangles.
 TriangleMesh bumpy_sphere(Index triangles);
-/// Return the sphere without the triangles of one cap: `open_edges` grows with the square root of
-/// the size.
+/// Return the sphere without the triangles of one cap. The number of open edges (`open_edges`)
+/// grows with the square root of the number of triangles.
 TriangleMesh open_bumpy_sphere(Index triangles);
-/// Return the sphere cut into patches that do not touch: a soup with about one open edge per four
-/// triangles.
+/// Return the sphere cut into patches that do not touch: a triangle soup with about one open edge
+/// per four triangles.
 TriangleMesh patches(Index triangles);
 
-/// Random numbers that are the same on every machine, unlike those of std (splitmix64).
+/// Random number generator (splitmix64) with the same sequence on every machine, which the
+/// distributions of std do not guarantee.
 class Random
 {
 public:

@@ -1,6 +1,7 @@
-// Weights on boxes of tets with ten point handles: seconds for all handles, and their parts. F is
-// one factorization of Q on the same mesh in the same run: a unit that is comparable between
-// machines.
+// Benchmarks of weights on boxes of tets with ten point handles: seconds for all handles, and for
+// the parts of the computation. Times are also reported as multiples of F. F is the time of one
+// factorization of the matrix Q of the biharmonic energy on the same mesh in the same run, so
+// multiples of F are comparable between machines.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/preview_weights.h"
@@ -17,7 +18,8 @@ namespace
 {
 using namespace bindpose;
 
-/// Return n^3 cells of six tets, sheared and stretched a little so that no angle is special.
+/// Return tets in a box of n^3 cells, six tets per cell. The box is sheared and stretched a little,
+/// so that no angle is special.
 Domain tet_box(Index n)
 {
   Domain domain;
@@ -61,7 +63,7 @@ Domain tet_box(Index n)
   return domain;
 }
 
-/// Return farthest points among the vertices as evenly spread handles.
+/// Return handles at evenly spread vertices (farthest points).
 Handles spread_handles(const Domain& domain, int count)
 {
   Handles handles(static_cast<std::size_t>(count));
@@ -88,8 +90,8 @@ WeightsProblem problem_of(Index cells, int handles)
   return problem;
 }
 
-/// Return the seconds of one factorization of the biharmonic form's free block by CHOLMOD, in
-/// double precision: the unit of time.
+/// Return the seconds of one factorization by CHOLMOD in double precision: the unit of time F. The
+/// matrix is the biharmonic energy, restricted to the unconstrained vertices.
 double seconds_of_f(const WeightsProblem& problem)
 {
   const SplitForm form(harmonic_energy(problem.stiffness, problem.mass, 2), problem.fixed);
@@ -156,7 +158,8 @@ void monotone(benchmark::State& state)
   run<WeightsOptions>(state, monotone_weights);
 }
 
-/// Measure the time of a whole preview in F, because this is the time until a user sees weights.
+/// Measure the time of a whole preview in units of F, because it is the time until a user sees
+/// weights.
 void preview(benchmark::State& state)
 {
   const WeightsProblem problem = problem_of(state.range(0), static_cast<int>(state.range(1)));

@@ -1,9 +1,10 @@
-// Winding numbers: builds, grids, scattered points and points near the surface, for closed and open
-// surfaces and triangle soups. Every row reports median and spread of five repetitions, in
-// nanoseconds per point and in yardsticks (`Y`). A yardstick is the cost of one term of the
-// textbook sum, measured in the same run. Compare yardsticks rather than machines. `error` is the
-// largest difference from the plain sum in double precision on 10,000 of the row's own points, or
-// on fewer for surfaces of more than 100,000 triangles.
+// Benchmarks of winding numbers: builds, grids, scattered points and points near the surface, for
+// closed and open surfaces and triangle soups. Every row reports median and spread of five
+// repetitions, in nanoseconds per point and in yardsticks (`Y`). A yardstick is the cost of one
+// term (triangle) of the plain sum over all triangles, measured in the same run, so yardsticks are
+// comparable between machines. `error` is the largest difference from the plain sum in double
+// precision on 10,000 of the row's own points, or on fewer for surfaces of more than 100,000
+// triangles.
 //
 //   build/bin/bindpose_benchmarks --benchmark_filter=winding
 //
@@ -31,7 +32,7 @@ namespace
 using namespace bindpose;
 using benchmarks::Random;
 
-/// Return the nanoseconds per triangle of the textbook formula, measured once.
+/// Return the yardstick: the nanoseconds per triangle of the plain sum, measured once.
 double yardstick()
 {
   static const double nanoseconds = []
@@ -68,8 +69,8 @@ double yardstick()
   return nanoseconds;
 }
 
-/// Return `count` unordered triangles. Their edge length is that of a surface with this number of
-/// triangles.
+/// Return `count` triangles at random positions and orientations. Their edge length is that of a
+/// surface with this number of triangles.
 TriangleMesh orderless(Index count)
 {
   Random random(3);
@@ -92,7 +93,7 @@ TriangleMesh orderless(Index count)
 }
 
 /// Return a disconnected surface: each triangle is moved by about its own size, and about half of
-/// them, chosen at random, are turned over.
+/// the triangles, chosen at random, are flipped.
 TriangleMesh soup(Index count)
 {
   const TriangleMesh sphere = benchmarks::bumpy_sphere(count);
@@ -117,8 +118,8 @@ TriangleMesh soup(Index count)
   return mesh;
 }
 
-/// Return a surface by its name: closed, open, patches, soup or orderless, each with its number of
-/// triangles, or one of the files. Surfaces are generated once.
+/// Return a surface by its name: closed, open, patches, soup or orderless (with `triangles`
+/// triangles), or one of the files. Each surface is created only once.
 const TriangleMesh& surface(const std::string& name, Index triangles)
 {
   static std::map<std::pair<std::string, Index>, TriangleMesh> made;
@@ -163,15 +164,15 @@ enum Where
   grid,
   scattered,
   near, ///< 1e-4 diagonals away from the surface
-  far_from_origin ///< scattered, with everything moved by 1e6 diagonals
+  far_from_origin ///< scattered; surface and points are moved by 1e6 diagonals
 };
 
 struct Row
 {
   const char* surface;
-  Index triangles; ///< 0: a file
+  Index triangles; ///< 0: the number of triangles of the file
   Where where;
-  Index samples; ///< along the grid's longest side
+  Index samples; ///< number of samples along the grid's longest side
   WindingMethod method;
   double tolerance;
   int threads;
@@ -222,7 +223,7 @@ SampleGrid grid_for(Index samples, const Box& box)
   return cells;
 }
 
-/// Return the largest error. All cores are used, because this part is not timed.
+/// Return the largest error at `count` points. All cores are used, because this part is not timed.
 double largest_error(Index count, Index triangles, const std::function<double(Index)>& error_at)
 {
   const Index tried = std::min<Index>(10000, 1000000000 / std::max<Index>(1, triangles));
@@ -259,7 +260,7 @@ void evaluate(benchmark::State& state, const Row& row)
   const SampleGrid cells = grid_for(std::max<Index>(row.samples, 2), box);
   const Points queries = queries_for(row, mesh, box);
   const Index count = row.where == grid ? cells.count() : queries.rows();
-  // Constant values, so that the memory is allocated before the timing.
+  // Initialize with a constant, so that the memory is allocated before the timing.
   Eigen::VectorXd values = Eigen::VectorXd::Constant(count, -1.0);
   double seconds = 0.0;
   for (auto _ : state)
@@ -271,7 +272,7 @@ void evaluate(benchmark::State& state, const Row& row)
     state.SetIterationTime(spent.count());
     seconds += spent.count();
   }
-  // All repetitions have the same values.
+  // Cache the error, because all repetitions compute the same values.
   static std::map<const Row*, double> errors;
   const auto [found, is_new] = errors.emplace(&row, 0.0);
   if (is_new)
@@ -326,7 +327,7 @@ const bool registered = []
   using M = WindingMethod;
   const char* const places[] = { "grid", "scattered", "near", "far_from_origin" };
   const std::vector<Row> rows{
-    // Closed: exact.
+    // Closed surfaces, computed exactly.
     { "elephant", 0, grid, 64, M::automatic, 1e-3, 1 },
     { "elephant", 0, grid, 128, M::automatic, 1e-3, 1 },
     { "elephant", 0, grid, 256, M::automatic, 1e-3, 1 },
@@ -338,7 +339,7 @@ const bool registered = []
     { "closed", 86000, scattered, 0, M::automatic, 1e-3, 1 },
     { "closed", 86000, near, 0, M::automatic, 1e-3, 1 },
     { "closed", 86000, far_from_origin, 0, M::automatic, 1e-3, 1 },
-    // Open: within a tolerance, and exact.
+    // Open surfaces, within a tolerance and exactly.
     { "holes", 0, grid, 128, M::fast, 1e-3, 1 },
     { "holes", 0, scattered, 0, M::fast, 1e-3, 1 },
     { "holes", 0, scattered, 0, M::fast, 1e-6, 1 },
@@ -349,13 +350,14 @@ const bool registered = []
     { "open", 39000, scattered, 0, M::exact, 1e-3, 1 },
     { "patches", 4800, grid, 128, M::fast, 1e-3, 1 },
     { "patches", 4800, grid, 128, M::fast, 1e-4, 1 },
-    // Unordered triangles: along a surface, and throughout space.
+    // Unordered triangles: near a surface (soup), and throughout space (orderless).
     { "soup", 86000, grid, 128, M::fast, 2e-3, 1 },
     { "soup", 86000, scattered, 0, M::fast, 2e-3, 1 },
     { "orderless", 86000, grid, 128, M::fast, 2e-3, 1 },
     { "orderless", 86000, grid, 128, M::fast, 1e-4, 1 },
     { "orderless", 86000, scattered, 0, M::fast, 2e-3, 1 },
-    // Growth: four times the triangles each time.
+    // Growth of the time with the size: each row has four times as many triangles as the previous
+    // one.
     { "closed", 20000, scattered, 0, M::automatic, 1e-3, 1 },
     { "closed", 80000, scattered, 0, M::automatic, 1e-3, 1 },
     { "closed", 320000, scattered, 0, M::automatic, 1e-3, 1 },

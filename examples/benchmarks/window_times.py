@@ -15,8 +15,8 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CAMEL = ROOT / "build" / "tests" / "demo_meshes" / "data" / "meshes" / "camel.off"
-LOOKS = 100  # number of looks at the window during the bind
-PAUSE = 0.2  # between looks, in seconds
+LOOKS = 100  # number of screenshots after the click on Auto-rig
+PAUSE = 0.2  # seconds between screenshots
 
 
 def write_sphere(path, rings):

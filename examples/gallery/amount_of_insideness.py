@@ -37,7 +37,7 @@ def make(options):
     for shape, name in zip(shapes, ("spheres", "tube")):
         reach = 1.1 * np.abs(shape[0][:, :2]).max()
         wide = 64 if options.small else 480
-        # Avoid planes of symmetry, where samples would be on edges.
+        # Choose a plane that is not a plane of symmetry, where samples would be on edges of the surface.
         field = bindpose.winding_number(shape, (wide, wide, 1), bounds=[-reach, reach, -reach, reach, 0.0123, 0.0123])
         random = np.random.default_rng(7).uniform(-reach, reach, (500 if options.small else 5000, 3))
         random[:, 2] *= 0.3

@@ -31,7 +31,7 @@ def found(mesh, numbers, name, **how):
     """Return the handles of a mesh, and add their numbers."""
     begun = processor_seconds()
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", bindpose.BindposeWarning)  # cut cycles, which the numbers contain
+        warnings.simplefilter("ignore", bindpose.BindposeWarning)  # ignore warnings about cut cycles; the numbers contain them
         handles = bindpose.automatic_handles(mesh, **how)
     numbers[f"{name}: processor seconds"] = processor_seconds() - begun
     counts = bindpose.report(handles)["counts"]
@@ -60,7 +60,8 @@ def make(options):
     others = found(elephant, numbers, "elephant with holes", skeleton_triangles=triangles)
 
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", bindpose.BindposeWarning)  # toes and fingers are finer than the lattice
+        # ignore warnings about toes and fingers that are finer than the lattice
+        warnings.simplefilter("ignore", bindpose.BindposeWarning)
         weighted = bindpose.weights(armadillo, bones, domain="embedding", embedding_resolution=20 if options.small else 0)
     sums = point_array(weighted, "Weights").sum(axis=1)
     numbers["armadillo: largest error of a row sum"] = float(np.abs(sums - 1).max())

@@ -44,11 +44,12 @@ def volume(points, tets):
 
 
 def make(options):
-    warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)  # counted among the numbers
+    # ignore warnings about inverted tets; the numbers contain their count
+    warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)
     weighted, handles = weighted_cylinder(options.small)
     rest, tets = points_of(weighted), tets_of(weighted)
     skin = np.hypot(rest[:, 1], rest[:, 2]) > 0.999
-    outside = skin & (rest[:, 1] < -0.999)  # the bend goes to +y
+    outside = skin & (rest[:, 1] < -0.999)  # the bend goes toward +y, so -y is the outside
     numbers, files, labels = {}, [], []
     for degrees in BENDS:
         angle = np.radians(degrees)

@@ -24,7 +24,7 @@ from vtkmodules.vtkFiltersCore import vtkPolyDataConnectivityFilter, vtkCleanPol
 
 PACKAGE = "sweethome3d-furniture"
 ARCHIVE = pathlib.Path("/usr/share/sweethome3d/furniture/BlendSwap-CC-0.sh3f")
-PIECES = {"antiqueChair": 45, "fireExtinguisher": 60, "spiralStaircase": 60, "outdoorLamp": 70}  # degrees
+PIECES = {"antiqueChair": 45, "fireExtinguisher": 60, "spiralStaircase": 60, "outdoorLamp": 70}  # bend in degrees
 HANDLES = 24
 DEFECTS = ("boundary_edges", "nonmanifold_edges", "self_intersections", "duplicate_triangles")
 
@@ -101,7 +101,8 @@ def make(options):
         handles = bindpose.automatic_handles(mesh, method="points", number_of_points=HANDLES // (2 if options.small else 1),
                                               place_inside=False, distance="straight")
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", bindpose.BindposeWarning)  # surface defects, which the numbers contain
+            # ignore warnings about surface defects; the numbers contain them
+            warnings.simplefilter("ignore", bindpose.BindposeWarning)
             weighted = bindpose.weights(mesh, handles, domain="auto")
         report = bindpose.report(weighted)
         posed = bindpose.deform(weighted, handles, pose_of(handles, box, degrees))

@@ -27,8 +27,8 @@ from vtkmodules.vtkRenderingCore import (
     vtkRenderWindow,
     vtkTextActor,
 )
-import vtkmodules.vtkRenderingFreeType  # noqa: F401  draws texts
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
+import vtkmodules.vtkRenderingFreeType  # noqa: F401  needed to draw texts
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  needed to draw
 
 import meshes
 
@@ -45,7 +45,7 @@ def pages(count=8):
     for turn in (0.5, 2.1, 3.6):
         x, y = rim.T
         vertices = np.vstack([[[0, 0, 0]], np.stack([x * np.cos(turn), y, x * np.sin(turn)], axis=1)])
-        vertices[np.abs(vertices) < 1e-12] = 0  # makes the ends of the spine identical to the bit
+        vertices[np.abs(vertices) < 1e-12] = 0  # both ends of the spine get bit-identical coordinates
         parts.append((vertices, np.array([[0, 1 + i, 2 + i] for i in range(count)])))
     return meshes.joined(*parts)
 
@@ -185,7 +185,8 @@ def make(options):
         numbers[f"{name}: triangles, open edges, volume"] = row
         numbers[f"{name}: multiplicities"] = times.tolist()
 
-    # Incoming and outgoing edges cancel at every point; compare coordinates, because a point may occur several times.
+    # Check that incoming and outgoing edges cancel at every point. Compare coordinates instead of ids, because several
+    # points may have the same position.
     points = points_of(boundary)
     _, same = np.unique(points, axis=0, return_inverse=True)
     ends = np.bincount(same[lines[:, 1]], multiplicity, same.max() + 1)

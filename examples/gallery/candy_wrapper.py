@@ -27,7 +27,7 @@ def cylinder(along, across):
     """Return tets of a cylinder of radius 1 about x, from 0 to LENGTH; `along` and `across` are even."""
     points, tets = bar(along, across)
     x, u, v = points[:, 0] * LENGTH / 6, 2 * points[:, 1] - 1, 2 * points[:, 2] - 1
-    # Map a square to a disc, with its rim on the circle.
+    # Map a square to a disc, so that the border of the square becomes a circle.
     return np.stack([x, u * np.sqrt(1 - v ** 2 / 2), v * np.sqrt(1 - u ** 2 / 2)], axis=1), tets
 
 
@@ -39,7 +39,8 @@ def weighted_cylinder(small):
 
 
 def make(options):
-    warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)  # counted among the numbers
+    # ignore warnings about inverted tets; the numbers contain their count
+    warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)
     weighted, handles = weighted_cylinder(options.small)
     rest = points_of(weighted)
     radius = np.hypot(rest[:, 1], rest[:, 2])

@@ -7,8 +7,8 @@ from vtkmodules.vtkChartsCore import vtkAxis, vtkChartLegend, vtkChartMatrix, vt
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkTable, vtkVector2f, vtkVector2i
 from vtkmodules.vtkViewsContext2D import vtkContextView
-import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401  draws the charts
-import vtkmodules.vtkRenderingFreeType  # noqa: F401  draws their texts
+import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401  needed to draw charts
+import vtkmodules.vtkRenderingFreeType  # noqa: F401  needed to draw their texts
 
 INK = (0.16, 0.16, 0.18)
 DARK = (41, 41, 46)
@@ -76,12 +76,12 @@ class Panel:
             table = vtkTable()
             table.AddColumn(_column("x", [x for x, _ in pairs]))
             table.AddColumn(_column(label or f"_{number}", [y for _, y in pairs]))
-            plot = chart.AddPlot(0)  # a line
+            plot = chart.AddPlot(0)  # 0 is a line plot
             plot.SetInputData(table, 0, 1)
             plot.SetColor(*color, 255)
             plot.SetWidth(width)
             if dots:
-                plot.SetMarkerStyle(4)  # a disc
+                plot.SetMarkerStyle(4)  # 4 is a disc
                 plot.SetMarkerSize(11)
             if dashed:
                 plot.GetPen().SetLineType(2)
@@ -103,7 +103,7 @@ def draw(path, panels, size=(1600, 640), text_size=18, legends=None, left=110):
     matrix = vtkChartMatrix()
     view.GetScene().AddItem(matrix)
     matrix.SetSize(vtkVector2i(len(panels), 1))
-    matrix.SetBorders(left, 80, 30, 50)  # for the axes' texts
+    matrix.SetBorders(left, 80, 30, 50)  # space for the texts of the axes
     matrix.SetGutter(vtkVector2f(115, 0))
     for number, panel in enumerate(panels):
         matrix.SetChart(vtkVector2i(number, 0), vtkChartXY())

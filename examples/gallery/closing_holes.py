@@ -28,7 +28,7 @@ def make(options):
 
     wide, distances, surfaces, fields = (60 if options.small else 300), [], [], []
     flat = box.copy()
-    flat[2] = 0.02  # through body, head and trunk
+    flat[2] = 0.02  # z range of the plane, which cuts body, head and trunk
     for missing in MISSING:
         surface = meshes.without(whole, order < missing)
         values = bindpose.winding_number(surface, points, tolerance=1e-6)

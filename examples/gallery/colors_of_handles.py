@@ -41,7 +41,7 @@ def drawing(few):
     turns = 8 if few else 16
     angle = 2 * np.pi * np.arange(turns) / turns
     sun = np.stack([0.66 + 0.13 * np.cos(angle), 0.70 + 0.13 * np.sin(angle)], axis=1)
-    bones += along([tuple(p) for p in sun], closed=True)  # counter-clockwise: the left side is inside
+    bones += along([tuple(p) for p in sun], closed=True)  # counter-clockwise, so that the left side is inside
     left += [(1.0, 0.93, 0.45)] * turns
     right += [mix((0.98, 0.55, 0.25), (0.97, 0.78, 0.45), 0.5 + 0.5 * np.sin(a)) for a in angle]
     steps = 5 if few else 10
@@ -78,7 +78,7 @@ def make(options):
     bones, left, right = drawing(options.small)
     curves = bindpose.handles(bones=bones, parents=[-1] * len(bones))
     corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
-    # The ridges' ends are points of the outline.
+    # Find the points of the outline at which the ridges end.
     ends = bones.reshape(-1, 3)[:, :2]
     on_left, on_right = (np.unique(ends[np.abs(ends[:, 0] - x) < 1e-12], axis=0) for x in (0.0, 1.0))
     outline = np.concatenate([corners[:2], on_right[np.argsort(on_right[:, 1])], corners[2:], on_left[np.argsort(-on_left[:, 1])]])

@@ -16,7 +16,7 @@ import tempfile
 EXAMPLES = pathlib.Path(__file__).resolve().parent.parent
 BUILD = EXAMPLES.parent / "build"
 sys.path.insert(0, str(EXAMPLES))
-# PYTHONPATH and an installed package take precedence.
+# The build folder comes last, so that PYTHONPATH and an installed package take precedence.
 sys.path.append(str(BUILD / "lib" / "python3" / "dist-packages"))
 
 try:
@@ -72,7 +72,7 @@ def side_by_side(options, pictures, columns):
     """Combine pictures of equal size, row by row, into `options.picture`."""
     rows = vtkImageAppend()
     rows.SetAppendAxis(1)
-    for first in reversed(range(0, len(pictures), columns)):  # image rows start at the bottom
+    for first in reversed(range(0, len(pictures), columns)):  # the rows of a vtkImageData start at the bottom
         row = vtkImageAppend()
         row.SetAppendAxis(0)
         for picture in pictures[first:first + columns]:

@@ -126,7 +126,7 @@ def make(options):
     reports = []
     for frame in range(1, 6 if options.small else 21):
         tell(instances, names, dragged, size, frame)
-        crowd.Update()  # some instances do not converge within ten iterations and continue in the next frame
+        crowd.Update()  # an instance that does not converge within ten iterations continues in the next frame
         reports.append(bindpose.report(crowd))
     solve, skin = (1e3 * float(min(report["seconds"][part] for report in reports)) for part in ("solve", "skin"))
     assert crowd.GetNumberOfBinds() == 1

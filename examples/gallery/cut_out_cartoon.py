@@ -43,7 +43,7 @@ def make(options):
 
     weighted = bindpose.weights(cut_out, handles, domain="surface")
     turned = {name: {"rotate": {"axis": [0, 0, 1], "degrees": degrees}} for name, degrees in POSE.items()}
-    # The hand follows its arm, the tip follows the tail.
+    # The hand is a child of the arm, and the tip a child of the tail.
     for child, parent in (("hand", "arm"), ("tip", "tail")):
         at, joint = (np.array([x, y]) * size - 0.5 for x, y in (planar.BONES[child][0], planar.BONES[parent][0]))
         angle = np.radians(POSE[parent])

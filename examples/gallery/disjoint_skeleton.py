@@ -23,7 +23,8 @@ import planar
 import posing
 
 FREE = ("body", "head", "arm", "other arm", "tail")
-HAND, TIP = np.array([-0.02, -0.24]), np.array([0.05, -0.05])  # displacements, as fractions of the picture
+# displacements of hand and tip, as fractions of the picture
+HAND, TIP = np.array([-0.02, -0.24]), np.array([0.05, -0.05])
 
 
 def make(options):
@@ -34,14 +35,16 @@ def make(options):
     shape = bindpose.planar_shape(picture, handles=handles)
     weighted = bindpose.weights(shape, handles, domain="surface")
     names = list(planar.BONES)
-    ends = np.array([[planar.BONES[name][k] for k in (0, 1)] for name in names]) * size - 0.5  # bone, end, x y
+    # indexed by bone, end, coordinate
+    ends = np.array([[planar.BONES[name][k] for k in (0, 1)] for name in names]) * size - 0.5
     pose = {name: {"mode": "free"} for name in FREE}
     pose["hand"] = {"translate": [*(HAND * size), 0], "rotate": {"axis": [0, 0, 1], "degrees": 60}}
     pose["tip"] = {"translate": [*(TIP * size), 0], "rotate": {"axis": [0, 0, 1], "degrees": -45}}
 
     results, numbers = {}, {"free bones": len(FREE)}
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", bindpose.BindposeWarning)  # skinning warns that free handles count as identity
+        # skinning warns that handles in mode free are treated as the identity
+        warnings.simplefilter("ignore", bindpose.BindposeWarning)
         results["skinned"] = bindpose.deform(weighted, handles, {"handles": pose})
     found = posing.posed(bindpose.vtkReducedARAP(), weighted, handles, pose, NumberOfExtraWeights=15,
                          MaximumIterations=5000, Tolerance=1e-8)

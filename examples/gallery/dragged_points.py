@@ -16,7 +16,7 @@ import numpy as np
 from bindpose.meshes import points_of, to_dataset
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-ARC = 150  # degrees
+ARC = 150  # angle of the arc in degrees
 LENGTH = 6
 WAYS = {"translations": ("lbs", "none"), "pseudo-edges": ("lbs", "auto"), "reduced ARAP": ("reduced-arap", "none")}
 
@@ -47,7 +47,7 @@ def make(options):
     places = np.array([[x, 0, 0] for x in np.linspace(0, LENGTH, 4)])
     handles = bindpose.handles(points=places)
     weighted = bindpose.weights(to_dataset((points, triangles)), handles, domain="surface")
-    # The arc has the length of the strip, and its middle is the strip's middle.
+    # Bend the strip to an arc of the same length. The middle of the arc is the middle of the strip.
     angles = np.radians(ARC) * (places[:, 0] / LENGTH - 0.5)
     radius = LENGTH / np.radians(ARC)
     arc = np.stack([LENGTH / 2 + radius * np.sin(angles), radius * (1 - np.cos(angles)), 0 * angles], axis=1)

@@ -33,7 +33,8 @@ def bend(method, mesh, handles, pose):
 def make(options):
     small = options.small
     square, box = posing.plane(16 if small else 48, 5.0, MIDDLE), posing.bar(18 if small else 48, 4 if small else 8)
-    # The bones start at opposite corners: a bone whose head is another bone's tail would have it as its parent.
+    # The bones start at different corners. If the head of a bone were the tail of another bone, it would become its
+    # child.
     corners = {c: 2.5 * np.array([*c, 0]) + MIDDLE for c in itertools.product((-1, 1), repeat=2)}
     rim = [(corners[k, k], corners[c]) for k in (-1, 1) for c in ((-1, 1), (1, -1))]
     on_plane = bindpose.handles(points=[MIDDLE], bones=rim)

@@ -45,7 +45,7 @@ class Field:
             field.SetTolerance(TOLERANCE)
             field.SetNumberOfThreads(1)
             self.filters.append(field)
-        self.seconds(np.zeros((1, 3)))  # builds
+        self.seconds(np.zeros((1, 3)))  # the first evaluation builds the structure
 
     def seconds(self, points):
         """Return the processor seconds for these points; store `values`, `chosen` and `open_edges`."""
@@ -57,7 +57,7 @@ class Field:
             start = time.process_time()
             field.Update()
             seconds += time.process_time() - start
-            report = bindpose.run(field)  # raises an exception on failure
+            report = bindpose.run(field)  # like Update(), but raises an exception on failure
             self.values = self.values + point_array(field.GetOutput(), "WindingNumber")
         self.chosen, self.open_edges = report["method"], report["counts"]["open_edges"]
         return seconds
@@ -104,7 +104,8 @@ def make(options):
                 truth = meshes.plain_winding_number(meshes.joined(*surfaces), textbook)
                 differences.append(np.abs(field.values - truth).max() - (TOLERANCE if method == "fast" else 0))
                 count = max(10, count // less)
-                # Some structures are built only after many points; until then a point costs more.
+                # Evaluate points before the measurement: some structures are built only after many points, and until
+                # then a point costs more.
                 for _ in range(0 if name == "plain sum" else 60 if name == "exact" else 3):
                     field.seconds(random.uniform(*box, (count, 3)))
                 seconds = [field.seconds(random.uniform(*box, (count, 3))) / count for _ in range(repeats)]

@@ -20,7 +20,7 @@ from vtkmodules.vtkFiltersCore import vtkThreshold
 
 import meshes
 
-SMOOTHNESS, SIGMA, THRESHOLD = 1.0, 0.1, 0.5  # the defaults
+SMOOTHNESS, SIGMA, THRESHOLD = 1.0, 0.1, 0.5  # the defaults of vtkTetrahedralizeSurface
 
 
 def energy(points, tets, winding, inside):

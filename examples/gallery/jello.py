@@ -18,7 +18,7 @@ from posing import bar
 
 STEP = 1 / 96
 FRAMES = 193
-HELD = 24  # frames until the handle is released
+HELD = 24  # number of frames during which the handle is constrained
 SHOWN = (24, 32, 40, 48, 56, 72, 88, 192)
 
 
@@ -40,7 +40,7 @@ def make(options):
     top = int(np.argmin(np.linalg.norm(points - [0.75, 0.75, 3], axis=1)))
     aside = np.array([points_of(frame)[top, 0] - points[top, 0] for frame in frames])
     reports = [bindpose.report(frame) for frame in frames]
-    # The kinetic energy is zero at reversals, so the maximum of a period is used.
+    # The kinetic energy is zero when the motion reverses, so use the maximum of each period.
     kinetic = np.array([report.get("kinetic_energy", 0.0) for report in reports])
     largest = [kinetic[first:first + 64].max() for first in (HELD, HELD + 64, FRAMES - 64)]
     swing = np.sign(np.diff(aside[HELD:]))

@@ -72,13 +72,13 @@ def make(options):
         where, sign = crossings(mesh)
         before, after = (field(mesh, START + (where + side)[:, None] * ALONG) for side in (-BESIDE, BESIDE))
         jumps += list(sign * (after - before))
-        # Samples directly at the jumps make them vertical in the plot.
+        # Add samples directly before and after each jump, so that the plot shows a vertical line there.
         at = np.concatenate([t, where - BESIDE, where + BESIDE])
         values = np.concatenate([field(mesh, line), before, after])
         order = np.argsort(at, kind="stable")
         left.line(name, at[order] - 2, values[order], color)
 
-    # A point inside, at least 0.3 away from its nearest triangle.
+    # A point inside, at a distance of at least 0.3 from all triangles.
     middle = np.array([0.31, 0.12, 0.2])
     radii = [0.2 / 2 ** k for k in range(5)]
     means = [abs(sphere_mean(opened, middle, r) - float(field(opened, [middle])[0])) for r in radii]

@@ -19,7 +19,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 import planar
 
 LIMB = ("arm", "hand")
-DEGREES = {"arm": -38, "hand": -62}  # over the face
+DEGREES = {"arm": -38, "hand": -62}  # rotations that move the arm in front of the face
 
 
 def pose_of(size):

@@ -55,7 +55,7 @@ def make(options):
         difference = found["fine on the right"][common_vertices["fine on the right"]] - found["even"]
         numbers[f"{method}: largest difference"] = float(abs(difference).max())
         numbers[f"{method}: rms difference"] = float(np.sqrt((difference ** 2).mean()))
-        # At the common vertices, which render subtracts.
+        # Write the values at the vertices that both meshes have, because render subtracts them.
         for file, values in ((f"{method}-a.vtp", found["fine on the right"][common_vertices["fine on the right"]]),
                              (f"{method}-b.vtp", found["even"])):
             mesh = to_dataset(meshes["even"])

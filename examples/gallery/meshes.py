@@ -105,7 +105,7 @@ def plain_winding_number(mesh, points):
     (Van Oosterom and Strackee, 1983). It is the reference for the package's results."""
     values = np.zeros(len(points))
     for number, point in enumerate(np.asarray(points, dtype=float)):
-        for first in range(0, len(mesh[1]), 4096):  # blocks that stay in the cache
+        for first in range(0, len(mesh[1]), 4096):  # process blocks that fit into the cache
             a, b, c = np.moveaxis(mesh[0][mesh[1][first:first + 4096]] - point, 1, 0)
             la, lb, lc = (np.sqrt(np.einsum("ij,ij->i", v, v)) for v in (a, b, c))
             ab, bc, ca = (np.einsum("ij,ij->i", v, w) for v, w in ((a, b), (b, c), (c, a)))

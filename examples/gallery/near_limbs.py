@@ -17,7 +17,7 @@ import numpy as np
 
 import planar
 
-# Start, end, radii; the drawing is 1 wide and 1 high.
+# Start, end, and radii at both ends of each finger; the drawing is 1 wide and 1 high.
 FINGERS = {"thumb": ((0.34, 0.32), (0.13, 0.50), 0.055, 0.042), "index": ((0.37, 0.52), (0.35, 0.84), 0.046, 0.040),
            "middle": ((0.475, 0.53), (0.475, 0.91), 0.047, 0.041), "ring": ((0.58, 0.52), (0.60, 0.85), 0.046, 0.040),
            "little": ((0.675, 0.47), (0.715, 0.74), 0.042, 0.036)}
@@ -71,7 +71,7 @@ def make(options):
         weighted = bindpose.weights(shape, handles, method=method, domain="surface")
         ways[caption] = bindpose.deform(weighted, handles, pose)
 
-    # The part of the neighboring finger that is halfway up.
+    # Select the vertices around the middle of the neighboring finger.
     start, end = (np.array(place) * size for place in FINGERS[NEIGHBOR][:2])
     halfway = np.linalg.norm(rest - (start + end) / 2, axis=1) < 0.05 * size
     triangles = planar.triangles_of(shape)

@@ -21,7 +21,7 @@ from vtkmodules.vtkFiltersCore import vtkProbeFilter
 
 import planar
 
-# The five points whose weights are used in the tests of the kernels, and their colors.
+# Five points and their colors. The tests of the kernels use the weights of the same points.
 POINTS = [((0.20, 0.20), (0.95, 0.75, 0.10)), ((0.80, 0.20), (0.10, 0.35, 0.75)), ((0.50, 0.50), (0.85, 0.15, 0.20)),
           ((0.25, 0.80), (0.10, 0.55, 0.25)), ((0.80, 0.75), (0.95, 0.90, 0.80))]
 METHODS = {"unconstrained": "biharmonic", "bounded": "bounded-biharmonic", "monotone": "monotone"}

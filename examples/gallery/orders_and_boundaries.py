@@ -46,7 +46,7 @@ def make(options):
     step = 1 / rings
     lifted = points + np.outer(radius <= INNER + 1e-9, [0, 0, HEIGHT])
     inside = radius < OUTER - 1e-9
-    profile = [abs(radius - OUTER + k * step) < 1e-9 for k in range(4)]  # the rim and the rings before it
+    profile = [abs(radius - OUTER + k * step) < 1e-9 for k in range(4)]  # the rim and the rings of vertices before it
     ring = abs(radius - INNER) < 1e-9
     outer_ring = abs(radius - OUTER) < 1e-9
     outwards = points / np.maximum(radius, 1e-9)[:, None]
@@ -65,11 +65,12 @@ def make(options):
             mesh = (lifted, triangles)
             words = dict(settings)
             if name == "tangents":
-                # The plateau's edge is flat, and the band beyond the rim would hide the effect of the tangents.
+                # Prescribe horizontal tangents at the edge of the plateau. Remove the band beyond the rim, because it
+                # would hide the effect of the tangents.
                 words["tangents"] = tangents + np.where(ring[:, None], -outwards, 0)
                 mesh = (lifted, triangles[~beyond[triangles].any(axis=1)])
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore", bindpose.BindposeWarning)  # weak boundary conditions
+                warnings.simplefilter("ignore", bindpose.BindposeWarning)  # ignore warnings about weak boundary conditions
                 posed = np.asarray(bindpose.fair(mesh, order=order, parameters=points, **words))
             z = [posed[ring_of, 2].mean() for ring_of in profile]
             heights.append(posed[:, 2])

@@ -2,8 +2,8 @@
 
 import bindpose
 import numpy as np
-import vtkmodules.vtkRenderingFreeType  # noqa: F401  texts
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+import vtkmodules.vtkRenderingFreeType  # noqa: F401  needed to draw texts
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  needed to draw
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
@@ -20,7 +20,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkWindowToImageFilter,
 )
 
-# The cat's limbs: start, end, radii at both ends; the drawing is 1 wide and 1 high, y upwards.
+# The cat's limbs: start, end, and radii at both ends. The drawing is 1 wide and 1 high, with y upwards.
 TAIL = [(0.64, 0.20), (0.78, 0.16), (0.87, 0.25), (0.88, 0.38), (0.82, 0.46)]
 LIMBS = [((0.50, 0.30), (0.50, 0.50), 0.155, 0.12), ((0.50, 0.73), (0.50, 0.73), 0.155, 0.155),  # belly, head
          ((0.41, 0.81), (0.355, 0.93), 0.07, 0.012), ((0.59, 0.81), (0.645, 0.93), 0.07, 0.012),  # ears
@@ -49,7 +49,7 @@ def cat_distance(x, y):
 
 def pixel_centers(size):
     at = (np.arange(size) + 0.5) / size
-    return np.meshgrid(at, at[::-1])  # the first row is on top
+    return np.meshgrid(at, at[::-1])  # the first row is at the top
 
 
 def cat(size):
@@ -62,7 +62,7 @@ def cat(size):
         share = np.clip(0.5 - distance / pixel, 0, 1)[..., None]
         color[:] = (1 - share) * color + share * np.array(rgb)
 
-    for k in range(12):  # stripes
+    for k in range(12):  # paint the stripes
         paint(np.maximum(np.abs(y - 0.13 - 0.075 * k + 0.03 * np.sin(9 * x)) - 0.012, -np.abs(x - 0.5) + 0.06), (205, 105, 35))
     paint(capsule(x, y, (0.50, 0.29), (0.50, 0.43), 0.085, 0.06), (255, 232, 200))
     paint(capsule(x, y, (0.46, 0.665), (0.54, 0.665), 0.05, 0.05), (255, 232, 200))
@@ -75,7 +75,7 @@ def cat(size):
             paint(capsule(x, y, (0.5 + side * 0.07, 0.68 + 0.012 * k), (0.5 + side * 0.135, 0.68 + 0.03 * k), 0.003, 0.002), (90, 40, 20))
     paint(capsule(x, y, (0.49, 0.695), (0.51, 0.695), 0.014, 0.014), (230, 90, 110))
     distance = cat_distance(x, y)
-    paint(-distance - 0.010, (70, 35, 20))  # a dark rim
+    paint(-distance - 0.010, (70, 35, 20))  # paint a dark rim
     alpha = np.clip(0.5 - distance / pixel, 0, 1)[..., None] * 255
     return np.rint(np.concatenate([color, alpha], axis=2)).astype(np.uint8)
 

@@ -19,7 +19,7 @@ from vtkmodules.vtkImagingCore import vtkImageResize
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 PICTURES = common.EXAMPLES / "pictures"
-LARGEST = 200_000  # bytes
+LARGEST = 200_000  # maximum size of a picture file in bytes
 SCRIPTS = ("../01_inside_outside.py", "open_crossing_flipped.py", "boundary_and_parts.py", "amount_of_insideness.py",
            "jump_and_harmonic.py", "closing_holes.py", "growth.py", "cost_of_a_point.py",
            "defect_classes.py", "hull_segmentation.py", "cut_out_cartoon.py", "image_rectangle.py",
@@ -77,7 +77,8 @@ def main():
     for script in SCRIPTS:
         print(f"\n{script}", flush=True)
         subprocess.run([sys.executable, FOLDER / script, "--output", output], check=True,
-                       env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})  # common.py found the package
+                       # common.py has added the folder of the package to sys.path
+                       env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
         name = pathlib.Path(script).stem.removeprefix("01_")
         shrink(output / f"{name}.png", PICTURES / f"{name}.png")
         table = "\n".join(["| number | |", "|---|---|", *rows(json.loads((output / f"{name}.json").read_text()))])

@@ -17,7 +17,7 @@ import numpy as np
 
 import planar
 
-ANTENNAS = ((1.15, 1.27), (1.73, 1.85))  # in x
+ANTENNAS = ((1.15, 1.27), (1.73, 1.85))  # x ranges of the antennas
 PLACES = {"left": (0.25, 0.5), "middle": (1.5, 0.35), "right": (2.75, 0.5)}
 PULL = np.array([0.0, 0.55, 0.0])
 METHODS = {"unconstrained": "biharmonic", "bounded": "bounded-biharmonic", "monotone": "monotone"}

@@ -21,8 +21,8 @@ from bindpose.meshes import points_of, to_dataset
 from new_hues import POINTS, grid
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-SHOWN = 3  # the upper left point
-SQUARES = 40  # in a row; the points are vertices
+SHOWN = 3  # index of the handle whose weights are shown: the upper left point
+SQUARES = 40  # number of squares per row; the handles are vertices of this grid
 
 
 def filters():
@@ -73,7 +73,8 @@ def make(options):
         numbers[f"{name}: relative gap"] = bindpose.report(mesh)["relative_gap"]
         numbers[f"{name}: lowest and highest"] = [float(raw.min()), float(raw.max())]
         files.append(f"{len(files)}.vtp")
-        bindpose.meshes.add_point_array(mesh, "Weights", raw.copy(), [f"p{j + 1}" for j in range(len(places))])  # drawn in bands
+        # render draws this array in bands
+        bindpose.meshes.add_point_array(mesh, "Weights", raw.copy(), [f"p{j + 1}" for j in range(len(places))])
         bindpose.write(mesh, options.scratch / files[-1])
         after = (solved(solver, square, moved), extrema_of(solver))[1]
         if len(before) and len(after):

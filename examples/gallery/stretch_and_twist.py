@@ -81,13 +81,13 @@ def cats(options, numbers):
     pose = {"handles": {"arm": {"head": shoulder.tolist(), "tail": shorter.tolist()},
                         "hand": {"head": shorter.tolist(), "tail": (fingers + shorter - wrist).tolist()}}}
     rest = points_of(weighted)
-    # Along the arm, before its joint, where the hand has no influence.
+    # Choose vertices along the arm before the wrist, where the hand has no influence.
     near = [int(np.linalg.norm(rest - (shoulder + share * (wrist - shoulder)), axis=1).argmin()) for share in (0.2, 0.8)]
     texture = planar.to_texture(pixels)
     tiles = [("at rest", [planar.textured(weighted, texture), *planar.handle_actors(handles, 0.01 * size)])]
     for method, name in (("lbs", "linear blend"), ("stbs", "stretchable bones")):
         with warnings.catch_warnings():
-            if method == "lbs":  # ignores the stretch, which is what the picture shows
+            if method == "lbs":  # linear blend ignores the stretch and warns; the picture shows this on purpose
                 warnings.simplefilter("ignore", bindpose.BindposeWarning)
             posed = bindpose.deform(weighted, handles, pose, method=method)
         ends = points_of(posed)[near]
@@ -102,7 +102,8 @@ def cats(options, numbers):
 
 
 def make(options):
-    warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)  # counted among the numbers
+    # ignore warnings about inverted tets; the numbers contain their count
+    warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)
     numbers = {}
     above = mallets(options, numbers)
     below, _window = cats(options, numbers)

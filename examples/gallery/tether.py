@@ -26,7 +26,7 @@ def make(options):
     balls = [meshes.sphere(2 if options.small else 3, RADIUS, (k * STEP, 0, 0)) for k in range(BALLS)]
     each = len(balls[0][0])
     mesh = meshes.joined(*balls)
-    # One volume around all: a bar that contains them.
+    # Create one volume that contains all balls: a bar.
     points, tets = posing.bar(*((20, 4) if options.small else (40, 8)), length=BALLS * STEP + 0.4)
     points = points * [1, 1.3, 1.3] - [STEP / 2 + 0.2, 0.65, 0.65]
     last = (BALLS - 1) * STEP
@@ -46,14 +46,15 @@ def make(options):
     for name, bender, extra in (("reduced", bindpose.vtkReducedARAP(), {"NumberOfExtraWeights": 15}),
                                 ("full", bindpose.vtkFullARAP(), {})):
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", bindpose.BindposeWarning)  # parts without a handle, handles off the mesh
+            # ignore warnings about components without a handle, and handles off the mesh
+            warnings.simplefilter("ignore", bindpose.BindposeWarning)
             posed = posing.posed(bender, weighted, handles, pose, MaximumIterations=2000, **extra)
         centers = points_of(posed).reshape(BALLS, each, 3).mean(axis=1)
         gaps = np.linalg.norm(np.diff(centers, axis=0), axis=1) / STEP
         numbers[f"{name}: distances of neighbors"] = [float(gaps.min()), float(gaps.max())]
         files.append(f"{name}.vtp")
         bindpose.write(to_dataset((points_of(posed), mesh[1])), options.scratch / files[-1])
-    # Two copies of the string at the same position.
+    # Join two copies of the string at the same position.
     twice = to_dataset(meshes.joined(mesh, mesh))
     row = np.asarray(point_array(weighted, "Weights"))
     add_point_array(twice, "Weights", np.vstack([row, row]), ["p1", "p2", "p3"])

@@ -16,8 +16,8 @@ import numpy as np
 from bindpose.meshes import add_point_array, to_dataset
 from new_hues import grid
 
-HILLS = ((0.25, 0.3, 1.0), (0.7, 0.65, 0.8), (0.75, 0.2, -0.7), (0.25, 0.75, -0.5))  # position, height
-NOISE = 0.1  # rms
+HILLS = ((0.25, 0.3, 1.0), (0.7, 0.65, 0.8), (0.75, 0.2, -0.7), (0.25, 0.75, -0.5))  # position and height of each hill
+NOISE = 0.1  # root mean square of the noise
 
 
 def noise(squares):

@@ -40,7 +40,8 @@ def make(options):
     band = 12 if options.small else 20
     along = patch + 1 + 2 * band
     length = TURN * RADIUS
-    s = np.repeat((np.arange(along) - band) * length / patch, around)  # 0 to length on the patch
+    # length along the tube: 0 to `length` on the patch
+    s = np.repeat((np.arange(along) - band) * length / patch, around)
     phi = (2 * np.pi * (np.arange(around)[None] + 0.5 * (np.arange(along) % 2)[:, None]) / around).ravel()
     triangles = tube(along, around)
     across, up = TUBE * np.cos(phi), TUBE * np.sin(phi)

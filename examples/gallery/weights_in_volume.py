@@ -27,7 +27,8 @@ def stray(tets, owner):
     a, b = of_tet[order][1:][twin], of_tet[order][:-1][twin]
     same = owner[a] == owner[b]
     label = np.arange(len(tets))
-    while True:  # propagate the smallest number of the neighbors until nothing changes
+    # label connected components: each vertex takes the smallest label of its neighbors until no label changes
+    while True:
         least = label.copy()
         np.minimum.at(least, a[same], label[b[same]])
         np.minimum.at(least, b[same], label[a[same]])

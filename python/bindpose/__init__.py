@@ -17,14 +17,14 @@ The output has the type of the input: arrays for arrays, a VTK dataset for a VTK
 returns the numbers of both.
 """
 
-import vtkmodules.vtkCommonCore  # noqa: F401  VTK first: our library finds its symbols there
+import vtkmodules.vtkCommonCore  # noqa: F401  import VTK first, because Bindpose's libraries use its symbols
 
 from .BindposeFilters import *  # noqa: F401,F403
 
 try:
     from .BindposeWidgets import *  # noqa: F401,F403
 except ModuleNotFoundError:
-    pass  # built without pictures
+    pass  # this build has no pictures
 
 from .crowds import crowd
 from .errors import (

@@ -335,7 +335,8 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
     solver.SetNumberOfThreads(threads)
     report = run(solver, progress)
     result = solver.GetOutput()
-    if is_tets(data) or options.domain == "surface":  # handles may have added points: transfer to the mesh's own points
+    # handles may have added points, so transfer to the points of the input
+    if is_tets(data) or options.domain == "surface":
         transfer = filters.vtkTransferWeights()
         transfer.SetInputData(0, data)
         transfer.SetInputData(1, result)

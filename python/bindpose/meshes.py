@@ -200,7 +200,7 @@ def shallow_copy(data):
 
 def remember_run(data, report):
     """Store a filter's whole report with its output; the dataset's own arrays have no seconds."""
-    with contextlib.suppress(AttributeError):  # foreign classes may reject attributes
+    with contextlib.suppress(AttributeError):  # objects of other classes may not allow new attributes
         data._bindpose_run = report  # pylint: disable=protected-access
 
 

@@ -74,7 +74,7 @@ def run(algorithm, progress=None):
                 caller.SetAbortExecute(1)
 
         observers = [algorithm.AddObserver("ProgressEvent", on_progress)]
-        for event in ("ErrorEvent", "WarningEvent"):  # otherwise VTK prints errors that are raised below
+        for event in ("ErrorEvent", "WarningEvent"):  # observe both, otherwise VTK prints errors that are raised below
             observers.append(algorithm.AddObserver(event, lambda *_: None))
         try:
             algorithm.Write() if hasattr(algorithm, "Write") else algorithm.Update()
@@ -115,7 +115,7 @@ def report(result):
         return result.report
     if hasattr(result, "GetReportJSON"):
         return json.loads(result.GetReportJSON())
-    from .BindposeFilters import vtkBindposeAlgorithm  # after VTK, on first use
+    from .BindposeFilters import vtkBindposeAlgorithm  # imported on first use, after VTK
 
     own = json.loads(vtkBindposeAlgorithm.GetReportJSONOf(result))
     whole = run_of(result)

@@ -32,7 +32,7 @@ void BarStack::begin_below(QWidget* widget)
 bool BarStack::event(QEvent* event)
 {
   const bool result = QWidget::event(event);
-  if (event->type() == QEvent::LayoutRequest) // a bar has another text
+  if (event->type() == QEvent::LayoutRequest) // the text of a bar has changed its size
   {
     this->arrange();
   }

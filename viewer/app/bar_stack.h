@@ -14,7 +14,7 @@ public:
 
   /// Add a bar below the existing ones. A hidden bar takes no space.
   void add(QWidget* bar);
-  /// Begin the stack below this child of the picture while the child is visible.
+  /// Set a child of the picture; while the child is visible, the stack begins below it.
   void begin_below(QWidget* widget);
 
 protected:

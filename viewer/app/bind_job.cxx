@@ -1,4 +1,5 @@
-// Runs the kernels on copies, with one execution context.
+// Computes weights in the background. The kernels run on copies of the data, with one execution
+// context.
 #include "bind_job.h"
 
 #include "base/execution.h"
@@ -14,7 +15,7 @@ void run_bind(const BindInput& input, const std::function<void(const Weights&)>&
   ExecutionContext& context, BindResult& result)
 {
   SurfaceWeightsOptions options;
-  options.keep_raw = true; // the panel shows row sums
+  options.keep_raw = true; // the weight panel shows row sums, which need the raw weights
   options.places = input.handle_places;
   options.domain = input.domain;
   if (input.preview)

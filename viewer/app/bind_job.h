@@ -16,24 +16,26 @@ struct BindInput
 {
   bindpose::TriangleMesh surface;
   bindpose::Handles handles;
-  /// The geometry of the handles that becomes part of the tets.
+  /// Points, bones and cages of the handles, which become part of the tets.
   bindpose::HandlePlaces handle_places;
   std::vector<bindpose::Index> region_of_vertex; ///< #V labels, empty without regions
   /// The method, a row of weight_methods(); never null.
   const bindpose::WeightMethod* method = bindpose::weight_methods().data();
   bindpose::WeightsDomain domain = bindpose::WeightsDomain::automatic;
-  bool preview = true; ///< whether to compute preliminary weights to pose with
+  bool preview = true; ///< whether to compute preliminary weights, with which the user can pose
+                       ///< before the bind ends
 };
 
-/// Result of a bind: weights at the surface's own vertices and at the vertices of the solved
-/// domain.
+/// Result of a bind: weights at the surface's own vertices and at the vertices of the domain on
+/// which they were solved.
 struct BindResult
 {
   bindpose::Status status;
   bindpose::Weights weights; ///< #V x #handles
   bindpose::Weights raw; ///< the weights before rows are divided by their sums
   bindpose::WeightsDomain domain = bindpose::WeightsDomain::surface;
-  bindpose::Domain mesh; ///< the solved domain; it has tets unless it is the surface itself
+  bindpose::Domain mesh; ///< the domain on which the weights were solved; it has tets unless it is
+                         ///< the surface itself
   bindpose::WeightsResult solved; ///< at the vertices of `mesh`, with one certificate per column
 };
 
@@ -54,11 +56,10 @@ public:
   const BindResult& result() const { return this->result_; }
 
 Q_SIGNALS:
-  /// Fraction of the whole in [0, 1], and the name of the phase. Emitted on the thread of this
-  /// object.
+  /// Emitted on the thread of this object. `fraction` is the progress of the whole job in [0, 1].
   void progress(double fraction, const QString& phase);
-  /// Preliminary weights to pose with until the certified ones are computed. Not emitted after a
-  /// cancel.
+  /// Emitted with preliminary weights, with which the user can pose until the certified weights are
+  /// computed. Not emitted after a cancel.
   void preview(const bindpose::Weights& weights);
   void finished();
 

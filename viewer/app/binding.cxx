@@ -1,5 +1,5 @@
-// The job works on copies. Its result belongs to the surface and the handles of its start. Both may
-// have been replaced when it ends.
+// Starts binds and uses their results. The job works on copies of the surface and the handles. Both
+// may have been replaced when it ends, so the result is checked before it is used.
 #include "binding.h"
 
 #include "document/document.h"
@@ -72,7 +72,7 @@ bool Binding::make_input(BindInput& input)
   return true;
 }
 
-/// The existing weights remain usable until the next bind (BoundColumns).
+/// Offer another bind. It is optional, because the existing weights remain usable (BoundColumns).
 void Binding::offer_again()
 {
   const QString reason = this->is_running() ? QString() : this->document_->rebind_reason();
@@ -87,7 +87,8 @@ void Binding::offer_again()
   }
 }
 
-/// Return the surface that is being bound with the weights; null if the weights do not fit it.
+/// Return a copy of the bound surface with the new weights; null if the weights do not fit the
+/// surface.
 vtkSmartPointer<vtkPolyData> Binding::with_weights(const BindResult& result) const
 {
   vtkPolyData* surface = this->document_->work().surface;
@@ -99,7 +100,7 @@ vtkSmartPointer<vtkPolyData> Binding::with_weights(const BindResult& result) con
   }
   auto bound = vtkSmartPointer<vtkPolyData>::New();
   bound->ShallowCopy(surface);
-  vtkNew<vtkFieldData> own; // the shallow copy shares the original's field data
+  vtkNew<vtkFieldData> own; // the shallow copy shares its field data with the original
   own->ShallowCopy(surface->GetFieldData());
   bound->SetFieldData(own);
   add_weights(result, handles, bound);

@@ -12,15 +12,15 @@ class Document;
 class NoticeBar;
 class SidePanel;
 
-/// Binds the document's surface to its handles in the background: first a preview to pose with,
-/// then certified weights as a step of the document. Another bind is offered to the user, never
-/// forced.
+/// Binds the document's surface to its handles in the background. The bind first returns preview
+/// weights, then certified weights, which become an undo step of the document. After changes of
+/// handles another bind is offered to the user, but never started automatically.
 class Binding : public QObject
 {
   Q_OBJECT
 
 public:
-  /// The panel shows the progress and the result; the bar offers another bind.
+  /// `panel` shows the progress and the result; `bar` offers another bind.
   Binding(Document* document, SidePanel* panel, NoticeBar* bar, QObject* parent);
 
   /// Start a bind with the panel's method and domain. Does nothing without a surface and handles,
@@ -29,19 +29,19 @@ public:
   void cancel() { this->job_->cancel(); }
   bool is_running() const { return this->job_->is_running(); }
 
-  /// Fill in the kernels' input from surface and handles. If these are invalid, emit failed() and
+  /// Convert surface and handles to the kernels' input. If these are invalid, emit failed() and
   /// return false.
   bool make_input(BindInput& input);
   /// Offer another bind if the handles have changed since the last one, once for each reason.
   void offer_again();
 
 Q_SIGNALS:
-  /// A bind has begun or ended. Emitted before its result is shown.
+  /// Emitted when a bind has begun or ended, before its result is shown.
   void changed();
-  /// The document has new weights.
+  /// Emitted when the document has new weights.
   void bound();
   void failed(const QString& sentence);
-  /// A bind has ended with a remark for the user.
+  /// Emitted when a bind has ended with a message for the user.
   void noticed(const QString& sentence);
 
 private:

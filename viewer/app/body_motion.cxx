@@ -1,5 +1,6 @@
-// The body moves in real time with fixed steps. Steps that cannot be made in time are skipped: the
-// body is then slower than the clock, but its steps are not longer.
+// Moves the shape as a body with mass, in real time with fixed time steps. Steps that cannot be
+// computed in time are skipped. The body then moves more slowly than the clock, but its time steps
+// do not become longer.
 #include "body_motion.h"
 
 #include "pose_panel.h"
@@ -12,9 +13,9 @@ using namespace bindpose;
 namespace
 {
 constexpr int display_interval = 16; // milliseconds
-/// Maximum number of steps per picture. Time beyond them is skipped.
+/// Maximum number of time steps per displayed frame. Time beyond these steps is skipped.
 constexpr int most_steps = 4;
-/// A body is bound immediately if vertices times columns are below this number.
+/// Maximum of vertices times columns for which a body is bound immediately, not in the background.
 constexpr Index bound_at_once = 20000;
 } // namespace
 

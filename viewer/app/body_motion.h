@@ -14,31 +14,31 @@
 
 class PosePanel;
 
-/// Motion of the shape as a body with mass, as set in the panel. The body is bound in the
-/// background if that takes long, and steps in real time.
+/// Moves the shape as a body with mass, with the options of the panel. The body is bound in the
+/// background if that takes long. Its time steps are computed in real time.
 class BodyMotion : public QObject
 {
   Q_OBJECT
 
 public:
-  /// @param pose  returns the pose of the handles. With for_step it returns the pose that
-  /// constrains the body, in which a free handle is constrained only while it is dragged.
+  /// @param pose  returns the pose of the handles. If `for_step` is true it returns the pose that
+  /// constrains the body, in which a handle in mode free is constrained only while it is dragged.
   BodyMotion(
     PosePanel* panel, std::function<bindpose::Pose(bool for_step)> pose, QObject* parent = nullptr);
 
-  /// Set the source to move; null: none. There is no body before begin().
+  /// Set the source to move; null: no source. The body is created by begin().
   void set_source(std::shared_ptr<const bindpose::PoseSource> source);
-  /// Make a new body with the panel's options, at rest in the pose of the handles.
+  /// Create a new body with the panel's options, at rest in the pose of the handles.
   void begin();
   void end();
-  /// Apply changed options of the panel. Begin again if they need another bind.
+  /// Apply changed options of the panel. If they need another bind, create a new body.
   void options_changed();
   void cancel_bind() { this->job_.cancel(); }
 
   void play(bool play);
   bool is_playing() const { return this->playing_.isActive(); }
   void step(int steps);
-  /// Go back to time zero.
+  /// Restart the simulation at time zero.
   void restart();
 
   /// Return the body; null before begin(). It must not be used while it is being bound.
@@ -53,7 +53,7 @@ public:
   const bindpose::Status& status() const { return this->status_; }
 
 Q_SIGNALS:
-  /// The shape has moved.
+  /// Emitted when the shape has moved.
   void moved();
   void played();
   void failed(const QString& sentence);
@@ -72,7 +72,7 @@ private:
   bindpose::Status status_;
   QTimer playing_;
   QElapsedTimer clock_;
-  double due_ = 0.0; ///< time of clock_ in seconds up to which steps were made
+  double due_ = 0.0; ///< simulated time: seconds of clock_ up to which steps were computed
   KernelJob job_; // last member, so that it ends before the data it works on is destroyed
 };
 

@@ -1,5 +1,6 @@
-// All state belongs to the window's thread. A job has its own points and the exclusive use of one
-// poser. No other code uses that poser until the end of the job is reported.
+// Poses the surface with one method, in the background if the method is slow. All state belongs to
+// the window's thread. A job has its own points and the exclusive use of one poser. No other code
+// uses that poser until the end of the job is reported.
 #include "deformation.h"
 
 #include <algorithm>
@@ -9,14 +10,14 @@ using namespace bindpose;
 
 namespace
 {
-/// Iterations of the first slice for a pose, of the longest slice, and of all slices for one pose.
-/// The last number is the maximum of vtkFullARAP.
+/// Numbers of iterations: of the first slice (part of a solve) for a pose, of the longest slice,
+/// and of all slices for one pose. The last value is the maximum of vtkFullARAP.
 constexpr Index first_slice = 2;
 constexpr Index longest_slice = 64;
 constexpr Index most_iterations = 500;
 
 /// Report whether a bind is so small (vertices times columns) that the user does not notice its
-/// time.
+/// duration.
 bool binds_at_once(const PoseSource& source, const PoseOptions& options)
 {
   const auto columns = static_cast<Index>(source.handles.size()) + options.extra_weights;
@@ -164,7 +165,7 @@ std::shared_ptr<Poser> Deformation::poser()
   return this->posers_[this->options_.method] = make_poser(this->options_.method, this->source_);
 }
 
-/// Do the next task, if there is one and it is possible now.
+/// Start the next task (bind or solve), if there is one and it can start now.
 void Deformation::advance()
 {
   if (!this->can_pose() || this->pose_.empty() || this->canceled_ || this->settled_)
@@ -206,7 +207,7 @@ void Deformation::bind_beside(const std::shared_ptr<Poser>& poser)
 {
   if (this->job_.is_running())
   {
-    return; // another task is being canceled
+    return; // the running task is being canceled
   }
   this->task_ = { poser, true, false, 0, 0, nullptr, nullptr };
   this->job_.start([poser, options = this->options_](ExecutionContext& context)
@@ -234,7 +235,7 @@ void Deformation::solve_beside(const std::shared_ptr<Poser>& poser)
     [poser, points, rotations, pose = this->pose_, options = this->options_,
       slice = this->task_.slice](ExecutionContext& context)
     {
-      // Leave one core to the window.
+      // Leave one core for the window.
       context.set_threads(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1));
       Status status = poser->solve(context, pose, options, slice, *points);
       const PoseRotations* found = status.usable() ? poser->rotations() : nullptr;

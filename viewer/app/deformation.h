@@ -11,11 +11,12 @@
 
 /// Poses the surface of the window with one method, fast or slow, without blocking the window.
 /// - Long binds run in the background.
-/// - Skinning and reduced as-rigid-as-possible then pose immediately.
-/// - The slow methods solve in slices in the background. Every new pose begins with a short slice,
-///   which a drag does not interrupt, so that the shape follows the mouse. While the mouse rests,
-///   slices become longer until the solve has converged. When the handle moves again, a long slice
-///   is canceled, and the solve continues from its current state with the new pose.
+/// - After the bind, skinning and reduced as-rigid-as-possible pose immediately.
+/// - The slow methods solve in slices, a few iterations at a time, in the background. Every new
+///   pose begins with a short slice, which a drag does not interrupt, so that the shape follows
+///   the mouse. While the mouse rests, slices become longer until the solve has converged. When
+///   the handle moves again, a long slice is canceled, and the solve continues from its current
+///   state with the new pose.
 class Deformation : public QObject
 {
   Q_OBJECT
@@ -24,7 +25,7 @@ public:
   explicit Deformation(QObject* parent = nullptr);
   ~Deformation() override;
 
-  /// Set the source to pose; null: none. Binds of another source are discarded.
+  /// Set the source to pose; null: no source. Binds of another source are discarded.
   void set_source(std::shared_ptr<const bindpose::PoseSource> source);
   const bindpose::PoseSource* source() const { return this->source_.get(); }
   void set_options(const bindpose::PoseOptions& options);
@@ -32,12 +33,13 @@ public:
   /// Report whether there is a source, and weights if the method needs them.
   bool can_pose() const;
 
-  /// Request the surface in this pose. It is computed immediately if the method is bound and fast.
+  /// Request the surface in this pose. It is computed immediately if the method is fast and its
+  /// bind has ended.
   void set_pose(const bindpose::Pose& pose);
-  /// Cancel a running bind. The next change of source or options, or bind(), begins it again.
+  /// Cancel a running bind. A change of source or options, or bind(), starts the bind again.
   void cancel();
   bool is_canceled() const { return this->canceled_; }
-  /// Continue after cancel().
+  /// Start a bind again that cancel() has stopped.
   void bind();
 
   /// Return the newest points: those of the last computed pose, or the source at rest before any
@@ -50,23 +52,23 @@ public:
   /// Return the rotations that the method fitted for points().
   const bindpose::PoseRotations* rotations();
   bool is_binding() const { return this->binding_; }
-  /// Report whether points() are final for the pose.
+  /// Report whether points() are final: the solve for the current pose has ended.
   bool is_settled() const { return this->settled_; }
-  /// Return the reason why this pose has no points: one sentence, or empty.
+  /// Return the reason why the current pose could not be computed: one sentence, or empty.
   const QString& error() const { return this->error_; }
   /// Return the number of binds for the source.
   bindpose::Index binds() const;
-  /// Return how often a running solve was canceled because the handle had moved on.
+  /// Return how often a running solve was canceled because a handle had moved again.
   int restarts() const { return this->restarts_; }
 
 Q_SIGNALS:
-  /// New points were computed in the background. Not emitted for points that set_pose() computed
-  /// immediately.
+  /// Emitted when new points were computed in the background. Not emitted for points that
+  /// set_pose() computes immediately.
   void arrived();
   void bind_progress(double fraction, const QString& phase);
-  /// A bind has begun or ended.
+  /// Emitted when a bind has begun or ended.
   void binding_changed();
-  /// Posing has failed; error() has the reason.
+  /// Emitted when posing has failed; error() returns the reason.
   void failed();
 
 private:
@@ -94,11 +96,12 @@ private:
   bool binding_ = false;
   bool settled_ = false;
   bool canceled_ = false;
-  /// True while set_pose() runs, because its caller reads the points itself.
+  /// True while set_pose() runs. Signals are not necessary then, because its caller reads the
+  /// points itself.
   bool asked_at_once_ = false;
   int restarts_ = 0;
 
-  /// The task of the job.
+  /// The task of the running job.
   struct Task
   {
     std::shared_ptr<bindpose::Poser> poser; ///< null: no task
@@ -111,7 +114,7 @@ private:
   };
   Task task_;
   bindpose::Index slice_ = 0; ///< iterations of the next slice
-  bindpose::Index spent_ = 0; ///< iterations for the current pose so far
+  bindpose::Index spent_ = 0; ///< iterations that were computed for the current pose
   KernelJob job_; // last member, so that it ends before the data it works on is destroyed
 };
 

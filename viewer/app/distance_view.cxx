@@ -1,5 +1,5 @@
-// The distances of a pose are written into the array that is already drawn, with one norm per
-// point.
+// Shows the distances between two methods' shapes as colors. The distances for a pose are written
+// into the array that is already drawn; they cost one norm per point.
 #include "distance_view.h"
 
 #include "posing.h"

@@ -7,14 +7,15 @@
 class Posing;
 class Viewport;
 
-/// Distance of the compared method's shape from the shape in the picture. It is shown as colors on
-/// the latter, with a scale in percent of the bounding-box diagonal of the shape at rest.
+/// Shows the distance between the shape of the compared method and the shape in the picture. It is
+/// shown as colors on the latter shape, with a scale in percent of the bounding-box diagonal of the
+/// shape at rest.
 class DistanceView
 {
 public:
   DistanceView(Viewport* viewport, Posing* posing);
 
-  /// Set whether the panel is shown. Otherwise other views determine the colors of the surface.
+  /// Set whether the panel is visible. If not, other views determine the colors of the surface.
   void set_active(bool active);
   /// Update the colors after a change of the pose, a method, the surface or the panel's choice.
   void update();
@@ -23,13 +24,13 @@ private:
   Viewport* viewport_;
   Posing* posing_;
   bool active_ = true;
-  vtkSmartPointer<vtkDoubleArray> values_; ///< the shown distances in percent; null: none
-  double scale_ = 0.0; ///< end of the color scale, in percent
+  vtkSmartPointer<vtkDoubleArray> values_; ///< the displayed distances in percent; null: none
+  double scale_ = 0.0; ///< upper end of the color scale, in percent
 };
 
-/// Return the end of a color scale that contains this value: 1, 2 or 5 times a power of ten, at
-/// least 0.01. The scale therefore changes rarely while a shape is bent, and coincident shapes have
-/// a single color.
+/// Return the upper end of a color scale that contains this value: 1, 2 or 5 times a power of ten,
+/// at least 0.01. The scale therefore changes rarely while a shape is bent, and coincident shapes
+/// have a single color.
 double distance_scale(double largest);
 
 #endif

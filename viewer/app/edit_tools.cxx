@@ -84,7 +84,7 @@ int EditTools::width_with_words(int groups) const
   {
     for (const QToolButton* button : this->buttons_[group])
     {
-      // Spacing, padding of the style sheet, icon, and text with its gap.
+      // Width of a button: spacing, padding of the style sheet, icon, and text with its gap.
       const int text = button->fontMetrics().horizontalAdvance(button->text()) + 8;
       width += between + 20 + 14 + 4 + (group < groups ? text : 0);
     }

@@ -11,8 +11,8 @@ class QPushButton;
 class QSlider;
 class QToolButton;
 
-/// The row of tools above the picture: groups of buttons, one per action. All buttons have text if
-/// there is room, otherwise only those of the first group, otherwise none.
+/// The row of tools above the picture: groups of buttons, one button per action. If the row is too
+/// narrow, only the buttons of the first group have text; if it is still too narrow, none have.
 class EditTools : public QFrame
 {
   Q_OBJECT
@@ -34,7 +34,7 @@ private:
   QList<QList<QToolButton*>> buttons_;
 };
 
-/// The choices of the current edit mode, shown over the upper left corner of the picture.
+/// A bar with the options of the current edit mode, over the upper left corner of the picture.
 class ModeBar : public QFrame
 {
   Q_OBJECT
@@ -42,16 +42,16 @@ class ModeBar : public QFrame
 public:
   explicit ModeBar(QAction* inside, QWidget* parent);
 
-  /// Which choices are shown.
+  /// The options that the bar shows, and their values.
   struct State
   {
     QString title;
-    bool places = false; ///< points or bones: whether inside or on the surface
+    bool places = false; ///< show the choice of placing points or bones inside or on the surface
     bool cage = false;
     bool making_cage = false;
     bool paints = false;
-    bool has_region = false; ///< the next stroke continues a region
-    double radius = 0.0; ///< of the brush, as a fraction of the shape's diagonal
+    bool has_region = false; ///< true: the next stroke continues an existing region
+    double radius = 0.0; ///< radius of the brush, as a fraction of the shape's diagonal
   };
   void show_state(const State& state);
 

@@ -3,8 +3,8 @@
 
 #include <QLabel>
 
-/// A line of text that never widens its window. Text that does not fit ends in "…", and the tooltip
-/// shows all of it.
+/// A line of text that never makes its window wider. Text that does not fit ends in "…", and the
+/// tooltip shows all of it.
 class ElidedLabel : public QLabel
 {
   Q_OBJECT
@@ -12,7 +12,7 @@ class ElidedLabel : public QLabel
 public:
   using QLabel::QLabel;
 
-  /// Return the visible text.
+  /// Return the text as displayed, possibly shortened.
   QString shown() const;
   QSize minimumSizeHint() const override;
 

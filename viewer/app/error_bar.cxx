@@ -10,7 +10,8 @@ ErrorBar::ErrorBar(QWidget* parent) : QFrame(parent), text_(new QLabel(this))
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(14, 8, 8, 8);
   this->text_->setWordWrap(true);
-  // A long word (a path) must not widen the window.
+  // Let the text be narrower than a long word such as a path, which would otherwise make the window
+  // wider.
   this->text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   this->text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* close = new QPushButton(tr("Close"), this);

@@ -5,7 +5,7 @@
 
 class QLabel;
 
-/// The operation that failed.
+/// The type of the operation that failed.
 enum class ErrorKind
 {
   other,
@@ -18,7 +18,8 @@ enum class ErrorKind
   export_file
 };
 
-/// An error as one sentence over the picture. It is hidden when it is closed or out of date.
+/// Shows an error as one sentence over the picture. The bar is hidden when the user closes it or
+/// the error is out of date.
 class ErrorBar : public QFrame
 {
 public:

@@ -42,7 +42,8 @@ QString short_path(const QString& path)
 Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path)
 {
   vtkNew<vtkGLTFSkinWriter> writer;
-  vtkNew<vtkCallbackCommand> nothing; // the writer reports by its status
+  // keeps VTK from printing the writer's errors, which its status contains
+  vtkNew<vtkCallbackCommand> nothing;
   nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, nothing);
   writer->AddObserver(vtkCommand::WarningEvent, nothing);
@@ -64,7 +65,7 @@ Exports::Exports(MainWindow* window, NoticeBar* bar) : QObject(window), window_(
 
 // ---- Ask for a path ----------------------------------------------------------------------------
 
-/// Return a path; empty if the user cancels.
+/// Show a file dialog and return the chosen path; empty if the user cancels.
 QString Exports::ask(const QString& title, const QString& kinds, const QString& ending)
 {
   QFileDialog dialog(this->window_, title, this->folder_, kinds);
@@ -197,7 +198,7 @@ void Exports::film_finished()
   {
     this->window_->show_error(tr("Cannot export: %1.").arg(film->error()), ErrorKind::export_file);
   }
-  else if (!film->said().isEmpty()) // empty after a cancel
+  else if (!film->said().isEmpty()) // the description is empty after a cancel
   {
     this->tell(film->path(), capital(film->said()) + '.');
   }

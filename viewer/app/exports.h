@@ -9,9 +9,9 @@ class MainWindow;
 class NoticeBar;
 class QFileDialog;
 
-/// The exports of the menu File other than sessions: the visible shape, the rig, the pose, the
-/// picture, and key frames as a film or another animation. The bar shows what was written and
-/// where, and can open the folder.
+/// The exports of the menu File, except sessions: the visible shape, the rig (mesh, weights and
+/// handles), the pose, the picture, and key frames as a film or another animation. A bar shows what
+/// was written and to which path, and can open the folder.
 class Exports : public QObject
 {
   Q_OBJECT
@@ -24,16 +24,17 @@ public:
   void ask_for_rig();
   void ask_for_pose();
   void ask_for_picture();
-  /// Show a hint instead if there are no key frames.
+  /// Ask for a path for a film. If there are no key frames, show a hint instead.
   void ask_for_film();
 
   // ---- Write, and replace an existing file ----
   // Return false, and show a sentence in the error bar, if nothing was written.
   bool save_shape(const QString& path);
-  /// Write the mesh at rest with its skin. The joints have the pose of the handles.
+  /// Write the mesh at rest with its skin (weights and joints). The joints have the pose of the
+  /// handles.
   bool save_rig(const QString& path);
   bool save_pose(const QString& path);
-  /// Write the picture of Viewport::take_picture() (.png).
+  /// Write the picture that Viewport::take_picture() returns to a .png file.
   bool save_picture(const QString& path, int scale, bool transparent);
 
 private:

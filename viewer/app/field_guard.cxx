@@ -44,7 +44,7 @@ bool FieldGuard::eventFilter(QObject* watched, QEvent* event)
 
 void FieldGuard::polish(QWidget* widget) const
 {
-  // With WheelFocus, Qt sets the focus before it delivers the wheel event.
+  // With the policy WheelFocus, Qt sets the focus before it delivers the wheel event.
   if (widget->focusPolicy() == Qt::WheelFocus)
   {
     widget->setFocusPolicy(Qt::StrongFocus);
@@ -84,6 +84,6 @@ bool FieldGuard::keep_from_undo(QAbstractSpinBox* box, QEvent* event) const
   {
     return false;
   }
-  event->ignore(); // Qt looks for a shortcut of the window then.
+  event->ignore(); // Qt then searches for a shortcut of the window.
   return true;
 }

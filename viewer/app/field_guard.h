@@ -16,8 +16,9 @@ class QWidget;
 class FieldGuard : public QObject
 {
 public:
-  /// Filters the events of all widgets of the application during the lifetime of the parent.
-  /// @param entered  called after Enter in a number field of the parent, not of a dialog
+  /// Install the filter for the events of all widgets of the application; it is removed with the
+  /// parent.
+  /// @param entered  called after Enter in a number field of the parent, but not of a dialog
   FieldGuard(QWidget* parent, std::function<void()> entered);
 
   bool eventFilter(QObject* watched, QEvent* event) override;

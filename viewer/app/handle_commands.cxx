@@ -28,7 +28,7 @@ namespace
 constexpr HandleMode all_modes[] = { HandleMode::automatic, HandleMode::full, HandleMode::position,
   HandleMode::free, HandleMode::tail, HandleMode::ends };
 
-/// Return the name of the action that sets this mode.
+/// Return the name of the action that sets this handle mode.
 std::string name_of(HandleMode mode)
 {
   return std::string("fixes.") + to_string(mode);
@@ -180,7 +180,7 @@ void HandleCommands::fill_parents()
     {
       continue;
     }
-    // An ampersand in a menu's text would underline a letter.
+    // Escape ampersands, because a single ampersand in a menu's text underlines the next letter.
     const QString name =
       parent < 0 ? tr("None") : QString::fromStdString(handles[parent].name).replace('&', "&&");
     QAction* action =
@@ -275,7 +275,7 @@ void HandleCommands::set_locked(bool locked)
   }
 }
 
-/// Remove the selected handles. For regions, remove their labels, too.
+/// Remove the selected handles. For regions, remove their labels from the surface, too.
 void HandleCommands::remove()
 {
   const std::vector<int> selected = this->editing_->selected();
@@ -367,7 +367,7 @@ void HandleCommands::set_parent(int parent)
       Handles list = before;
       for (const int handle : selected)
       {
-        // One handle after the other, because these edits do not change indices.
+        // Edit one handle after the other; these edits do not change the indices of handles.
         status = bindpose::set_parent(list, handle, parent, after);
         if (!status.ok())
         {
@@ -403,7 +403,7 @@ void HandleCommands::fix(HandleMode mode)
   {
     this->document_->set_pose(pose, this->editing_->named(tr("mode of"), selected));
   }
-  this->update(); // a click must not uncheck a checked entry
+  this->update(); // show the state again: a click on a checked entry has unchecked it
 }
 
 void HandleCommands::reset()

@@ -19,14 +19,15 @@ class QMenu;
 class QString;
 class QWidget;
 
-/// Commands for the selected handles other than dragging: as menu entries, keys and functions. Each
-/// command makes one step of the document, or no step and one sentence (HandleEditing::refused()).
+/// Commands for the selected handles, as menu entries, keys and functions; drags are handled
+/// elsewhere. Each command makes one undo step of the document. If it cannot be applied, it makes
+/// no step, and HandleEditing::refused() is emitted with one sentence.
 class HandleCommands : public QObject
 {
   Q_OBJECT
 
 public:
-  /// Keys work in the picture and in the list of handles.
+  /// The keys work in `picture` and in `list`, the list of handles.
   HandleCommands(HandleEditing* editing, Document* document, QWidget* picture, QWidget* list);
   ~HandleCommands() override;
 
@@ -40,15 +41,15 @@ public:
   void update();
 
   bool rename(int handle, const QString& name);
-  /// Set the color of the handles; null: the color of their mode.
+  /// Set the color of the selected handles; null: the color of their mode.
   void set_color(const std::optional<QColor>& color);
   void set_locked(bool locked);
   void remove();
-  /// Mirror the handles at the plane across an axis, through the middle of the shape. A middle that
-  /// is near 0 counts as 0.
+  /// Mirror the selected handles at the plane perpendicular to an axis, through the center of the
+  /// shape. A center coordinate near 0 is treated as 0.
   void mirror(int axis);
   void snap();
-  /// Set the parent of the handles; -1: none.
+  /// Set the parent of the selected handles; -1: no parent.
   void set_parent(int parent);
   void toggle_cage_edge();
   void fix(bindpose::HandleMode mode);

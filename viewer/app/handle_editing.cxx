@@ -1,6 +1,7 @@
-// The widget edits the document's handles in place and reports its actions by events. The end of
-// every drag and every placed handle are committed under the action's name. Edits change the
-// indices of handles, so between edits the selection is a list of names.
+// Connects the handle widget to the document. The widget edits the document's handles in place and
+// reports its actions by events. At the end of every drag and for every placed handle, the changes
+// are committed as an undo step with the name of the action. Edits change the indices of handles,
+// so between edits the selection is stored as a list of names.
 #include "handle_editing.h"
 
 #include "document/document.h"
@@ -55,7 +56,8 @@ HandleEditing::HandleEditing(
   if (auto* over = qobject_cast<QBoxLayout*>(viewport->layout()))
   {
     over->insertWidget(0, this->bar_, 0, Qt::AlignLeft | Qt::AlignTop);
-    over->addWidget(this->nothing_, 0, Qt::AlignRight | Qt::AlignBottom); // legends are on the left
+    // legends are on the left, so this text is on the right
+    over->addWidget(this->nothing_, 0, Qt::AlignRight | Qt::AlignBottom);
   }
   QObject::connect(this->bar_, &ModeBar::done_wanted, this, [this] { this->set_mode(pose); });
   QObject::connect(this->bar_, &ModeBar::end_cage_wanted, this,
@@ -93,8 +95,9 @@ HandleEditing::HandleEditing(
         this->commands_->menu()->popup(list->viewport()->mapToGlobal(at));
       }
     });
-  // Poses that are typed or played must be visible. A drag that needs no pressed button may be in
-  // progress. It is stopped, because its Esc would restore the pose before it.
+  // Poses that are typed or played must be visible, so leave the edit mode. A drag that was started
+  // by a key may be in progress. It is stopped, because canceling it later would restore the old
+  // pose.
   QObject::connect(posing, &Posing::pose_changed, this,
     [this]
     {
@@ -126,7 +129,7 @@ QAction* HandleEditing::add_action(
   action->setObjectName(name);
   action->setCheckable(true);
   action->setData(value);
-  if (keys != "Esc") // Esc belongs to step_back()
+  if (keys != "Esc") // Esc is handled by step_back(), not as a shortcut
   {
     action->setShortcut(QKeySequence(keys));
   }
@@ -222,7 +225,7 @@ void HandleEditing::set_mode(int mode)
   this->warning_.clear();
   this->mode_ = mode;
   Q_EMIT this->mode_changed(mode);
-  // Regions are painted while the handles are at rest.
+  // Show the shape at rest in all edit modes, and while regions are painted.
   this->posing_->edit_at_rest(mode != pose);
   this->widget()->SetEditMode(mode == paint_regions ? move_rest : mode);
   this->widget()->SetProcessEvents(mode != paint_regions);
@@ -349,7 +352,7 @@ void HandleEditing::drag_went_on()
   Q_EMIT this->sentence_changed();
 }
 
-/// The widget has added or removed a handle.
+/// Called when the widget has added or removed a handle.
 void HandleEditing::placed()
 {
   const QString what = QString::fromStdString(this->widget()->GetInteractionName());
@@ -412,8 +415,8 @@ void HandleEditing::select(const std::vector<int>& handles)
   this->show_selection();
 }
 
-/// Select the handles by name in the picture. A redo may restore handles that do not exist now, so
-/// their names are kept until the next selection.
+/// Select the handles in names_ in the picture. Names of handles that do not exist now are kept
+/// until the next selection, because a redo may restore these handles.
 void HandleEditing::show_selection()
 {
   const Handles& handles = this->document_->handles();
@@ -442,7 +445,7 @@ void HandleEditing::remember_selection()
   }
 }
 
-/// The selection in the picture has changed: update the list.
+/// The user has changed the selection in the picture: update the list.
 void HandleEditing::selection_changed()
 {
   this->remember_selection();
@@ -495,7 +498,7 @@ bool HandleEditing::show_menu(const QPoint& at)
 bool HandleEditing::edit(const QString& step, const HandleListEdit& edit, vtkDataArray* labels)
 {
   this->stop();
-  this->drawn()->FinishCage(); // the edit may change its vertices
+  this->drawn()->FinishCage(); // the edit may change the vertices of an unfinished cage
   std::vector<Index> cell_of;
   std::vector<Index> added;
   const Status status = edit_handles(this->document_->editable_handles(), edit, &cell_of, &added);
@@ -550,7 +553,8 @@ bool HandleEditing::rename(int handle, const QString& name)
   this->is_committing_ = false;
   if (status.ok() && this->drawn()->IsSelected(this->document_->handle_cells()[handle]))
   {
-    this->names_.push_back(before); // keeps the handle selected after an undo
+    // keep the old name, too: the handle stays selected after an undo
+    this->names_.push_back(before);
   }
   if (!status.ok())
   {
@@ -680,8 +684,8 @@ QString HandleEditing::mode_sentence() const
 
 // ---- Keys and the right button -----------------------------------------------------------------
 
-/// Report whether a key in the picture belongs to the current interaction, and not to a shortcut of
-/// the window.
+/// Report whether a key in the picture is used by the current interaction, so that it must not
+/// trigger a shortcut of the window.
 bool HandleEditing::takes_key(const QKeyEvent* event) const
 {
   if (event->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier))
@@ -705,7 +709,7 @@ bool HandleEditing::eventFilter(QObject* watched, QEvent* event)
 {
   switch (event->type())
   {
-    case QEvent::PaletteChange: // a change between light and dark
+    case QEvent::PaletteChange: // the desktop changes between light and dark
       for (const QToolButton* button : this->tools_->findChildren<QToolButton*>())
       {
         QAction* action = button->defaultAction();
@@ -750,7 +754,7 @@ bool HandleEditing::eventFilter(QObject* watched, QEvent* event)
         this->commands_->menu()->popup(
           this->viewport_->mapToGlobal(this->viewport_->rect().center()));
       }
-      return true; // a press of the mouse has already shown the menu
+      return true; // the press of the mouse button has already shown the menu
     }
     default:
       break;

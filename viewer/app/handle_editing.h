@@ -29,9 +29,10 @@ class vtkHandleSetRepresentation;
 class vtkHandleSetWidget;
 class vtkObject;
 
-/// Interactive editing of handles: the tools and edit modes of the handle widget and the brush,
-/// their messages, and one step of the document for each edit. Handles are selected in the picture
-/// or in the list. They stay selected by name if an edit changes their numbers.
+/// Interactive editing of handles: the tools and edit modes of the handle widget and the region
+/// brush, and their messages. Each edit is one undo step of the document. Handles are selected in
+/// the picture or in the list. The selection is stored by name, so handles stay selected if an edit
+/// changes their indices.
 ///
 /// While rest positions are edited or regions are painted, the shape is shown at rest.
 class HandleEditing : public QObject
@@ -55,7 +56,8 @@ public:
 
   /// Return the row of tools, to be placed above the picture.
   EditTools* tools() const { return this->tools_; }
-  /// Return the choices of a mode, to be placed in the upper left corner of the picture.
+  /// Return the bar with the options of an edit mode, to be placed in the upper left corner of the
+  /// picture.
   ModeBar* mode_bar() const { return this->bar_; }
   HandleCommands* commands() const { return this->commands_; }
   void fill_menu(QMenu* menu);
@@ -64,9 +66,10 @@ public:
 
   int mode() const { return this->mode_; }
   void set_mode(int mode);
-  /// Draw handles at rest in the mode pose. They can then be selected but not dragged.
+  /// Draw handles at rest in the mode `pose`. They can then be selected but not dragged.
   void show_rest(bool shown);
-  /// Cancel a drag or stroke, otherwise remove a cage's last vertex, otherwise leave the mode.
+  /// Handle Esc: cancel a drag or stroke; if there is none, remove the last vertex of an unfinished
+  /// cage; if there is none, leave the edit mode.
   void step_back();
 
   /// Return the indices of the selected handles, in the order of their selection.
@@ -77,36 +80,38 @@ public:
   /// none.
   bool show_menu(const QPoint& at);
 
-  /// Edit the handles in one step and select the new ones. Return false, and emit refused(), if
-  /// that is impossible. With `labels` the regions of the surface change in the same step.
+  /// Edit the handles in one undo step and select the new handles. If that is impossible, emit
+  /// refused() and return false. `labels`, if not null, become the region labels of the surface in
+  /// the same step.
   bool edit(
     const QString& step, const bindpose::HandleListEdit& edit, vtkDataArray* labels = nullptr);
-  /// Make one step of changes that the cells of the document's handles already contain.
+  /// Commit changes that the cells of the document's handles already contain as one undo step.
   bool commit(const QString& step, vtkDataArray* labels = nullptr);
   /// Rename a handle. Return false, and emit refused(), if the name is empty or belongs to another
   /// handle.
   bool rename(int handle, const QString& name);
-  /// Return the name of a step with the name of the only handle, or with the number of handles.
+  /// Return the name of an undo step for these handles: it contains the name of the only handle, or
+  /// the number of handles.
   QString named(const QString& step, const std::vector<int>& handles) const;
 
   /// Update after changes of the document.
   void document_changed(int parts);
   /// Cancel the interaction that the mouse or a key has begun.
   void stop();
-  /// Return the sentence for the status line, or an empty one. Warnings are about the last refused
-  /// action.
+  /// Return the sentence for the status line, or an empty string. Warnings are about the last
+  /// refused action.
   QString sentence() const;
   bool is_warning() const { return !this->warning_.isEmpty(); }
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 Q_SIGNALS:
-  /// The mode has changed. Emitted before anything of the new mode is shown.
+  /// Emitted when the mode has changed, before anything of the new mode is shown.
   void mode_changed(int mode);
   void sentence_changed();
-  /// Poses or rest positions have changed during a drag.
+  /// Emitted during a drag when poses or rest positions have changed.
   void moved();
-  /// The handle that was selected last; -1: none.
+  /// Emitted with the handle that was selected last; -1: no handle.
   void handle_selected(int handle);
   void refused(const QString& sentence);
 
@@ -148,9 +153,9 @@ private:
   ModeBar* bar_ = nullptr;
   QWidget* nothing_ = nullptr; ///< shown over the picture while a mesh has no handles
   int mode_ = pose;
-  std::vector<std::string> names_; ///< of the selected handles
+  std::vector<std::string> names_; ///< names of the selected handles
   bool is_committing_ = false;
-  bool follows_ = false; ///< the list is being set to the picture's selection
+  bool follows_ = false; ///< the list is being updated from the picture's selection
   bool right_button_ = false; ///< the right button was pressed on a handle
   QString warning_;
 };

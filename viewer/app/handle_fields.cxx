@@ -103,7 +103,7 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
   this->more_->setObjectName("note");
   this->more_->setToolTip(tr("Typing a number removes it"));
   rows->addWidget(this->more_);
-  // Names for users who cannot see the grid.
+  // Names for users of screen readers, who cannot see the grid.
   const char* const names[] = { QT_TR_NOOP("Move along x"), QT_TR_NOOP("Move along y"),
     QT_TR_NOOP("Move along z"), QT_TR_NOOP("Turn about x, degrees"),
     QT_TR_NOOP("Turn about y, degrees"), QT_TR_NOOP("Turn about z, degrees"), QT_TR_NOOP("Scale"),

@@ -21,26 +21,27 @@ class HandleFields : public QWidget
 public:
   explicit HandleFields(QWidget* parent = nullptr);
 
-  /// Show values, without emitting values_chosen(). A field in which the user is typing is
-  /// unchanged.
-  /// @param handle  null: none is selected
-  /// @param free  the solver computes the handle's position
+  /// Show values, without emitting values_chosen(). A field in which the user is typing is not
+  /// changed.
+  /// @param handle  null: no handle is selected
+  /// @param free  true: the handle is in mode free, so the solver computes its position
   void show_values(const bindpose::Handle* handle, const bindpose::HandleValues& values, bool free);
   /// Show the layer of a handle in a planar shape. Empty: the shape is not planar, or no handle is
   /// selected.
   void show_layer(const std::optional<double>& layer);
-  /// Show the handle to which the values belong, if several handles are selected.
+  /// Show which of several selected handles the values belong to.
   void show_count(const QString& name, int count);
   bindpose::HandleValues values() const;
-  /// Return a field by its index: translate x y z, rotate x y z, scale, stretch, twist at head and
-  /// tail.
+  /// Return a field by its index. The order is: translate x y z, rotate x y z, scale, stretch,
+  /// twist at head and tail.
   QDoubleSpinBox* field(int which) const { return this->fields_[static_cast<std::size_t>(which)]; }
   QDoubleSpinBox* layer() const { return this->layer_; }
 
 Q_SIGNALS:
-  /// The value of field(field) has changed. A wheel or an arrow key emits this once per step.
+  /// Emitted when the value of a field has changed. A wheel or an arrow key emits it once per
+  /// increment.
   void values_chosen(int field);
-  /// An edit is complete: the field has lost the focus, or Enter was pressed.
+  /// Emitted when an edit is complete: the field has lost the focus, or Enter was pressed.
   void edit_ended();
   void layer_chosen(double layer);
 

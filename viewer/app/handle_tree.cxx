@@ -26,10 +26,10 @@ namespace
 constexpr int handle_role = Qt::UserRole;
 constexpr int indentation = 14; // pixels
 constexpr int icon_size = 14;
-// Minimum for the deepest row; beyond it the tree scrolls horizontally.
+// Minimum width for the deepest row, in pixels; if the tree is narrower it scrolls horizontally.
 constexpr int name_width = 150;
 
-/// Return an icon for a kind of handle, in the color of notes.
+/// Return an icon for a type of handle, in the color of secondary text.
 QIcon kind_icon(HandleKind kind)
 {
   QIcon icon;
@@ -69,8 +69,8 @@ QIcon kind_icon(HandleKind kind)
   return icon;
 }
 
-/// Return the parents without cycles. Datasets may contain any parents; a row whose parents lead
-/// back to it gets none.
+/// Return the parents without cycles. Datasets may contain any parents; if the parents of a row
+/// form a cycle, the row gets no parent.
 std::vector<int> checked_parents(const std::vector<HandleTree::Row>& rows)
 {
   const int count = static_cast<int>(rows.size());
@@ -145,7 +145,8 @@ HandleTree::HandleTree(QWidget* parent)
       if (item && this->tree_->selectedItems().isEmpty() &&
         QApplication::mouseButtons() == Qt::NoButton)
       {
-        item->setSelected(true); // the first step with the keyboard selects no row
+        // the first arrow key then moves to the first row without selecting it
+        item->setSelected(true);
       }
     });
   QObject::connect(this->search_, &QLineEdit::textChanged, this, &HandleTree::show_matches);
@@ -250,7 +251,7 @@ void HandleTree::select(const std::vector<int>& handles)
   {
     const QSignalBlocker quiet(this->tree_);
     this->selected_ = handles;
-    this->show_matches(); // selected rows are always visible
+    this->show_matches(); // update the filter, which always shows selected rows
     QTreeWidgetItem* last = handles.empty() ? nullptr : this->item(handles.back());
     this->tree_->setCurrentItem(last, 0, QItemSelectionModel::NoUpdate);
     this->tree_->clearSelection();
@@ -260,14 +261,15 @@ void HandleTree::select(const std::vector<int>& handles)
     }
     if (last)
     {
-      this->tree_->scrollToItem(last); // this also unfolds its parents
+      this->tree_->scrollToItem(last); // this also expands its parents
     }
   }
   this->tree_->viewport()->update();
   Q_EMIT this->chosen();
 }
 
-/// Update selected_. The tree reports the selected items, but not the order of their selection.
+/// Update selected_. The tree reports which items are selected, but not the order of their
+/// selection, so the order is kept here.
 void HandleTree::take_selection()
 {
   const auto is_gone = [this](int k) { return !this->item(k)->isSelected(); };
@@ -372,7 +374,7 @@ bool HandleTree::eventFilter(QObject* watched, QEvent* event)
 void HandleTree::changeEvent(QEvent* event)
 {
   QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) // a change between light and dark
+  if (event->type() == QEvent::PaletteChange) // the desktop changes between light and dark
   {
     this->show_icons();
     this->show_matches();

@@ -29,7 +29,8 @@ public:
     int parent = -1; ///< index of a row; -1: none
     int mode = static_cast<int>(bindpose::HandleMode::automatic);
   };
-  /// Set the handles and clear the selection. Folded handles stay folded, by name.
+  /// Set the handles and clear the selection. Collapsed handles stay collapsed; they are identified
+  /// by name.
   void set_rows(const std::vector<Row>& rows);
   const std::vector<Row>& rows() const { return this->rows_; }
   void set_mode(int handle, int mode);
@@ -45,7 +46,7 @@ public:
   QLineEdit* search() const { return this->search_; }
 
 Q_SIGNALS:
-  /// The selection has changed.
+  /// Emitted when the selection has changed.
   void chosen();
 
 protected:
@@ -64,7 +65,7 @@ private:
   QLineEdit* search_;
   QTreeWidget* tree_;
   std::vector<Row> rows_;
-  std::vector<QTreeWidgetItem*> items_; // by handle
+  std::vector<QTreeWidgetItem*> items_; // item of each handle
   std::vector<int> selected_;
   int deepest_ = 0;
 };

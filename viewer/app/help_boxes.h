@@ -3,7 +3,7 @@
 
 class QWidget;
 
-// The dialogs of the menu Help.
+// Show the dialogs of the menu Help.
 
 void show_about(QWidget* window);
 

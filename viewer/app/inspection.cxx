@@ -31,7 +31,7 @@ TetrahedralizeOptions options_of(int method)
   return options;
 }
 
-/// Return a copy that a thread can own.
+/// Return a copy of the surface for use on another thread.
 TriangleMesh copy_of(const SurfaceInput& surface)
 {
   TriangleMesh mesh;
@@ -54,7 +54,7 @@ Status find_defects(
   return status;
 }
 
-/// Return the sum of the counts in the legend.
+/// Return the number of all defects, as counted in the legend.
 qlonglong count_all(vtkPolyData* defects)
 {
   std::vector<Category> categories = defect_categories();
@@ -67,7 +67,8 @@ qlonglong count_all(vtkPolyData* defects)
   return sum;
 }
 
-/// Return a text like "boundary 12, fold 3"; empty without defects.
+/// Return a text with the counts per type, like "boundary 12, fold 3"; empty if there are no
+/// defects.
 QString counts_of(vtkPolyData* defects)
 {
   std::vector<Category> categories = defect_categories();
@@ -279,7 +280,7 @@ void Inspection::update_defects()
 void Inspection::look_for_defects()
 {
   this->looking_ = this->surface_ != nullptr;
-  // The picture comes first. With software rendering it needs all cores.
+  // Wait until the surface is drawn. With software rendering, drawing needs all cores.
   this->waiting_ = this->looking_ && this->viewport_->isVisible();
   if (!this->waiting_)
   {
@@ -301,7 +302,8 @@ void Inspection::show_defects()
   this->panel_->show_defects(true);
 }
 
-/// Search once per surface, either to show the defects or to report that there are some.
+/// Search for defects once per surface. The result is shown, or only reported if the user has not
+/// requested defects.
 void Inspection::start_looking()
 {
   SurfaceInput surface;
@@ -320,7 +322,7 @@ void Inspection::defects_finished()
   const Status& status = this->defect_job_.status();
   if (status.code == StatusCode::canceled)
   {
-    this->update_defects(); // for a surface that was opened meanwhile
+    this->update_defects(); // another surface may have been opened during the search
     if (this->looking_)
     {
       this->start_looking();

@@ -12,8 +12,8 @@
 class TetPanel;
 class Viewport;
 
-/// Inspection of a surface's tets and defects. They are computed in the background, and shown as
-/// the panel requests while the panel is visible.
+/// Inspection of a surface's tets and defects. They are computed in the background. While the panel
+/// is visible, they are shown as it requests.
 class Inspection : public QObject
 {
   Q_OBJECT
@@ -21,11 +21,11 @@ class Inspection : public QObject
 public:
   Inspection(Viewport* viewport, TetPanel* panel);
 
-  /// Set the surface at rest, and the tets of which it is the boundary (null: none yet).
+  /// Set the surface at rest, and the tets whose boundary it is (null: no tets yet).
   void set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets);
-  /// Set whether the panel is shown. Otherwise the surface has its normal look.
+  /// Set whether the panel is visible. If not, the surface has its normal look.
   void set_active(bool active);
-  void make_tets(int method); ///< a TetPanel::Method
+  void make_tets(int method); ///< method: one of TetPanel::Method
   void cancel();
   /// Look for defects in the background after the surface was drawn, and emit defects_found() if
   /// there are any.
@@ -35,8 +35,8 @@ public:
   {
     return this->tet_job_.is_running() || this->defect_job_.is_running() || this->waiting_;
   }
-  /// Return how the surface is drawn (Viewport::SurfaceLook): hidden by tets, see-through with
-  /// defects, otherwise solid.
+  /// Return how the surface is drawn (Viewport::SurfaceLook): hidden while tets are shown,
+  /// see-through while defects are shown, otherwise solid.
   int surface_look() const;
 
   TetView* tet_view() const { return this->tets_; }
@@ -44,15 +44,16 @@ public:
 
 Q_SIGNALS:
   void surface_look_changed();
-  /// The first tets of the surface were made. Emitted before they are shown.
+  /// Emitted when the first tets of the surface were computed, before they are shown.
   void tets_made();
-  /// Counts per type of defect, for a sentence.
+  /// Emitted when the search of look_for_defects() has found defects. `counts` is a text with the
+  /// counts per type.
   void defects_found(const QString& counts);
-  /// One sentence. The picture is unchanged.
+  /// Emitted with one sentence if tets or colors are impossible; the picture is unchanged.
   void failed(const QString& sentence);
-  /// Tets were made, or are shown as requested.
+  /// Emitted when tets were computed, or are shown as requested.
   void succeeded();
-  /// Tets were made, with a remark for the user.
+  /// Emitted when tets were computed with a message for the user.
   void noticed(const QString& sentence);
 
 private:
@@ -71,9 +72,9 @@ private:
   DefectView defects_;
   vtkSmartPointer<vtkPolyData> surface_;
   bool active_ = false;
-  bool looking_ = false; // defects_found() must be emitted if the search finds any
-  bool waiting_ = false; // the search waits for the first picture of the surface
-  int colors_ = 0; // the shown TetPanel::Colors
+  bool looking_ = false; // true: emit defects_found() if the search finds defects
+  bool waiting_ = false; // true: the search begins after the first picture of the surface
+  int colors_ = 0; // the displayed values, one of TetPanel::Colors
   std::shared_ptr<vtkSmartPointer<vtkUnstructuredGrid>> made_tets_;
   std::shared_ptr<vtkSmartPointer<vtkPolyData>> made_defects_;
   KernelJob tet_job_;

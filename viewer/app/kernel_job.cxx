@@ -1,5 +1,5 @@
-// Each job has one execution context. Progress is sent to the window's thread by queued signals.
-// The cancel is an atomic flag.
+// Runs kernels in the background. Each job has one execution context. Progress is sent to the
+// window's thread by queued signals. The cancel request is an atomic flag.
 #include "kernel_job.h"
 
 #include <QString>
@@ -57,7 +57,7 @@ void KernelJob::start(Work work)
         [this, status]
         {
           this->status_ = status;
-          if (this->cancel_) // canceled after its end, but before finished()
+          if (this->cancel_) // canceled after the work has ended, but before finished()
           {
             this->status_ = Status::failure(StatusCode::canceled, "canceled");
           }

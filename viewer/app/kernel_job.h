@@ -17,14 +17,14 @@ class KernelJob : public QObject
   Q_OBJECT
 
 public:
-  /// The function that runs on the thread. It owns copies of its input, and shares the ownership of
+  /// The function that runs on the thread. It owns copies of its input, and uses shared pointers to
   /// its output.
   using Work = std::function<bindpose::Status(bindpose::ExecutionContext&)>;
 
   explicit KernelJob(QObject* parent = nullptr);
   ~KernelJob() override;
 
-  /// Start a job. Does nothing while a job is running.
+  /// Start a job. Do nothing if a job is running.
   void start(Work work);
   /// Request the end of the job. finished() is still emitted, with the status canceled.
   void cancel();
@@ -33,8 +33,7 @@ public:
   const bindpose::Status& status() const { return this->status_; }
 
 Q_SIGNALS:
-  /// Fraction of the whole in [0, 1], and the name of the phase. Emitted on the thread of this
-  /// object.
+  /// Emitted on the thread of this object. `fraction` is the progress of the whole job in [0, 1].
   void progress(double fraction, const QString& phase);
   void finished();
 

@@ -21,7 +21,8 @@ using namespace bindpose;
 namespace
 {
 constexpr int margin = 14;
-constexpr int reach = 6; // pixels around a key's middle
+// distance in pixels from the center of a key mark within which the mouse grabs the key
+constexpr int reach = 6;
 
 QString seconds_text(double seconds)
 {
@@ -149,7 +150,7 @@ QSize KeyTrack::sizeHint() const
   return { 300, 2 * this->fontMetrics().lineSpacing() + 6 };
 }
 
-/// Return the seconds that the track shows. There is room for another key after the last one.
+/// Return the seconds that the track shows. After the last key there is space for another key.
 double KeyTrack::length() const
 {
   return std::max(2.0, std::ceil(this->keys_.duration() + 0.5));
@@ -165,7 +166,7 @@ double KeyTrack::seconds_at(int x) const
 {
   const double seconds =
     static_cast<double>(x - margin) / (this->width() - 2 * margin) * this->length();
-  // Round to hundredths, so that the times of keys are short numbers.
+  // Round to hundredths of a second, so that the times of keys have few digits.
   return std::clamp(std::round(100.0 * seconds) / 100.0, 0.0, this->length());
 }
 
@@ -202,7 +203,7 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
   const QColor line = shade(on ? "scroll" : "line"), ink = shade(on ? "note" : "off");
   painter.setPen(QPen(line, 2));
   painter.drawLine(margin, middle, this->width() - margin, middle);
-  // Draw as many numbers as fit.
+  // Label as many times as fit.
   const double room = this->length() / (this->width() - 2.0 * margin) *
     (this->fontMetrics().horizontalAdvance("000 s") + 14);
   const double steps[] = { 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 300.0, 1800.0 };

@@ -10,8 +10,9 @@ class QLabel;
 class QPushButton;
 class KeyTrack;
 
-/// Key frames below the picture: a track with one mark per key, and buttons that play and set keys.
-/// On the track the mouse scrubs through time and moves keys. The window sets the contents.
+/// The strip of key frames below the picture: a track with one mark per key, and buttons that play
+/// and set keys. On the track users drag the mouse to change the displayed time (scrub) and to move
+/// keys. The window sets the contents.
 class KeyStrip : public QFrame
 {
   Q_OBJECT
@@ -54,7 +55,7 @@ private:
   bool playing_ = false;
 };
 
-/// The track: seconds increase from left to right.
+/// The track: time increases from left to right.
 class KeyTrack : public QWidget
 {
   Q_OBJECT

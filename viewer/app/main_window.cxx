@@ -68,8 +68,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Return a file's name for a title or a sentence. Long names, which some exporters write, are
-/// shortened.
+/// Return a file's name for a title or a sentence. Long names, which some other programs create,
+/// are shortened.
 QString short_name(const QString& path)
 {
   constexpr int longest = 60;
@@ -129,7 +129,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
   QObject::connect(
     this->document_, &Document::about_to_change, this->editing_, &HandleEditing::stop);
   QObject::connect(this->document_, &Document::changed, this, &MainWindow::document_changed);
-  // The history reports only after a step whether all is saved.
+  // The history updates its saved state only at the end of a step; update the title then.
   QObject::connect(this->history(), &QUndoStack::indexChanged, this, &MainWindow::update_title);
   QObject::connect(this->document_, &Document::option_changed, this, &MainWindow::option_changed);
   this->update_title();
@@ -139,7 +139,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
 
 MainWindow::~MainWindow()
 {
-  // The document and its history are destroyed after the views, and emit signals until then.
+  // The document and its history are destroyed after the views. Disconnect them, because they emit
+  // signals until then.
   this->document_->disconnect(this);
   this->history()->disconnect(this);
 }
@@ -194,7 +195,8 @@ void MainWindow::make_layout()
   this->binding_ = new Binding(this->document_, this->panel_, this->rebind_bar_, this);
   QObject::connect(
     this->shape_handles_, &ShapeHandles::rigged, this, [this] { this->binding_->start(); });
-  // This connection comes first: painting must end before another panel shows its own colors.
+  // This must be the first connection to this signal: painting must end before another panel shows
+  // its own colors.
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this,
     [this](int panel)
     {
@@ -221,7 +223,7 @@ void MainWindow::make_inspections()
     [this]
     {
       this->update_surface_look();
-      this->draw_pose(); // tets and defects belong to the shape at rest
+      this->draw_pose(); // draw the shape at rest: tets and defects belong to it
     });
   QObject::connect(this->inspection_, &Inspection::tets_made, this, &MainWindow::face_planes);
   QObject::connect(this->inspection_, &Inspection::noticed, this, &MainWindow::show_notice);
@@ -232,7 +234,7 @@ void MainWindow::make_inspections()
     [this]
     {
       this->update_surface_look();
-      this->update_pose(); // a slice belongs to the shape at rest
+      this->update_pose(); // draw the shape at rest: a slice belongs to it
     });
   this->rotations_ =
     std::make_unique<RotationView>(this->viewport_, this->panels_->side()->pose(), this->posing_);
@@ -288,7 +290,7 @@ void MainWindow::connect_panel()
     {
       if (this->binding_->is_running())
       {
-        this->error_bar_->hide(); // it is about the state before the bind
+        this->error_bar_->hide(); // the sentence is about the state before the bind
       }
       this->update_panel();
       this->update_pose();
@@ -337,7 +339,7 @@ void MainWindow::connect_volume()
     [this]
     {
       this->update_surface_look();
-      this->draw_pose(); // winding numbers belong to the shape at rest
+      this->draw_pose(); // draw the shape at rest: winding numbers belong to it
     });
 }
 
@@ -346,7 +348,7 @@ void MainWindow::connect_handles()
   QObject::connect(this->editing_, &HandleEditing::moved, this, &MainWindow::update_pose);
   QObject::connect(
     this->editing_, &HandleEditing::sentence_changed, this, &MainWindow::update_hint);
-  // While regions are painted, only they color the surface.
+  // While regions are painted, the surface shows only the colors of regions.
   QObject::connect(this->editing_, &HandleEditing::mode_changed, this,
     [this](int mode)
     {
@@ -363,7 +365,7 @@ void MainWindow::connect_handles()
     });
 }
 
-/// Show the weights of the last selected handle in the panel of weights.
+/// Show the weights of the handle that was selected last in the weight panel.
 void MainWindow::show_selected_column()
 {
   const std::vector<int> selected = this->editing_->selected();
@@ -373,7 +375,7 @@ void MainWindow::show_selected_column()
   }
 }
 
-/// Connect the error bar: an error is hidden when an operation of its kind succeeds.
+/// Connect the error bar. An error is hidden when an operation of the same type succeeds.
 void MainWindow::connect_errors()
 {
   const auto fails = [this](auto* part, auto signal, ErrorKind kind)
@@ -383,7 +385,8 @@ void MainWindow::connect_errors()
   };
   const auto succeeds = [this](auto* part, auto signal, ErrorKind kind)
   { QObject::connect(part, signal, this, [this, kind] { this->error_bar_->succeeded(kind); }); };
-  fails(this->binding_, &Binding::failed, ErrorKind::other); // the next bind hides all errors
+  // an error of a bind is hidden by the next bind
+  fails(this->binding_, &Binding::failed, ErrorKind::other);
   fails(this->shape_handles_, &ShapeHandles::failed, ErrorKind::edit_handles);
   fails(this->editing_, &HandleEditing::refused, ErrorKind::edit_handles);
   fails(this->posing_, &Posing::failed, ErrorKind::pose);
@@ -430,7 +433,7 @@ void MainWindow::document_changed(int parts)
   }
   if (parts & (mesh_part | handles_part))
   {
-    // Without handles the user can add the first ones.
+    // If there are no handles, use an empty dataset to which the user can add the first ones.
     this->viewport_->set_handles(this->document_->editable_handles(),
       this->document_->surface() || this->document_->handle_data());
   }
@@ -454,7 +457,7 @@ void MainWindow::document_changed(int parts)
   }
 }
 
-/// Show the timeline with the first key. After that only the user hides it.
+/// Show the timeline when the first key is set. After that only the user hides it.
 void MainWindow::keys_changed()
 {
   const bool has_keys = !this->posing_->shelf().keys.keys().empty();
@@ -484,7 +487,7 @@ void MainWindow::option_changed(const QString& key, const QVariant& value)
 
 void MainWindow::show_mesh()
 {
-  this->note_bar_->hide(); // it is about the previous mesh
+  this->note_bar_->hide(); // the note is about the previous mesh
   const Work& work = this->document_->work();
   this->binding_->cancel();
   this->drawn_ = work.surface;
@@ -499,7 +502,8 @@ void MainWindow::show_mesh()
   this->posing_->set_plane(this->plane_);
   if (work.surface && !planar)
   {
-    this->inspection_->look_for_defects(); // not if planar: its border is no defect
+    // for planar shapes the border is not a defect, so do not search
+    this->inspection_->look_for_defects();
   }
   if (!work.curves)
   {
@@ -509,7 +513,7 @@ void MainWindow::show_mesh()
   this->viewport_->reset_view();
 }
 
-/// Switch the viewport's 2D mode. It is off while a volume is open.
+/// Switch the viewport to 2D mode if the shape is planar. The mode is off while a volume is open.
 void MainWindow::update_plane()
 {
   const bool flat = this->flat_wanted_ && !this->document_->work().volume;
@@ -571,7 +575,7 @@ void MainWindow::show_volume()
   }
 }
 
-/// Pose the surface with its weights, if they belong to the handles.
+/// Use the weights for posing if they belong to the handles.
 void MainWindow::connect_weights()
 {
   vtkPolyData* surface = this->document_->surface();
@@ -632,7 +636,7 @@ bool MainWindow::say(const QString& name, const Status& status)
 
 bool MainWindow::open(const QString& path, const OpenedFile* read)
 {
-  // Opening a file alone is not a change that could be lost.
+  // If the user has only opened a file, nothing can be lost by opening another one.
   const bool unchanged = !this->document_->is_changed(true) && this->sessions_->path().isEmpty();
   const bool done = this->open_file(path, read);
   if (done)
@@ -659,7 +663,7 @@ bool MainWindow::open_file(const QString& path, const OpenedFile* read)
   const Status status = read ? Status() : read_file(path.toStdString(), here);
   if (!status.ok())
   {
-    // The readers report the whole path, but here the name is enough.
+    // Show only the file name; the readers report the whole path.
     this->error_bar_->show_sentence(
       QString::fromStdString(status.message).replace(path, name), ErrorKind::other, path);
     return false;
@@ -702,7 +706,7 @@ bool MainWindow::show_file(const OpenedFile& file, const QString& path)
   }
 }
 
-/// Open a picture as a shape: cut out by its alpha, or the whole rectangle.
+/// Open a picture as a shape: the region where its alpha is opaque, or the whole rectangle.
 bool MainWindow::open_picture(
   vtkImageData* picture, const QString& name, const Source& source, bool whole)
 {
@@ -819,7 +823,8 @@ void MainWindow::closeEvent(QCloseEvent* event)
 void MainWindow::set_method(int method)
 {
   this->document_->set_option("pose.method", method);
-  this->update_pose(); // also for the current method, because the user expects to see the pose
+  // also if the method is already selected, because the user expects to see the pose
+  this->update_pose();
 }
 
 void MainWindow::set_mode(int handle, int mode)
@@ -902,9 +907,9 @@ void MainWindow::draw_pose()
   this->viewport_->refresh();
 }
 
-/// All parts of the picture have the same state. Data that belongs to the shape at rest (tets,
-/// defects, slices, winding numbers) is shown with surface and handles at rest, and a label says
-/// so.
+/// Show all parts of the picture in the same state. Data that belongs to the shape at rest (tets,
+/// defects, slices, winding numbers) is shown together with surface and handles at rest. A label
+/// then states that the shape is at rest.
 void MainWindow::show_state()
 {
   const QString inspected = this->inspection_->tet_view()->is_shown() ? tr("tets are shown at rest")
@@ -924,8 +929,8 @@ void MainWindow::show_state()
     this->document_->handle_data() && !why.isEmpty() ? tr("Rest shape: %1").arg(why) : QString());
 }
 
-/// Orient the planes across the axis that is nearest to the line of sight, so that a cut shows the
-/// inside. An orientation that the user has chosen is kept.
+/// Orient the cutting planes perpendicular to the axis that is nearest to the line of sight, so
+/// that a cut shows the inside. An orientation that the user has chosen is kept.
 void MainWindow::face_planes()
 {
   const Vec3 sight(this->viewport_->renderer()->GetActiveCamera()->GetDirectionOfProjection());
@@ -947,7 +952,7 @@ void MainWindow::face_planes()
   }
 }
 
-/// The text about the current interaction has priority over that about the last pose.
+/// A text about the current interaction has priority over the text about the last pose.
 void MainWindow::update_hint()
 {
   const QString said = this->editing_->sentence();
@@ -990,13 +995,13 @@ QString MainWindow::bound_note() const
 void MainWindow::show_outlines(bool shown)
 {
   this->viewport_->show_outlines(shown);
-  this->draw_pose(); // also in the second half
+  this->draw_pose(); // draw again, because the second half shows outlines too
   this->menus_->update();
   this->links_->chosen("show.outlines");
 }
 
-/// Tets hide the surface, and defects make it see-through. Otherwise a slice of the weights
-/// determines its look, and then the volume.
+/// Determine how the surface is drawn: tets hide it, defects make it see-through. Without tets and
+/// defects a slice of the weights determines the look, then the volume.
 void MainWindow::update_surface_look()
 {
   int look = this->inspection_->surface_look();

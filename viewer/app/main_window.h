@@ -42,9 +42,9 @@ class WindingVolume;
 class vtkDataSet;
 class vtkImageData;
 
-/// The window of `bindpose view`. It binds a surface to handles and poses it. It inspects volumes
-/// of winding numbers, alone or together with a surface and its boundary curves. It also shows
-/// weights, tets and defects of a surface, and the inside of tets.
+/// The window of `bindpose view`. In it users bind a surface to handles and pose it. They can also
+/// inspect volumes of winding numbers, weights, tets and defects of a surface, and the inside of
+/// tets.
 ///
 /// The Document contains the state that is saved. The window arranges views and panels and connects
 /// them to the document.
@@ -78,10 +78,10 @@ public:
   void set_method(int method);
   void set_mode(int handle, int mode);
   void back_to_rest();
-  /// Report whether nothing is open.
+  /// Report whether no file is open.
   bool is_empty() const;
 
-  /// Return the drawn surface: posed, or at rest before a bind.
+  /// Return the drawn surface: posed, or at rest if there are no weights.
   vtkPolyData* shown() const;
   Viewport* viewport() const { return this->viewport_; }
   SidePanel* panel() const { return this->panel_; }
@@ -92,10 +92,10 @@ public:
   Probe* probe() const { return this->probe_; }
   /// Report whether the shape is planar, so that it can be shown in 2D.
   bool is_planar() const { return this->plane_.has_value(); }
-  /// Switch the 2D mode on or off. Without it the view can be rotated. Planar shapes are first
-  /// shown in 2D. The camera is unchanged.
+  /// Switch the 2D mode on or off. Planar shapes are first shown in 2D. With the mode off the view
+  /// can be rotated. The camera is unchanged.
   void set_flat_view(bool flat);
-  /// Show or hide outlines in a step of the history.
+  /// Show or hide outlines, as an undo step.
   void show_outlines(bool shown);
   WeightInspection* weights() const { return this->weights_; }
   Posing* posing() const { return this->posing_; }
@@ -104,13 +104,13 @@ public:
   ShapeHandles* shape_handles() const { return this->shape_handles_; }
   KeyStrip* strip() const { return this->strip_; }
   WindingVolume* winding_volume() const { return this->winding_volume_; }
-  /// Report whether the key frames are shown below the picture: from the first key frame on, or on
-  /// request.
+  /// Report whether the key frames are shown below the picture. They are shown after the first key
+  /// frame was set, or on request.
   bool shows_timeline() const { return this->timeline_; }
   void show_timeline(bool shown);
   /// Return the status line. It describes the current interaction, or the last pose.
   const ElidedLabel* hint() const { return this->hint_; }
-  /// Return the label in the picture about the point under the mouse, in one line.
+  /// Return the text of the label about the point under the mouse, in one line.
   QString reading() const;
   /// Return the sentence in the error bar; empty if the bar is hidden.
   QString error() const;
@@ -120,10 +120,10 @@ public:
   void update_title();
   NoticeBar* rebind_bar() const { return this->rebind_bar_; }
   NoticeBar* recovery_bar() const { return this->recovery_bar_; }
-  /// Return the bar for notes: missing files of a session, how a picture was cut out, defects of a
-  /// surface.
+  /// Return the bar for notes about missing files of a session, the outline of a picture, and
+  /// defects of a surface.
   NoticeBar* note_bar() const { return this->note_bar_; }
-  /// Return the bar that says what was exported and where.
+  /// Return the bar that shows what was exported and to which path.
   NoticeBar* export_bar() const { return this->export_bar_; }
 
 protected:
@@ -171,8 +171,8 @@ private:
   Probe* probe_ = nullptr;
   std::optional<bindpose::Vec3> plane_; // normal of a planar shape at rest
   bool flat_wanted_ = true;
-  /// The last orientation that the program itself has chosen for each plane, by the name of its
-  /// options.
+  /// For each cutting plane, by the name of its options: the last orientation that the program has
+  /// chosen.
   std::map<QString, int> faced_;
   Posing* posing_ = nullptr;
   HandleEditing* editing_ = nullptr;
@@ -182,24 +182,24 @@ private:
   PanelColumn* panels_ = nullptr;
   std::unique_ptr<RotationView> rotations_;
   std::unique_ptr<DistanceView> distances_;
-  SidePanel* panel_ = nullptr; // one of panels_
+  SidePanel* panel_ = nullptr; // part of panels_
   OptionLinks* links_ = nullptr;
   WindowMenus* menus_ = nullptr;
   WindowSessions* sessions_ = nullptr;
   Exports* exports_ = nullptr;
   WindingVolume* winding_volume_ = nullptr;
-  BarStack* bars_ = nullptr; // over the picture, contains the bars below
+  BarStack* bars_ = nullptr; // stack of bars over the picture; contains the bars below
   ErrorBar* error_bar_ = nullptr;
   NoticeBar* recovery_bar_ = nullptr;
   NoticeBar* note_bar_ = nullptr;
   NoticeBar* rebind_bar_ = nullptr;
   NoticeBar* export_bar_ = nullptr;
   ElidedLabel* hint_ = nullptr;
-  EmptyState* empty_ = nullptr; // in the middle of the picture while nothing is open
+  EmptyState* empty_ = nullptr; // in the middle of the picture while no file is open
   vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport shows
   bool timeline_ = false;
   bool has_keys_ = false;
-  QString read_notice_; // warnings about data that the opened file lost
+  QString read_notice_; // warnings about data of the opened file that was not read
   QString hint_text_; // shown in the status line when there is no interaction
 };
 

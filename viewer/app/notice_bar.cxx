@@ -10,7 +10,8 @@ NoticeBar::NoticeBar(QWidget* parent)
   this->setObjectName("notice");
   this->row_->setContentsMargins(14, 6, 8, 6);
   this->text_->setWordWrap(true);
-  // A long word (a path) must not widen the window.
+  // Let the text be narrower than a long word such as a path, which would otherwise make the window
+  // wider.
   this->text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   this->text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   this->row_->addWidget(this->text_, 1);
@@ -31,7 +32,7 @@ void NoticeBar::offer(const QString& sentence, const QList<Choice>& choices, con
   for (QPushButton* button : this->buttons_)
   {
     button->hide();
-    button->deleteLater(); // it may be the button that was pressed
+    button->deleteLater(); // delete later, because this may be the button that was pressed
   }
   this->buttons_.clear();
   this->set_sentence(sentence);

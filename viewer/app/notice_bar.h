@@ -20,15 +20,15 @@ public:
   struct Choice
   {
     QString text;
-    std::function<void()> action; ///< the bar is hidden before the call
+    std::function<void()> action; ///< called after the bar was hidden
   };
 
   explicit NoticeBar(QWidget* parent);
 
-  /// Replace the current offer. `close` is the text of the button that only hides the bar; empty:
-  /// none.
+  /// Show a sentence with buttons, in place of the current ones. `close` is the text of the button
+  /// that only hides the bar; empty: no such button.
   void offer(const QString& sentence, const QList<Choice>& choices, const QString& close);
-  /// Set another sentence for the same offer.
+  /// Replace the sentence and keep the buttons.
   void set_sentence(const QString& sentence, const QString& tool_tip = QString());
   /// Return the sentence; empty if the bar is hidden.
   QString sentence() const;

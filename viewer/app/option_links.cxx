@@ -1,5 +1,6 @@
-// Only signals of the user's choices make steps: clicked, activated, value_chosen. Signals that
-// widgets emit while they are set from the document make none.
+// Connects widgets to the options of the document. Only signals that a user causes make undo steps:
+// clicked, activated, value_chosen. Widgets also emit signals when they are set from the document;
+// these are not used.
 #include "option_links.h"
 
 #include "document/document.h"

@@ -50,7 +50,7 @@ PanelColumn::PanelColumn(QWidget* parent)
     segment->setCheckable(true);
     segment->setToolTip(tr(tips[k]));
     this->buttons_->addButton(segment, k);
-    // Stretched by text width, because four words fill the row.
+    // The widths are proportional to the texts, because four texts fill the row.
     row->addWidget(segment, segment->sizeHint().width());
   }
   column->addWidget(this->choice_);
@@ -92,7 +92,8 @@ QWidget* PanelColumn::scrolled(QFrame* panel, int width)
   return scroll;
 }
 
-/// Give the list the height that the panel does not need, until the user drags the border.
+/// Give the list of handles the height that the panel does not need. Do nothing after the user has
+/// dragged the border.
 void PanelColumn::share_height()
 {
   constexpr int panel_height = 540;
@@ -128,8 +129,8 @@ void PanelColumn::set_open(bool volume, bool shape, bool surface)
   }
   for (int k = 0; k < row.size(); ++k)
   {
-    // One line separates two buttons. The last button has no left border, so only its neighbor has
-    // a right border.
+    // Adjacent buttons are separated by one line. The last button has no left border, so only the
+    // button before it has a right border.
     row[k]->setProperty("place",
       k == 0                  ? "first"
         : k + 1 == row.size() ? "last"
@@ -138,7 +139,7 @@ void PanelColumn::set_open(bool volume, bool shape, bool surface)
   }
   for (QAbstractButton* each : buttons)
   {
-    each->style()->unpolish(each); // the style reads the property again
+    each->style()->unpolish(each); // make the style read the property again
     each->style()->polish(each);
   }
   const int shown = this->buttons_->checkedId();
@@ -177,7 +178,7 @@ void PanelColumn::show_panel(int panel)
   this->buttons_->button(panel)->setChecked(true);
   for (QWidget* each : this->panels_)
   {
-    // Hide all panels first, because the window grows while two are visible.
+    // Hide all panels first. If two were visible for a moment, the window would grow.
     each->setVisible(false);
   }
   this->panels_[panel]->setVisible(true);

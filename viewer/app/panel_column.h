@@ -13,8 +13,8 @@ class TetPanel;
 class VolumePanel;
 class WeightPanel;
 
-/// The column to the right of the picture, with panels to bind and pose, and to inspect weights,
-/// tets and defects, and volumes. Buttons at the top choose one if several apply. The list of
+/// The column to the right of the picture. Its panels are: bind and pose, weights, tets and
+/// defects, and volumes. If several panels apply, buttons at the top select one. The list of
 /// handles is above the panels that are about handles; the mouse can drag the border between list
 /// and panel.
 class PanelColumn : public QWidget
@@ -37,7 +37,7 @@ public:
   TetPanel* tet() const { return this->tet_; }
   VolumePanel* volume() const { return this->volume_; }
   HandleTree* handles() const { return this->handles_; }
-  /// Set what is open. It determines which panels can be chosen.
+  /// Set which data is open, which determines the panels that can be selected.
   void set_open(bool volume, bool shape, bool surface);
   void show_panel(int panel);
   int shown_panel() const;
@@ -57,12 +57,12 @@ private:
   QSplitter* splitter_;
   HandleTree* handles_;
   QButtonGroup* buttons_;
-  QList<QWidget*> panels_; // by Panel; a panel or its scroll area
+  QList<QWidget*> panels_; // one widget per Panel: the panel or its scroll area
   SidePanel* side_;
   WeightPanel* weight_;
   TetPanel* tet_;
   VolumePanel* volume_;
-  bool has_shape_ = false; ///< a surface or handles
+  bool has_shape_ = false; ///< true: a surface or handles are open
   bool shared_by_hand_ = false;
 };
 

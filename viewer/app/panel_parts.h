@@ -11,12 +11,12 @@ class QLabel;
 class QPushButton;
 class QWidget;
 
-// Building blocks of the panels to the right of the picture.
+// Functions that create the widgets and texts of the panels to the right of the picture.
 
 QLabel* heading(const QString& text, QWidget* parent);
 /// Return a button that does not take the keyboard focus when it is clicked.
 QPushButton* button(const QString& text, QWidget* parent);
-/// Add a row of buttons of which exactly one is pressed, at first the first one. Ids count from 0.
+/// Add a row of buttons of which exactly one is pressed, initially the first. Ids count from 0.
 QButtonGroup* add_segments(
   QBoxLayout* column, QWidget* parent, const QStringList& names, const QStringList& tips);
 /// Add a row of buttons X, Y, Z and Free, with PlaneHandle::Orientation as ids. Z is pressed.
@@ -25,9 +25,9 @@ QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent);
 void enable_all_but(QComboBox* list, int item, const QString& reason);
 /// Return the text with a capital first letter.
 QString capital(const QString& text);
-/// Return the text for one line: the middle of a longer text is left out.
+/// Return the text shortened to `longest` characters: the middle of a longer text is left out.
 QString shortened(const QString& text, int longest);
-/// Return a line about a running job: its phase in words, and percent.
+/// Return a line of text about a running job: the phase in words, and the percentage.
 QString progress_note(double fraction, const QString& phase);
 /// Return a description of a kernel phase in words.
 QString sentence_of(const QString& phase);

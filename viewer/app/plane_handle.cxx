@@ -1,5 +1,5 @@
-// VTK's plane widget moves and rotates the plane. Its own picture of the plane is nearly
-// transparent; it exists only so that the mouse can catch it.
+// A plane that the mouse moves and rotates, implemented with VTK's implicit plane widget. The plane
+// that the widget draws is nearly transparent; it exists only so that the mouse can grab it.
 #include "plane_handle.h"
 
 #include "viewport.h"
@@ -42,7 +42,7 @@ PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent),
     bindpose::palette::line[0], bindpose::palette::line[1], bindpose::palette::line[2]);
   color(this->plane_->GetOutlineProperty(), bindpose::palette::edges, 1.0);
   color(this->plane_->GetSelectedOutlineProperty(), bindpose::palette::edges, 1.0);
-  // Not fully transparent, because the mouse cannot catch a transparent plane.
+  // Not fully transparent, because the mouse cannot grab a transparent plane.
   color(this->plane_->GetPlaneProperty(), bindpose::palette::white, 0.005);
   color(this->plane_->GetSelectedPlaneProperty(), bindpose::palette::white, 0.005);
   this->widget_->SetInteractor(viewport->interactor());
@@ -50,7 +50,7 @@ PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent),
   this->widget_->SetCurrentRenderer(renderer);
   this->widget_->SetDefaultRenderer(renderer);
   this->widget_->SetPriority(0.4F); // handles have a higher priority
-  // The other mouse buttons move and zoom the view, as everywhere in the picture.
+  // Pass on the other mouse buttons, which move and zoom the view as elsewhere in the picture.
   for (const unsigned long event :
     { vtkCommand::MiddleButtonPressEvent, vtkCommand::MiddleButtonReleaseEvent,
       vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent })
@@ -134,7 +134,8 @@ void PlaneHandle::set_place(double place)
 void PlaneHandle::set_position(double position)
 {
   this->cancel();
-  // Setting the current position again must not change the relative position by round-off.
+  // Ignore smaller changes: setting the current position again must not change the relative
+  // position by round-off.
   constexpr double round_off = 1e-12;
   const double place = this->place_of(position);
   if (std::abs(place - this->state_.place) > round_off)
@@ -159,8 +160,8 @@ double PlaneHandle::place_of(double position) const
                       : this->state_.place;
 }
 
-/// Move the plane to its relative position. Its arrow is at the point nearest to the middle of the
-/// box.
+/// Move the plane to its relative position. Its arrow is drawn at the point of the plane that is
+/// nearest to the center of the box.
 void PlaneHandle::go_to_place()
 {
   const auto [first, last] = this->positions();
@@ -189,7 +190,7 @@ std::pair<double, double> PlaneHandle::positions() const
   return range;
 }
 
-/// Put the widget where the plane is. Only a free plane can be rotated.
+/// Update the widget from the plane. The widget can be rotated only if the plane is free.
 void PlaneHandle::place_widget()
 {
   const int orientation = this->state_.orientation;
@@ -228,9 +229,9 @@ void PlaneHandle::widget_caught()
     : this->state_.origin;
 }
 
-/// The widget moves its plane by the mouse's motion along the projected normal, which is short if
-/// the view is nearly along the normal. Instead, the point that the mouse has caught follows it. It
-/// moves along its normal to the point that is nearest to the mouse's ray.
+/// Compute the plane from the mouse. The widget moves its plane by the mouse's motion along the
+/// projected normal, which is short if the view direction is nearly the normal. Instead, the
+/// grabbed point moves along its normal to the point that is nearest to the mouse's ray.
 void PlaneHandle::widget_moved()
 {
   const bool pushed =
@@ -251,7 +252,7 @@ void PlaneHandle::widget_moved()
     this->mouse_ray(from, along);
     const double slope = along.dot(normal);
     const double steep = 1.0 - slope * slope;
-    // If the view is along the normal, keep the widget's motion.
+    // If the view direction is too near to the normal, keep the widget's result.
     if (steep > 0.01)
     {
       const Vec3 gap = from - this->grip_;
@@ -285,7 +286,7 @@ void PlaneHandle::cancel()
   {
     this->dragged_ = false;
     this->state_ = this->before_;
-    // The widget has no other way to end a drag.
+    // The widget has no other function to end a drag.
     this->viewport_->interactor()->LeftButtonReleaseEvent();
     this->place_widget();
     Q_EMIT this->moved();
@@ -301,7 +302,7 @@ bool PlaneHandle::eventFilter(QObject* watched, QEvent* event)
     {
       this->cancel();
     }
-    event->accept(); // as a shortcut, Esc would leave an edit mode
+    event->accept(); // otherwise Esc would be a shortcut and leave an edit mode
     return true;
   }
   return QObject::eventFilter(watched, event);

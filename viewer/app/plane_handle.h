@@ -14,16 +14,16 @@ class vtkImplicitPlaneRepresentation;
 class vtkImplicitPlaneWidget2;
 
 /// A plane in the picture that the mouse moves along its normal and, if the plane is free, rotates.
-/// The plane itself is drawn as an outline only; its owner draws the cut.
+/// This class draws only the outline of the plane; its owner draws the cut.
 ///
-/// Three values that suit any box determine the plane: its orientation, its normal when it is free,
-/// and its relative position in the box, a fraction from 0 to 1.
+/// Three values determine the plane, independently of the box: its orientation, its normal when it
+/// is free, and its relative position in the box, a fraction from 0 to 1.
 class PlaneHandle : public QObject
 {
   Q_OBJECT
 
 public:
-  /// The axis that the plane is perpendicular to, or free for a normal that the user chooses.
+  /// The axis to which the plane is perpendicular, or `free` for a normal that the user chooses.
   enum Orientation
   {
     x_axis = 0,
@@ -43,37 +43,39 @@ public:
   /// Show or hide the plane. The mouse can drag a visible plane.
   void show(bool shown);
 
-  /// Set the orientation and keep the relative position. A free plane begins with the normal of the
-  /// last axis.
+  /// Set the orientation and keep the relative position. If the plane becomes free, its normal is
+  /// that of the last axis.
   void set_orientation(int orientation);
   int orientation() const { return this->state_.orientation; }
-  /// Set the unit normal that the plane has when it is free.
+  /// Set the unit normal that is used when the plane is free.
   void set_free_normal(const bindpose::Vec3& normal);
-  /// Set the relative position: 0 and 1 are the two positions().
+  /// Set the relative position: 0 is the first of positions(), 1 the second.
   void set_place(double place);
-  /// Move the plane along its normal to this position, which is the coordinate if the normal is an
-  /// axis.
+  /// Move the plane along its normal to this position, in world units. If the normal is an axis,
+  /// this is the coordinate.
   void set_position(double position);
 
   double position() const { return this->state_.origin.dot(this->normal()); }
-  /// Return the smallest and the largest position at which the plane meets the box.
+  /// Return the smallest and the largest position at which the plane touches the box.
   std::pair<double, double> positions() const;
   bindpose::Vec3 origin() const { return this->state_.origin; }
   bindpose::Vec3 normal() const;
-  /// Return the current values, or during a drag the values before it.
+  /// Return the current free normal and relative position; during a drag, return the values before
+  /// the drag.
   bindpose::Vec3 kept_free_normal() const { return this->kept().free_normal; }
   double kept_place() const { return this->kept().place; }
 
-  /// Cancel a drag by the mouse, as Esc does.
+  /// Cancel a drag with the mouse, as Esc does.
   void cancel();
   bool is_dragged() const { return this->dragged_; }
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 Q_SIGNALS:
-  /// The plane has moved, for any reason.
+  /// Emitted when the plane has moved, for any reason.
   void moved();
-  /// A drag has ended with another position or another normal.
+  /// Emitted when a drag has ended with another position or another normal. `turned`: the normal
+  /// has changed.
   void dragged(bool turned);
 
 private:
@@ -98,9 +100,9 @@ private:
   bindpose::Box box_;
   bool shown_ = false;
   State state_;
-  State before_; ///< before the drag
+  State before_; ///< state before the drag
   bool dragged_ = false;
-  bindpose::Vec3 grip_ = bindpose::Vec3::Zero(); // point of the plane that the mouse has caught
+  bindpose::Vec3 grip_ = bindpose::Vec3::Zero(); // point of the plane that the mouse has grabbed
   vtkNew<vtkImplicitPlaneWidget2> widget_;
   vtkNew<vtkImplicitPlaneRepresentation> plane_;
 };

@@ -10,7 +10,7 @@ void tie_plane(OptionLinks* links, Document* document, const QString& name, Plan
 {
   const QString place = name + ".place";
   const QString normal = name + ".normal";
-  // The values before a drag, because a session may be saved during a drag.
+  // Store the values before a drag, because a session may be saved during a drag.
   links->tie(
     place, [plane] { return plane->kept_place(); },
     [plane](const QVariant& value) { plane->set_place(value.toDouble()); });
@@ -26,8 +26,8 @@ void tie_plane(OptionLinks* links, Document* document, const QString& name, Plan
       const QVariantList list = value.toList();
       plane->set_free_normal({ list[0].toDouble(), list[1].toDouble(), list[2].toDouble() });
     });
-  // Choosing an axis changes the normal of the free plane, and rotating the plane changes its
-  // relative position.
+  // Undo these options together: choosing an axis changes the normal of the free plane, and
+  // rotating the plane changes its relative position.
   links->join({ name + ".orientation", place, normal });
   QObject::connect(plane, &PlaneHandle::dragged, links,
     [links, document, place, normal](bool turned)

@@ -8,7 +8,7 @@ class OptionLinks;
 class PlaneHandle;
 
 /// Connect a plane with the options NAME.orientation, NAME.place and NAME.normal. A drag is one
-/// step; undo during the drag cancels it.
+/// undo step; undo during the drag cancels the drag.
 void tie_plane(OptionLinks* links, Document* document, const QString& name, PlaneHandle* plane);
 
 #endif

@@ -1,4 +1,5 @@
-// Both halves share one camera, so that rotating one half rotates the other.
+// Draws the ghost, the shape of a second pose method, over the first shape or in a second half of
+// the picture. Both halves share one camera, so that rotating one half rotates the other.
 #include "pose_ghost.h"
 
 #include "viewport.h"
@@ -23,7 +24,8 @@ namespace
 {
 constexpr bindpose::Rgb ghost_color{ 0.20, 0.50, 0.76 };
 constexpr double ghost_opacity = 0.38;
-/// At this distance, in bounding-box diagonals, the ghost reaches its full opacity.
+/// Distance between both shapes at which the ghost reaches its full opacity, in bounding-box
+/// diagonals.
 constexpr double whole_from = 0.02;
 constexpr const char* distance_name = "bindpose.Distance";
 } // namespace
@@ -46,7 +48,8 @@ PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
       k, ghost_color[0], ghost_color[1], ghost_color[2], k / (steps - 1.0));
   }
   this->mapper_->SetLookupTable(this->fading_);
-  // Points may slide along a surface that stays in place. There the first shape is drawn in front.
+  // Where points slide within an unchanged surface, both shapes coincide although the distances are
+  // not zero. There the first shape is drawn in front.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->distances_->SetName(distance_name);
@@ -82,7 +85,7 @@ void PoseGhost::set_surface(vtkPolyData* surface)
   this->update();
 }
 
-/// Make the shape only when it is visible, to save time.
+/// Create the drawn shape when the ghost becomes visible, to save time.
 void PoseGhost::make_shape()
 {
   if (this->surface_ && !this->shaded_ && this->is_drawn())
@@ -97,7 +100,7 @@ void PoseGhost::set_place(Place place, bindpose::PointsView points, bindpose::Po
 {
   this->place_ = place;
   this->make_shape();
-  this->move(points, first); // before the view is fitted to it
+  this->move(points, first); // before the view is fitted to the moved points
   this->update();
 }
 
@@ -137,8 +140,8 @@ void PoseGhost::fade(bindpose::PointsView points, bindpose::PointsView first)
   this->shaded_->polydata()->GetPointData()->AddArray(this->distances_);
 }
 
-/// In the second half, give the ghost the look of the shape: with its outlines, or with its picture
-/// if it has one.
+/// In the second half, draw the ghost like the first shape: with outlines, or with the picture as
+/// texture.
 void PoseGhost::look_as_beside()
 {
   vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();
@@ -193,7 +196,8 @@ void PoseGhost::update()
   this->viewport_->set_ghosted(place == over);
 }
 
-/// One half has set its clipping range. Include the other half, which may show more.
+/// Called when one half has set its clipping range. Set a range for both halves that contains both
+/// shapes.
 void PoseGhost::clipped()
 {
   if (this->place_ != beside || this->clips_)

@@ -21,8 +21,9 @@ class Viewport;
 class vtkActor;
 class vtkRenderer;
 
-/// A second shape of the viewport's surface. It is drawn semitransparent over the first shape where
-/// they differ, or next to it in another half of the picture with the same camera.
+/// The ghost is the viewport's surface in a second pose, for comparison. It is drawn
+/// semitransparent over the first shape where both differ, or in a second half of the picture with
+/// the same camera.
 class PoseGhost
 {
 public:
@@ -31,21 +32,22 @@ public:
     hidden,
     over,
     beside,
-    in_colors ///< not drawn: the surface has the colors of the distance (DistanceView)
+    in_colors ///< the ghost is not drawn: the colors of the surface show the distance
+              ///< (DistanceView)
   };
 
   explicit PoseGhost(Viewport* viewport);
   ~PoseGhost();
 
-  /// Set the surface of which the ghost is another shape; null: none.
+  /// Set the surface that the ghost shows in another pose; null: no ghost.
   void set_surface(vtkPolyData* surface);
-  /// Set the place, the points of the ghost, and those of the viewport's shape. Without points the
-  /// ghost keeps its shape.
+  /// Set where the ghost is drawn, the points of the ghost, and the points of the viewport's shape.
+  /// If `points` is empty, the ghost keeps its points.
   void set_place(Place place, bindpose::PointsView points, bindpose::PointsView first);
   Place place() const { return this->place_; }
   void move(bindpose::PointsView points, bindpose::PointsView first);
   vtkRenderer* renderer() const { return this->renderer_; }
-  /// Return the ghost as drawn; null before it was first shown.
+  /// Return the ghost as drawn; null before the ghost was shown for the first time.
   const bindpose::ShadedSurface* shaded() const { return this->shaded_.get(); }
 
 private:
@@ -60,14 +62,16 @@ private:
   Place place_ = hidden;
   vtkNew<bindpose::MovedSurfaceMapper> mapper_;
   vtkNew<vtkActor> actor_;
-  vtkNew<vtkLookupTable> fading_; // over the surface: transparent where both shapes coincide
-  vtkNew<vtkDoubleArray> distances_; // per drawn point, in bounding-box diagonals
-  vtkNew<vtkRenderer> renderer_; // of the second half
+  // colors of a ghost over the surface: transparent where both shapes coincide
+  vtkNew<vtkLookupTable> fading_;
+  // distance between both shapes per drawn point, in bounding-box diagonals
+  vtkNew<vtkDoubleArray> distances_;
+  vtkNew<vtkRenderer> renderer_; // renderer of the second half
   vtkSmartPointer<vtkPolyData> surface_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
-  std::unique_ptr<bindpose::Outline> outline_; ///< in the second half
+  std::unique_ptr<bindpose::Outline> outline_; ///< outline of the ghost in the second half
   bool in_window_ = false;
-  bool clips_ = false; // clipped() is setting the range of both halves
+  bool clips_ = false; // true while clipped() sets the range of both halves
 };
 
 #endif

@@ -13,8 +13,9 @@
 class KeyStrip;
 class PoseList;
 
-/// The stored poses: named poses in a list, and key frames that play. Requests of list and strip
-/// change the shelf. A new pose of the handles is only requested by signals.
+/// Manages the stored poses: named poses in a list, and key frames, which it can play. The list and
+/// the strip request changes of the shelf (all stored poses). This class does not set the pose of
+/// the handles; it requests a pose by signals.
 class PoseKeeper : public QObject
 {
   Q_OBJECT
@@ -24,17 +25,17 @@ public:
   PoseKeeper(PoseList* list, KeyStrip* strip, std::function<bindpose::Pose()> pose,
     QObject* parent = nullptr);
 
-  /// Set the handles of the poses; null: none.
+  /// Set the handles of the poses; null: no handles.
   void set_handles(const std::shared_ptr<const bindpose::Handles>& handles);
   const bindpose::PoseShelf& shelf() const { return this->shelf_; }
-  /// Set the shelf of another session or of undo, without emitting shelf_changed().
+  /// Set the shelf, from a session or by undo, without emitting shelf_changed().
   void set_shelf(const bindpose::PoseShelf& shelf);
   bool is_playing() const { return this->playing_.isActive(); }
   void play(bool play);
 
 Q_SIGNALS:
-  /// The handles must take this pose. `step` is empty while an interaction continues; pose_done()
-  /// then ends it.
+  /// Emitted to request this pose of the handles. `step` is the name of the undo step. It is empty
+  /// during an interaction, which pose_done() ends.
   void pose_wanted(const bindpose::Pose& pose, const QString& step);
   void pose_done(const QString& step);
   void shelf_changed(const QString& step);

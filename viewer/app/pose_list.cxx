@@ -55,7 +55,8 @@ PoseList::PoseList(QWidget* parent) : QWidget(parent)
     [this]
     {
       const QSignalBlocker quiet(this->slider_);
-      this->slider_->setValue(0); // the next blend starts at the current pose
+      // the next blend starts at the current pose, which is 0 on the slider
+      this->slider_->setValue(0);
       Q_EMIT this->blend_ended();
     });
   this->enable();

@@ -26,7 +26,8 @@ Q_SIGNALS:
   void apply_wanted(int entry);
   void remove_wanted(int entry);
   void renamed(int entry, const QString& name);
-  /// The slider was moved between the current pose (0) and the chosen one (1), or was released.
+  /// Emitted when the slider was moved between the current pose (0) and the selected pose (1), or
+  /// was released.
   void blended(int entry, double share);
   void blend_ended();
 

@@ -61,7 +61,7 @@ const struct
       "PosePanel", "The smoothest surface through the constrained vertices. Needs no weights.") },
 };
 
-/// The methods that fit rotations.
+/// The methods that fit rotations (as-rigid-as-possible).
 const std::vector<PoseMethod> rigid = { PoseMethod::reduced_arap, PoseMethod::full_arap };
 
 QString translated(const char* text)
@@ -178,7 +178,7 @@ void PosePanel::add_methods(QVBoxLayout* column)
   QObject::connect(this->cancel_, &QPushButton::clicked, this, &PosePanel::cancel_wanted);
 }
 
-/// Add a line with a name and a widget for an option. It is shown for these methods only.
+/// Add a line with a name and a widget for an option. It is shown only for these methods.
 QWidget* PosePanel::option(QVBoxLayout* column, const QString& name, QWidget* widget,
   const QString& tip, std::vector<PoseMethod> of)
 {
@@ -232,7 +232,7 @@ void PosePanel::add_options(QVBoxLayout* column)
     row->setObjectName(key);
     row->set_range(lowest, highest);
     row->set_value(at);
-    row->slider()->setMinimumWidth(50); // next to its name
+    row->slider()->setMinimumWidth(50); // the slider is in a row with its name
     return row;
   };
   const auto check = [this](const char* key, const QString& text)

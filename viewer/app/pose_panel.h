@@ -19,9 +19,9 @@ class QVBoxLayout;
 class Section;
 class ValueRow;
 
-/// The panel for posing: the method with its options, a second method to compare with, and the body
-/// that moves by itself. Widgets that choose options have the options' keys as object names. The
-/// panel only stores the choices; other classes act on them.
+/// The panel for posing: the method with its options, a second method for comparison, and the
+/// simulated body. Widgets that choose options have the options' keys as object names. The panel
+/// only stores the choices; other classes use them.
 class PosePanel : public QWidget
 {
   Q_OBJECT
@@ -29,18 +29,18 @@ class PosePanel : public QWidget
 public:
   explicit PosePanel(QWidget* parent = nullptr);
 
-  /// Insert a widget between the method's options and the rarely used ones.
+  /// Insert a widget below the method's options and above the rarely used options.
   void insert(QWidget* widget);
   /// Return the chosen options.
   bindpose::PoseOptions options() const;
   void set_method(int method);
-  /// Return the method to compare with; -1: none.
+  /// Return the method for comparison; -1: none.
   int compared_method() const;
-  /// Report whether the compared method is the current one, so that there is nothing to compare.
+  /// Report whether the compared method is the current method, so that there is nothing to compare.
   bool compares_itself() const;
   PoseGhost::Place ghost_place() const;
   bool moves() const;
-  /// How the method's rotations are shown in colors.
+  /// How the rotations of the method are shown as colors.
   enum Rotations
   {
     no_rotations,
@@ -52,14 +52,14 @@ public:
 
   struct State
   {
-    bool ready = false; ///< there are a surface and handles
-    bool bound = false; ///< there are weights
+    bool ready = false; ///< a surface and handles are open
+    bool bound = false; ///< the surface has weights
     bool tets = false; ///< the weights were solved on tets
     bool bones = false;
-    bool endpoints = false; ///< there is the array EndpointWeights
+    bool endpoints = false; ///< the surface has the array EndpointWeights
   };
   void set_state(const State& state);
-  /// Show or hide the progress bar for binds of the method itself.
+  /// Show or hide the progress bar for binds of the pose method.
   void set_binding(bool binding);
   void set_progress(double fraction, const QString& phase);
   void set_difference(const QString& text);
@@ -129,7 +129,8 @@ private:
   ValueRow* damping_;
 };
 
-/// The methods in the order of buttons, menu entries, keys (1 to 7) and `bindpose deform --method`.
+/// Return the methods in the order of buttons, menu entries, keys (1 to 7) and `bindpose deform
+/// --method`.
 std::vector<bindpose::PoseMethod> method_order();
 /// Return the name of a method for menus and lists, and one sentence about its purpose.
 QString method_name(bindpose::PoseMethod method);

@@ -209,7 +209,7 @@ void Posing::connect_keeper()
 void Posing::options_changed()
 {
   this->main_->set_options(this->panels_.pose->options());
-  this->main_->bind(); // continues after a cancel
+  this->main_->bind(); // starts a bind again that the user has canceled
   this->show_comparison();
   this->motion_->options_changed();
   this->show_what_is_held();
@@ -217,14 +217,14 @@ void Posing::options_changed()
   Q_EMIT this->moved();
 }
 
-/// Draw the modes of the handles with the meaning that they have for the method.
+/// Show in the picture how the method treats the modes of handles.
 void Posing::show_what_is_held()
 {
   const bool finds = finds_rotations(this->panels_.pose->options().method);
   this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetFindsRotations(finds);
 }
 
-/// Return the options of the second method, which are those of the first one.
+/// Return the options for the compared method: those of the current method, with the other method.
 PoseOptions Posing::compared_options() const
 {
   PoseOptions options = this->panels_.pose->options();
@@ -244,7 +244,7 @@ void Posing::comparison_changed()
   Q_EMIT this->moved();
 }
 
-/// Show the other method's shape as the panel requests, as soon as it can be computed.
+/// Show the shape of the compared method as the panel requests, as soon as it can be computed.
 void Posing::show_comparison()
 {
   const PoseGhost::Place wanted = this->panels_.pose->ghost_place();
@@ -287,7 +287,7 @@ void Posing::handles_moved()
   }
   if (this->panels_.pose->ghost_place() != this->chosen_)
   {
-    this->show_comparison(); // the method has changed
+    this->show_comparison(); // needed because the method has changed
   }
   else if (this->ghost_->place() != PoseGhost::hidden)
   {
@@ -337,7 +337,8 @@ void Posing::show_difference()
                                                                       : tr("; still converging")));
 }
 
-/// Put free handles where the method has found them, so that the user can see and drag them.
+/// Move handles in mode free to the positions that the method has computed, so that the user can
+/// see and drag them.
 void Posing::follow_free_handles()
 {
   const std::vector<Affine>* found = this->panels_.pose->moves()
@@ -486,7 +487,8 @@ QString Posing::reading() const
   const Report& report = status.report;
   QStringList parts;
   parts << (moves ? tr("Motion") : method_name(this->main_->options().method));
-  if (!status.warnings.empty()) // first, because a narrow window cuts off the end
+  // warnings come first, because a narrow window cuts off the end of the line
+  if (!status.warnings.empty())
   {
     parts << QString::fromStdString(status.warnings.front());
   }
@@ -603,7 +605,8 @@ void Posing::order_layers()
     }
     if (status.usable())
     {
-      // The offsets point away from the eye, so that lines on the shape stay in front of it.
+      // Offset the layers toward the back, away from the eye, so that lines on the shape stay in
+      // front of it.
       const double layer = 1e-3 * bounding_box(this->source_->points).diagonal();
       depths = layer * (order.front.array() - order.front.maxCoeff()).matrix();
     }
@@ -633,7 +636,8 @@ void Posing::drag_began()
 
 // ---- The body ----------------------------------------------------------------------------------
 
-/// Return the pose that constrains the body. A free handle is constrained only while it is dragged.
+/// Return the pose that constrains the body. A handle in mode free is constrained only while it is
+/// dragged.
 Pose Posing::holding_pose() const
 {
   Pose pose = this->pose();
@@ -649,7 +653,8 @@ Pose Posing::holding_pose() const
       }
       else
       {
-        pose[k].transform = identity_affine(); // the computed transform is no constraint
+        // the transform was computed by the method, so it must not constrain
+        pose[k].transform = identity_affine();
       }
     }
   }

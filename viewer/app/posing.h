@@ -22,11 +22,12 @@ class PosePanel;
 class SequenceExport;
 class Viewport;
 
-/// Posing in the window: the current method and the one to compare with, the body that moves by
-/// itself, playback of key frames, the stored poses, and the texts of the panels about them.
+/// Posing in the window: the current method and the method for comparison, the simulated body,
+/// playback of key frames, the stored poses, and the texts of the panels about them.
 ///
-/// It reads the pose from the handle dataset, which the widget edits in place. It changes the pose
-/// only by pose_changed() and pose_done(), so that the owner of the history receives every change.
+/// This class reads the pose from the handle dataset, which the widget edits in place. It changes
+/// the pose only by pose_changed() and pose_done(), so that the owner of the undo history receives
+/// every change.
 class Posing : public QObject
 {
   Q_OBJECT
@@ -42,7 +43,7 @@ public:
   Posing(Viewport* viewport, const Panels& panels);
   ~Posing() override;
 
-  /// Set the data to pose; null: none. The surface's weights are used only if `use_weights` is
+  /// Set the data to pose; null: no data. The surface's weights are used only if `use_weights` is
   /// true.
   void set_data(
     vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights);
@@ -54,21 +55,22 @@ public:
   /// Report whether the method has all data that it needs.
   bool can_pose() const { return this->main_->can_pose(); }
 
-  /// The handles' pose arrays have changed.
+  /// Update after the pose arrays of the handles have changed.
   void handles_moved();
-  /// The handles' layers have changed.
+  /// Update after the layers of the handles have changed.
   void layers_changed();
-  /// Set the selected handles. The values of the first one are shown and can be typed.
+  /// Set the selected handles. The number fields show the values of the first one.
   void select_handles(const std::vector<int>& handles);
-  /// A drag begins: stop playback.
+  /// Stop playback, because a drag begins.
   void drag_began();
 
   /// Return the surface at rest, from set_data().
   vtkPolyData* surface() const { return this->surface_; }
-  /// Return the visible shape: posed, or at rest. The object is the same as long as the surface is.
+  /// Return the visible shape, posed or at rest. The object is the same until another surface is
+  /// set.
   vtkPolyData* shape();
-  /// Return the shape that draw() draws: shape(), or the surface at rest while data at rest is
-  /// inspected.
+  /// Return the shape that draw() draws: shape(), or the surface at rest while data that belongs to
+  /// it is inspected.
   vtkPolyData* seen() { return this->inspected_ ? this->surface_.Get() : this->shape(); }
   /// Update the viewport's surface and its ghost to seen().
   void draw();
@@ -77,22 +79,22 @@ public:
   void inspect_at_rest(bool inspects);
   /// Report whether the picture shows the shape at rest, regardless of the pose.
   bool shows_rest() const { return this->inspected_ || this->at_rest_ || this->edits_at_rest_; }
-  /// Report whether the pose moves a handle, or a body moves.
+  /// Report whether the pose moves a handle, or the simulated body moves.
   bool is_posed() const;
-  /// Show the shape at rest, regardless of the pose, until the next drag.
+  /// Show the shape at rest, regardless of the pose. The next drag ends this.
   void look_at_rest(bool rest);
   bool looks_at_rest() const { return this->at_rest_; }
   bool edits_at_rest() const { return this->edits_at_rest_; }
   /// Show the shape at rest while handles are edited at rest, so that the mouse can drag them.
   void edit_at_rest(bool edits);
-  /// Return a line about the last pose: its time and its result.
+  /// Return a line about the last pose: its computing time and its result.
   QString reading() const;
 
   Deformation* deformation() const { return this->main_; }
   Deformation* compared() const { return this->compared_; }
-  /// Return the points of the current method's shape, even if another shape is shown.
+  /// Return the points of the current method's shape, even if the picture shows another shape.
   const bindpose::Points& points() const;
-  /// Return the rotations of that shape; null if the method fits none.
+  /// Return the rotations of the current method's shape; null if the method fits none.
   const bindpose::PoseRotations* rotations();
   /// Return the diagonal of the box around the shape at rest.
   double rest_diagonal() const { return this->surface_ ? this->surface_->GetLength() : 0.0; }
@@ -100,28 +102,28 @@ public:
   BodyMotion* motion() const { return this->motion_; }
   PoseKeeper* keeper() const { return this->keeper_; }
   SequenceExport* sequence_export() const { return this->export_; }
-  /// Report whether there are key frames or a motion.
+  /// Report whether there are key frames or a recorded motion of the body.
   bool has_animation() const;
-  /// Write the motion or the key frames, if there are any. sequence_export() reports progress and
-  /// result.
+  /// Export the recorded motion of the body or, if there is none, the key frames. sequence_export()
+  /// reports progress and result.
   void export_to(const QString& path);
 
   const bindpose::PoseShelf& shelf() const { return this->keeper_->shelf(); }
 
 Q_SIGNALS:
-  /// The handles must take this pose.
+  /// Emitted to request this pose of the handles.
   void pose_changed(const bindpose::Pose& pose);
-  /// The changes since the first pose_changed() are a step of the history with this name.
-  /// Consecutive steps with the same merge text are one step, until edit_ended().
+  /// Emitted to make one undo step with this name of all changes since the first pose_changed().
+  /// Consecutive steps with the same `merge` text become one step, until edit_ended().
   void pose_done(const QString& step, const QString& merge = {});
   void edit_ended();
   void shelf_changed(const QString& step);
-  /// The handles' cell arrays have changed: a step of the history.
+  /// Emitted when the cell arrays of the handles have changed, to make an undo step.
   void handles_changed(const QString& step);
-  /// The shape or the text about it has changed: the owner must call draw().
+  /// Emitted when the shape or the text about it has changed; the owner must call draw().
   void moved();
   void failed(const QString& sentence);
-  /// A pose was applied without errors.
+  /// Emitted when a pose was applied without errors.
   void succeeded();
 
 private:
@@ -161,9 +163,9 @@ private:
   std::optional<bindpose::Vec3> plane_;
   bool at_rest_ = false;
   bool edits_at_rest_ = false;
-  bool inspected_ = false; ///< data at rest is inspected
-  PoseGhost::Place chosen_ = PoseGhost::hidden; ///< the panel's choice at the last update
-  double drawing_microseconds_ = 0.0; ///< time of draw() for points and normals
+  bool inspected_ = false; ///< data that belongs to the shape at rest is inspected
+  PoseGhost::Place chosen_ = PoseGhost::hidden; ///< the choice in the panel at the last update
+  double drawing_microseconds_ = 0.0; ///< time that draw() took for points and normals
 };
 
 #endif

@@ -1,5 +1,6 @@
-// The ray through the mouse's pixel is intersected with each type of object. The nearest hit
-// provides the text. Nothing but the text is kept between moves.
+// Shows text about the object under the mouse. The ray through the mouse's pixel is intersected
+// with each type of object. The nearest intersection determines the text. Only the text is kept
+// between moves of the mouse.
 #include "probe.h"
 
 #include "defect_view.h"
@@ -42,8 +43,9 @@ using namespace bindpose;
 namespace
 {
 constexpr const char* winding_name = "WindingNumber";
-constexpr double near_enough = 6.0; // pixels from the edge or dot of a defect
-constexpr int margin = 10; // pixels around the label
+// maximum distance in pixels between the mouse and the edge or dot of a defect
+constexpr double near_enough = 6.0;
+constexpr int margin = 10; // distance in pixels between the label and the border
 
 QString number(double value)
 {
@@ -56,7 +58,7 @@ QString place_words(const Vec3& place)
     .arg(number(place.x()), number(place.y()), number(place.z()));
 }
 
-/// Return the name of a category; for other values the number.
+/// Return the name of a category, or the value if the coloring has no categories.
 QString value_words(const Coloring& coloring, double value)
 {
   const std::vector<double> shown = category_values(coloring.categories);
@@ -73,11 +75,13 @@ QString value_words(const Coloring& coloring, double value)
 QString named_value(const Coloring& coloring, double value)
 {
   const QString name = QString::fromStdString(coloring.legend_name());
-  return name == "Min. angle (°)" ? QString() // the text of every tet contains it
+  // omitted here, because the text of every tet contains the smallest angle
+  return name == "Min. angle (°)" ? QString()
                                   : Probe::tr("%1: %2").arg(name, value_words(coloring, value));
 }
 
-/// Return the value that is shown in colors: linear in a triangle's corners, or one per cell.
+/// Return the value that is displayed as a color: interpolated linearly between a triangle's
+/// corners, or the value of the cell.
 std::optional<double> shown_value(vtkPolyData* data, const Index* corners, const SightHit& hit)
 {
   if (vtkDataArray* array = data->GetPointData()->GetArray(color_array_name))
@@ -106,7 +110,7 @@ bool stretch_in(const SightRay& ray, const double* bounds, double& from, double&
     double b = (bounds[2 * axis + 1] - ray.origin[axis]) / ray.direction[axis];
     if (std::isnan(a) || std::isnan(b))
     {
-      continue; // along a side of the box
+      continue; // the ray is parallel to this side of the box
     }
     from = std::max(from, std::min(a, b));
     to = std::min(to, std::max(a, b));
@@ -119,8 +123,8 @@ Vec3 at(const SightRay& ray, double distance)
   return ray.origin + distance * ray.direction;
 }
 
-/// Call what(distance, value) along a ray through a volume, twice per sample, until it returns
-/// false.
+/// Call what(distance, value) at points along a ray through a volume, two points per sample, until
+/// it returns false.
 template <typename What>
 void walk(const SightRay& ray, vtkImageData* image, const What& what)
 {
@@ -150,7 +154,7 @@ Probe::Probe(const Views& views)
   this->label_->setObjectName("reading");
   this->label_->setAttribute(Qt::WA_TransparentForMouseEvents);
   this->label_->hide();
-  // Use Qt's events, because a VTK widget that is being dragged does not pass on VTK's.
+  // Filter Qt's events, because VTK's events are not passed on while a widget is dragged.
   views.viewport->installEventFilter(this);
 }
 
@@ -210,8 +214,8 @@ void Probe::say(const QStringList& lines)
   this->label_->setVisible(!lines.isEmpty());
 }
 
-/// Put the label into the upper right corner, or into the lower one if the mouse or another widget
-/// is there.
+/// Move the label to the upper right corner, or to the lower right corner if the mouse or another
+/// widget is there.
 void Probe::make_way(const QPoint& mouse)
 {
   const Viewport* viewport = this->views_.viewport;
@@ -241,7 +245,7 @@ QStringList Probe::read_at(int x, int y)
 {
   Viewport* viewport = this->views_.viewport;
   const int width = viewport->picture_size(1).width();
-  // If the picture is split, both halves have the same camera.
+  // If the picture is split, the right half shows the other shape with the same camera.
   const bool other = viewport->is_split() && 2 * x >= width;
   SightRay ray;
   viewport->ray_at(other ? x - width / 2 : x, y, ray.origin, ray.direction);
@@ -286,8 +290,8 @@ Probe::Maybe Probe::surface(const SightRay& ray, bool other) const
   }
   Found found;
   found.distance = hit.distance;
-  // The coordinates are those of the surface's own points, which the layers of a picture do not
-  // move.
+  // Show the coordinates of the surface's own points. The offsets of layers in the picture are not
+  // included.
   const Vec3 seen = at(ray, hit.distance);
   Vec3 place = Vec3::Zero();
   Index nearest = -1;
@@ -312,7 +316,7 @@ Probe::Maybe Probe::surface(const SightRay& ray, bool other) const
   return found;
 }
 
-/// Return the number that is shown in colors, and the handle with the largest weight.
+/// Return the displayed weight, and the handle with the largest weight.
 QStringList Probe::weights(vtkPolyData* shape, const SightHit& hit) const
 {
   const ShadedSurface* shaded = this->views_.viewport->shaded();
@@ -364,7 +368,7 @@ QStringList Probe::weights(vtkPolyData* shape, const SightHit& hit) const
   return lines << tr("Strongest handle: %1, %2").arg(name(largest)).arg(weight(largest), 0, 'f', 3);
 }
 
-/// Return the distance from the shape to that of the compared method.
+/// Return the distance between the shape and the shape of the compared method.
 QString Probe::difference(const SightHit& hit) const
 {
   const Posing* posing = this->views_.posing;
@@ -443,7 +447,7 @@ Probe::Maybe Probe::winding_slice(const SightRay& ray) const
   const double slope = ray.direction.dot(view->slice_normal());
   if (!view->volume() || !view->is_slice_shown() || std::abs(slope) < 1e-9)
   {
-    return {}; // not shown, or seen edge-on
+    return {}; // the plane is hidden or seen edge-on
   }
   Found found;
   found.distance = (view->position() - ray.origin.dot(view->slice_normal())) / slope;
@@ -457,7 +461,8 @@ Probe::Maybe Probe::winding_slice(const SightRay& ray) const
   return found;
 }
 
-/// Use the field: its first crossing of the level along the ray is the point that is drawn.
+/// Search along the ray through the volume: the first position where the field crosses the level is
+/// the point that is drawn.
 Probe::Maybe Probe::isosurface(const SightRay& ray) const
 {
   const VolumeView* view = this->views_.volume;
@@ -513,8 +518,8 @@ Probe::Maybe Probe::cloud(const SightRay& ray) const
   return found;
 }
 
-/// Return the dot or edge within a few pixels, otherwise the face under the mouse. Among several,
-/// the nearest one counts.
+/// Return the text about a dot or edge within a few pixels; if there is none, about the face under
+/// the mouse. Among several, the nearest is used.
 QString Probe::defect(const SightRay& ray) const
 {
   vtkPolyData* defects = this->views_.defects->defects();
@@ -534,7 +539,7 @@ QString Probe::defect(const SightRay& ray) const
   const Points seen = seen_along(ray, to_points(defects).view());
   const auto reach = [&](double depth) { return parallel ? slope : slope * (eye + depth); };
   Index best = -1;
-  int best_kind = 4; // number of corners
+  int best_kind = 4; // number of corners of the best candidate; fewer corners have priority
   double best_depth = 1e300;
   Index cell = 0;
   vtkNew<vtkIdList> ids;

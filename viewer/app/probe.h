@@ -20,13 +20,14 @@ class VolumeView;
 class WeightView;
 class vtkPolyData;
 
-/// Shows names and numbers of the object under the mouse, on a small label in a corner of the
+/// Shows names and values of the object under the mouse, in a small label in a corner of the
 /// picture.
-/// - For the surface: its triangle, vertex and coordinates, the shown weight, the handle with the
-///   largest weight, a defect, and the distance of another method's shape.
-/// - For tets, slices, isosurface and cloud: the shown values.
-/// The nearest solid object counts. Translucent objects count only where there is no solid object.
-/// Values are computed only when the mouse moves, and not while a button is pressed.
+/// - For the surface: its triangle, vertex and coordinates, the displayed weight, the handle with
+///   the largest weight, a defect, and the distance from the shape of another method.
+/// - For tets, slices, isosurfaces and clouds (volume renderings): the displayed values.
+///
+/// The nearest solid object is used. Translucent objects are used only where there is no solid
+/// object. Values are computed only when the mouse moves, and not while a button is pressed.
 class Probe : public QObject
 {
   Q_OBJECT
@@ -41,12 +42,13 @@ public:
     const DefectView* defects;
     Posing* posing;
     const RotationView* rotations;
-    /// Returns the surface as shown, posed or at rest; null without one.
+    /// Returns the surface as drawn, posed or at rest; null if there is no surface.
     std::function<vtkPolyData*()> surface;
   };
   explicit Probe(const Views& views);
 
-  /// Return the lines about a pixel of VTK (from the lower left); empty if nothing is there.
+  /// Return the lines about a pixel in VTK's coordinates (from the lower left corner); empty if
+  /// there is no object.
   QStringList read_at(int x, int y);
   /// Return the text of the label in one line.
   QString reading() const;
@@ -59,7 +61,7 @@ public:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-  /// An object that the ray hits, and the text about it.
+  /// An object that the ray intersects, and the text about it.
   struct Found
   {
     double distance = 0.0;

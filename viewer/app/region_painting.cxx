@@ -1,5 +1,6 @@
-// The brush paints a separate surface, which shares points and triangles with the document's. The
-// document's data is never modified. When a stroke ends, its labels become a step.
+// Paints regions. The brush paints a separate surface, which shares points and triangles with the
+// document's surface. The document's data is never modified. When a stroke ends, its labels become
+// an undo step.
 #include "region_painting.h"
 
 #include "document/document.h"
@@ -48,7 +49,7 @@ std::set<int> labels_in(vtkDataArray* labels)
   return found;
 }
 
-/// Return the middle of a region's vertices, and in `nearest` the vertex that is nearest to it.
+/// Return the mean of a region's vertices. `nearest` becomes the vertex that is nearest to it.
 Vec3 middle_of(vtkPolyData* surface, vtkDataArray* labels, int label, Vec3& nearest)
 {
   Vec3 sum = Vec3::Zero();
@@ -144,7 +145,7 @@ void RegionPainting::document_changed()
     this->painted_ = vtkSmartPointer<vtkPolyData>::New();
     this->painted_->ShallowCopy(surface);
   }
-  // Make separate labels, whatever their type in the file.
+  // Copy the labels to a separate int array, whatever their type in the file.
   vtkDataArray* labels = surface->GetPointData()->GetArray("RegionId");
   vtkNew<vtkIntArray> own;
   own->SetName("RegionId");
@@ -189,8 +190,8 @@ void RegionPainting::radius_changed()
 
 // ---- Strokes -----------------------------------------------------------------------------------
 
-/// Set the label to paint: that of the region, or the first unused one. The widget reads it after
-/// this event, so it can still be set.
+/// Set the label to paint: that of the selected region, or the first unused label. The widget reads
+/// the label after this event, so it can still be set.
 void RegionPainting::stroke_began()
 {
   const std::set<int> used = labels_in(this->labels());
@@ -232,8 +233,8 @@ void RegionPainting::stroke_ended()
   Q_EMIT this->changed();
 }
 
-/// Make handles follow labels: a new label gets a handle, and a handle whose label has disappeared
-/// is removed. The next stroke continues the region.
+/// Update the handles from the labels: a new label gets a handle, and a handle whose label has
+/// disappeared is removed. The next stroke continues the region.
 bool RegionPainting::keep_stroke(std::string& region)
 {
   QString step = QString::fromStdString(this->viewport_->brush_widget()->GetInteractionName());
@@ -285,7 +286,7 @@ bool RegionPainting::keep_stroke(std::string& region)
       {
         break;
       }
-      handle.head = nearest; // another handle is in the middle already
+      handle.head = nearest; // the mean position is already used by another handle
     }
   }
   const bool paints = now.count(label) > 0 && !this->brush()->GetErase();
@@ -304,7 +305,7 @@ bool RegionPainting::keep_stroke(std::string& region)
   }
   if (!status.ok())
   {
-    this->document_changed(); // restore the labels
+    this->document_changed(); // the edit was refused: restore the labels
     Q_EMIT this->refused(QString::fromStdString(status.message));
   }
   return status.ok();
@@ -379,7 +380,7 @@ void RegionPainting::show_labels()
   map.table->SetNanColor(plain[0], plain[1], plain[2], 1.0);
   const bool any = std::any_of(categories.begin(), categories.end(),
     [](const Category& category) { return category.count > 0; });
-  // Without regions the legend would only be a title.
+  // If there are no regions, show no legend, because it would contain only a title.
   this->viewport_->show_values(
     any ? values.Get() : nullptr, false, any ? tr("Regions") : QString(), map);
   this->viewport_->refresh();

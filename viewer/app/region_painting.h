@@ -13,10 +13,10 @@ class Viewport;
 class vtkDataArray;
 class vtkRegionBrushRepresentation;
 
-/// Painting of regions on the surface: the brush of the viewport, the colors of the regions, and a
-/// step of the document for every stroke. The first stroke of a region makes its handle, with the
-/// pivot in the middle of the painted vertices. Erasing the last vertex of a region removes its
-/// handle.
+/// Painting of regions on the surface, with the brush of the viewport and one color per region.
+/// Every stroke is an undo step of the document. The first stroke of a region creates its handle,
+/// with the pivot in the middle of the painted vertices. Erasing the last vertex of a region
+/// removes its handle.
 class RegionPainting : public QObject
 {
   Q_OBJECT
@@ -30,8 +30,8 @@ public:
   void cancel();
   /// Update after a change of the document's surface, handles or labels.
   void document_changed();
-  /// Let the next stroke continue the region of this handle. If the handle is no region, or is -1,
-  /// the stroke begins a new one.
+  /// Let the next stroke continue the region of this handle. If the handle is not a region, or is
+  /// -1, the stroke begins a new region.
   void choose(int handle);
   bool has_region() const { return !this->region_.empty(); }
   QString region() const { return QString::fromStdString(this->region_); }
@@ -40,9 +40,9 @@ public:
   void set_radius(double part);
 
 Q_SIGNALS:
-  /// The brush or the region has changed, or a stroke has begun or ended.
+  /// Emitted when the brush or the region has changed, or a stroke has begun or ended.
   void changed();
-  /// A stroke was stored. `region` is its region, or empty.
+  /// Emitted when a stroke was stored. `region` is the name of its region, or empty.
   void painted(const QString& region);
   void refused(const QString& sentence);
 

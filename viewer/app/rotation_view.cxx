@@ -1,5 +1,6 @@
-// Colors of clusters are valid as long as the bind. Angles are written for every pose into the
-// array that is already drawn, with one look-up per point.
+// Shows the rotations of as-rigid-as-possible methods as colors. The colors of clusters are valid
+// until the next bind. For every pose, angles are written into the array that is already drawn,
+// with one look-up per point.
 #include "rotation_view.h"
 
 #include "pose_panel.h"
@@ -31,7 +32,7 @@ void RotationView::set_active(bool active)
 
 void RotationView::update()
 {
-  // Distances from another method's shape have priority (DistanceView).
+  // The colors of distances between methods have priority (DistanceView).
   const bool free = this->active_ && this->posing_->ghost()->place() != PoseGhost::in_colors;
   const PosePanel::Rotations wanted =
     free ? this->panel_->shown_rotations() : PosePanel::no_rotations;
@@ -54,7 +55,7 @@ void RotationView::update()
   }
   if (!this->viewport_->shows(this->values_) || this->of_point_ != found->of_point)
   {
-    this->values_ = nullptr; // another surface, or other values were shown meanwhile
+    this->values_ = nullptr; // another surface was set, or other values were shown meanwhile
     this->of_point_ = found->of_point;
   }
   if (wanted == PosePanel::clusters)
@@ -142,7 +143,7 @@ QString RotationView::reading(Index point) const
   }
   const Vec3& turn = this->turns_[static_cast<std::size_t>(cluster)];
   const double degrees = turn.norm();
-  constexpr double least = 0.05; // shown as 0.0
+  constexpr double least = 0.05; // smaller angles are displayed as 0.0 and left out
   const Vec3 axis = turn.normalized();
   const auto number = [](double x) { return QString::number(x, 'f', 2); };
   return Posing::tr("Rotation cluster %1 of %2: %3°%4")

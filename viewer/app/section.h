@@ -6,7 +6,7 @@
 class QPushButton;
 class QVBoxLayout;
 
-/// A heading that opens and closes its contents.
+/// A heading that users click to show or hide the widgets below it.
 class Section : public QWidget
 {
   Q_OBJECT

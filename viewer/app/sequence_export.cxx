@@ -36,7 +36,7 @@ namespace
 constexpr const char* mesh_endings = "vtp ply obj off stl";
 constexpr const char* rig_endings = "glb gltf";
 constexpr std::size_t most_tiles = 12;
-constexpr int tile_width = 400; // pixels
+constexpr int tile_width = 400; // width of each picture of a strip, pixels
 
 Status cannot_write(const std::string& path)
 {
@@ -87,7 +87,7 @@ void SequenceExport::start(const Input& input, const QString& path)
     std::string("json png ") + mesh_endings + " " + rig_endings + " " + video_extensions);
   if (known.ok() && is_listed(ending, video_extensions))
   {
-    known = check_ffmpeg(); // before the frames are computed
+    known = check_ffmpeg(); // check before the frames are computed
   }
   if (known.ok() && ending == "json" && input.run.start)
   {
@@ -199,7 +199,7 @@ Status SequenceExport::write_datasets(const std::string& path)
     }
     Q_EMIT this->progress(0.7 + 0.3 * static_cast<double>(k) / static_cast<double>(count));
   }
-  // All files are complete before the first one replaces an existing file.
+  // Replace existing files only after all new files are complete.
   for (AtomicFile& file : files)
   {
     const Status status = file.commit();
@@ -215,7 +215,8 @@ Status SequenceExport::write_datasets(const std::string& path)
 Status SequenceExport::write_rig(const std::string& path)
 {
   vtkNew<vtkGLTFSkinWriter> writer;
-  vtkNew<vtkCallbackCommand> nothing; // the writer reports by its status
+  // keeps VTK from printing the writer's errors, which its status contains
+  vtkNew<vtkCallbackCommand> nothing;
   nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, nothing);
   writer->AddObserver(vtkCommand::WarningEvent, nothing);
@@ -243,12 +244,13 @@ QImage SequenceExport::picture(std::size_t frame)
   return this->viewport_->grabFramebuffer();
 }
 
-/// Write at most a dozen evenly chosen frames as tiles, in rows of at most four.
+/// Write a picture of up to twelve evenly spaced frames, four per row.
 Status SequenceExport::write_strip(const std::string& path)
 {
   vtkHandleSetWidget* handles = this->viewport_->handle_widget();
   const bool shown = handles->GetEnabled();
-  handles->SetEnabled(false); // they have the current pose, not that of a frame
+  // hide the handles: they have the current pose, which is not that of a frame
+  handles->SetEnabled(false);
   QImage strip;
   const std::vector<std::size_t> taken = evenly(this->frames_->points.size(), most_tiles);
   const int columns = static_cast<int>(std::min<std::size_t>(taken.size(), 4));

@@ -12,11 +12,12 @@
 class QImage;
 class Viewport;
 
-/// Writes an animation in the format of the file name's extension. .json is a pose file; mesh
-/// extensions are numbered datasets with a .pvd; .glb and .gltf are an animated file; .png is a
-/// strip of pictures; .gif, .webm, .mp4 and .apng are films (by ffmpeg). Frames are posed and films
-/// are encoded in the background. Pictures are taken of the viewport. Files are written completely
-/// or not at all. They replace existing files, because the dialog has already asked.
+/// Writes an animation in the format of the file name's extension. .json is a pose file;
+/// extensions of mesh files are numbered datasets with a .pvd file; .glb and .gltf are an animated
+/// file; .png is one picture with several frames; .gif, .webm, .mp4 and .apng are films, which
+/// ffmpeg encodes. Frames are posed and films are encoded in the background. Pictures are taken
+/// from the viewport. Files are written completely or not at all. They replace existing files,
+/// because the file dialog has asked for confirmation.
 class SequenceExport : public QObject
 {
   Q_OBJECT
@@ -31,25 +32,25 @@ public:
     vtkSmartPointer<vtkPolyData> surface; ///< at rest
     vtkSmartPointer<vtkPolyData> handles; ///< at rest
     bindpose::PoseOptions options;
-    std::vector<bindpose::Pose> poses; ///< one per frame; not used if `run` has a start
-    bindpose::BodyRun run; ///< the motion of a body
+    std::vector<bindpose::Pose> poses; ///< one per frame; not used if `run` is not empty
+    bindpose::BodyRun run; ///< the recorded motion of a body
     double frames_per_second = 24.0;
   };
-  /// Return the file name patterns for the dialog: "*.json *.vtp …".
+  /// Return the file name patterns for the file dialog: "*.json *.vtp …".
   static QString patterns();
   void start(const Input& input, const QString& path);
   void cancel();
   bool is_running() const { return this->job_.is_running() || this->encoder_.is_running(); }
   /// Return the error: one sentence, or empty.
   const QString& error() const { return this->error_; }
-  /// Return a description of the written data, "24 frames"; empty after a cancel.
+  /// Return a description of the written data, such as "24 frames"; empty after a cancel.
   const QString& said() const { return this->said_; }
   /// Return the file that is being written, or was written last.
   const QString& path() const { return this->path_; }
 
 Q_SIGNALS:
   void progress(double fraction);
-  /// The viewport is free again, and the window must draw its own shape.
+  /// Emitted when all pictures were taken: the window must draw its own shape again.
   void pictures_taken();
   void finished();
 
@@ -59,7 +60,7 @@ private:
   bindpose::Status write_datasets(const std::string& path);
   bindpose::Status write_rig(const std::string& path);
   bindpose::Status write_strip(const std::string& path);
-  /// Begin to encode, or return the reason why that is impossible.
+  /// Begin to encode a film, or return the reason why that is impossible.
   bindpose::Status write_moving(const std::string& path);
   void end(const bindpose::Status& status);
   vtkSmartPointer<vtkPolyData> posed(std::size_t frame) const;

@@ -18,8 +18,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Number of triangles that auto_rig() contracts to the skeleton. It takes half the time of the
-/// default number, but may miss fingers.
+/// Number of triangles from which auto_rig() computes the skeleton. With this number it takes half
+/// the time of the default number, but may miss fingers.
 constexpr Index quick_triangles = 5000;
 } // namespace
 

@@ -6,8 +6,8 @@
 class QLineEdit;
 class QTableWidget;
 
-/// All keys and mouse buttons of the window, grouped by when they apply (window_keys.h), with a
-/// search field.
+/// A dialog with all keys and mouse buttons of the window and a search field. The keys are grouped
+/// by the situations in which they apply (window_keys.h).
 class ShortcutSheet : public QDialog
 {
   Q_OBJECT
@@ -16,7 +16,7 @@ public:
   explicit ShortcutSheet(QWidget* parent);
 
   QTableWidget* table() const { return this->table_; }
-  /// Show only the rows that contain all these words, and their headings.
+  /// Show only the rows that contain all words of the search text, and their headings.
   void look_for(const QString& words);
 
 private:

@@ -37,7 +37,8 @@ constexpr DomainChoice domain_choices[] = {
   { bindpose::WeightsDomain::surface, QT_TRANSLATE_NOOP("SidePanel", "Surface") },
 };
 
-/// Return a combo box that does not grow with its items, because names of handles may be long.
+/// Return a combo box whose width does not depend on its items, because names of handles may be
+/// long.
 QComboBox* combo(QWidget* parent)
 {
   auto* box = new QComboBox(parent);
@@ -111,7 +112,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   this->note_->setObjectName("note");
   this->note_->setWordWrap(true);
   this->note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  // Hidden widgets keep their space, so that nothing below them jumps.
+  // Keep the space of the text when it is empty, so that nothing below it moves.
   this->note_->setFixedHeight(2 * this->note_->fontMetrics().lineSpacing() + 2);
   QSizePolicy keeps_place = this->bar_->sizePolicy();
   keeps_place.setRetainSizeWhenHidden(true);
@@ -127,7 +128,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   shown_row->addWidget(this->shown_, 1);
   column->addLayout(shown_row);
 
-  // The widgets for posing need more room than a small window has, so they scroll.
+  // Put the widgets for posing into a scroll area, because a small window cannot show all of them.
   column->addSpacing(6);
   auto* scroll = new QScrollArea(this);
   scroll->setObjectName("scroll");
@@ -181,7 +182,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   parts->addWidget(poses);
   parts->addStretch(1);
   scroll->setWidget(content);
-  // Use the minimum width, not the width that the sentences prefer.
+  // Use the minimum width instead of the width that long sentences prefer.
   scroll->setMinimumWidth(
     std::max(content->minimumSizeHint().width(), 36 * this->fontMetrics().horizontalAdvance('0')));
   scroll->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
@@ -240,16 +241,17 @@ void SidePanel::set_handles(const std::vector<HandleTree::Row>& handles)
   this->show_mode();
 }
 
-/// Return the pixels that a handle's name may take in the combo box, after the words before it.
+/// Return the width in pixels that is available for a handle's name in the combo box, after the
+/// text before the name.
 int SidePanel::room_for_names() const
 {
   const int field = this->kind_->sizeHint().width() - this->shown_label_->sizeHint().width() -
-    60; // frame, arrow, padding, spacing
+    60; // width of frame, arrow, padding and spacing
   return field - this->fontMetrics().horizontalAdvance(tr("Weights of %1").arg(QString()));
 }
 
-/// Show the mode of the first selected handle. A mode can be chosen if all selected handles support
-/// it.
+/// Show the mode of the first selected handle. A mode can be chosen only if all selected handles
+/// support it.
 void SidePanel::show_mode()
 {
   const QSignalBlocker quiet(this->mode_);
@@ -294,9 +296,9 @@ void SidePanel::select_handles(const std::vector<int>& handles)
 void SidePanel::set_state(bool ready, bool binding, bool bound)
 {
   this->stopping_ = false;
-  // A user who presses Bind with the keyboard continues with Cancel, and then with Bind again.
-  // Other widgets lose the keyboard focus before they are disabled. Otherwise the focus would move
-  // to the list and select a handle.
+  // After Bind was pressed with the keyboard, the focus moves to Cancel, and after the bind back to
+  // Bind. Other widgets lose the keyboard focus before they are disabled. Otherwise Qt would move
+  // the focus to the list, which would select a handle.
   const bool keyboard = this->bind_->hasFocus() || this->cancel_->hasFocus();
   const auto enable = [](QWidget* widget, bool on)
   {

@@ -18,8 +18,9 @@ class HandleFields;
 class PoseList;
 class PosePanel;
 
-/// The panel to the right of the picture: bind, show, pose. It contains no state of the work. It
-/// emits signals for requests of the user, and the window sets what it shows.
+/// The panel to the right of the picture for binding and posing, and for the displayed weight. It
+/// contains no state of the work. It emits signals when the user requests something, and the window
+/// sets the displayed values.
 class SidePanel : public QFrame
 {
   Q_OBJECT
@@ -28,7 +29,7 @@ public:
   /// @param handles  the list in which handles are selected; it is outside this panel
   explicit SidePanel(HandleTree* handles, QWidget* parent = nullptr);
 
-  /// Set the handles. The shown column is kept by name.
+  /// Set the handles. The displayed column is kept by name.
   void set_handles(const std::vector<HandleTree::Row>& handles);
   void set_mode(int handle, int mode);
   /// Select only this handle; -1: none.
@@ -43,10 +44,12 @@ public:
   }
   HandleTree* handle_list() const { return this->handles_; }
 
-  /// Set the state. `ready`: there are a surface and handles. `bound`: there are weights.
+  /// Enable widgets for a state. `ready`: a surface and handles are open. `bound`: the surface has
+  /// weights.
   void set_state(bool ready, bool binding, bool bound);
   void set_progress(double fraction, const QString& phase);
-  /// Set the one or two lines under the bind button: certificate, or the next thing to do.
+  /// Set the one or two lines under the bind button: the accuracy of the weights (certificate), or
+  /// a hint for the next action.
   void set_note(const QString& text);
   void set_method(int method);
 
@@ -58,20 +61,20 @@ public:
   const bindpose::WeightMethod& method() const;
   /// Return the domain on which weights are solved.
   bindpose::WeightsDomain domain() const;
-  /// Return the column of the weights that is shown; -1: plain shading.
+  /// Return the column of the weights that is displayed; -1: none, the surface has its plain color.
   int shown_column() const;
   void show_column(int column);
 
 Q_SIGNALS:
-  /// The method of the next bind has changed.
+  /// Emitted when the user has chosen another method for the next bind.
   void bind_method_changed();
   void bind_wanted();
   void cancel_wanted();
   void column_chosen(int column);
   void method_chosen(int method);
-  /// The selection has changed.
+  /// Emitted when the selection has changed.
   void handles_chosen();
-  /// A mode for all selected handles.
+  /// Emitted when the user has chosen a mode for all selected handles.
   void mode_chosen(int mode);
   void rest_wanted();
 
@@ -94,7 +97,7 @@ private:
   PosePanel* pose_;
   HandleFields* fields_;
   PoseList* poses_;
-  bool stopping_ = false; // cancel was pressed, the bind has not ended yet
+  bool stopping_ = false; // the user has pressed Cancel, but the bind has not ended yet
 };
 
 #endif

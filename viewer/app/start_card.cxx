@@ -10,7 +10,7 @@
 StartCard::StartCard(QAction* auto_rig, QWidget* parent) : QFrame(parent)
 {
   this->setObjectName("nothing");
-  auto* row = new QHBoxLayout(this); // one row, so that it covers little of the shape
+  auto* row = new QHBoxLayout(this); // a single row, so that the card covers little of the shape
   row->setSpacing(12);
   QPushButton* rig = button(tr("Auto-rig"), this);
   rig->setObjectName("primary");

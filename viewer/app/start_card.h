@@ -5,8 +5,8 @@
 
 class QAction;
 
-/// A card over the picture while a mesh has no handles: a button for the action that makes them,
-/// and the keys to make them manually.
+/// A card over the picture while a mesh has no handles. It has a button that creates handles
+/// automatically, and shows the keys to add handles manually.
 class StartCard : public QFrame
 {
   Q_OBJECT

@@ -1,5 +1,5 @@
-// The style sheet names its colors by their purpose (@panel, @ink). shades[] has a light and a dark
-// value for each.
+// Light and dark colors of the window. In the style sheet, colors are named by their purpose
+// (@panel, @ink). The table shades[] has a light and a dark value for each name.
 #include "style.h"
 
 #include "document/user_settings.h"
@@ -187,7 +187,8 @@ const char* const appearance_key = "appearance";
 const char* const appearance_words[] = { "system", "light", "dark" };
 bool dark_now = false;
 
-/// Report whether the desktop is dark, as it was before this program set its own palette.
+/// Report whether the desktop is dark, from the palette that the application had before this
+/// program set its own.
 bool system_is_dark(const QApplication& application)
 {
   static const bool dark = application.palette().color(QPalette::Window).lightness() < 128;
@@ -225,7 +226,7 @@ void choose_appearance(QApplication& application, Appearance appearance)
 
 void apply_style(QApplication& application)
 {
-  Q_INIT_RESOURCE(app); // needed, because the linker omits resources of a static library
+  Q_INIT_RESOURCE(app); // necessary because the linker omits the resources of a static library
   const bool system_dark = system_is_dark(application);
   const Appearance chosen = chosen_appearance();
   dark_now = chosen == Appearance::dark || (chosen == Appearance::system && system_dark);
@@ -253,7 +254,7 @@ void apply_style(QApplication& application)
   font.setPointSizeF(10.0);
   application.setFont(font);
   QString text = sheet;
-  // The longest names come first, because one name may be the beginning of another.
+  // Sort the names by descending length, because one name may be the beginning of another.
   std::vector<Shade> by_length(std::begin(shades), std::end(shades));
   std::sort(by_length.begin(), by_length.end(),
     [](const Shade& a, const Shade& b)

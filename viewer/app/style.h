@@ -13,7 +13,8 @@ void apply_style(QApplication& application);
 QColor shade(const char* name);
 bool is_dark();
 
-/// Light, dark, or like the desktop. Kept between runs of the program.
+/// The appearance of the window: light, dark, or like the desktop. It is kept between runs of the
+/// program.
 enum class Appearance
 {
   system,

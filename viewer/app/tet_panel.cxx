@@ -21,7 +21,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   column->setSpacing(7);
   const auto keep_place = [](QWidget* widget)
   {
-    // Hidden widgets keep their space, so that nothing below them jumps.
+    // Hidden widgets keep their space, so that the widgets below them do not move.
     QSizePolicy policy = widget->sizePolicy();
     policy.setRetainSizeWhenHidden(true);
     widget->setSizePolicy(policy);
@@ -179,7 +179,7 @@ void TetPanel::set_state(bool has_surface, bool making, bool has_tets)
   this->enable();
 }
 
-/// Enable the widgets that apply to what is available and shown.
+/// Enable the widgets that apply to the available and the displayed data.
 void TetPanel::enable()
 {
   const bool shown = this->has_tets_ && this->tets_->isChecked();

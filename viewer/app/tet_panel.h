@@ -11,14 +11,15 @@ class QProgressBar;
 class QPushButton;
 class ValueRow;
 
-/// The panel to the right of the picture for tets and defects of a surface: make tets, cut them
-/// open, inspect them. Like SidePanel it only emits signals for requests of the user.
+/// The panel to the right of the picture for tets and defects of a surface: compute tets, cut them
+/// open, inspect them. Like SidePanel it emits signals when the user requests something, and has no
+/// state of the work.
 class TetPanel : public QFrame
 {
   Q_OBJECT
 
 public:
-  /// The methods to make tets, in the order of their list.
+  /// The meshing methods, in the order of the list in the panel.
   enum Method
   {
     automatic,
@@ -29,7 +30,7 @@ public:
     ftetwild,
     whole_hull
   };
-  /// The values that color the tets, in the order of their list.
+  /// The values that are displayed as colors of the tets, in the order of the list in the panel.
   enum Colors
   {
     plain,
@@ -43,10 +44,10 @@ public:
 
   void set_state(bool has_surface, bool making, bool has_tets);
   void set_progress(double fraction, const QString& phase);
-  /// Set the one or two lines under the make button.
+  /// Set the one or two lines under the button that computes tets.
   void set_note(const QString& text);
   void set_position(double position, double lowest, double highest);
-  /// Set the line under the cut.
+  /// Set the line under the cut: the number of displayed tets and of all tets.
   void set_count(qlonglong shown, qlonglong all);
   void set_defects_note(const QString& text);
 
@@ -62,7 +63,7 @@ Q_SIGNALS:
   void tets_wanted(bool shown);
   void cut_wanted(bool cut);
   void other_side_wanted(bool other);
-  void orientation_chosen(int orientation); ///< a PlaneHandle::Orientation
+  void orientation_chosen(int orientation); ///< orientation: one of PlaneHandle::Orientation
   void position_chosen(double position);
   void shrink_chosen(double factor);
   void colors_chosen(int colors);

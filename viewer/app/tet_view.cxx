@@ -1,5 +1,6 @@
-// Sides of tets are drawn with flat shading, so that a new plane needs no normals. TetCut computes
-// which sides are visible. They become the triangles of two actors on the tets' own points.
+// Draws tets that are cut open. Faces of tets are drawn with flat shading, so that a new plane
+// needs no normals. TetCut computes the visible faces. They become the triangles of two actors,
+// which use the tets' own points.
 #include "tet_view.h"
 
 #include "viewport.h"
@@ -80,7 +81,8 @@ Status TetView::set_tets(vtkUnstructuredGrid* tets)
   Status status = tets && colored ? this->set_colors(by) : this->set_colors(std::nullopt);
   if (!status.ok())
   {
-    this->set_colors(std::nullopt); // these tets lack the values that colored the last ones
+    // the new tets do not have the values that colored the last ones
+    this->set_colors(std::nullopt);
   }
   return {};
 }
@@ -164,8 +166,8 @@ void TetView::draw(
     static_cast<float>(this->viewport_->devicePixelRatioF()));
 }
 
-/// Draw all shrunk tets, which are many. During a drag, draw only those with a side that would be
-/// visible without shrinking.
+/// Draw the tets with gaps between them. All of them are drawn, which is slow. During a drag only
+/// the tets are drawn that have a visible face when they are not shrunk.
 void TetView::draw_shrunk()
 {
   const bool dragging = QApplication::mouseButtons() != Qt::NoButton;
@@ -214,7 +216,7 @@ void TetView::update()
   {
     this->cut_.keep_all();
   }
-  // The far sides of a separate tet are never visible.
+  // The back faces of a separate tet are never visible.
   this->actors_[1]->GetProperty()->SetBackfaceCulling(this->shrink_ < 1.0);
   if (this->shrink_ < 1.0)
   {

@@ -22,8 +22,8 @@
 
 class Viewport;
 
-/// Tets in the picture: cut open by a plane that the mouse drags, shrunk, colored. The cut removes
-/// whole tets. Tets whose center is behind the plane remain.
+/// Shows tets in the picture: cut open by a plane that the mouse drags, shrunk, colored. The cut
+/// removes whole tets; tets whose center is behind the plane are kept.
 class TetView : public QObject
 {
   Q_OBJECT
@@ -31,7 +31,8 @@ class TetView : public QObject
 public:
   explicit TetView(Viewport* viewport);
 
-  /// Set tets that bindpose::to_tets() accepts; null: none. The plane keeps its relative position.
+  /// Set the tets, which bindpose::to_tets() must accept; null: no tets. The plane keeps its
+  /// relative position.
   bindpose::Status set_tets(vtkUnstructuredGrid* tets);
   vtkUnstructuredGrid* tets() const { return this->grid_; }
 
@@ -43,15 +44,16 @@ public:
   PlaneHandle* plane() const { return this->plane_; }
   /// Set the drawn size of each tet relative to its own size, in (0, 1].
   void set_shrink(double factor);
-  /// Set the values that color the tets; empty: plain. Return an error, and keep the colors, if
-  /// the tets have no such values.
+  /// Set the values that are displayed as colors; empty: plain tets. Return an error, and keep the
+  /// colors, if the tets have no such values.
   bindpose::Status set_colors(std::optional<bindpose::ColorBy> by);
 
-  /// Return the drawn data: the tets, which of them the cut keeps, and their size.
+  /// Return the drawn data: the tets. The next functions return the tets that the cut keeps, and
+  /// their size factor.
   const bindpose::TetInput& input() const { return this->input_; }
   const std::vector<char>& kept() const { return this->cut_.kept(); }
   double shrink() const { return this->shrink_; }
-  /// Return one number per tet; null if the tets are plain.
+  /// Return the displayed values, one per tet; null if the tets are plain.
   vtkDoubleArray* values() const { return this->values_; }
   const bindpose::Coloring& coloring() const { return this->coloring_; }
 
@@ -60,7 +62,7 @@ public:
   double milliseconds() const { return this->milliseconds_; }
 
 Q_SIGNALS:
-  /// The plane has moved, for any reason.
+  /// Emitted when the plane has moved, for any reason.
   void plane_moved();
   void count_changed(qlonglong shown, qlonglong all);
 
@@ -76,14 +78,15 @@ private:
   bindpose::TetInput input_;
   bindpose::TetCut cut_;
   bindpose::Coloring coloring_;
-  vtkSmartPointer<vtkDoubleArray> values_; // #T, null when plain
+  vtkSmartPointer<vtkDoubleArray> values_; // the displayed values, #T; null if the tets are plain
   bool shown_ = false;
   bool cut_open_ = true;
   bool other_side_ = false;
   double shrink_ = 1.0;
   double milliseconds_ = 0.0;
-  QTimer settle_; // single shot after a drag
-  // 0: the boundary. 1: the sides that the cut lays open, or shrunk tets.
+  QTimer settle_; // single-shot timer that starts after a drag
+  // Mapper 0 draws faces on the boundary. Mapper 1 draws faces that the cut exposes, or shrunk
+  // tets.
   std::array<vtkNew<vtkPolyDataMapper>, 2> mappers_;
   std::array<vtkNew<vtkActor>, 2> actors_;
 };

@@ -1,4 +1,4 @@
-// Every icon consists of strokes in a square of 20 by 20.
+// Draws the icons of tools. Every icon consists of strokes in a square of 20 by 20 units.
 #include "tool_icons.h"
 
 #include "style.h"

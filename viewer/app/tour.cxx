@@ -1,6 +1,6 @@
-// A step is an object with one verb and further fields that the verb allows. The verb's value is
-// its argument. A table lists verbs and fields; everything else is refused, so that no misspelled
-// word is ignored.
+// Reads tours, the scripted demonstrations of the window. A step is a JSON object with one verb and
+// further fields that the verb allows. The value of the verb's key is its argument. A table lists
+// verbs and fields; all other words are errors, so that a misspelled word is not ignored.
 #include "tour.h"
 
 #include "posing/json_fields.h"
@@ -23,7 +23,7 @@ constexpr std::size_t most_bytes = 16 << 20;
 constexpr double any = std::numeric_limits<double>::max();
 const char* const buttons[] = { "left", "middle", "right" };
 
-/// The type of the verb's own value.
+/// The type of the argument of a verb.
 enum class About
 {
   text,
@@ -90,7 +90,7 @@ bool finite_number(const Json& json)
   return json.is_number() && std::isfinite(json.get<double>());
 }
 
-/// Read two numbers. Return false if the value is anything else.
+/// Read two numbers. Return false if the value is not a list of two numbers.
 bool read_pair(const Json& json, std::array<double, 2>& pair)
 {
   if (!json.is_array() || json.size() != 2 || !finite_number(json[0]) || !finite_number(json[1]))
@@ -147,8 +147,8 @@ Status read_place(const Json& json, const std::string& who, TourPlace& place)
     : Status();
 }
 
-/// Read the new value of an option, or the expected value of a check: a number, numbers, a word, or
-/// true or false.
+/// Read the new value of an option, or the expected value of a check: a number, a list of numbers,
+/// a word, or true or false.
 Status read_wanted(const Json& json, const std::string& who, TourStep& step)
 {
   if (json.is_string())
@@ -257,7 +257,7 @@ Status read_about(const Json& value, About about, const std::string& who, TourSt
 constexpr const char* plain_names =
   " must be 1 to 60 letters, digits, '_', '-' and '.', and must not start with '.'";
 
-/// Report whether a name is allowed for a written file.
+/// Report whether a name is allowed for a file that the tour writes.
 bool is_plain_name(const std::string& name)
 {
   return name.size() <= 60 && name.find_first_not_of('.') == 0 &&
@@ -367,7 +367,7 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   }
 }
 
-/// Check that screenshots have unique names, and that as_at names an earlier one.
+/// Check that screenshots have unique names, and that `as_at` names an earlier screenshot.
 Status check_names(const Tour& tour)
 {
   std::vector<std::string> names;

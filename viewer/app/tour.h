@@ -10,20 +10,20 @@
 namespace bindpose
 {
 
-/// A position in the picture. It is evaluated when the step is played.
+/// A position of the mouse in the picture. It is computed when the step is played.
 struct TourPlace
 {
-  std::string handle; ///< empty: a position of the view
-  double along = 0.0; ///< on a bone, from its head (0) to its tail (1)
+  std::string handle; ///< name of a handle; empty: a position of the view
+  double along = 0.0; ///< position on a bone, from its head (0) to its tail (1)
   /// A part of the selected handle's gizmo, one of bindpose::GizmoPart, at the position where it is
-  /// best grabbed; 0: none.
+  /// best grabbed; 0: no part.
   int gizmo_part = 0;
   /// For the view: the position from its upper left corner, as fractions of its width and height.
   /// For a handle or a gizmo: an offset to the right and down, in pixels.
   std::array<double, 2> at{ 0.0, 0.0 };
 };
 
-/// The actions of a step. The file uses the same words.
+/// The actions of a step. The words in a tour file have the same names.
 enum class TourVerb
 {
   open, ///< open a file
@@ -41,15 +41,15 @@ enum class TourVerb
   release,
   drag,
   wheel,
-  scrub, ///< set the time of the key frames with the mouse, in seconds
+  scrub, ///< drag the time of the key frames with the mouse; the argument is in seconds
   key, ///< press a key, in the notation of menus: "Ctrl+Z", "Esc"
   resize,
   wait, ///< wait for "bind", "idle", or a number of seconds
-  film, ///< begin to record every motion as pictures; "end" ends it
+  film, ///< begin to record every motion as pictures; the argument "end" stops the recording
   screenshot,
   check
 };
-/// Return the word of the file.
+/// Return the word for a verb in a tour file.
 const char* to_string(TourVerb verb);
 
 enum class TourButton
@@ -59,7 +59,7 @@ enum class TourButton
   right
 };
 
-/// How a check compares a value.
+/// How a check compares a value with the expected value.
 enum class TourRelation
 {
   is,
@@ -71,7 +71,7 @@ enum class TourRelation
 enum class TourPart
 {
   window,
-  view, ///< the picture in it
+  view, ///< the 3D view in the window
   dialog ///< a non-modal dialog in front of the window
 };
 
@@ -80,28 +80,29 @@ struct TourStep
   TourVerb verb = TourVerb::wait;
   std::string text; ///< file, name, key or sentence, depending on the verb
   std::string field; ///< accessible name of the field to type into
-  /// Name of a file in the folder of screenshots. The file dialog that the step opens receives it.
-  /// If the name is empty, a dialog is an error.
+  /// Name of a file in the folder of screenshots, for the file dialog that the step opens. If the
+  /// name is empty, it is an error if the step opens a dialog.
   std::string answer;
-  std::string say; ///< what a tutorial says about the step
+  std::string say; ///< text about the step for a tutorial
 
-  TourPlace place; ///< position of the mouse
+  TourPlace place; ///< position of the mouse; start of a drag
   TourPlace to; ///< end of a drag
   int moves = 8; ///< number of mouse moves of a drag
   TourButton button = TourButton::left;
   bool shift = false, ctrl = false, alt = false;
-  double turns = 0.0; ///< of the wheel, away from the user
+  double turns = 0.0; ///< turns of the wheel, away from the user
 
-  double seconds = -1.0; ///< to wait, or to scrub to
-  std::array<int, 2> size{ 0, 0 }; ///< to resize to
-  TourPart part = TourPart::window; ///< the part that a picture shows
+  double seconds = -1.0; ///< seconds to wait, or time to scrub to
+  std::array<int, 2> size{ 0, 0 }; ///< window size to resize to
+  TourPart part = TourPart::window; ///< the part that a screenshot shows
   int width = 0; ///< maximum width of a screenshot in pixels; 0: no limit
-  int scale = 1; ///< of a screenshot of the view: scale of the number of pixels each way
-  bool transparent = false; ///< of a screenshot of the view: transparent background
+  int scale = 1; ///< factor on the pixels of a screenshot of the view in each direction
+  bool transparent = false; ///< true: a screenshot of the view has a transparent background
 
   TourRelation relation = TourRelation::is;
-  std::string wanted_text; ///< a word, or the name of the screenshot of as_at
-  std::vector<double> wanted; ///< numbers: one, or one per component; for an option its value
+  std::string wanted_text; ///< expected word, or the name of the screenshot for `as_at`
+  std::vector<double> wanted; ///< expected numbers, one per component; for the verb `option` its
+                              ///< new value
   bool wants_text = false, wants_truth = false;
   double tolerance = 0.0;
 };
@@ -110,9 +111,9 @@ struct TourStep
 struct Tour
 {
   std::string name;
-  std::array<int, 2> size{ 1280, 800 }; ///< of the window, in pixels
-  /// Size of the picture in pixels. The window is resized until the picture has it, whatever the
-  /// fonts; 0: no fixed size.
+  std::array<int, 2> size{ 1280, 800 }; ///< size of the window, in pixels
+  /// Size of the 3D view in pixels. The window is resized until the view has this size, for any
+  /// font; 0: no fixed size.
   std::array<int, 2> view{ 0, 0 };
   double seconds = 300.0; ///< maximum duration
   std::vector<TourStep> steps;
@@ -125,7 +126,7 @@ Status parse_tour(const std::string& text, Tour& tour);
 /// Read a tour from a file. Messages begin with the name of the file.
 Status read_tour(const std::string& path, Tour& tour);
 
-/// Return "step 3 (drag)".
+/// Return the name of a step for messages, such as "step 3 (drag)".
 std::string step_name(std::size_t index, const TourStep& step);
 
 } // namespace bindpose

@@ -31,8 +31,11 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-constexpr double film_rate = 20.0; // frames per second of motion without user input
-constexpr int drawn_level = 12; // of 255; the background differs by less along a row
+// pictures per second that are recorded while the shape moves without user input
+constexpr double film_rate = 20.0;
+// color difference, of 255, above which a pixel is not background; the background differs by less
+// within a row
+constexpr int drawn_level = 12;
 
 Qt::MouseButton button_of(const TourStep& step)
 {
@@ -50,7 +53,7 @@ Qt::KeyboardModifiers held_in(const TourStep& step)
   return held;
 }
 
-/// Return an image, with alpha if the picture has it.
+/// Convert a picture to a QImage, with alpha if the picture has it.
 QImage to_image(vtkImageData* picture)
 {
   const int* size = picture->GetDimensions();
@@ -60,7 +63,7 @@ QImage to_image(vtkImageData* picture)
     .mirrored();
 }
 
-/// Return the picture scaled down to this width, if it is wider; 0: unchanged.
+/// Return the picture scaled down to this width if it is wider; 0: no limit.
 QImage at_most(const QImage& picture, int width)
 {
   return width > 0 && width < picture.width()
@@ -68,7 +71,8 @@ QImage at_most(const QImage& picture, int width)
     : picture;
 }
 
-/// Return the fraction of pixels that differ from the background, which has one color per row.
+/// Return the fraction of pixels that differ from the background. The background has one color per
+/// row.
 double drawn_share(const QImage& picture)
 {
   long long drawn = 0;
@@ -91,7 +95,8 @@ QString text(const Json& value)
   return QString::fromStdString(value.dump());
 }
 
-/// Filters the display's own events, because its mouse may be over the window.
+/// Ignores the display's own mouse and keyboard events, because the real mouse may be over the
+/// window.
 class HandsOff : public QObject
 {
 public:
@@ -117,7 +122,7 @@ public:
 
 void wait_seconds(double seconds)
 {
-  QEventLoop loop; // sleeps between events
+  QEventLoop loop; // a nested event loop, which sleeps between events
   QTimer::singleShot(static_cast<int>(1e3 * seconds), Qt::PreciseTimer, &loop, &QEventLoop::quit);
   loop.exec();
 }
@@ -155,7 +160,7 @@ Status TourPlayer::play(const TourRequest& request)
     }
     for (const TourStep& step : this->tour_.steps)
     {
-      AtomicFile file; // check before the tour that it can be written
+      AtomicFile file; // check before the tour that the file can be written
       const std::string name = step.verb == TourVerb::screenshot ? step.text + ".png"
         : step.answer.empty()                                    ? "tour.json"
                                                                  : step.answer;
@@ -167,7 +172,8 @@ Status TourPlayer::play(const TourRequest& request)
     }
   }
   this->clock_.start();
-  QApplication::setActiveWindow(this->window_); // no window manager does it under Xvfb
+  // under Xvfb there is no window manager that activates the window
+  QApplication::setActiveWindow(this->window_);
   this->let_draw();
   this->fit_view();
   for (std::size_t k = 0; k < this->tour_.steps.size() && status.ok(); ++k)
@@ -208,7 +214,7 @@ Status TourPlayer::play(const TourRequest& request)
   if (this->first_picture_ >= 0.0)
   {
     this->record_["first_picture_seconds"] = this->first_picture_;
-    // CPU time of the window's thread: the time on a machine without other load.
+    // CPU time of the window's thread, which does not depend on other load of the machine.
     this->record_["first_picture_cpu_seconds"] = this->first_picture_cpu_;
   }
   const Status written = this->write_record(request);
@@ -236,18 +242,20 @@ QString TourPlayer::out_of_time() const
   return QString("the tour exceeded its time limit of %1 s").arg(this->seconds_);
 }
 
-/// Let the window draw pending requests, without waiting for anything else.
+/// Let the window draw all requested pictures, without waiting for other work.
 void TourPlayer::let_draw()
 {
-  // One round each for a change, the picture that it requests, and the buffer swap.
+  // Three rounds of events are needed: for a change, for the picture that it requests, and for the
+  // buffer swap.
   for (int round = 0; round < 3; ++round)
   {
     QApplication::processEvents();
   }
 }
 
-/// Run a part of a step. Every form that it opens is accepted once, and a file dialog gets the
-/// step's answer as its file. Close any other dialog and return a sentence.
+/// Run a part of a step and answer the dialogs that it opens. Every form is accepted once, and a
+/// file dialog gets the step's answer as its file. Any other dialog is closed, and a sentence is
+/// returned.
 QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const std::string& answer)
 {
   const QString file =
@@ -259,7 +267,7 @@ QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const s
   QString title;
   bool answered = false;
   QPointer<QDialog> accepted;
-  QTimer watch; // runs in a dialog's own event loop, too
+  QTimer watch; // this timer also runs in the event loop of a dialog
   QObject::connect(&watch, &QTimer::timeout, &watch,
     [&]
     {
@@ -269,14 +277,14 @@ QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const s
       {
         if (auto* files = qobject_cast<QFileDialog*>(form))
         {
-          // play() has already checked the file.
+          // No confirmation is necessary, because play() has already checked the file.
           files->setOption(QFileDialog::DontConfirmOverwrite);
           auto* name = files->findChild<QLineEdit*>();
           name->setText(file); // selectFile() does not change a field that has the keyboard focus
           answered = true;
         }
         accepted = form;
-        // Queued, so that this timer also runs for a dialog that the answer opens.
+        // Queue the call, so that this timer also runs for a dialog that the answer opens.
         QMetaObject::invokeMethod(form, "accept", Qt::QueuedConnection);
       }
       else if (dialog)
@@ -411,7 +419,8 @@ QString TourPlayer::use_mouse(const TourStep& step)
   switch (step.verb)
   {
     case TourVerb::press:
-      this->hand_.move(at, held); // a press follows a move of the mouse
+      // move the mouse there first, because a user's press follows a move
+      this->hand_.move(at, held);
       this->hand_.press(at, button, held);
       return {};
     case TourVerb::move:
@@ -459,8 +468,8 @@ QString TourPlayer::wait(const TourStep& step)
       ? QString()
       : QString("the window was still busy at the time limit of the tour");
   }
-  // A wait that is cut short reports it here, because timers may end a millisecond before the
-  // limit.
+  // The timeout of the tour may shorten a wait. Report the timeout here, because timers may end a
+  // millisecond before it.
   const double left = std::max(0.0, this->left());
   const double seconds = std::min(step.seconds, left);
   const QString sentence = step.seconds > left ? this->out_of_time() : QString();
@@ -578,8 +587,8 @@ QString TourPlayer::write(const QImage& picture, const std::string& name)
   return QString::fromStdString(status.message);
 }
 
-/// Resize the window until the picture has the tour's size. The sizes of the widgets around it
-/// depend on the fonts, and some widgets appear and disappear.
+/// Resize the window until the 3D view has the tour's size. Several attempts are needed, because
+/// the sizes of other widgets depend on the fonts, and some widgets appear and disappear.
 QString TourPlayer::fit_view()
 {
   const QSize wanted(this->tour_.view[0], this->tour_.view[1]);

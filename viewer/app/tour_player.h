@@ -20,8 +20,8 @@ class MainWindow;
 struct TourRequest
 {
   std::string path; ///< path of the tour
-  std::string folder; ///< for pictures and tour.json; empty: only run the checks
-  double seconds = 0.0; ///< maximum duration; 0: that of the tour
+  std::string folder; ///< folder for pictures and tour.json; empty: only the checks are run
+  double seconds = 0.0; ///< maximum duration; 0: the duration that the tour specifies
   bool overwrite = false;
 };
 
@@ -32,8 +32,8 @@ struct TourRequest
 class TourPlayer
 {
 public:
-  /// @param folder  of the tour. Files to open are searched there first, then in the working
-  /// directory.
+  /// @param folder  the folder of the tour. Files to open are searched there first, then in the
+  /// working directory.
   TourPlayer(MainWindow* window, const bindpose::Tour& tour, const std::string& folder);
 
   /// Play the tour. Return invalid_input, with one sentence that names the step, on the first
@@ -71,9 +71,10 @@ private:
   WindowHand hand_;
   QElapsedTimer clock_;
   double seconds_ = 0.0;
-  double last_seconds_ = 0.0, last_cpu_seconds_ = 0.0; ///< of the last step
+  double last_seconds_ = 0.0, last_cpu_seconds_ = 0.0; ///< total and CPU time of the last step
   double first_picture_ = -1.0, first_picture_cpu_ = 0.0;
-  bindpose::TourStep film_; ///< its text is empty if no film is being recorded
+  bindpose::TourStep film_; ///< the step that began the film being recorded; its text is empty if
+                            ///< there is none
   int frames_ = 0;
   nlohmann::ordered_json record_;
   QObject context_; ///< context of connections

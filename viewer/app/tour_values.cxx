@@ -54,7 +54,7 @@ Json to_json(const Vec3& place)
   return { place.x(), place.y(), place.z() };
 }
 
-/// Add the distances between two shapes with the same points.
+/// Add entries about the distances between two shapes with the same points.
 void add_distance(Json& values, const std::string& name, PointsView a, PointsView b)
 {
   if (a.rows() == b.rows() && a.rows() > 0)
@@ -186,7 +186,7 @@ void add_weights(Json& values, MainWindow* window)
   {
     values["weights.minimum"] = matrix.view().minCoeff();
     values["weights.maximum"] = matrix.view().maxCoeff();
-    // Largest deviation of a row's sum from one.
+    // The largest deviation of a row's sum from one.
     values["weights.row_sum_error"] =
       (matrix.view().rowwise().sum().array() - 1.0).abs().maxCoeff();
   }
@@ -195,7 +195,7 @@ void add_weights(Json& values, MainWindow* window)
   {
     if (vtkDataArray* certificate = surface->GetFieldData()->GetArray(name))
     {
-      values[key] = certificate->GetRange()[1]; // of the worst column
+      values[key] = certificate->GetRange()[1]; // the value of the worst column
     }
   }
   const WeightView* view = window->weights()->view();
@@ -298,7 +298,8 @@ double seconds_since_start()
 {
   std::ifstream file("/proc/self/stat");
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  const std::size_t name_end = text.rfind(')'); // the name may contain any characters
+  // the process name in parentheses may contain any characters
+  const std::size_t name_end = text.rfind(')');
   timespec now{};
   if (name_end == std::string::npos || clock_gettime(CLOCK_BOOTTIME, &now) != 0)
   {

@@ -8,13 +8,14 @@ class MainWindow;
 namespace bindpose
 {
 
-/// Return the state that the window shows, as numbers and words by name. A tour checks these values
-/// and writes them together with its pictures. viewer/sessions_and_tours.md documents the names.
-/// Values that do not apply are absent.
+/// Return the state that the window shows, as numbers and words with names. A tour compares these
+/// values with expected values, and writes them together with its pictures.
+/// viewer/sessions_and_tours.md documents the names. Values that do not apply are absent.
 nlohmann::ordered_json tour_values(MainWindow* window);
 
-/// Return the distance between two values: the largest of any component. For words it is 0 or
-/// infinite; for values of different types it is infinite.
+/// Return the distance between two values: the largest absolute difference of a component. For
+/// words it is 0 if they are equal, otherwise infinite. For values of different types it is
+/// infinite.
 double distance(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b);
 
 /// Return the seconds since this process was started; negative if unknown.

@@ -47,7 +47,7 @@ ValueRow::ValueRow(QWidget* parent)
 void ValueRow::set_range(double lowest, double highest)
 {
   const QSignalBlocker quiet(this->field_);
-  // Use enough digits to show a step of the slider.
+  // Use enough digits to show the smallest change of the slider.
   const double step = (highest - lowest) / steps;
   const int digits =
     step > 0.0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(step))), 0, 8) : 3;
@@ -62,7 +62,7 @@ void ValueRow::set_value(double value)
   const QSignalBlocker quiet_too(this->slider_);
   this->field_->setValue(value);
   const double span = this->field_->maximum() - this->field_->minimum();
-  if (!this->slider_->isSliderDown()) // a slider that is dragged stays under the mouse
+  if (!this->slider_->isSliderDown()) // a slider that is dragged must stay under the mouse
   {
     this->slider_->setValue(span > 0.0
         ? static_cast<int>(std::lround(steps * (value - this->field_->minimum()) / span))

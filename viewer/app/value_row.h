@@ -6,7 +6,7 @@
 class QDoubleSpinBox;
 class QSlider;
 
-/// A number in a range, shown by a slider and a field.
+/// A row of a slider and a field that show and set a number in a range.
 class ValueRow : public QWidget
 {
   Q_OBJECT
@@ -18,15 +18,15 @@ public:
   /// Set the value without emitting value_chosen().
   void set_value(double value);
   double value() const;
-  /// Let the row's option store the fraction of the range, from 0 to 1, instead of the number.
+  /// Let the row's option store the fraction of the range, from 0 to 1, instead of the value.
   void tell_shares() { this->tells_shares_ = true; }
-  /// Choose the value of the option as a user does.
+  /// Set the value of the option and emit value_chosen(), as if a user had chosen it.
   void choose(double option);
   QSlider* slider() const { return this->slider_; }
   QDoubleSpinBox* field() const { return this->field_; }
 
 Q_SIGNALS:
-  /// The user has chosen a value.
+  /// Emitted when the user has chosen a value.
   void value_chosen(double value);
 
 private:

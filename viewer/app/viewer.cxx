@@ -13,19 +13,19 @@
 
 namespace
 {
-/// The application with the settings that the window needs.
+/// Owns the QApplication, with the settings that the window needs.
 class Application
 {
 public:
   Application()
   {
-    QApplication::setApplicationName("bindpose"); // part of the path of recovered work
+    QApplication::setApplicationName("bindpose"); // the name is part of the path of recovered work
     QApplication::setApplicationDisplayName("Bindpose");
     apply_style(this->application_);
   }
 
 private:
-  /// Set the attributes that Qt requires before the application is made.
+  /// Set the attributes that Qt requires before the application object is created.
   static int prepare()
   {
     QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
@@ -42,7 +42,8 @@ private:
 
 void open_first_files(MainWindow& window, const std::vector<FirstFile>& files)
 {
-  QStringList errors; // a file that opens hides the error of the one before
+  // collected here, because a file that is opened without error hides the previous error
+  QStringList errors;
   for (const FirstFile& file : files)
   {
     if (!file.error.empty())

@@ -20,15 +20,15 @@ struct FirstFile
 };
 
 /// Run `bindpose view`: open a window with these files (meshes, meshes with weights, handles), and
-/// return the program's exit code. Needs a display.
-/// @param auto_rig  make bones along the mesh and bind it
+/// return the program's exit code. An X server is required.
+/// @param auto_rig  create bones along the mesh and bind it
 int run_viewer(const std::vector<FirstFile>& files, bool auto_rig);
 
-/// Open all files that can be opened. The error bar lists the errors of the others.
+/// Open all files that can be opened. The error bar shows the errors of all others.
 void open_first_files(MainWindow& window, const std::vector<FirstFile>& files);
 
-/// The same with a tour instead of a user. The user's recent files and recovered work are neither
-/// read nor changed.
+/// Run `bindpose view --play`: like run_viewer(), with a tour instead of a user. The user's recent
+/// files and recovered work are neither read nor changed.
 bindpose::Status play_tour(
   const std::vector<FirstFile>& files, bool auto_rig, const TourRequest& request);
 

@@ -81,7 +81,7 @@ public:
     this->StartPan();
   }
 
-  bool Flat = false; ///< in front of a plane: dragging pans the view
+  bool Flat = false; ///< true in 2D mode, in front of a plane: dragging pans the view
 };
 vtkStandardNewMacro(CameraStyle);
 } // namespace
@@ -109,7 +109,8 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
     mapper->ScalarVisibilityOff();
     mapper->SetScalarModeToUsePointFieldData();
     mapper->SetColorModeToMapScalars();
-    mapper->InterpolateScalarsBeforeMappingOn(); // crisp bands, independent of the triangles
+    // sharp borders of color bands, independent of the triangles
+    mapper->InterpolateScalarsBeforeMappingOn();
     mapper->UseLookupTableScalarRangeOn();
     mapper->SetLookupTable(map.table);
   }
@@ -117,8 +118,8 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->tint_actor_->VisibilityOff();
   this->tint_actor_->PickableOff();
   this->tint_actor_->GetProperty()->LightingOff();
-  // The tint has the depth of the picture and must be drawn in front of it, and isolines in front
-  // of both.
+  // The tint (the colors of values over a picture) has the same depth as the picture. Draw the tint
+  // in front of the picture, and isolines in front of both.
   this->tint_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(-1.0, -1.0);
   this->renderer_->AddActor(this->tint_actor_);
   bindpose::use_surface_material(this->actor_);
@@ -127,17 +128,19 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->window_->SetNumberOfLayers(2);
   this->legend_->SetLayer(1);
   this->legend_->InteractiveOff();
-  this->legend_->PreserveDepthBufferOn(); // VolumeView reads the depth of the layer below
+  this->legend_->PreserveDepthBufferOn(); // VolumeView reads the depths of the layer below
   this->window_->AddRenderer(this->legend_);
   this->handles_->SetInteractor(this->interactor());
   this->handles_->CreateDefaultRepresentation();
   this->use_appearance();
-  // The widgets belong to this renderer, wherever the mouse is when they are enabled.
+  // Assign the widgets to this renderer. Otherwise they would use the renderer under the mouse when
+  // they are enabled.
   this->handles_->SetDefaultRenderer(this->renderer_);
   this->brush_->SetDefaultRenderer(this->renderer_);
   this->brush_->SetInteractor(this->interactor());
   this->brush_->CreateDefaultRepresentation();
-  // Requests of widgets and camera during one event make one picture after the event.
+  // Disable direct rendering, so that all requests of widgets and camera during one event result in
+  // one picture after the event.
   this->interactor()->EnableRenderOff();
   this->interactor()->AddObserver(vtkCommand::RenderEvent, this, &Viewport::render_wanted);
   this->since_start_.start();
@@ -146,7 +149,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
 
 Viewport::~Viewport()
 {
-  // The widgets observe the interactor, which the base class is about to delete.
+  // Detach the widgets, because they observe the interactor, which the base class deletes.
   this->handles_->SetInteractor(nullptr);
   this->brush_->SetInteractor(nullptr);
 }
@@ -189,7 +192,7 @@ void Viewport::set_surface_look(int look)
   this->outline_->show(this->outlines_ && !this->picture_ && (look == solid || look == see_through),
     bindpose::outline_width * this->devicePixelRatioF());
   this->show_tint();
-  // The driver cannot sort translucent triangles by depth with several samples per pixel.
+  // Sorting translucent triangles by depth requires one sample per pixel.
   const bool sorts = (look == see_through || this->ghosted_) && this->shaded_;
   this->renderer_->SetUseDepthPeeling(sorts);
   this->renderer_->SetMaximumNumberOfPeels(6);
@@ -217,7 +220,8 @@ void Viewport::set_picture(vtkImageData* picture)
     texture->SetColorModeToDirectScalars();
   }
   this->actor_->SetTexture(texture);
-  // The shape is already cut out, so there is nothing to sort.
+  // Treat a textured shape as opaque, because it contains only the opaque part of the picture;
+  // translucent shapes would be sorted.
   this->actor_->SetForceOpaque(picture != nullptr);
   this->mapper_->ScalarVisibilityOff();
   this->tint_mapper_->ScalarVisibilityOff();
@@ -235,7 +239,8 @@ void Viewport::set_tint(double share)
   this->refresh();
 }
 
-/// Return the mapper for colors of numbers: the surface's own, or over a picture that of the tint.
+/// Return the mapper that shows values as colors: the mapper of the surface, or for a surface with
+/// a picture the mapper of the tint.
 vtkPolyDataMapper* Viewport::value_mapper() const
 {
   return this->picture_ ? this->tint_mapper_.Get()
@@ -246,7 +251,7 @@ void Viewport::show_tint()
 {
   this->tint_actor_->SetVisibility(this->picture_ && this->shaded_ && this->look_ == solid &&
     this->tint_ > 0.0 && this->tint_mapper_->GetScalarVisibility());
-  // Nothing is sorted, because the picture's front hides everything behind it.
+  // Sorting by depth is not necessary, because the opaque picture hides everything behind it.
   this->tint_actor_->GetProperty()->SetOpacity(this->tint_);
 }
 
@@ -391,7 +396,8 @@ void Viewport::name_state(const QString& state)
   }
 }
 
-/// Return the aspect ratio of the surface's half, or of the whole picture.
+/// Return the aspect ratio of the half that shows the surface, or of the whole picture if it is not
+/// split.
 double Viewport::aspect_of(const QSize& size) const
 {
   return (this->beside_ ? 0.5 : 1.0) * size.width() / std::max(size.height(), 1);
@@ -557,9 +563,10 @@ void Viewport::draw_legend()
   bindpose::PixelBox box;
   box.x = static_cast<int>(20 * scale);
   box.y = static_cast<int>(24 * scale);
-  // The height of a legend of words follows from its lines. A last line counts the words that do
-  // not fit.
-  constexpr double line = 1.7, around = 2.5; // of the font's size
+  // The height of a legend with texts follows from its number of lines. If not all fit, the last
+  // line contains the number of the others.
+  // `line` is the height of a line and `around` the total margin, as factors on the font's size.
+  constexpr double line = 1.7, around = 2.5;
   const double room = scale * this->height() - 2 * box.y;
   const int most = std::max(2, static_cast<int>((room / font - around) / line));
   const auto add = [&](const bindpose::ColorMap& all, const QString& name)
@@ -583,19 +590,18 @@ void Viewport::draw_legend()
   }
   if (this->beside_)
   {
-    // Below the shapes, where the names cover nothing.
+    // below the shapes, where the names cover nothing
     this->add_name(0.25, 14.0, this->left_name_);
     this->add_name(0.75, 14.0, this->right_name_);
   }
   if (!this->state_name_.isEmpty())
   {
-    constexpr double below_a_bar = 64.0; // pixels from the top
+    constexpr double below_a_bar = 64.0; // pixels from the top, below a bar
     this->add_name(0.5, this->height() - below_a_bar, this->state_name_);
   }
 }
 
-/// Add a centered text at a fraction of the width, and this many of Qt's pixels above the lower
-/// edge.
+/// Add a centered text at a fraction of the width, and `above` Qt pixels above the lower edge.
 void Viewport::add_name(double middle, double above, const QString& name)
 {
   const double scale = this->pixel_scale();
@@ -612,7 +618,8 @@ void Viewport::add_name(double middle, double above, const QString& name)
 
 void Viewport::resizeEvent(QResizeEvent* event)
 {
-  // VTK would also scale texts by the dots per inch, but here all sizes are in Qt's pixels.
+  // Set a fixed resolution, because VTK would otherwise also scale texts by the screen's dots per
+  // inch. All sizes here are in Qt pixels.
   constexpr double text_dpi = 72.0;
   this->setUnscaledDPI(static_cast<int>(std::lround(text_dpi / this->devicePixelRatioF())));
   this->resizing_ = true;
@@ -650,16 +657,17 @@ void Viewport::paintGL()
 
 void Viewport::render_wanted()
 {
-  if (!this->interactor()->GetEnableRender()) // otherwise it is being painted
+  // rendering is enabled only while a picture is being painted
+  if (!this->interactor()->GetEnableRender())
   {
     this->refresh();
   }
 }
 
-/// Return the points of everything that the view must contain.
+/// Return points of everything that the view must contain.
 std::vector<bindpose::Vec3> Viewport::places_to_see() const
 {
-  // The widget's handles count only if there is nothing else.
+  // The handles are included only if there is nothing else to show.
   std::vector<vtkPolyData*> shown;
   for (vtkPolyData* candidate : { this->shaded_ ? this->shaded_->polydata() : nullptr,
          this->curve_data_.Get(), this->beside_ ? this->shape_beside_.Get() : nullptr })
@@ -755,8 +763,8 @@ void Viewport::refresh()
     [this]
     {
       this->refresh_pending_ = false;
-      // During a drag, for example of a slider, a cloud is drawn coarsely. It is drawn again when
-      // the drag ends.
+      // During a drag, for example of a slider, a cloud (volume rendering) is drawn coarsely. It is
+      // drawn again when the drag ends.
       const bool dragging = QApplication::mouseButtons() != Qt::NoButton;
       this->window_->SetDesiredUpdateRate(dragging ? this->interactor()->GetDesiredUpdateRate()
                                                    : this->interactor()->GetStillUpdateRate());
@@ -765,7 +773,8 @@ void Viewport::refresh()
         (dragging || std::exchange(this->first_picture_, false));
       this->window_->SetMultiSamples(coarse ? 0 : samples);
       this->window_->Render();
-      this->window_->SetMultiSamples(samples); // for code that renders without refresh()
+      // restore the samples for code that renders without refresh()
+      this->window_->SetMultiSamples(samples);
       if (dragging || coarse)
       {
         this->settle_.start();
@@ -781,7 +790,7 @@ QSize Viewport::picture_size(int scale) const
   return scale * QSize(size[0], size[1]);
 }
 
-/// Return the scale of sizes that are given in pixels.
+/// Return the factor on sizes that are specified in pixels.
 double Viewport::pixel_scale() const
 {
   return this->picture_scale_ * this->devicePixelRatioF();
@@ -804,7 +813,8 @@ bindpose::Status Viewport::take_picture(
   wanted.transparent = transparent;
   this->window_->Render(); // apply all changes since the last picture
   const bool smoothed = this->renderer_->GetUseFXAA();
-  this->renderer_->UseFXAAOff(); // the samples are averaged instead
+  // switch off the driver's antialiasing, because samples are averaged instead
+  this->renderer_->UseFXAAOff();
   this->picture_scale_ = scale * wanted.samples;
   this->set_pixel_scale();
   bindpose::Status status;

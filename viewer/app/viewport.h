@@ -34,8 +34,9 @@ class vtkPolyData;
 class vtkRegionBrushWidget;
 class vtkRenderer;
 
-/// The picture: one surface, shaded or colored by a column of its weights; the handles on top,
-/// which the mouse drags; and curves. VolumeView adds the parts of a volume.
+/// The 3D view of the window. It shows one surface, shaded or colored by a column of its weights.
+/// Handles, which the mouse drags, are drawn on top. It also shows curves; VolumeView adds the
+/// parts of a volume.
 class Viewport : public QVTKOpenGLNativeWidget
 {
   Q_OBJECT
@@ -52,49 +53,54 @@ public:
   explicit Viewport(QWidget* parent = nullptr);
   ~Viewport() override;
 
-  /// Set the surface to draw; null: none. The camera is unchanged.
+  /// Set the surface to draw; null: no surface. The camera is unchanged.
   void set_surface(vtkPolyData* surface);
-  /// Move the points of the same surface: a pose.
+  /// Move the points of the surface to those of `posed`, a pose of the same surface.
   void move_surface(vtkPolyData* posed);
   void move_surface(bindpose::PointsView points);
-  /// Move the points of another shape of that surface.
+  /// Move the points of another drawn shape with the same points and cells, for example the ghost.
   void move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView points) const;
-  /// Set the offset of each point along a unit vector toward the eye. In a planar shape the
-  /// offsets determine what is in front. They are valid until the next set_surface(); empty: none.
+  /// Set the offset of each point along a unit vector toward the eye. In a planar shape the offsets
+  /// determine which parts are in front. They are valid until the next set_surface(); an empty
+  /// vector removes them.
   void set_depths(const Eigen::VectorXd& depths, const bindpose::Vec3& toward)
   {
     this->depths_ = depths;
     this->toward_ = toward;
   }
-  /// Set whether something translucent is drawn over the surface. Both are then sorted by depth.
+  /// Set whether a translucent shape is drawn over the surface. Both shapes are then sorted by
+  /// depth.
   void set_ghosted(bool ghosted);
   /// Use only the left half of the picture. The renderer `beside` has the right half and the same
-  /// camera; its shape is kept in view, too. Null, null: use the whole picture. What was visible in
-  /// the whole picture is visible in the half.
+  /// camera; `shape`, which it shows, is kept in view too. Null, null: use the whole picture.
+  /// Everything that was visible in the whole picture is visible in the half.
   void set_split(vtkRenderer* beside, vtkPolyData* shape);
   bool is_split() const { return this->beside_ != nullptr; }
-  /// Show at the top which shape the picture shows, if it is not the posed one; empty: nothing.
+  /// Show a text at the top of the picture that names the displayed shape, if it is not the posed
+  /// shape; empty: no text.
   void name_state(const QString& state);
   QString state_name() const { return this->state_name_; }
   /// Set the names below the halves.
   void name_halves(const QString& left, const QString& right);
-  /// Return the microseconds that the last drawn change of points took to upload to the graphics
+  /// Return the microseconds that it took to upload the last drawn change of points to the graphics
   /// card.
   double upload_microseconds() const;
-  /// Return the pictures per second while they follow each other within half a second; otherwise 0.
+  /// Return the pictures per second if two pictures follow each other within half a second;
+  /// otherwise 0.
   double frames_per_second() const;
   /// Set the handles that the mouse moves and edits. The widget is enabled if `used` is true.
   void set_handles(vtkPolyData* handles, bool used);
-  /// Color by a column of the array Weights, named on the scalar bar; -1: plain shading.
+  /// Color the surface by a column of the array Weights, with its name on the scalar bar; -1: plain
+  /// shading.
   void show_column(int column, const QString& name);
-  /// Color by numbers of the points or cells of drawn() instead of a column, named on the scalar
-  /// bar. With null values only the scalar bar is shown. Without a name the column is shown again.
-  /// set_surface() removes the colors.
+  /// Color by values of the points or cells of drawn() instead of a column, with a name on the
+  /// scalar bar. With null values only the scalar bar is shown. Without a name the column is shown
+  /// again. set_surface() removes the colors.
   void show_values(vtkDoubleArray* values, bool on_points, const QString& name = QString(),
     const bindpose::ColorMap& map = {});
-  /// Report whether the surface is colored by these numbers.
+  /// Report whether the surface is colored by these values.
   bool shows(vtkDoubleArray* values) const;
-  /// Return the shown column; -1: none.
+  /// Return the displayed column; -1: none.
   int shown_column() const { return this->column_; }
   /// Return the surface as drawn, with the arrays of set_surface(); null without a surface.
   vtkPolyData* drawn() const;
@@ -106,24 +112,25 @@ public:
   /// Show or hide silhouette lines. Pictures have none.
   void show_outlines(bool shown);
   bool has_outlines() const { return this->outlines_; }
-  /// Set the picture that the surface shows by its texture coordinates. Colors of weights are drawn
-  /// over it. Null: none.
+  /// Set the picture that is the texture of the surface. Colors of weights are drawn over it. Null:
+  /// no picture.
   void set_picture(vtkImageData* picture);
   bool has_picture() const { return this->picture_ != nullptr; }
   /// Set the opacity of the colors over a picture, from 0 (only the picture) to 1 (only the
   /// colors).
   void set_tint(double share);
   double tint() const { return this->tint_; }
-  /// Set the 2D mode: the view is parallel and stays in front of a plane perpendicular to this unit
-  /// vector, which points to the eye. Dragging pans the view. Empty: the view can be rotated. The
-  /// camera is unchanged until reset_view().
+  /// Set the 2D mode: the view is parallel and in front of a plane perpendicular to this unit
+  /// vector, which points to the eye. Dragging pans the view. An empty value ends the 2D mode, and
+  /// the view can be rotated. The camera is unchanged until reset_view().
   void set_plane(const std::optional<bindpose::Vec3>& normal);
   bool is_flat() const { return this->plane_.has_value(); }
-  /// Set curves, drawn as tubes; null: none.
+  /// Set curves, which are drawn as tubes; null: no curves.
   void set_curves(vtkPolyData* curves);
   /// Show or hide the curves, which belong to the shape at rest.
   void show_curves(bool shown);
-  /// Legends in addition to the column's, each in its own place. An empty name removes a legend.
+  /// The positions of the legends that are shown in addition to that of the column. An empty name
+  /// removes a legend.
   enum LegendPlace
   {
     weight_legend,
@@ -133,30 +140,30 @@ public:
     defect_legend
   };
   void show_legend(LegendPlace place, const QString& name, const bindpose::ColorMap& map = {});
-  /// Return the name of the legend in that place; empty: none.
+  /// Return the name of the legend at that position; empty: no legend.
   QString legend(LegendPlace place) const;
-  /// Set a box that reset_view() shows in addition to surface and curves; empty: none.
+  /// Set a box that reset_view() shows in addition to surface and curves; an empty box removes it.
   void set_also_shown(const bindpose::Box& box);
-  /// Look at everything from the side that shows most of it.
+  /// Reset the camera: show everything from the side where it appears largest.
   void reset_view();
-  /// Request a new picture; many requests make one picture. With software rendering, moving shapes
-  /// and the first picture of a surface are drawn without antialiasing, in a fifth of the time. A
-  /// quarter of a second later they are drawn again with antialiasing.
+  /// Request a new picture; several requests result in one picture. With software rendering, moving
+  /// shapes and the first picture of a surface are drawn without antialiasing, in a fifth of the
+  /// time. A quarter of a second later they are drawn again with antialiasing.
   void refresh();
-  /// Take a picture of the view in `scale` times as many pixels each way, 1 to 8. Lines, points,
-  /// text and scalar bars are scaled, too. A transparent background has no color where nothing is
-  /// drawn.
+  /// Take a picture of the view in `scale` times as many pixels in each direction, 1 to 8. Lines,
+  /// points, text and scalar bars are scaled, too. A transparent background has no color where
+  /// nothing is drawn.
   bindpose::Status take_picture(
     int scale, bool transparent, vtkSmartPointer<vtkImageData>& picture);
-  /// Return the size of such a picture in pixels.
+  /// Return the size in pixels of a picture that take_picture() returns.
   QSize picture_size(int scale) const;
 
   vtkHandleSetWidget* handle_widget() const { return this->handles_; }
   vtkRegionBrushWidget* brush_widget() const { return this->brush_; }
-  /// Convert a position of Qt to VTK's pixels, from the lower left.
+  /// Convert a Qt position to VTK's pixels, counted from the lower left corner.
   QPoint to_vtk(const QPoint& place) const;
-  /// Return the line of sight through a pixel of VTK (from the lower left): its start on the near
-  /// clipping plane, and its unit direction.
+  /// Return the line of sight through a pixel in VTK's coordinates (from the lower left corner):
+  /// its start on the near clipping plane, and its unit direction.
   void ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along) const;
   vtkRenderer* renderer() const { return this->renderer_; }
   vtkActor* surface_actor() const { return this->actor_; }
@@ -186,8 +193,9 @@ private:
   vtkNew<vtkRenderer> renderer_;
   vtkNew<bindpose::MovedSurfaceMapper> mapper_;
   vtkNew<vtkActor> actor_;
-  vtkNew<vtkRenderer> legend_; // in front, to the left: the color scale
-  vtkNew<vtkCamera> whole_camera_, split_camera_; // cameras before and after the view was halved
+  vtkNew<vtkRenderer> legend_; // renderer of the color scale, in front and on the left
+  // cameras before and after the view was split into halves
+  vtkNew<vtkCamera> whole_camera_, split_camera_;
   vtkNew<vtkHandleSetWidget> handles_;
   vtkNew<vtkRegionBrushWidget> brush_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
@@ -196,7 +204,7 @@ private:
   Eigen::VectorXd depths_;
   bindpose::Vec3 toward_ = bindpose::Vec3::UnitZ();
   std::optional<bindpose::Vec3> plane_;
-  // Over a picture: the same surface again, in the colors of its numbers.
+  // For a surface with a picture: draws the same surface again, in the colors of its values.
   vtkNew<vtkPolyDataMapper> tint_mapper_;
   vtkNew<vtkActor> tint_actor_;
   double tint_ = 0.5;
@@ -206,21 +214,22 @@ private:
   bindpose::Box also_shown_;
   int column_ = -1;
   QString column_name_;
-  bool has_values_ = false; // values are shown instead of the column
+  bool has_values_ = false; // values are displayed instead of the column
   std::map<LegendPlace, std::pair<QString, bindpose::ColorMap>> legends_;
   int look_ = solid;
   bool ghosted_ = false;
-  vtkRenderer* beside_ = nullptr; // in the right half; null: the view is whole
+  vtkRenderer* beside_ = nullptr; // renderer of the right half; null: the view is not split
   vtkSmartPointer<vtkPolyData> shape_beside_;
   QString left_name_, right_name_, state_name_;
   QElapsedTimer since_start_;
-  double last_drawn_ = -1e9, frame_seconds_ = 0.0; // smoothed
-  double picture_scale_ = 1.0; // pixels of the picture being taken per pixel of the window
+  // time of the last picture and smoothed time between pictures, in seconds
+  double last_drawn_ = -1e9, frame_seconds_ = 0.0;
+  double picture_scale_ = 1.0; // pixels of the picture that is being taken per pixel of the window
   bool refresh_pending_ = false;
   bool resizing_ = false;
   bool draws_on_processor_ = false;
   bool first_picture_ = false; // the next picture is the first one of its surface
-  QTimer settle_; // single shot after a drag
+  QTimer settle_; // single-shot timer that starts after a drag
 };
 
 #endif

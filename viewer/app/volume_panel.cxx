@@ -20,7 +20,7 @@ namespace
 {
 struct Fineness
 {
-  int samples; // along the longest side
+  int samples; // number of samples along the longest side
   const char* name;
 };
 constexpr Fineness finenesses[] = {
@@ -31,7 +31,7 @@ constexpr Fineness finenesses[] = {
 
 void keep_place(QWidget* widget)
 {
-  // Hidden widgets keep their space, so that nothing below them jumps.
+  // Hidden widgets keep their space, so that the widgets below them do not move.
   QSizePolicy policy = widget->sizePolicy();
   policy.setRetainSizeWhenHidden(true);
   widget->setSizePolicy(policy);
@@ -157,7 +157,8 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   QObject::connect(this->level_, &ValueRow::value_chosen, this,
     [this](double level)
     {
-      this->isosurface_->setChecked(true); // a user who moves the level expects to see it
+      // show the isosurface, because a user who moves the level expects to see it
+      this->isosurface_->setChecked(true);
       Q_EMIT this->level_chosen(level);
     });
   QObject::connect(this->cloud_, &QCheckBox::toggled, this, &VolumePanel::cloud_wanted);
@@ -187,7 +188,7 @@ void VolumePanel::set_state(bool has_surface, bool computing, bool has_volume)
   this->enable();
 }
 
-/// Enable the widgets that apply. Without a volume there is nothing to show.
+/// Enable the widgets that apply. Without a volume, widgets for display are disabled.
 void VolumePanel::enable()
 {
   for (QWidget* widget :

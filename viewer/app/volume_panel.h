@@ -11,9 +11,10 @@ class QProgressBar;
 class QPushButton;
 class ValueRow;
 
-/// The panel to the right of the picture for a volume of winding numbers. It computes the volume of
-/// a surface, and shows it by slice, isosurface and cloud. It also sets the look of the surface.
-/// Like SidePanel it only emits signals for requests of the user.
+/// The panel to the right of the picture for a volume of winding numbers. With it the user computes
+/// the volume of a surface, and shows the volume as a slice, an isosurface and a cloud (volume
+/// rendering). It also determines how the surface is drawn. Like SidePanel it emits signals when
+/// the user requests something, and has no state of the work.
 class VolumePanel : public QFrame
 {
   Q_OBJECT
@@ -21,12 +22,12 @@ class VolumePanel : public QFrame
 public:
   explicit VolumePanel(QWidget* parent = nullptr);
 
-  /// Set the state that determines what can be chosen.
+  /// Set the state that determines which widgets are enabled.
   void set_state(bool has_surface, bool computing, bool has_volume);
   void set_progress(double fraction, const QString& phase);
-  /// Set a line about the current or the last computation.
+  /// Set a line of text about the current or the last computation.
   void set_note(const QString& text);
-  /// Return the samples along the longest side of the next volume.
+  /// Return the number of samples along the longest side of the next volume.
   int samples() const;
   /// Set the range of a new volume's values. The level becomes 0.5, or the nearest value in the
   /// range.
@@ -40,12 +41,12 @@ Q_SIGNALS:
   void compute_wanted();
   void cancel_wanted();
   void slice_wanted(bool shown);
-  void orientation_chosen(int orientation); ///< a PlaneHandle::Orientation
+  void orientation_chosen(int orientation); ///< orientation: one of PlaneHandle::Orientation
   void position_chosen(double position);
   void isosurface_wanted(bool shown);
   void level_chosen(double level);
   void cloud_wanted(bool shown);
-  void surface_look_chosen(int look); ///< a Viewport::SurfaceLook
+  void surface_look_chosen(int look); ///< look: one of Viewport::SurfaceLook
   void close_wanted();
 
 private:

@@ -1,4 +1,5 @@
-// This class draws the slice, its colors and its contour. PlaneHandle moves and rotates the plane.
+// Shows a volume in the picture. This class draws the slice, its colors and its contour, the
+// isosurface and the cloud. PlaneHandle moves and rotates the plane of the slice.
 #include "volume_view.h"
 
 #include "viewport.h"
@@ -43,7 +44,7 @@ VolumeView::VolumeView(Viewport* viewport)
   this->slice_mapper_->InterpolateScalarsBeforeMappingOn();
   this->slice_mapper_->SetLookupTable(map.table);
   this->slice_mapper_->UseLookupTableScalarRangeOn();
-  // The contour has the depth of the slice and must be drawn in front of it.
+  // The contour has the same depth as the slice; draw it in front.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->slice_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->slice_actor_->SetMapper(this->slice_mapper_);
@@ -136,7 +137,8 @@ void VolumeView::update_slice()
   this->contour_actor_->SetVisibility(shown);
   if (shown)
   {
-    // Exactly on the border of the volume, flying edges find no cell to cut.
+    // Move a slice on the border of the volume slightly inside, because flying edges (VTK's filter)
+    // find no cell exactly on the border.
     const auto [first, last] = this->positions();
     const double inside =
       std::clamp(this->position(), first + 1e-6 * (last - first), last - 1e-6 * (last - first));

@@ -16,9 +16,9 @@ class vtkActor;
 class vtkPolyDataMapper;
 class vtkVolume;
 
-/// A volume of winding numbers in the picture while its panel is shown: a slice that the mouse
-/// drags, an isosurface, and a cloud. Each can be shown or hidden; all have the colors of the
-/// legend.
+/// Shows a volume of winding numbers in the picture while its panel is visible: a slice that the
+/// mouse drags, an isosurface, and a cloud (volume rendering). Each of them can be shown or hidden;
+/// all have the colors of the legend.
 class VolumeView : public QObject
 {
   Q_OBJECT
@@ -27,10 +27,10 @@ public:
   explicit VolumeView(Viewport* viewport);
 
   /// Set an image that bindpose::check_volume() accepts, with its smallest and largest value; null:
-  /// none. The slice keeps its relative position.
+  /// no volume. The slice keeps its relative position.
   void set_volume(vtkImageData* image, double lowest, double highest);
   vtkImageData* volume() const { return this->image_; }
-  /// Set whether the panel is shown. Otherwise nothing of the volume is drawn.
+  /// Set whether the panel is visible. If not, nothing of the volume is drawn.
   void set_active(bool active);
   bool is_active() const { return this->image_ && this->active_; }
   /// Report whether any part of the volume is drawn.
@@ -44,7 +44,7 @@ public:
   PlaneHandle* plane() const { return this->plane_; }
   bool is_slice_shown() const { return this->is_active() && this->slice_shown_; }
   double position() const { return this->plane_->position(); }
-  /// Return the smallest and the largest position at which the slice meets the volume.
+  /// Return the smallest and the largest position at which the slice touches the volume.
   std::pair<double, double> positions() const { return this->plane_->positions(); }
   bindpose::Vec3 slice_origin() const { return this->plane_->origin(); }
   bindpose::Vec3 slice_normal() const { return this->plane_->normal(); }
@@ -60,11 +60,11 @@ public:
 
 Q_SIGNALS:
   void volume_changed();
-  /// The slice has moved, for any reason.
+  /// Emitted when the slice has moved, for any reason.
   void slice_moved();
-  /// The area of the isosurface that is shown; 0 if the volume does not reach the level.
+  /// Emitted with the area of the displayed isosurface; 0 if the volume does not reach the level.
   void area_changed(double area);
-  /// Other parts of the volume are drawn, or none.
+  /// Emitted when other parts of the volume are drawn, or none.
   void shown_changed();
 
 private:
@@ -83,7 +83,7 @@ private:
   vtkNew<vtkPolyDataMapper> slice_mapper_;
   vtkNew<vtkActor> slice_actor_;
   vtkNew<vtkPolyDataMapper> contour_mapper_;
-  vtkNew<vtkActor> contour_actor_; // contour of the slice at 0.5
+  vtkNew<vtkActor> contour_actor_; // contour of the slice at the winding number 0.5
   bool slice_shown_ = true;
 
   vtkNew<vtkPolyDataMapper> isosurface_mapper_;
@@ -92,7 +92,7 @@ private:
   bool isosurface_shown_ = false;
   double level_ = 0.5;
 
-  vtkSmartPointer<vtkVolume> cloud_; // made when first shown
+  vtkSmartPointer<vtkVolume> cloud_; // created when it is shown for the first time
   bool cloud_shown_ = false;
 };
 

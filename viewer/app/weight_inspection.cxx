@@ -21,7 +21,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Format a number for a narrow label.
+/// Format a value for a narrow label.
 QString number(double value)
 {
   return QString::number(value, 'g', 2);
@@ -41,7 +41,7 @@ bool has_numbers(vtkDataSet* data, const char* name)
   return data && data->GetPointData()->HasArray(name) != 0;
 }
 
-/// Return the name of a method in the language of the window.
+/// Return the translated name of a method.
 QString name_of(const char* method)
 {
   return QCoreApplication::translate("WeightPanel", method);
@@ -158,7 +158,7 @@ void WeightInspection::update_facts()
   this->panel_->set_facts(facts);
 }
 
-/// Show what the panel requests.
+/// Show the data that the panel requests.
 void WeightInspection::update()
 {
   const bool shown = this->active_ && has_numbers(this->surface_, "Weights");
@@ -220,7 +220,8 @@ void WeightInspection::update()
   }
 }
 
-/// Return the certificate from the field arrays; for all handles, that of the worst one.
+/// Return a text about the optimality certificate of a column, from the field arrays; -1: of the
+/// worst column.
 QString WeightInspection::certificate(int column) const
 {
   vtkFieldData* fields = this->surface_ ? this->surface_->GetFieldData() : nullptr;
@@ -270,7 +271,7 @@ void WeightInspection::compare(int method)
   this->method_ = name_of(other.short_label);
   input.method = &other;
   input.preview = false;
-  // Use the same mesh, if it is known.
+  // Use the domain of the existing weights, if it is known.
   const std::string domain = read_report(this->surface_).text("domain");
   for (const WeightsDomain its :
     { WeightsDomain::surface, WeightsDomain::volume, WeightsDomain::embedding })
@@ -311,7 +312,7 @@ void WeightInspection::comparison_finished()
   add_weights(result, handles, this->compared_);
   this->compared_method_ = this->method_;
   this->compared_seconds_ = result.status.report.number("seconds.total", 0.0);
-  // If all handles were shown, choose the one that differs most.
+  // If the weights of all handles were displayed, choose the column with the largest difference.
   if (this->panel_->column() < 0)
   {
     const auto own = to_matrix(this->surface_->GetPointData()->GetArray("Weights"));

@@ -12,20 +12,20 @@
 class Viewport;
 class WeightPanel;
 
-/// Inspection of a surface's weights. It shows what the panel requests while the panel is visible,
-/// and solves with another method in the background.
+/// Inspection of a surface's weights. While the panel is visible, the class shows the data that the
+/// panel requests. It also computes weights with another method in the background, for comparison.
 class WeightInspection : public QObject
 {
   Q_OBJECT
 
 public:
-  /// Fills in the input of another bind of the same surface; returns false if handles are missing.
+  /// Sets the input of another bind of the same surface; returns false if handles are missing.
   using MakeInput = std::function<bool(BindInput&)>;
 
   WeightInspection(Viewport* viewport, WeightPanel* panel, MakeInput make_input);
 
-  /// Set a surface or its weights: the surface at rest (the array Weights is optional), the tets
-  /// with the same weights (null: none), and whether the handles of the columns are open.
+  /// Set the data to inspect: the surface at rest (the array Weights is optional), the tets with
+  /// the same weights (null: no tets), and whether the handles of the columns are open.
   void set_data(vtkPolyData* surface, vtkUnstructuredGrid* volume, bool has_handles);
   void move_surface(vtkPolyData* shape) { this->view_->move_surface(shape); }
   void set_active(bool active);
@@ -44,9 +44,9 @@ public:
 
 Q_SIGNALS:
   void surface_look_changed();
-  /// One sentence. The picture is unchanged.
+  /// Emitted with one sentence if the requested data cannot be shown; the picture is unchanged.
   void failed(const QString& sentence);
-  /// The requested data is shown.
+  /// Emitted when the requested data is shown.
   void succeeded();
 
 private:
@@ -68,7 +68,7 @@ private:
   BindJob job_;
   QString method_; // the method of the running comparison
   QString compared_method_;
-  vtkSmartPointer<vtkPolyData> compared_; // the surface with the other weights
+  vtkSmartPointer<vtkPolyData> compared_; // the surface with the weights of the other method
   double compared_seconds_ = 0.0;
 };
 
@@ -76,8 +76,8 @@ private:
 /// the point arrays Weights and RawWeights, the columns' certificates, and the seconds in the
 /// report.
 void add_weights(const BindResult& result, const bindpose::Handles& handles, vtkPolyData* surface);
-/// Return the tets that were solved on, with the same arrays; null if the surface itself was solved
-/// on.
+/// Return the tets on which the weights were solved, with the same arrays; null if the weights were
+/// solved on the surface itself.
 vtkSmartPointer<vtkUnstructuredGrid> make_weighted_tets(
   const BindResult& result, const bindpose::Handles& handles);
 

@@ -150,7 +150,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->bar_ = new QProgressBar(this);
   this->bar_->setRange(0, 1000);
   this->bar_->setTextVisible(false);
-  // Hidden widgets keep their space, so that nothing below them jumps.
+  // Hidden widgets keep their space, so that the widgets below them do not move.
   QSizePolicy keeps_place = this->bar_->sizePolicy();
   keeps_place.setRetainSizeWhenHidden(true);
   this->bar_->setSizePolicy(keeps_place);
@@ -245,7 +245,7 @@ void WeightPanel::set_facts(const Facts& facts)
   for (QWidget* inside : { static_cast<QWidget*>(this->inside_),
          static_cast<QWidget*>(this->slice_), static_cast<QWidget*>(this->position_) })
   {
-    inside->setVisible(!facts.has_picture); // a picture has no inside
+    inside->setVisible(!facts.has_picture); // hide the switch for inside: a picture has no inside
   }
   for (QAbstractButton* orientation : this->orientations_->buttons())
   {
@@ -260,7 +260,8 @@ void WeightPanel::set_facts(const Facts& facts)
   this->enable();
 }
 
-/// Enable the widgets that apply to what is available and shown. Disabled widgets show the reason.
+/// Enable the widgets that apply to the available and the displayed data. Tooltips of disabled
+/// widgets state the reason.
 void WeightPanel::enable()
 {
   const QString none = this->facts_.has_weights

@@ -21,15 +21,15 @@ class vtkDataSet;
 /// weights, from their report; -1: unknown.
 int method_of_weights(vtkDataSet* surface);
 
-/// The panel to the right of the picture to inspect weights: which weights, how they are shown, how
-/// another method differs, and a slice through their volume. Like SidePanel it only emits signals
-/// for requests of the user.
+/// The panel to the right of the picture for inspecting weights. It chooses the displayed quantity,
+/// the type of display, the other method for comparison, and a slice through the volume. Like
+/// SidePanel it emits signals when the user requests something, and has no state of the work.
 class WeightPanel : public QFrame
 {
   Q_OBJECT
 
 public:
-  /// The shown quantity, in the order of its buttons.
+  /// The displayed quantity, in the order of its buttons.
   enum What
   {
     weights,
@@ -41,15 +41,15 @@ public:
 
   /// Set the names of the columns. The chosen column is kept by name.
   void set_columns(const QStringList& names);
-  /// The state that determines what can be chosen.
+  /// The state that determines which widgets are enabled.
   struct Facts
   {
     bool has_weights = false;
     bool has_raw = false;
-    /// The handles of the columns are open, so that another method can solve.
+    /// The handles of the columns are open, so that another method can compute weights.
     bool has_handles = false;
     bool has_volume = false;
-    bool has_picture = false; ///< the colors are drawn over a picture
+    bool has_picture = false; ///< the surface has a picture, over which the colors are drawn
     bool comparing = false;
     bool compared = false;
     int method =
@@ -60,13 +60,13 @@ public:
   void set_certificate(const QString& text);
   void set_extrema(const QString& text);
   void set_progress(double fraction, const QString& phase);
-  /// Set the two lines about the difference of the other method.
+  /// Set the two lines about the difference between the weights of both methods.
   void set_comparison(const QString& text);
   void set_position(double position, double lowest, double highest);
 
   int what() const;
   void show_what(int what);
-  /// Return the chosen column; -1: all.
+  /// Return the selected column; -1: all columns.
   int column() const;
   void choose_column(int column);
   bool raw() const;
@@ -76,16 +76,16 @@ public:
   bool slice() const;
 
 Q_SIGNALS:
-  /// The opacity of the colors over the picture, 0 to 1.
+  /// Emitted with the opacity of the colors over the picture, 0 to 1.
   void tint_chosen(double share);
-  /// Another column is shown; -1: all.
+  /// Emitted when another column was selected; -1: all columns.
   void column_chosen(int column);
-  /// The result of any getter has changed.
+  /// Emitted when the result of any getter has changed.
   void look_changed();
   /// An index of bindpose::weight_methods().
   void comparison_wanted(int method);
   void cancel_wanted();
-  void orientation_chosen(int orientation); ///< a PlaneHandle::Orientation
+  void orientation_chosen(int orientation); ///< orientation: one of PlaneHandle::Orientation
   void position_chosen(double position);
 
 private:
@@ -100,7 +100,7 @@ private:
   QCheckBox* isolines_;
   QCheckBox* extrema_;
   QLabel* extrema_note_;
-  QWidget* tint_row_; ///< for surfaces with a picture
+  QWidget* tint_row_; ///< the slider of the opacity, shown for surfaces with a picture
   ValueRow* tint_;
   QComboBox* method_;
   QPushButton* compare_;

@@ -1,6 +1,6 @@
-// Values are computed on the surface at rest and copied to its drawn points. Sharp edges have
-// several drawn points per vertex. A pose moves only isolines and balls. The slice belongs to the
-// tets at rest.
+// Draws weights. Values are computed on the surface at rest and copied to its drawn points, because
+// vertices on sharp edges have several drawn points. When the pose changes, only isolines and balls
+// are moved. The slice belongs to the tets at rest.
 #include "weight_view.h"
 
 #include "viewport.h"
@@ -30,7 +30,7 @@ WeightView::WeightView(Viewport* viewport)
   this->slice_mapper_->SetColorModeToMapScalars();
   this->slice_mapper_->UseLookupTableScalarRangeOn();
   this->slice_mapper_->SelectColorArray(color_array_name);
-  // Lines have the depth of the surface under them and must be drawn in front of it.
+  // Lines have the same depth as the surface under them; draw them in front.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->slice_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->slice_actor_->SetMapper(this->slice_mapper_);
@@ -56,7 +56,7 @@ WeightView::WeightView(Viewport* viewport)
   {
     renderer->AddActor(actor);
   }
-  this->balls_.face(Vec3::Zero()); // there are none yet
+  this->balls_.face(Vec3::Zero()); // initialize; there are no balls yet
   renderer->AddObserver(vtkCommand::StartEvent, this, &WeightView::before_drawing);
   this->plane_->draw_box(false); // the surface shows its extent
   QObject::connect(this->plane_, &PlaneHandle::moved, this,
@@ -153,7 +153,7 @@ void WeightView::show_surface()
   if (this->options_.slice)
   {
     this->viewport_->show_values(nullptr, true, name, this->coloring_.map);
-    return; // colors of the surface would be mistaken for those of the slice
+    return; // no colors on the surface, because they would be mistaken for those of the slice
   }
   vtkPolyData* drawn = this->viewport_->drawn();
   bool on_points = true;
@@ -194,7 +194,8 @@ void WeightView::update_slice()
   this->slice_actor_->SetVisibility(shown);
   if (shown)
   {
-    // At the lower end of the box the tets only touch the plane.
+    // Move the plane slightly inside of the box, because at its lower end the tets only touch the
+    // plane.
     const auto [first, last] = this->plane_->positions();
     const double inside = std::clamp(
       this->plane_->position(), first + 1e-6 * (last - first), last - 1e-6 * (last - first));

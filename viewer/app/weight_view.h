@@ -20,9 +20,9 @@
 
 class Viewport;
 
-/// Weights in the picture: on the surface, posed or at rest, in bands with isolines and with balls
-/// at their extrema; and inside, on a plane that the mouse drags. PictureOptions determine what is
-/// shown, as in `bindpose render`.
+/// Shows weights in the picture. They are shown on the surface, posed or at rest, in bands with
+/// isolines and with balls at their extrema. They are also shown on a plane through the inside that
+/// the mouse drags. PictureOptions determine the display, as in `bindpose render`.
 class WeightView : public QObject
 {
   Q_OBJECT
@@ -30,15 +30,15 @@ class WeightView : public QObject
 public:
   explicit WeightView(Viewport* viewport);
 
-  /// Set the surface at rest, as the viewport has it, and the tets that were solved on, both with
-  /// weights; null: none.
+  /// Set the surface at rest, as the viewport has it, and the tets on which the weights were
+  /// solved, both with weights; null: no data.
   void set_data(vtkPolyData* surface, vtkUnstructuredGrid* volume);
-  /// Move the points of the same surface: a pose.
+  /// Move the points to those of `shape`, a pose of the surface.
   void move_surface(vtkPolyData* shape);
 
-  /// Show the weights. The options that count are array, component, color_by, minus, bands,
-  /// isolines, extrema and slice. Return an error, and show the plain surface, if the data has no
-  /// such numbers.
+  /// Show the weights. The options that are used are `array`, `component`, `color_by`, `minus`,
+  /// `bands`, `isolines`, `extrema` and `slice`. If the data has no such values, return an error
+  /// and show the plain surface.
   bindpose::Status show(const bindpose::PictureOptions& options);
   void hide();
   bool is_shown() const { return this->shown_; }
@@ -47,17 +47,17 @@ public:
   PlaneHandle* plane() const { return this->plane_; }
 
   const bindpose::Coloring& coloring() const { return this->coloring_; }
-  /// Return numbers about the shown data; see render_to_png().
+  /// Return statistics of the displayed data; see render_to_png().
   const bindpose::Report& numbers() const { return this->coloring_.numbers; }
-  /// Return the extrema of the surface. While tets are sliced, return those of all tets; the
-  /// surface is then plain.
+  /// Return the extrema on the surface. While the tets are sliced, return those of all tets; the
+  /// surface then has no colors.
   const std::vector<bindpose::Extremum>& extrema() const { return this->extrema_; }
   vtkPolyData* slice() const { return this->slice_; }
   /// Return the isolines on the surface.
   vtkPolyData* isolines() const { return this->isolines_[0]; }
 
 Q_SIGNALS:
-  /// The plane has moved, for any reason.
+  /// Emitted when the plane has moved, for any reason.
   void plane_moved();
 
 private:
@@ -72,7 +72,8 @@ private:
   vtkSmartPointer<vtkPolyData> surface_; // at rest
   vtkSmartPointer<vtkPolyData> shape_; // posed
   vtkSmartPointer<vtkUnstructuredGrid> volume_;
-  vtkSmartPointer<vtkUnstructuredGrid> volume_values_; // with the shown number only
+  // its only array contains the displayed values
+  vtkSmartPointer<vtkUnstructuredGrid> volume_values_;
   bindpose::PictureOptions options_;
   bindpose::Coloring coloring_;
   bool shown_ = false;
@@ -82,7 +83,7 @@ private:
   vtkSmartPointer<vtkPolyData> slice_;
   vtkNew<vtkPolyDataMapper> slice_mapper_;
   vtkNew<vtkActor> slice_actor_;
-  // 0: of the surface. 1: of the slice.
+  // Element 0 contains the isolines on the surface, element 1 those on the slice.
   std::array<vtkNew<vtkPolyData>, 2> isolines_;
   std::array<vtkNew<vtkPolyDataMapper>, 2> isoline_mappers_;
   std::array<vtkNew<vtkActor>, 2> isoline_actors_;

@@ -111,7 +111,8 @@ void WindingVolume::finish()
     Q_EMIT this->failed(
       tr("Cannot compute winding numbers: %1.").arg(QString::fromStdString(status.message)));
   }
-  else if (this->surface_ == this->document_->work().surface) // not if another one was opened
+  // skipped if another surface was opened meanwhile
+  else if (this->surface_ == this->document_->work().surface)
   {
     const int* size = volume->GetDimensions();
     double range[2];

@@ -14,19 +14,20 @@ class Document;
 class VolumePanel;
 
 /// Computes the winding numbers of the open surface on a grid around it, as `bindpose winding`
-/// does. It works in the background and opens the result as the document's volume, in one step.
+/// does. The computation runs in the background. Its result becomes the document's volume, in one
+/// undo step.
 class WindingVolume : public QObject
 {
   Q_OBJECT
 
 public:
-  /// The panel requests the computation and shows its progress.
+  /// `panel` requests the computation and shows its progress.
   WindingVolume(Document* document, VolumePanel* panel, QObject* parent);
 
   void start();
   void cancel() { this->job_.cancel(); }
   bool is_running() const { return this->job_.is_running(); }
-  /// Update what can be done in the panel.
+  /// Update which widgets of the panel are enabled.
   void update();
 
 Q_SIGNALS:
@@ -38,7 +39,7 @@ private:
 
   Document* document_;
   VolumePanel* panel_;
-  const void* surface_ = nullptr; ///< the surface for which it is computed
+  const void* surface_ = nullptr; ///< the surface for which the volume is computed
   std::shared_ptr<vtkSmartPointer<vtkImageData>> made_;
   KernelJob job_; // last member, so that it ends before the data it works on is destroyed
 };

@@ -54,14 +54,14 @@ using namespace bindpose;
 
 namespace
 {
-/// Scroll the enclosing areas until the widget and a little below it are visible.
+/// Scroll the enclosing scroll areas until the widget and a margin below it are visible.
 void scroll_to(QWidget* widget)
 {
   for (QWidget* each = widget; each; each = each->parentWidget())
   {
     if (auto* area = qobject_cast<QScrollArea*>(each))
     {
-      constexpr int after = 150; // pixels
+      constexpr int after = 150; // margin in pixels
       area->ensureWidgetVisible(widget, 0, after);
     }
   }
@@ -136,7 +136,8 @@ void WindowHand::send(QEvent::Type type, const QPoint& at, Qt::MouseButton butto
 
 void WindowHand::press(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held)
 {
-  this->window_->viewport()->setFocus(Qt::MouseFocusReason); // as a click does
+  // a click on the picture gives it the focus
+  this->window_->viewport()->setFocus(Qt::MouseFocusReason);
   this->buttons_ |= button;
   this->send(QEvent::MouseButtonPress, at, button, this->buttons_, held);
 }
@@ -164,7 +165,7 @@ void WindowHand::double_click(const QPoint& at, Qt::MouseButton button, Qt::Keyb
 void WindowHand::wheel(const QPoint& at, double turns, Qt::KeyboardModifiers held)
 {
   Viewport* viewport = this->window_->viewport();
-  constexpr int notch = 120; // eighths of a degree
+  constexpr int notch = 120; // angle of one wheel notch in eighths of a degree (Qt's unit)
   const QPoint angle(0, static_cast<int>(std::lround(notch * turns)));
   QWheelEvent event(
     at, viewport->mapToGlobal(at), QPoint(), angle, this->buttons_, held, Qt::NoScrollPhase, false);
@@ -173,7 +174,8 @@ void WindowHand::wheel(const QPoint& at, double turns, Qt::KeyboardModifiers hel
 
 void WindowHand::leave()
 {
-  if (this->buttons_ == Qt::NoButton) // while a button is pressed, the picture keeps the mouse
+  // while a button is pressed, the picture keeps the mouse and is not left
+  if (this->buttons_ == Qt::NoButton)
   {
     QEvent event(QEvent::Leave);
     QApplication::sendEvent(this->window_->viewport(), &event);
@@ -263,8 +265,8 @@ QString WindowHand::press_key(const QString& keys)
   const QString text = letter
     ? (held & Qt::ShiftModifier ? QString(QChar(key)) : QString(QChar(key)).toLower())
     : QString();
-  // As in Qt, a field in which the user is typing receives the key before the shortcuts of the
-  // menus.
+  // Send the key to the focused field first. In Qt, a field in which the user is typing receives a
+  // key before the shortcuts of the menus.
   QKeyEvent first(QEvent::ShortcutOverride, key, held, text);
   first.ignore();
   QApplication::sendEvent(focus, &first);
@@ -331,7 +333,7 @@ QString WindowHand::push(const QString& text)
     name.remove('&');
     while (!name.isEmpty() && !name[0].isLetterOrNumber())
     {
-      name.remove(0, 1); // removes the mark of a section
+      name.remove(0, 1); // removes the mark in front of a section's name
     }
     if (name != text || !each->isVisible())
     {
@@ -420,7 +422,7 @@ QString WindowHand::choose(const QString& key, const QVariant& value)
 
 const QStringList& WindowHand::panel_names()
 {
-  // The names are in the order of PanelColumn::Panel.
+  // The names are in the same order as PanelColumn::Panel.
   static const QStringList names{ "pose", "weights", "tets", "volume" };
   return names;
 }
@@ -506,7 +508,7 @@ bool wait_until(const std::function<bool()>& condition, double seconds)
 {
   QElapsedTimer clock;
   clock.start();
-  QTimer wake; // the condition may become true without an event
+  QTimer wake; // wakes the event loop, because the condition may become true without an event
   wake.start(5);
   while (!condition())
   {

@@ -13,18 +13,19 @@
 class MainWindow;
 class QAction;
 
-/// Simulates a user in the window, for tours and tests: mouse events on the picture, keys, menu
-/// entries, buttons and options. Each action uses the widget that a user would use. An action that
-/// is impossible for a user, because a widget is disabled or missing, returns one sentence.
+/// Simulates a user of the window, for tours and tests: mouse events on the picture, keys, menu
+/// entries, buttons and options. Each action uses the widget that a user would use. If a user could
+/// not perform an action, because a widget is disabled or missing, the function returns a sentence
+/// with the reason.
 class WindowHand
 {
 public:
   explicit WindowHand(MainWindow* window) : window_(window) {}
 
   // ---- The mouse on the picture; positions in pixels from its upper left corner ----
-  QPoint place(double x, double y) const; ///< from fractions of its width and height
-  /// Find a point of a posed handle between its head (0) and its tail (1). Return a sentence if
-  /// there is no such handle.
+  QPoint place(double x, double y) const; ///< convert fractions of the picture's width and height
+  /// Find the screen position of a posed handle, between its head (`along` is 0) and its tail (1).
+  /// Return a sentence if there is no such handle.
   QString place_of(const QString& handle, double along, QPoint& at) const;
   /// Find the position where a part of the selected handle's gizmo is best grabbed. Return a
   /// sentence if it is not visible.
@@ -36,7 +37,7 @@ public:
   void wheel(const QPoint& at, double turns, Qt::KeyboardModifiers held = {});
   /// Move the mouse off the picture, as a user does before using another widget.
   void leave();
-  /// Scrub with the mouse on the track of the key frames.
+  /// Drag the mouse on the track of the key frames to this time.
   void scrub(double seconds);
   /// Return the buttons that are pressed.
   Qt::MouseButtons buttons() const { return this->buttons_; }
@@ -51,13 +52,14 @@ public:
   QString press_key(const QString& keys);
   /// Trigger an action by its object name.
   QString trigger(const QString& action);
-  /// Click a visible button by its text, without the marks of menus and sections.
+  /// Click a visible button by its text, without the ampersands of menus and the marks in front of
+  /// section names.
   QString push(const QString& text);
-  /// Choose an option with the widget that has the option's key as its name.
+  /// Choose a value of an option with the widget whose object name is the option's key.
   QString choose(const QString& option, const QVariant& value);
   QString show_panel(const QString& name);
   QString select(const QString& handle);
-  /// Set the mode of the selected handles: a word of bindpose::handle_mode_words.
+  /// Set the mode of the selected handles; `mode` is one of bindpose::handle_mode_words.
   QString set_mode(const QString& mode);
   static const QStringList& panel_names();
 
@@ -66,7 +68,7 @@ public:
   QAction* action(const QString& name) const;
 
 private:
-  int number_of(const QString& handle) const; ///< -1: there is none
+  int number_of(const QString& handle) const; ///< index of a handle by name; -1: no such handle
   QPoint from_display(const double* pixel) const;
   void send(QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::MouseButtons held,
     Qt::KeyboardModifiers keys);
@@ -75,11 +77,12 @@ private:
   Qt::MouseButtons buttons_;
 };
 
-/// Report whether nothing runs in the background, nothing plays, and the shape is that of the pose.
+/// Report whether nothing runs in the background, nothing plays, and the displayed shape is that of
+/// the pose.
 bool is_idle(const MainWindow* window);
 
-/// Run the event loop until the condition is true. It is checked after every event and every few
-/// milliseconds. Return false if it is not true after this many seconds.
+/// Run the event loop until the condition is true. The condition is checked after every event and
+/// every few milliseconds. Return false if it is not true after this many seconds.
 bool wait_until(const std::function<bool()>& condition, double seconds);
 
 #endif

@@ -8,19 +8,20 @@
 #include <string>
 #include <vector>
 
-// All keys and mouse buttons of the window in one table. Actions take their shortcuts from it. The
-// shortcut sheet and `bindpose key-table` show it together with the bindings of the widgets. It
-// does not use Qt, because the program without the window contains it, too.
+// All keys and mouse buttons of the window in one table. Actions read their shortcuts from the
+// table. The shortcut sheet and `bindpose key-table` show it together with the bindings of the
+// widgets. It does not use Qt, because the program without the window contains it, too.
 
 namespace bindpose
 {
 
 struct WindowKey
 {
-  const char* action; ///< name by which the window finds its keys; "" for rows that are only shown
-  const char* when; ///< heading in the sheet
-  const char* input; ///< as shown to users, and as QKeySequence reads it; ", " separates several
-  const char* text; ///< the effect of the input
+  const char* action; ///< name of the action that uses the keys; "" for rows that are only
+                      ///< documentation
+  const char* when; ///< heading of the group in the shortcut sheet
+  const char* input; ///< keys as shown to users and read by QKeySequence; ", " separates several
+  const char* text; ///< the effect of the keys
 };
 
 constexpr std::array<WindowKey, 46> window_keys{ {
@@ -98,11 +99,12 @@ inline std::string keys_of(const char* action)
 struct KeyGroup
 {
   std::string when;
-  /// Input and its effect.
+  /// Pairs of keys or buttons and their effect.
   std::vector<std::pair<std::string, std::string>> rows;
 };
 
-/// Return the keys of the window and of the widgets, grouped by when they apply, in reading order.
+/// Return the keys of the window and of the widgets, in the order in which they are shown. They are
+/// grouped by the situations in which they apply.
 inline std::vector<KeyGroup> all_keys()
 {
   std::vector<KeyGroup> groups;

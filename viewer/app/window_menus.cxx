@@ -49,8 +49,8 @@ QString word_of(QString text)
   return text.endsWith('_') ? text.chopped(1) : text;
 }
 
-/// Set object names of the entries, for tours and tests. They consist of the texts of the menus and
-/// of the entry: "edit.bind", "view.appearance.dark".
+/// Set object names of the menu entries, for tours and tests. A name consists of the texts of the
+/// menus and of the entry: "edit.bind", "view.appearance.dark".
 void name_actions(const QList<QAction*>& entries, const QString& menu)
 {
   for (QAction* entry : entries)

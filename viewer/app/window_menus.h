@@ -8,8 +8,7 @@ class QAction;
 class QActionGroup;
 class QMenu;
 
-/// The menus of the window, with the entries that can be chosen enabled. window_keys.h defines the
-/// keys.
+/// The menus of the window. Entries that do not apply are disabled. window_keys.h defines the keys.
 class WindowMenus : public QObject
 {
   Q_OBJECT
@@ -17,7 +16,7 @@ class WindowMenus : public QObject
 public:
   explicit WindowMenus(MainWindow* window);
 
-  /// Update which entries can be chosen.
+  /// Update which entries are enabled.
   void update();
   void show_method(int method);
 

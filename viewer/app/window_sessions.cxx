@@ -87,7 +87,7 @@ void WindowSessions::show(const Session& session)
   this->window_->viewport()->refresh();
 }
 
-/// Show the notes of a session, with a button to locate a missing file.
+/// Show the messages of a session, with a button to locate a missing file.
 void WindowSessions::show_notes(const Session& session)
 {
   this->missing_->hide();
@@ -250,7 +250,7 @@ void WindowSessions::offer_recovery(const QString& root)
   const auto discard = [this, root]
   {
     this->recovered_->remove();
-    this->offer_recovery(root); // there may be another one
+    this->offer_recovery(root); // offer the work of another crashed process, if there is any
   };
   this->recovery_->offer(
     tr("Bindpose did not close properly. The work from %1 can be restored.").arg(when),
@@ -278,7 +278,7 @@ void WindowSessions::recover()
   this->window_->update_title();
   if (this->autosave_.save().ok())
   {
-    this->recovered_->remove(); // the folder of this process contains it now
+    this->recovered_->remove(); // the folder of this process now contains the recovered work
   }
   this->recovered_.reset();
 }

@@ -13,32 +13,34 @@ class NoticeBar;
 class QMenu;
 class OptionLinks;
 
-/// The session files of the window: open, save, and the question before changes are lost; recent
-/// files; autosave, and recovery after a crash.
+/// The session files of the window: open, save, and the question before changes are lost; the list
+/// of recent files; autosave, and recovery after a crash.
 class WindowSessions : public QObject
 {
   Q_OBJECT
 
 public:
-  /// `recovery` and `missing` are bars of the window.
+  /// `recovery` offers recovered work, `missing` shows missing files; both are bars of the window.
   WindowSessions(MainWindow* window, OptionLinks* links, NoticeBar* recovery, NoticeBar* missing);
   ~WindowSessions() override;
 
-  /// Open a session in place of the work. Return false if it cannot be read, with a sentence, or if
-  /// the user keeps the work.
+  /// Open a session in place of the current work. Return false, and show a sentence, if it cannot
+  /// be read. Also return false if the user decides to keep the current work.
   bool open(const QString& path);
   /// Save the session; ask for a name if it has none yet. Return false if nothing was written.
   bool save();
   bool save_as();
   bool write(const QString& path);
-  /// Report whether the work can be closed: nothing would be lost, or the user agrees.
+  /// Report whether the work can be closed: it has no unsaved changes, or the user agrees to lose
+  /// them.
   bool may_go();
   /// Return the path of the session file; empty if there is none.
   QString path() const { return this->path_; }
-  /// Show the bar if a crashed process has left work.
+  /// Show the recovery bar if a crashed process has left work.
   void offer_recovery(const QString& root = QString());
   Autosave* autosave() { return &this->autosave_; }
-  /// Return the name for the title: that of the session, otherwise that of the open data.
+  /// Return the name for the window title: that of the session, or that of the open data if there
+  /// is no session.
   QString name() const;
   void fill_recent(QMenu* menu);
 

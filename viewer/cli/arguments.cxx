@@ -27,7 +27,8 @@ std::vector<std::string> split(const std::string& text, char separator)
   return words;
 }
 
-/// @return the integers or numbers of "1,2,3"; empty if a word is not one
+/// Parse "1,2,3".
+/// @return the integers or numbers; empty if a word is not a number
 std::vector<double> parse_numbers(const std::string& text, bool integers)
 {
   std::vector<double> numbers;
@@ -47,7 +48,8 @@ std::vector<double> parse_numbers(const std::string& text, bool integers)
   return numbers;
 }
 
-/// What a numeric option allows: "an integer, at least 2", "3 numbers with commas between".
+/// Return the allowed values of a numeric option as a phrase: "an integer, at least 2", "3 numbers
+/// with commas between".
 std::string expected_numbers(const Option& option)
 {
   const bool integers = option.kind == OptionKind::integer || option.kind == OptionKind::integers;
@@ -57,7 +59,8 @@ std::string expected_numbers(const Option& option)
   return text + (option.values[0] ? std::string(" (") + option.values + ")" : "");
 }
 
-/// @return the error sentence for a word that the option does not allow; empty if it is valid
+/// Check a word as the value of a numeric option.
+/// @return the error sentence if the option does not allow the word; empty if it is valid
 std::string number_error(const Option& option, const std::string& word)
 {
   const bool integers = option.kind == OptionKind::integer || option.kind == OptionKind::integers;
@@ -195,11 +198,12 @@ std::string unexpected_argument(const Verb& verb, const std::vector<std::string>
   return "unexpected argument '" + rest.front() + "'; expected positional arguments: " + files;
 }
 
-/// @return the error sentence for the first option that was typed although the method does not use
-/// it; empty if there is none
+/// Check that the selected method uses all options that were typed.
+/// @return the error sentence for the first option that it does not use; empty if there is none
 std::string unused_option(const Verb& verb, const Arguments& arguments)
 {
-  // A body with mass uses options of as-rigid-as-possible, whatever the method is.
+  // A dynamic body uses options of as-rigid-as-possible, whatever the method is, so they cannot be
+  // checked.
   if (!arguments.has("method") || arguments.has("dynamics"))
   {
     return {};

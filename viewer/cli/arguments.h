@@ -9,7 +9,8 @@
 namespace bindpose::cli
 {
 
-/// The words of the command line by the keys of the option table, with defaults filled in.
+/// The values of the command line, as words, by the keys of the option table. Defaults are filled
+/// in.
 class Arguments
 {
 public:
@@ -28,9 +29,10 @@ public:
   const std::vector<std::string>& list(const std::string& key) const;
   int integer(const std::string& key) const { return std::stoi(this->text(key)); }
   double number(const std::string& key) const { return std::stod(this->text(key)); }
-  /// Return the numbers of "X,Y,Z".
+  /// Return the numbers of an option "X,Y,Z".
   std::vector<double> numbers(const std::string& key) const;
-  /// Return the number of the word that was typed; the parser has checked that it is one of them.
+  /// Return the integer that `values_of_words` assigns to the typed word. The parser has checked
+  /// that the word is allowed.
   int choice(const std::string& key, const std::map<std::string, int>& values_of_words) const
   {
     return values_of_words.at(this->text(key));

@@ -1,6 +1,7 @@
-// All threads block the signals, and one thread waits for them, so it can run any code. A signal
-// handler would not be sufficient: METIS replaces the handler of SIGTERM while it orders a matrix,
-// ends the ordering and loses the signal. Child processes get an empty mask.
+// Handles SIGINT and SIGTERM. All threads block these signals, and one thread waits for them, so
+// this thread can run any code. A signal handler would not be sufficient: METIS replaces the
+// handler of SIGTERM while it orders a matrix, ends the ordering and loses the signal. Child
+// processes get an empty signal mask.
 #include "cli/interrupt.h"
 
 #include "io/atomic_file.h"
@@ -42,7 +43,8 @@ void block(int, char**, char**)
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
 }
 
-/// Runs before the constructors of libraries. Some of them start threads, which inherit the mask.
+/// Block the signals before the constructors of libraries run. Some constructors start threads,
+/// which inherit the signal mask.
 __attribute__((section(".preinit_array"), used)) void (*const block_first)(
   int, char**, char**) = block;
 
@@ -59,7 +61,7 @@ void watch()
     }
     if (released)
     {
-      // Restore the default action.
+      // Restore the default action of the signal.
       std::signal(number, SIG_DFL);
       pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
       kill(getpid(), number);

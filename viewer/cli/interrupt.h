@@ -13,14 +13,14 @@ namespace bindpose::cli
 /// function is called. Call it once.
 void catch_interrupts();
 
-/// Let signals end the program again, as they do by default; for windows, which have no work to
-/// cancel.
+/// Let signals end the program again, as they do by default. Call this when the window opens,
+/// because it has no work to cancel.
 void release_interrupts();
 
 /// Report whether a signal has arrived.
 bool interrupted();
 
-/// Aborts the algorithm if a signal arrives during the lifetime of this object.
+/// Aborts an algorithm if a signal arrives while this object exists.
 class AbortOnInterrupt
 {
 public:

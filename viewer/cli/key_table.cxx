@@ -1,5 +1,5 @@
-// One table per group, in the order of app/window_keys.h, from which the window itself gets its
-// keys.
+// Writes the keys of the window as Markdown, one table per group. The groups and keys are read from
+// app/window_keys.h, which the window itself uses.
 #include "cli/key_table.h"
 
 #include "app/window_keys.h"

@@ -1,5 +1,5 @@
-// The program bindpose: parses the command line, runs the verb, and returns its exit code: 0 done,
-// 1 usage, 2 bad input, 3 not converged, 4 canceled, 5 internal.
+// The program bindpose: parses the command line, runs the verb (subcommand), and returns the exit
+// code: 0 success, 1 usage error, 2 invalid input, 3 not converged, 4 canceled, 5 internal error.
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
 #include "cli/key_table.h"
@@ -59,12 +59,13 @@ void run(Session& session)
 int main(int argc, char** argv)
 {
   catch_interrupts();
-  // A write beyond the file size limit must fail instead of ending the program. The helper inherits
-  // this.
+  // If the file size limit is exceeded, writing must return an error instead of ending the program.
+  // The helper process inherits this setting.
   std::signal(SIGXFSZ, SIG_IGN);
   vtkNew<SilentOutputWindow> silent;
   vtkOutputWindow::SetInstance(silent);
-  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it does not use the output window
+  // the logger does not use the output window
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   Arguments arguments;
   const int early = parse_arguments(argc, argv, arguments);
   if (early >= 0)
@@ -90,8 +91,8 @@ int main(int argc, char** argv)
     session.fail(Status::failure(StatusCode::internal_error, error.what()));
   }
   const int code = session.finish();
-  // Skip the clean-up of libraries: OpenBLAS waits forever for threads that could not be started
-  // (ulimit -v).
+  // Exit without the clean-up of libraries: OpenBLAS would wait forever for threads that could not
+  // be started (ulimit -v).
   std::cout.flush();
   std::fflush(nullptr);
   std::_Exit(code);

@@ -11,14 +11,14 @@ enum class OptionKind
 {
   flag,
   text,
-  choice, ///< one of the words in choices
+  choice, ///< one of the words in `choices`
   integer,
   number,
   integers, ///< `length` integers with commas between
   numbers ///< `length` numbers with commas between
 };
 
-/// Limits of a number.
+/// The range of a number.
 struct Range
 {
   double lowest;
@@ -37,21 +37,23 @@ struct Range
 struct Option
 {
   const char* name; ///< "--resolution", "-o,--output" or "SURFACE"
-  const char* value; ///< the word for the value in --help; empty for flags and positional arguments
+  const char* value; ///< placeholder of the value in --help; empty for flags and positional
+                     ///< arguments
   OptionKind kind;
-  const char* fallback; ///< default, as typed; empty if there is none
-  const char* choices; ///< "auto|exact"
+  const char* fallback; ///< default value, as typed; empty if there is none
+  const char* choices; ///< allowed words, such as "auto|exact"
   const char* help;
-  const char* values; ///< unit and range: "degrees, 0 to 20"
-  const char* methods; ///< choices of --method that use the option: "cdt|wrap"; empty if all do
+  const char* values; ///< unit and range, such as "degrees, 0 to 20"
+  const char* methods; ///< values of --method that use the option, such as "cdt|wrap"; empty if all
+                       ///< do
   bool required;
   bool repeated; ///< takes one or more values
   const char* unless; ///< flag that makes a required option optional
   Range range;
-  int length; ///< count of integers or numbers
+  int length; ///< number of integers or numbers
 
   bool positional() const { return this->name[0] != '-'; }
-  /// Return the name that Arguments uses: "resolution", "output", "SURFACE".
+  /// Return the key of the option in Arguments: "resolution", "output", "SURFACE".
   std::string key() const
   {
     const std::string names = this->name;
@@ -64,11 +66,11 @@ struct Verb
 {
   const char* name;
   const char* summary;
-  std::vector<Option> options; ///< without the common ones
+  std::vector<Option> options; ///< without the options that all verbs have
 };
 
-/// Return every verb with its options: the table from which parsing, --help and the documentation
-/// are made. It is generated from the descriptions of options, see filters/options/README.md.
+/// Return every verb with its options. Parsing, --help and the documentation use this table. It is
+/// generated from the descriptions of options, see filters/options/README.md.
 const std::vector<Verb>& verbs();
 /// Return the options that every verb has.
 const std::vector<Option>& common_options();

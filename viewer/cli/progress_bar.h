@@ -7,8 +7,8 @@
 namespace bindpose::cli
 {
 
-/// One line on the standard error: a bar, the percentage, and the phase's name. It draws nothing if
-/// the standard error is not a terminal.
+/// Draws one line on the standard error: a bar, the percentage, and the name of the phase. It draws
+/// nothing if the standard error is not a terminal.
 class ProgressBar
 {
 public:
@@ -17,7 +17,7 @@ public:
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Draw the bar at a fraction of the whole in [0, 1]; the bar never moves backwards.
+  /// Draw the bar for a fraction of the whole work in [0, 1]; the bar never moves backwards.
   void show(double fraction, const std::string& phase);
   /// Remove the line, so that other output can be printed.
   void clear();

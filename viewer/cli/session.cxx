@@ -70,12 +70,13 @@ void on_progress(vtkObject* caller, unsigned long, void* stage_data, void*)
   stage->bar->show(stage->begin + algorithm->GetProgress() * (stage->end - stage->begin), text);
 }
 
-// Expected fractions of the time of a run.
+// Expected fractions of a run's total time.
 constexpr double reading = 0.02;
 constexpr double choosing_points = 0.01;
 constexpr double finding_bones = 0.2;
-constexpr double main_end = 0.97; ///< start of the writing of results
-constexpr double latest_main_begin = 0.5; ///< upper limit for any number of files
+constexpr double main_end = 0.97; ///< begin of writing the results
+constexpr double latest_main_begin = 0.5; ///< upper limit of the fraction at which the main work
+                                          ///< begins, for any number of input files
 
 bool starts_with(const std::string& text, const std::string& begin)
 {
@@ -100,7 +101,7 @@ bool Session::fail(Status status)
 
 void Session::warn(const std::string& sentence)
 {
-  // A filter that is updated once per frame repeats its warnings.
+  // Ignore repetitions: a filter that is updated once per frame repeats its warnings.
   if (std::find(this->warnings_.begin(), this->warnings_.end(), sentence) != this->warnings_.end())
   {
     return;
@@ -136,7 +137,8 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
   vtkNew<vtkCallbackCommand> progress;
   progress->SetCallback(on_progress);
   progress->SetClientData(&stage);
-  vtkNew<vtkCallbackCommand> silent; // the status contains the messages that VTK would print
+  // keeps VTK from printing its messages, which the status also contains
+  vtkNew<vtkCallbackCommand> silent;
   const unsigned long observers[] = { algorithm->AddObserver(vtkCommand::ProgressEvent, progress),
     algorithm->AddObserver(vtkCommand::ErrorEvent, silent),
     algorithm->AddObserver(vtkCommand::WarningEvent, silent) };
@@ -146,7 +148,7 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
     this->bar_.show(begin, stage_name);
     if (algorithm->GetNumberOfOutputPorts() == 0)
     {
-      algorithm->UpdateWholeExtent(); // a writer
+      algorithm->UpdateWholeExtent(); // the algorithm is a writer
     }
     else
     {
@@ -181,7 +183,7 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
   {
     return status;
   }
-  // This also applies to failures: the report then has the findings about the input and all
+  // Merge the report also after a failure: it contains the findings about the input and all
   // attempts.
   for (const auto& [key, value] : status.report.entries())
   {
@@ -352,7 +354,7 @@ bool Session::write_rig(vtkDataSet* mesh, vtkPolyData* handles,
   writer->SetMaximumInfluences(this->arguments_.integer("gltf-maximum-influences"));
   writer->SetFileName(path.c_str());
   writer->SetOverwrite(this->arguments_.has("overwrite"));
-  // The numbers of the writer are kept apart from those of the verb.
+  // The entries of the writer's report are kept apart from those of the verb.
   const Report own = this->report_;
   this->report_ = Report();
   const bool written = this->run_stage(writer, "write", main_end, 1.0, Merge::numbers);

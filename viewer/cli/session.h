@@ -20,18 +20,20 @@ namespace bindpose::cli
 /// Return the exit code of the program for a status.
 int exit_code(StatusCode code);
 
-/// The part of an algorithm's report that is merged into the verb's report.
+/// Selects the part of an algorithm's report that is merged into the verb's report.
 enum class Merge
 {
   nothing, ///< only its warnings, and its total time as seconds.STAGE
-  numbers, ///< the same, and all numbers except the times of its phases
+  numbers, ///< the same, and all entries with numbers except the times of its phases
   all ///< warnings, numbers and seconds per phase
 };
 
-/// One run of a verb. It runs algorithms with progress and cancellation, collects their reports,
-/// and ends with the report file, one line for an error, and the exit code.
+/// One run of a verb (a subcommand such as `weights`). It runs algorithms with progress and
+/// cancellation, collects their reports, and ends with the report file, one line for an error, and
+/// the exit code.
 ///
-/// Steps return false if the verb cannot continue; the session then stores the reason.
+/// Methods that do part of the work return false if the verb cannot continue; the session then
+/// stores the reason.
 class Session
 {
 public:
@@ -43,7 +45,7 @@ public:
 
   bool fail(Status status);
   bool invalid(const std::string& sentence) { return this->fail(Status::invalid_input(sentence)); }
-  /// Print and report a warning, each sentence once.
+  /// Print and report a warning; repetitions are ignored.
   void warn(const std::string& sentence);
   /// Show the progress of work outside of algorithms, as a fraction of the verb's main work.
   void show(double fraction, const std::string& what)
@@ -51,13 +53,13 @@ public:
     this->bar_.show(this->of_whole(fraction), what);
   }
 
-  /// Update the algorithm as the stage [begin, end] of the verb's main work, which is everything
+  /// Update the algorithm as the part [begin, end] of the verb's main work, which is everything
   /// between reading and writing. Its warnings and errors are added to the session; VTK prints
   /// nothing.
   bool run(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin, double end,
     Merge merge);
-  /// Run the algorithm like run(), but only return a failure, for callers with a fallback. A cancel
-  /// always ends the session.
+  /// Run the algorithm like run(), but return a failure instead of storing it, for callers with a
+  /// fallback. A cancel always ends the session.
   Status try_run(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
     double end, Merge merge);
 
@@ -65,17 +67,17 @@ public:
   vtkSmartPointer<vtkDataSet> read(const std::string& path);
   /// Read like read(), including .tgf handle files.
   vtkSmartPointer<vtkDataSet> read_any(const std::string& path);
-  /// Return the handles for the value of --handles: a file, auto[:N] points on the surface,
-  /// skeleton[:N] bones in it; null on failure.
+  /// Return the handles for the value of --handles, which is a file, auto[:N] (N points on the
+  /// surface) or skeleton[:N] (N bones in it). Return null on failure.
   vtkSmartPointer<vtkPolyData> read_handles(const std::string& value, vtkDataSet* surface);
 
-  /// Check that the report can be written.
+  /// Check that the report file can be written.
   bool check_report();
   /// Check, before the work, that the output's extension is allowed and the file can be written.
   bool check_output(const std::string& path, const std::string& endings);
   bool write(vtkDataSet* data, const std::string& path);
-  /// Write to the temporary file of `file`, which commit() renames; for groups of files that are
-  /// written all or none.
+  /// Write to the temporary file of `file`, which commit() renames. This is for groups of files of
+  /// which either all or none are written.
   bool write_uncommitted(vtkDataSet* data, const std::string& path, AtomicFile& file);
   bool commit(AtomicFile& file);
   /// Write a rig as glTF: mesh with weights, its handles (null: none), and frames of an animation.
@@ -88,12 +90,13 @@ public:
   int finish();
 
 private:
-  /// Run the algorithm as the stage [begin, end] of the whole run.
+  /// Run the algorithm as the part [begin, end] of the whole run.
   Status try_stage(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
     double end, Merge merge);
   bool run_stage(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
     double end, Merge merge);
-  /// Run a step before the main work, and reserve the fraction `share` of the whole for it.
+  /// Run an algorithm before the main work, and reserve the fraction `share` of the whole run for
+  /// it.
   bool run_before(vtkBindposeAlgorithm* algorithm, const std::string& stage, double share);
   double of_whole(double fraction) const;
 
@@ -102,7 +105,7 @@ private:
 
   Arguments arguments_;
   ProgressBar bar_;
-  double main_begin_ = 0.0; ///< start of the main work, as a fraction of the whole
+  double main_begin_ = 0.0; ///< fraction of the whole run at which the main work begins
   Status status_;
   std::vector<std::string> warnings_;
   Report report_;

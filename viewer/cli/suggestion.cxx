@@ -7,7 +7,8 @@ namespace bindpose::cli
 
 namespace
 {
-/// Edit distance with swaps of neighbors (optimal string alignment).
+/// Return the edit distance of two words; swapping neighboring letters counts as one edit (optimal
+/// string alignment).
 std::size_t edit_distance(const std::string& a, const std::string& b)
 {
   std::vector<std::vector<std::size_t>> rows(a.size() + 1, std::vector<std::size_t>(b.size() + 1));

@@ -7,8 +7,8 @@
 namespace bindpose::cli
 {
 
-/// Return the known word that is most like a mistyped one, or an empty text if none is: at most a
-/// third of its letters are wrong, missing, added or swapped with their neighbors.
+/// Return the known word that is most similar to a mistyped word. Return an empty text if more than
+/// a third of the letters are wrong, missing, added or swapped with their neighbors.
 std::string most_similar(const std::string& word, const std::vector<std::string>& known);
 
 /// Return "; did you mean 'WORD'?" with the most similar known word, or an empty text.

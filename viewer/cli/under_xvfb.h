@@ -7,8 +7,8 @@
 namespace bindpose::cli
 {
 
-/// Replace the process by xvfb-run with the same command line (Arguments::words). Return only if
-/// this is impossible.
+/// Replace the process by xvfb-run with the same command line (Arguments::words), to draw without
+/// an X server. The function returns only if xvfb-run cannot be started.
 void run_again_under_xvfb(const std::vector<std::string>& command_line);
 
 } // namespace bindpose::cli

@@ -1,6 +1,6 @@
-// bindpose deform MESH_WITH_WEIGHTS --handles H --pose POSE.json: a single pose gives one file. A
-// sequence, expressions in time and a dynamic body give numbered files and a .pvd file for
-// ParaView, or one animated glTF file.
+// Implements bindpose deform MESH_WITH_WEIGHTS --handles H --pose POSE.json. A single pose gives
+// one file. A sequence, expressions in time and a dynamic body give numbered files and a .pvd file
+// for ParaView, or one animated glTF file.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"
@@ -99,18 +99,18 @@ bool is_rig(const std::string& path)
   return is_listed(file_extension(path), "glb gltf");
 }
 
-/// The frames of a pose file, of expressions in time or of a dynamic body.
+/// The frames of a deformation, from a pose file, from expressions in time or from a dynamic body.
 struct Frames
 {
   int count = 1;
   double per_second = 0.0;
-  bool sequence = false; ///< else one pose
-  std::function<bool(int)> deform; ///< computes a frame of the output; false: it failed
+  bool sequence = false; ///< true: several frames; false: a single pose
+  std::function<bool(int)> deform; ///< computes a frame of the output; returns false if it failed
 };
 
-/// Write one glTF file. Linear blends are stored as transforms of the joints: one per frame, or the
-/// joints' pose for a single pose. Joints cannot represent other methods, so their frames are morph
-/// targets.
+/// Write one glTF file. Linear blends are stored as transforms of the joints: one set per frame, or
+/// the joints' pose for a single pose. Joints cannot represent other methods, so their frames are
+/// stored as morph targets.
 void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPoseHandles* pose,
   const Frames& frames, vtkBindposeAlgorithm* deformation, const std::string& output)
 {
@@ -147,7 +147,8 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
     session.report().set("counts.frames", frames.count);
   }
 }
-/// Compute a fair surface between the points that its array Fixed constrains.
+/// Compute a fair surface (vtkVariationalSurface with Fair on): the points that the mesh's array
+/// Fixed constrains are kept.
 void run_fairing(Session& session, const std::string& output, const std::string& endings)
 {
   const Arguments& arguments = session.arguments();
@@ -210,8 +211,8 @@ void run_deform(Session& session)
   {
     return;
   }
-  // A sequence has its own frames. For expressions and dynamic bodies --frames is the number of
-  // frames.
+  // The number of frames of a sequence is in its file. For expressions and dynamic bodies, --frames
+  // specifies it.
   const bool dynamic = arguments.has("dynamics");
   const int given = pose->GetNumberOfFrames(), asked = arguments.integer("frames");
   const bool moves = dynamic || (given == 1 && pose->GetHasExpressions());
@@ -255,7 +256,7 @@ void run_deform(Session& session)
   const vtkSmartPointer<vtkPoseAlgorithm> deformation =
     dynamic ? vtkSmartPointer<vtkPoseAlgorithm>(body) : make_deformation(arguments);
   set_pose_options(arguments, deformation.Get());
-  // The downstream filter also reports errors of the pose.
+  // Suppress these error events: the downstream filter repeats errors of the pose.
   vtkNew<vtkCallbackCommand> quiet;
   quiet->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   pose->AddObserver(vtkCommand::ErrorEvent, quiet);
@@ -265,7 +266,7 @@ void run_deform(Session& session)
   {
     if (dynamic)
     {
-      body->SetStep(frame); // requests the poses of all times up to the frame's own
+      body->SetStep(frame); // the body requests the poses of all time steps up to this frame
     }
     else if (moves)
     {
@@ -295,8 +296,8 @@ void run_deform(Session& session)
       session.write_uncommitted(deformation->GetOutput(), files[i], written[i]);
     }
   }
-  // A sequence is written completely or not at all, and the files that it replaces are kept until
-  // then.
+  // Commit the files of a sequence together, so that it is written completely or not at all. Until
+  // then the files that it replaces are kept.
   for (std::size_t i = 0; i < written.size() && !session.failed(); ++i)
   {
     session.commit(written[i]);

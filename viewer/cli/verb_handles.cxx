@@ -1,4 +1,5 @@
-// bindpose handles MESH: automatic handles, bones along the curve skeleton or points.
+// Implements bindpose handles MESH, which creates automatic handles: bones along the curve
+// skeleton, or points.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"

@@ -1,4 +1,5 @@
-// bindpose info FILE: the content of a file, as a table for people and as a report for programs.
+// Implements bindpose info FILE, which describes the content of a file, as a table for people and
+// as a report for programs.
 #include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
@@ -28,7 +29,7 @@ namespace bindpose::cli
 
 namespace
 {
-/// Rows of the table, in the order in which they are added; the report gets the same numbers.
+/// Rows of the table, in the order in which they are added. The report gets the same entries.
 class Table
 {
 public:
@@ -233,7 +234,7 @@ void tell_image(vtkImageData* image, Facts& facts)
   facts.report.set("spacing[]", std::vector<double>{ spacing[0], spacing[1], spacing[2] });
 }
 
-/// Report whether the data is a polydata without polygons, but with cells that can be handles.
+/// Report whether the data can be handles: a polydata with cells but without polygons.
 bool looks_like_handles(vtkDataSet* data)
 {
   auto* cells = vtkPolyData::SafeDownCast(data);
@@ -241,7 +242,8 @@ bool looks_like_handles(vtkDataSet* data)
     cells->GetNumberOfStrips() == 0;
 }
 
-/// Report the joints as handles, sets of weights and the animation of a glTF file.
+/// Report the rig of a glTF file: its joints as handles, the number of weight sets, and the
+/// animation.
 bool tell_rig(Session& session, const std::string& path, Facts& facts)
 {
   vtkNew<vtkGLTFSkinReader> reader;

@@ -1,6 +1,6 @@
-// bindpose render FILE… -o OUT.png: pictures by the library bindpose_scene. VTK 9.1 ends the
-// process if there is no X server, even for offscreen pictures. Without an X server the program
-// therefore runs itself again under xvfb-run.
+// Implements bindpose render FILE… -o OUT.png, which draws pictures with the library
+// bindpose_scene. VTK 9.1 ends the process if there is no X server, even for offscreen pictures.
+// Without an X server the program therefore runs itself again under xvfb-run.
 #include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/under_xvfb.h"
@@ -49,7 +49,7 @@ std::vector<std::string> split_at_commas(const std::string& text)
   return parts;
 }
 
-/// Parse "AxB" with the separator x as two numbers.
+/// Parse two numbers with a separator between them, such as "AxB".
 bool parse_pair(const std::string& text, char separator, double& first, double& second)
 {
   const std::size_t at = text.find(separator);
@@ -64,7 +64,8 @@ bool parse_vector(const std::string& text, Vec3& vector)
     parse_number(words[1], vector[1]) && parse_number(words[2], vector[2]);
 }
 
-/// Read --section: a fraction, an axis' plane, a normal and a point, or none.
+/// Parse --section. Its value is a fraction, a plane perpendicular to an axis, a normal and a
+/// point, or the word none.
 bool read_section(Session& session, PictureOptions& options)
 {
   const std::string text = session.arguments().text("section");
@@ -141,7 +142,7 @@ bool read_options(Session& session, PictureOptions& options)
   const bool of_weights = !options.component.empty() || options.extrema || arguments.has("minus");
   if (options.array.empty() && options.color_by == ColorBy::array && of_weights)
   {
-    options.array = "Weights"; // the array with named components
+    options.array = "Weights"; // these options apply to weights by default
   }
   if (arguments.has("isosurface"))
   {
@@ -179,7 +180,8 @@ vtkSmartPointer<vtkPolyData> defects_of(Session& session, vtkDataSet* surface)
     : nullptr;
 }
 
-/// Add the defects of every surface among the files and their context, for --defects.
+/// Compute the defects of every surface for --defects, and add them to the tiles and to their
+/// context.
 bool add_defects(Session& session, std::vector<Tile>& tiles)
 {
   bool any = false;
@@ -189,7 +191,8 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
     return polydata && polydata->GetNumberOfPolys() + polydata->GetNumberOfStrips() > 0 &&
       !is_defect_data(data);
   };
-  std::vector<vtkSmartPointer<vtkDataSet>> found; // for the context, which all tiles share
+  // defects of the context datasets, which all tiles share
+  std::vector<vtkSmartPointer<vtkDataSet>> found;
   for (const auto& data : tiles.front().context)
   {
     if (is_surface(data))
@@ -218,8 +221,8 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
     session.invalid("--defects needs a surface; add one with --context SURFACE");
 }
 
-/// List the files to draw; a collection is replaced by its files. For a strip in one picture a
-/// limited number of frames is taken at even steps.
+/// List the files to draw; a collection is replaced by its files. For a single picture of a
+/// sequence, a limited number of evenly spaced frames is chosen.
 bool list_files(Session& session, bool moving, std::vector<std::string>& files,
   std::vector<std::string>& labels, double& rate)
 {
@@ -263,8 +266,8 @@ bool list_files(Session& session, bool moving, std::vector<std::string>& files,
       " frames per second; expected more than 0 and at most 1000 (see --fps)");
 }
 
-/// Render one picture per tile, all with one view and one range of colors, then run ffmpeg.
-/// Temporary files are removed with their folder in all cases.
+/// Render one picture per tile, all with the same view and color range, then run ffmpeg. The
+/// pictures are in a temporary folder, which is removed in all cases.
 Status render_video(Session& session, std::vector<Tile> tiles, const PictureOptions& wanted,
   double rate, const std::string& output)
 {
@@ -276,7 +279,7 @@ Status render_video(Session& session, std::vector<Tile> tiles, const PictureOpti
   PictureOptions options = wanted;
   for (Tile& tile : tiles)
   {
-    tile.label.clear(); // the time in the label differs in each picture
+    tile.label.clear(); // the label contains the time, which differs in each picture
   }
   options.around = tiles;
   Status status;
@@ -341,7 +344,7 @@ void run_render(Session& session)
   }
   if (const Status status = check_ffmpeg(); moving && !status.ok())
   {
-    session.fail(status); // fail before the work
+    session.fail(status); // fail now, before the expensive work
     return;
   }
   std::vector<Tile> tiles;

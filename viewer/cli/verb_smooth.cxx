@@ -1,4 +1,5 @@
-// bindpose smooth MESH --array NAME: smoothed data on a mesh without unlisted extrema.
+// Implements bindpose smooth MESH --array NAME, which smooths data on a mesh and removes all local
+// extrema that are not listed.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"
@@ -59,7 +60,8 @@ void run_smooth(Session& session)
   }
   if (arguments.typed("number-of-extrema") || arguments.typed("persistence"))
   {
-    smoothing->SetExtremaArrayName(""); // selected from the data, unless --extrema lists them
+    // extrema are selected from the data, unless --extrema names an array
+    smoothing->SetExtremaArrayName("");
   }
   set_monotone_smoothing_options(arguments, smoothing.Get());
   if (session.run(smoothing, "smooth", 0.0, 1.0, Merge::all) &&

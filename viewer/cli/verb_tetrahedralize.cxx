@@ -1,4 +1,4 @@
-// bindpose tetrahedralize SURFACE: the inside as tets.
+// Implements bindpose tetrahedralize SURFACE, which fills the inside of a surface with tets.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"

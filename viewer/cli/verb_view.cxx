@@ -1,5 +1,6 @@
-// bindpose view FILE…: opens the window of viewer/app, if it was built. With --play a tour replaces
-// the user and needs no visible display.
+// Implements bindpose view FILE…, which opens the window of viewer/app, if it was built. With
+// --play the window runs a tour, a scripted demonstration, without a user and without a visible
+// display.
 #include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/under_xvfb.h"
@@ -19,7 +20,8 @@ namespace bindpose::cli
 #ifdef BINDPOSE_HAS_QT
 namespace
 {
-/// Read --play with --screenshot-dir and --time-limit, which require it.
+/// Read the option --play, and --screenshot-dir and --time-limit, which are only allowed with
+/// --play.
 bool tour_request(Session& session, TourRequest& request)
 {
   const Arguments& arguments = session.arguments();
@@ -36,8 +38,8 @@ bool tour_request(Session& session, TourRequest& request)
 }
 
 /// Read the files before the window opens, with progress on a terminal. A program that is started
-/// from a desktop has no visible terminal, so the window shows errors of files, and the standard
-/// error gets the same sentence. Only a tour, which has no user, ends with an error.
+/// from a desktop has no visible terminal, so the window shows errors of files; they are also
+/// printed to the standard error. Only a tour, which has no user, ends with an error.
 bool read_files(Session& session, std::vector<FirstFile>& files)
 {
   const bool ends = session.arguments().has("play");
@@ -56,7 +58,7 @@ bool read_files(Session& session, std::vector<FirstFile>& files)
     {
       continue;
     }
-    if (ends || session.failed()) // or it was interrupted
+    if (ends || session.failed()) // also true after an interrupt
     {
       return session.fail(status);
     }

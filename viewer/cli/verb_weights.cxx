@@ -1,6 +1,6 @@
-// bindpose weights MESH --handles H: the filter chooses the domain of a surface. Tets, and surfaces
-// with --domain surface, are solved on directly, and the weights are transferred to the input
-// points.
+// Implements bindpose weights MESH --handles H. For a surface the filter chooses the domain on
+// which the weights are solved. With --domain surface and for tets, the weights are solved on the
+// input mesh itself and then transferred to its original points.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"
@@ -47,7 +47,8 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_method(const Arguments& arguments)
   return weights;
 }
 
-/// Set what the weights must satisfy besides smoothness.
+/// Set the terms, the additional constraints and energies that the weights must satisfy besides
+/// smoothness.
 /// @param mesh  the input, before it is filled with tets
 bool set_terms(Session& session, vtkDataSet* mesh, vtkWeightsAlgorithm* weights)
 {
@@ -78,8 +79,8 @@ bool is_tets(vtkDataSet* data)
   return data->GetNumberOfCells() > 0 && data->GetCellType(0) == VTK_TETRA;
 }
 
-/// Append a region handle, named after its label, for each label above 0 without a handle; its
-/// pivot is the centroid of the labeled points.
+/// Append a region handle for each label above 0 without a handle. The handle is named after its
+/// label; its pivot is the centroid of the labeled points.
 bool add_region_handles(Session& session, vtkDataSet* mesh, const std::string& array_name,
   vtkSmartPointer<vtkPolyData>& data)
 {
@@ -243,7 +244,8 @@ void run_weights(Session& session)
   const bool tets_asked = ending == "vtu";
   if (tets_asked || !on_mesh)
   {
-    const int port = tets_asked && !on_mesh ? 2 : 0; // the solved mesh, or the input mesh
+    // output port of the solved mesh (2) or of the input mesh (0)
+    const int port = tets_asked && !on_mesh ? 2 : 0;
     auto* data = vtkDataSet::SafeDownCast(weights->GetOutputDataObject(port));
     if (data->GetNumberOfPoints() == 0)
     {
@@ -253,7 +255,8 @@ void run_weights(Session& session)
     write_with_endpoints(session, data, handles, output);
     return;
   }
-  // Handles may have added points, so transfer the weights to the input points.
+  // The filter may have added points at handles, so transfer the weights to the points of the
+  // input.
   vtkNew<vtkTransferWeights> transfer;
   transfer->SetInputData(0, mesh);
   transfer->SetInputData(1, weights->GetOutput());
@@ -262,7 +265,7 @@ void run_weights(Session& session)
   {
     return;
   }
-  session.report().merge(of_weights); // the transfer's own keys are kept too
+  session.report().merge(of_weights); // entries that only the transfer has are kept
   auto result = own_copy(transfer->GetOutput());
   vtkNew<vtkTransferWeights> raw;
   if (arguments.has("keep-raw"))

@@ -1,5 +1,5 @@
-// bindpose winding SURFACE: the winding number on a grid (.vti, .vdb) or at the points of a
-// dataset.
+// Implements bindpose winding SURFACE, which computes the winding number on a grid (.vti, .vdb) or
+// at the points of a dataset.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"
@@ -66,7 +66,7 @@ void run_winding(Session& session)
   }
   if (const Status status = check_vdb_available(); file_extension(output) == "vdb" && !status.ok())
   {
-    session.fail(status); // fail before the work
+    session.fail(status); // fail now, before the expensive work
     return;
   }
   const auto surface = session.read(arguments.text("SURFACE"));

@@ -6,7 +6,8 @@ namespace bindpose::cli
 
 class Session;
 
-// One function per verb, named after the verb. Results and errors are stored in the session.
+// Functions that run the verbs (subcommands) of the program, one function per verb. Results and
+// errors are stored in the session.
 void run_info(Session& session);
 void run_winding(Session& session);
 void run_tetrahedralize(Session& session);

@@ -1,5 +1,6 @@
-// Each process has one folder, ROOT/PID-RANDOM, with a lock file that names the process. If the
-// lock of a folder can be acquired, its process has ended.
+// Saves copies of the work for recovery after a crash. Each process has one folder,
+// ROOT/PID-RANDOM, with a lock file that names the process. If another process can acquire the lock
+// of a folder, the owner has ended.
 #include "document/autosave.h"
 
 #include <QCoreApplication>
@@ -38,7 +39,7 @@ Autosave::Autosave(MakeSession make_session, const QString& root, QObject* paren
 
 Autosave::~Autosave()
 {
-  this->next_ = nullptr; // the pending copy would be removed immediately
+  this->next_ = nullptr; // a pending copy is not needed: the folder is removed immediately
   if (this->is_saving())
   {
     this->writer_.join();
@@ -75,10 +76,10 @@ QString Autosave::path() const
   return this->folder_.isEmpty() ? QString() : this->folder_ + '/' + session_name;
 }
 
-/// Make the folder when there is something to save.
+/// Create the folder of this process before the first save.
 bool Autosave::make_folder()
 {
-  // Another process may find a new folder before it is locked, and remove it.
+  // Before a new folder is locked, another process may find it and remove it. Then try again.
   constexpr int tries = 8;
   for (int k = 0; k < tries && this->folder_.isEmpty(); ++k)
   {
@@ -137,7 +138,7 @@ void Autosave::start_writer()
         this,
         [this, round]
         {
-          // Otherwise wait() has already ended this writer.
+          // If wait() has already ended this writer, there is nothing to do.
           if (this->is_saving() && round == this->round_)
           {
             this->end_writer();
@@ -194,13 +195,13 @@ std::unique_ptr<RecoveredWork> RecoveredWork::find(const QString& root)
     auto lock = lock_of(folder.filePath());
     if (!lock->tryLock(0))
     {
-      continue; // its process is running
+      continue; // the owner of this folder is running
     }
     const QFileInfo session(folder.filePath() + '/' + session_name);
     if (!session.exists())
     {
       lock->unlock();
-      QDir(folder.filePath()).removeRecursively(); // its process ended before the first save
+      QDir(folder.filePath()).removeRecursively(); // the owner ended before its first save
       continue;
     }
     if (latest && latest->time_ >= session.lastModified())

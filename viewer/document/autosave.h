@@ -15,12 +15,12 @@
 class QLockFile;
 
 /// Saves copies of the work to a folder of this process, for recovery after a crash. A copy is
-/// written at most a minute after a change, and immediately on request. The folder is removed when
-/// the process ends normally. Without changes nothing is written.
+/// written a minute after a change at the latest, and immediately on request. The folder is removed
+/// when the process ends normally. Without changes nothing is written.
 ///
-/// Files are written on a separate thread from shared datasets that no one changes. Only one copy
-/// is written at a time; a copy that is requested meanwhile follows it. The destructor waits for
-/// the running copy.
+/// Files are written on a separate thread from shared datasets that nothing modifies. Only one copy
+/// is written at a time; if another copy is requested meanwhile, it is written afterward. The
+/// destructor waits for the running copy.
 class Autosave : public QObject
 {
   Q_OBJECT
@@ -35,14 +35,14 @@ public:
 
   /// Return QStandardPaths::AppDataLocation/recovery.
   static QString default_root();
-  /// Return the seconds from a change to its copy: 60, or the value of the environment variable
-  /// BINDPOSE_AUTOSAVE_SECONDS.
+  /// Return the maximum time in seconds between a change and its copy: 60, or the value of the
+  /// environment variable BINDPOSE_AUTOSAVE_SECONDS.
   static double interval();
 
-  /// Note that the work has changed and a copy is due.
+  /// Record that the work has changed and a copy is due.
   void note_change();
-  /// Begin to write a copy of the current work, and return. failed() is emitted if it cannot be
-  /// written.
+  /// Begin to write a copy of the current work, and return. failed() is emitted if the copy cannot
+  /// be written.
   void begin_save();
   /// Write a copy of the current work, and wait until it is on the disk.
   bindpose::Status save();
@@ -74,14 +74,14 @@ private:
   double milliseconds_ = 0.0;
   double writing_milliseconds_ = 0.0;
   std::thread writer_;
-  int round_ = 0; // number of the last started writer
+  int round_ = 0; // counts the writers that were started
   std::shared_ptr<const SessionFile::Prepared> writing_, next_; // destroyed on the window's thread
   bindpose::Status written_; // set by the writer; read after its end
-  bindpose::Status status_; // status of the last copy
+  bindpose::Status status_; // status of the last copy that was written
 };
 
-/// The work that a crashed process left in the recovery folder. Other processes cannot find it
-/// while this object exists.
+/// The work that a crashed process left in its recovery folder. Other processes cannot find this
+/// folder while the object exists.
 class RecoveredWork
 {
 public:

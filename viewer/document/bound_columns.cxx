@@ -1,5 +1,6 @@
-// Handles are matched by name first. Unmatched handles at the same position are then taken for one
-// handle that was renamed.
+// Matches the current handles with the handles of a bind. Handles are matched by name first. If an
+// unmatched current handle and an unmatched bound handle are at the same position, they are treated
+// as one handle that was renamed.
 #include "document/bound_columns.h"
 
 #include "vtkDataArray.h"
@@ -126,7 +127,7 @@ vtkSmartPointer<vtkPointSet> BoundColumns::arranged(vtkPointSet* data) const
   }
   if (!this->exact_)
   {
-    vtkNew<vtkFieldData> fields; // the shallow copy shares the original's field data
+    vtkNew<vtkFieldData> fields; // the shallow copy shares its field data with the original
     fields->ShallowCopy(data->GetFieldData());
     for (const char* name : { "WeightsRelativeGap", "WeightsKKTResidual", "WeightsIterations" })
     {

@@ -11,31 +11,33 @@
 #include <string>
 #include <vector>
 
-/// Assigns columns of weights to handles. Handles may change after a bind, and the weights stay
-/// usable:
-/// - a handle gets the column of the bound handle with its name and kind, wherever it has been
-///   moved to; a renamed handle gets the column of the bound handle at the same position;
+/// Assigns columns of weights to handles, so that the weights stay usable when handles change
+/// after a bind:
+/// - a handle gets the column of the bound handle with the same name and kind, even if it was
+///   moved; a renamed handle gets the column of the bound handle at the same position;
 /// - a handle without a column moves nothing;
-/// - the region of influence of a removed handle stays at rest.
-/// Another bind makes the weights exact again; reason() says why it is needed.
+/// - points that only a removed handle influenced stay at rest. Another bind makes the weights
+/// exact again; reason() says why it is needed.
 class BoundColumns
 {
 public:
   BoundColumns() = default;
   BoundColumns(const bindpose::Handles& bound, const bindpose::Handles& now);
 
-  /// Report whether at least one handle has a column to pose with.
+  /// Report whether at least one handle has a column, so that posing is possible.
   bool any() const;
   /// Report whether the columns are exactly those of the current handles, in the same order.
   bool exact() const { return this->exact_; }
-  /// Return one sentence about handles that are new, moved or removed; empty if there are none.
+  /// Return one sentence that counts the handles that are new, moved or removed; empty if there are
+  /// none.
   QString reason() const;
-  /// Return the dataset with its columns in the order of the handles, named after them; the dataset
-  /// itself if its columns are already so. Certificates are removed unless the columns are exact.
+  /// Return the dataset with its columns in the order of the handles and named after them. Return
+  /// the dataset itself if its columns have this order and these names. Certificates are removed
+  /// unless the columns are exact.
   vtkSmartPointer<vtkPointSet> arranged(vtkPointSet* data) const;
 
 private:
-  std::vector<int> column_of_; // -1: none
+  std::vector<int> column_of_; // column of each handle; -1: none
   std::vector<std::string> names_;
   int columns_ = 0;
   int new_ = 0;
@@ -45,7 +47,7 @@ private:
   bool exact_ = false;
 };
 
-/// Report whether weights that came with a mesh fit the handles: one column per handle, with equal
+/// Report whether the weights of a mesh file fit the handles: one column per handle, with equal
 /// names if the columns are named. Otherwise set `why_not` to one sentence.
 bool weights_are_of(
   vtkDataArray* weights, const bindpose::Handles& handles, QString* why_not = nullptr);

@@ -64,7 +64,7 @@ json array_to_json(vtkAbstractArray* array)
       const double value = numbers->GetComponent(i, c);
       if (is_real(type))
       {
-        values.push_back(value); // becomes null if it is not finite
+        values.push_back(value); // a value that is not finite is written as null
       }
       else
       {
@@ -417,7 +417,7 @@ Options options_from_json(const json& value)
     const OptionInfo* option = find_option(QString::fromStdString(key));
     if (!option)
     {
-      continue; // an option of another version of the program
+      continue; // ignore an option of another version of the program
     }
     const QVariant checked = checked_option(*option, value_from_json(item));
     if (!checked.isValid())

@@ -8,7 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-// Parts of a session as JSON. Input is checked. Numbers survive a round trip bit for bit.
+// Converts the parts of a session to and from JSON. Input is checked. Numbers are written with all
+// digits, so that they are read back bit for bit.
 
 /// An error in a JSON text, as a clause: "the pose has 3 entries for 2 handles".
 class SessionError : public std::runtime_error
@@ -34,7 +35,7 @@ nlohmann::json key_poses_to_json(const bindpose::PoseShelf& poses);
 bindpose::PoseShelf key_poses_from_json(const nlohmann::json& json);
 
 nlohmann::json options_to_json(const Options& options);
-/// Missing options have the values of a new document; unknown options are ignored.
+/// Read options. A missing option gets its initial value; unknown options are ignored.
 Options options_from_json(const nlohmann::json& json);
 
 #endif

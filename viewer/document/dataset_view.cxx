@@ -1,6 +1,6 @@
-// VTK caches data about an array (its range, for example) in the array, and pipeline information in
-// the dataset. A view therefore has its own arrays and dataset, and shares only the memory of the
-// values.
+// Creates views of datasets for use on another thread. VTK caches data about an array (its range,
+// for example) in the array, and pipeline information in the dataset. A view therefore has its own
+// arrays and dataset, and shares only the memory of the values.
 #include "document/dataset_view.h"
 
 #include "vtkCellArray.h"
@@ -18,7 +18,7 @@
 namespace
 {
 /// Return an array that shares the memory of the values. Strings and arrays without contiguous
-/// memory are copied, because there are few of them.
+/// memory are copied, because they are small.
 vtkSmartPointer<vtkAbstractArray> view_of_array(vtkAbstractArray* array)
 {
   auto view = vtkSmartPointer<vtkAbstractArray>::Take(array->NewInstance());

@@ -4,10 +4,10 @@
 #include "vtkDataSet.h"
 #include "vtkSmartPointer.h"
 
-/// Return a new dataset that shares only the memory of the numbers with `data`: a vtkPolyData, a
-/// vtkImageData, or a vtkUnstructuredGrid of cells without faces; null for other data. No number is
-/// copied. Another thread can use the view, including ranges and pipelines, while no one changes
-/// the numbers. The view must be destroyed before `data`.
+/// Return a new dataset that shares only the memory of the values with `data`, without copying any
+/// values. `data` is a vtkPolyData, a vtkImageData, or a vtkUnstructuredGrid of cells without
+/// faces; the result is null for other data. Another thread can use the view, including ranges and
+/// pipelines, as long as nothing changes the values. The view must be destroyed before `data`.
 vtkSmartPointer<vtkDataSet> view_of(vtkDataSet* data);
 
 #endif

@@ -1,6 +1,7 @@
-// The work is a value. An edit makes a new value and pushes a step with the old and the new value.
-// Data that views need in addition (the kernels' handles, the weights in the order of the handles)
-// is derived from the work whenever it changes.
+// The state of a window and its undo history. The work (mesh, handles, weights, pose, options) is a
+// value. An edit creates a new value and pushes an undo step with the old and the new value. Views
+// also need derived data: the kernels' handles, and the weights in the order of the handles. The
+// derived data is computed whenever the work changes.
 #include "document/document.h"
 
 #include "document/edit.h"
@@ -33,7 +34,8 @@ vtkDataArray* weights_of(vtkPolyData* surface)
   return surface ? surface->GetPointData()->GetArray("Weights") : nullptr;
 }
 
-/// Labels for which the weights were solved, if regions were painted since.
+/// Name of the array of region labels for which the weights were solved; used if regions were
+/// painted since.
 const char* const bound_labels = "BoundRegionId";
 
 vtkDataArray* labels_of(vtkPolyData* surface)
@@ -41,7 +43,8 @@ vtkDataArray* labels_of(vtkPolyData* surface)
   return surface ? surface->GetPointData()->GetArray("RegionId") : nullptr;
 }
 
-/// Return a copy of the labels under another name; without labels, as many zeros as `like` has.
+/// Return a copy of the labels under another name. If there are no labels, return one zero per
+/// tuple of `like`.
 vtkSmartPointer<vtkDataArray> copy_of_labels(
   vtkDataArray* labels, vtkDataArray* like, const char* name)
 {
@@ -83,7 +86,7 @@ Document::Document(QObject* parent)
 
 Document::~Document()
 {
-  this->history_->clear(); // its steps refer to this document
+  this->history_->clear(); // the steps of the history refer to this document
 }
 
 void Document::set_saved()
@@ -155,8 +158,8 @@ QString Document::rebind_reason() const
 
 void Document::push(const QString& step, const Work& after, const QString& merge, Live live)
 {
-  // Changes that views make during undo or redo are no steps. A step would delete the one that is
-  // being redone.
+  // Views may make changes during undo or redo; these are not pushed as steps. A pushed step would
+  // delete the step that is being redone.
   if (this->in_history_ || differences(this->work_, after) == 0)
   {
     return;
@@ -260,7 +263,7 @@ void Document::replace(const Work& work)
   this->set_saved();
 }
 
-// ---- Opening -----------------------------------------------------------------------------------
+// ---- Opening files -----------------------------------------------------------------------------
 
 Status Document::set_mesh(vtkDataSet* mesh, const QString& name, const Source& source)
 {
@@ -499,7 +502,7 @@ bool Document::set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets)
   Work after = this->work_;
   after.surface = surface;
   surface->GetPointData()->RemoveArray(bound_labels);
-  // The bind does not include regions that were painted while it ran.
+  // The bind does not include regions that were painted while it was running.
   vtkDataArray* now = labels_of(this->work_.surface);
   if (now && !same_labels(now, labels_of(surface)))
   {
@@ -565,7 +568,7 @@ void Document::note_option(const QString& key, const QVariant& value)
 {
   const OptionInfo* option = find_option(key);
   const QVariant checked = option ? checked_option(*option, value) : QVariant();
-  // A value that differs only by round-off is ignored, because no step could revert it.
+  // Ignore a value that differs only by round-off, because undo could not restore the difference.
   if (checked.isValid() && checked != this->work_.options.value(key))
   {
     this->work_.options[key] = checked;

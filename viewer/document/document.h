@@ -13,17 +13,18 @@
 class vtkDataArray;
 class vtkDataSet;
 
-/// The state of one window and its history: surface, handles, weights, pose, options and their
-/// sources. A document has no widgets. Views read it, follow changed(), and edit through it.
+/// The state of one window and its undo history: surface, handles, weights, pose, options and their
+/// source files. A document has no widgets. Views read the document, update on changed(), and edit
+/// through it.
 ///
-/// Every edit is a named step of history(). Undo and redo restore the work bit for bit. Edits
-/// without effect make no step.
+/// Every edit is a named step of history(). Undo and redo restore the work bit for bit. An edit
+/// without effect is not recorded.
 ///
 /// The handles are edited **in place**: a widget changes handle_data() freely. Then commit_pose()
-/// or commit_handles() makes one step of the changes, or revert_handles() discards them.
+/// or commit_handles() records the changes as one step, or revert_handles() discards them.
 ///
-/// BoundColumns describes which weights pose the shape after handles have changed. Another mesh has
-/// its own weights, or none.
+/// After handles have changed, BoundColumns assigns the existing weights to them. If another mesh
+/// is opened, its own weights are used, or none.
 class Document : public QObject
 {
   Q_OBJECT
@@ -34,12 +35,13 @@ public:
 
   const Work& work() const { return this->work_; }
   QUndoStack* history() const { return this->history_; }
-  /// Note that the current work is in a file, or contains nothing that the user has made.
+  /// Mark the current state as saved: it is in a file, or contains no edits by the user.
   void set_saved();
-  /// Note that the current work is in no file, although it has no history: recovered work.
+  /// Mark the current state as unsaved although the history is empty, for work recovered after a
+  /// crash.
   void set_unsaved() { this->history_->resetClean(); }
-  /// Report whether the work has changed since set_saved(). Changes of options alone count only if
-  /// `looks` is true.
+  /// Report whether the work has changed since set_saved(). If only options have changed, the
+  /// result is `looks`.
   bool is_changed(bool looks) const;
 
   // ---- State ----
@@ -49,7 +51,7 @@ public:
   /// Return the tets on which the weights were solved, with the same columns; or null.
   vtkUnstructuredGrid* weighted_tets() const;
   /// Return the current handles with their pose arrays; null without handles. The object is the
-  /// same throughout the life of the document.
+  /// same as long as the document exists.
   vtkPolyData* handle_data() const;
   const bindpose::Handles& handles() const { return this->handles_; }
   const std::vector<bindpose::Index>& handle_cells() const { return this->cells_; }
@@ -65,9 +67,9 @@ public:
   QVariant option(const QString& key) const { return this->work_.options.value(key); }
   int number(const QString& key) const { return this->option(key).toInt(); }
 
-  // ---- Opening ----
-  /// Open a surface, or tets and their boundary surface. On invalid_input (not a surface) nothing
-  /// changes.
+  // ---- Opening files ----
+  /// Open a surface, or tets and their boundary surface. On invalid_input (the dataset is not a
+  /// surface) nothing changes.
   bindpose::Status set_mesh(vtkDataSet* mesh, const QString& name, const Source& source = {});
   /// Open handles with the pose that is in their arrays.
   bindpose::Status set_handles(
@@ -78,25 +80,26 @@ public:
   /// Open a surface that was cut out of a picture (vtkPlanarShape). The surface shows the picture.
   bindpose::Status set_picture(
     vtkPolyData* shape, vtkImageData* picture, const QString& name, const Source& source = {});
-  /// Open a volume; null closes it.
-  /// @param step  name of the step, for a volume that is not from a file
+  /// Open a volume; null closes the open volume.
+  /// @param step  name of the undo step, for a volume that is not from a file
   void set_volume(
     vtkImageData* volume, const QString& name, const Source& source = {}, const QString& step = {});
   void set_curves(vtkPolyData* curves, const QString& name, const Source& source = {});
 
   // ---- Handles and pose ----
-  /// Make one step of the changes of handle_data(): handles added, removed, renamed, recolored, or
-  /// moved at rest. Consecutive steps with the same non-empty `merge` become one. Return a status
-  /// that is not ok, and revert the changes, if the handles are invalid. If all cells were removed,
-  /// the work has no handles.
+  /// Record the changes of handle_data() as one step: handles added, removed, renamed, recolored,
+  /// or moved at rest. Consecutive steps with the same non-empty `merge` become one step. If the
+  /// handles are invalid, return a status that is not ok and revert the changes. If all cells were
+  /// removed, the work has no handles.
   bindpose::Status commit_handles(const QString& step, const QString& merge = {});
-  /// Make one step of painted regions and changes of handle_data(). `labels`, one per vertex of the
-  /// surface, become the surface's point array RegionId.
+  /// Record painted regions and the changes of handle_data() as one step. `labels`, one per vertex
+  /// of the surface, become the surface's point array RegionId.
   bindpose::Status commit_regions(vtkDataArray* labels, const QString& step);
   /// Rename a handle, also in the stored poses. Return invalid_input, with one sentence, if the
   /// name is empty or belongs to another handle.
   bindpose::Status rename_handle(int handle, const QString& name);
-  /// Make one step of the pose arrays of handle_data(), if nothing else has changed there.
+  /// Record the changes of the pose arrays of handle_data() as one step, if nothing else has
+  /// changed there.
   void commit_pose(const QString& step, const QString& merge = {});
   /// Restore the handles of the last step, bit for bit.
   void revert_handles();
@@ -109,16 +112,17 @@ public:
   void set_key_poses(bindpose::PoseShelf poses, const QString& step, const QString& merge = {});
 
   // ---- Weights ----
-  /// Record the current surface and handles as the ones that the next set_bound() and set_preview()
-  /// refer to.
+  /// Record the current surface and handles as those of the bind that begins. The next set_bound()
+  /// and set_preview() refer to them.
   void begin_bind();
   /// Return the handles of the bind in progress.
   const bindpose::Handles& bound_handles() const { return this->binding_.handles; }
-  /// Set the surface of the bind with weights for its handles, and the tets on which they were
-  /// solved (or null). Return false, and change nothing, if that surface is no longer open.
+  /// Set the result of the bind: the surface with weights for its handles, and the tets on which
+  /// they were solved (or null). Return false, and change nothing, if that surface is no longer
+  /// open.
   bool set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets);
-  /// Set preliminary weights to pose with until the bind ends. They are no step; drop_preview() and
-  /// set_bound() remove them.
+  /// Set preliminary weights that are used for posing until the bind ends. No undo step is
+  /// recorded; drop_preview() and set_bound() remove the preliminary weights.
   bool set_preview(vtkPolyData* surface);
   void drop_preview();
   bool has_preview() const { return this->preview_ != nullptr; }
@@ -127,9 +131,9 @@ public:
   /// Set an option in one step. Consecutive steps of one continuous option merge until end_merge()
   /// or a step of another option. Values that the table (options.h) does not allow are ignored.
   void set_option(const QString& key, const QVariant& value);
-  /// Set several options in one step that is named like the option `key`.
+  /// Set several options in one step, which has the name of the step of option `key`.
   void set_options(const Options& values, const QString& key);
-  /// Store a value that the program itself has chosen, without a step.
+  /// Set an option that the program itself has chosen, without an undo step.
   void note_option(const QString& key, const QVariant& value);
   /// Prevent the next step from merging with the previous one.
   void end_merge() { ++this->merges_; }
@@ -138,17 +142,17 @@ public:
   void replace(const Work& work);
 
 Q_SIGNALS:
-  /// Handles or pose are about to change, for example by undo: a drag must end now.
+  /// Emitted before handles or pose change, for example by undo; a drag in progress must end.
   void about_to_change();
-  /// The parts of the work (WorkPart) in `parts` have changed.
+  /// Emitted after the parts of the work in `parts` (a combination of WorkPart) have changed.
   void changed(int parts);
-  /// The value of an option has changed. Emitted after changed().
+  /// Emitted after changed() for every option whose value has changed.
   void option_changed(const QString& key, const QVariant& value);
 
 private:
   friend class Edit;
 
-  /// Whether handle_data() already contains the changes of a step.
+  /// States whether handle_data() already contains the changes of a step.
   enum class Live
   {
     to_be_written,
@@ -163,10 +167,11 @@ private:
   Work work_;
   Work saved_;
   QUndoStack* history_;
-  vtkSmartPointer<vtkPolyData> live_; // handles, edited in place
-  bindpose::Handles handles_; // handles of live_
+  vtkSmartPointer<vtkPolyData> live_; // the handles, edited in place
+  bindpose::Handles handles_; // live_ as handles of the kernels
   std::vector<bindpose::Index> cells_;
-  vtkSmartPointer<vtkPolyData> surface_; // with columns in the order of the handles
+  // its weights have one column per handle, in the order of the handles
+  vtkSmartPointer<vtkPolyData> surface_;
   vtkSmartPointer<vtkUnstructuredGrid> tets_;
   BoundColumns columns_;
   QString unused_weights_;
@@ -179,7 +184,7 @@ private:
   };
   Binding binding_;
   int merges_ = 0;
-  bool in_history_ = false; ///< undo or redo is under way
+  bool in_history_ = false; ///< true during undo or redo
 };
 
 #endif

@@ -5,8 +5,8 @@
 
 #include <QUndoCommand>
 
-/// One step of a document's history: the work before and after it. Undo and redo change only the
-/// parts that the step changed. QUndoStack calls redo() on push; at that first call handle_data()
+/// One undo step: the work before and after an edit. Undo and redo change only the parts of the
+/// work that the edit changed. QUndoStack calls redo() on push; at that first call handle_data()
 /// may already contain the change.
 class Edit : public QUndoCommand
 {

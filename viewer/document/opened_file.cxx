@@ -72,10 +72,10 @@ Status read_with(Reader* reader, const std::string& path, const RunReader& run, 
 
 Status read_file(const std::string& path, OpenedFile& file, const RunReader& run)
 {
-  // Qt takes the first thread that uses it for the application's. The thread that is started below
-  // must not be the first.
+  // Qt uses the first thread that calls it as the application's main thread. Make this call here,
+  // before another thread is started below.
   QThread::currentThread();
-  // The checksum is computed in parallel with the reading. For a large mesh both take equally long.
+  // Compute the checksum while the file is read. For a large mesh both take equally long.
   file.checksum = std::async(
     std::launch::async, [name = QString::fromStdString(path)] { return checksum_of(name); });
   if (QString::fromStdString(path).endsWith(".tgf", Qt::CaseInsensitive))

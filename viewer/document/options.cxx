@@ -11,8 +11,8 @@ constexpr double any = std::numeric_limits<double>::max();
 constexpr double columns = 1e6;
 const QVariant z_axis = QVariantList{ 0.0, 0.0, 1.0 };
 
-/// Return three finite numbers of length one, with a tolerance for rounding by hand; invalid
-/// otherwise.
+/// Check a direction and return three finite numbers of length one; the length may deviate
+/// slightly, because users round the numbers. Return an invalid variant for any other value.
 QVariant checked_direction(const QVariant& value)
 {
   const QVariantList given = value.toList();

@@ -3,8 +3,8 @@
 
 #include <QStringList>
 
-/// The most recently opened files, the latest first. They are kept between runs of the program
-/// (QSettings).
+/// List of the most recently opened files; the latest file is first. The list is kept between runs
+/// of the program (QSettings).
 class RecentFiles
 {
 public:

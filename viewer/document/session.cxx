@@ -1,6 +1,7 @@
-// Writing: first the companions are written, under names that contain a hash of their contents.
-// Then one rename replaces the session, and companions that it does not name are deleted. Reading:
-// everything is checked before it is used. Paths of inputs are relative to the session file.
+// Writes and reads session files. Writing: companion files are written first, under names that
+// contain a hash of their contents. Then one rename replaces the session file, and companions that
+// the new session does not name are deleted. Reading: everything is checked before it is used.
+// Paths of inputs are relative to the session file.
 #include "document/session.h"
 
 #include "document/dataset_json.h"
@@ -47,18 +48,19 @@ bool write_xml(vtkDataSet* data, const std::string& path)
   writer->SetFileName(path.c_str());
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToNone(); // so that an autosave is not noticeable
+  writer->SetCompressorTypeToNone(); // fast, so that users do not notice an autosave
   writer->SetHeaderTypeToUInt64();
   return writer->Write() == 1 && writer->GetErrorCode() == 0;
 }
 
-/// Return "NAME." for NAME.bindpose.
+/// Return the prefix of companion names: "NAME." for NAME.bindpose.
 QString companion_stem(const QString& session)
 {
   return QFileInfo(session).completeBaseName() + '.';
 }
 
-/// Remove companions that only the last save needed, and unfinished files of killed processes.
+/// Remove companions that only the last saved session used, and unfinished files of killed
+/// processes.
 void remove_stale_companions(const QString& session, const QStringList& named)
 {
   QDir folder(QFileInfo(session).absolutePath());
@@ -232,7 +234,7 @@ private:
     return source;
   }
 
-  /// Return a companion. If it is missing or has changed, return null and set `lost`.
+  /// Read and return a companion. If it is missing or has changed, return null and set `lost`.
   template <typename Reader>
   vtkSmartPointer<vtkDataSet> companion(const json& companions, const char* role, bool& lost) const
   {
@@ -302,8 +304,8 @@ private:
       session.notes << tr(
         "A file with results next to the session file is missing or damaged: bind again.");
     }
-    // The handles of the bind are correct for any surface, so they replace those that use_mesh()
-    // has set.
+    // Use the stored handles of the bind instead of those that use_mesh() has set; they are correct
+    // for any surface.
     work.bound_handles = bound_handles;
     if (!surface && lost)
     {
@@ -339,7 +341,8 @@ private:
     };
     if (inputs.contains("handles"))
     {
-      work.handle_source = this->source(inputs["handles"]); // the session contains the handles
+      // the handles themselves are in the session
+      work.handle_source = this->source(inputs["handles"]);
     }
     if (inputs.contains("picture"))
     {
@@ -404,7 +407,8 @@ Status SessionFile::write_companion(
   {
     return status;
   }
-  const vtkSmartPointer<vtkDataSet> view = view_of(data); // the window may be using the data
+  // a view, because the window may be using the data
+  const vtkSmartPointer<vtkDataSet> view = view_of(data);
   const bool written = view &&
     (is_tets        ? write_xml<vtkXMLUnstructuredGridWriter>(view, file.temporary())
         : is_volume ? write_xml<vtkXMLImageDataWriter>(view, file.temporary())
@@ -428,9 +432,9 @@ Status SessionFile::write_companion(
 
 struct SessionFile::Prepared
 {
-  QString path; // absolute
-  json text; // everything except the companions
-  // Datasets that no input file contains; or null.
+  QString path; // absolute path of the session file
+  json text; // the session without its companions
+  // Datasets that are not in an input file, for the companions; may be null.
   vtkSmartPointer<vtkPolyData> surface;
   vtkSmartPointer<vtkUnstructuredGrid> tets;
   vtkSmartPointer<vtkImageData> volume;

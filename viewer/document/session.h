@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-/// The view of a window: its camera and its panel. It is not part of the work.
+/// The view of a window, which is not part of the work: the camera and the selected panel.
 struct SessionView
 {
   struct Camera
@@ -21,24 +21,24 @@ struct SessionView
     bool parallel = false;
   };
   std::optional<Camera> camera;
-  int panel = 0; ///< the panel that is shown, as numbered in PanelColumn
+  int panel = 0; ///< index of the visible panel in PanelColumn
 };
 
 /// An input file of a session that is missing or cannot be read.
 struct LostInput
 {
   QString role; ///< "mesh", "handles", "picture", "volume", "curves"
-  QString path; ///< where it was expected
-  QByteArray checksum; ///< of the file when the session was saved
+  QString path; ///< the path at which the file was expected
+  QByteArray checksum; ///< checksum of the file when the session was saved
 };
 
 struct Session
 {
   Work work;
   SessionView view;
-  QString saved_as; ///< for recovered work: the session file of which it is a later state
-  std::vector<LostInput> lost; ///< missing inputs that nothing replaces
-  QStringList notes; ///< sentences about missing or changed files
+  QString saved_as; ///< for recovered work: the session file that an earlier state was saved to
+  std::vector<LostInput> lost; ///< missing inputs for which no stored copy exists
+  QStringList notes; ///< messages about missing or changed files
 };
 
 /// **Session files** (`NAME.bindpose`) are JSON; viewer/sessions_and_tours.md documents the schema.
@@ -48,18 +48,18 @@ struct Session
 /// depends on the contents.
 ///
 /// Writing is atomic. First the companions are written to the disk, then the new session replaces
-/// the old one in one step. Only then the companions that are no longer referenced are deleted. If
+/// the old one in one step. After that, companions that are no longer referenced are deleted. If
 /// the process is killed at any time, the old session or the new one is intact.
 ///
-/// To write in the background, call prepare() on the window's thread, where it takes no time, and
-/// write() on another thread. The prepared session must be destroyed on the window's thread.
+/// To write in the background, call prepare() on the window's thread, which takes almost no time,
+/// and write() on another thread. The prepared session must be destroyed on the window's thread.
 class SessionFile
 {
 public:
-  struct Prepared; ///< a session as text, with datasets that no one changes
+  struct Prepared; ///< the session as text, with datasets that nothing modifies
   static std::shared_ptr<const Prepared> prepare(const QString& path, const Session& session);
-  /// Write the session. Companions that this object has already written there are not written
-  /// again.
+  /// Write the session. Companions that this object has already written to the same folder are not
+  /// written again.
   bindpose::Status write(const Prepared& prepared);
   bindpose::Status write(const QString& path, const Session& session);
 
@@ -67,7 +67,7 @@ private:
   struct Companion
   {
     vtkSmartPointer<vtkDataSet> data; // the dataset that was written
-    QString session; // path of the session file it belongs to
+    QString session; // path of the session file that uses the companion
     QString name;
     QByteArray checksum;
   };

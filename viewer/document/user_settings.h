@@ -5,8 +5,8 @@
 
 class QSettings;
 
-/// Return the settings that are kept between runs of the program. They do not depend on the open
-/// files.
+/// Return the user's settings, which are kept between runs of the program. They do not depend on
+/// the open files.
 std::unique_ptr<QSettings> user_settings();
 
 #endif

@@ -50,8 +50,8 @@ bool same_cells(vtkCellArray* a, vtkCellArray* b)
     same_values(a->GetConnectivityArray(), b->GetConnectivityArray());
 }
 
-/// Report whether a handle array is only a look (layer, color, lock) or a pose, and affects no
-/// bind.
+/// Report whether a handle array contains only looks (layer, color, lock) or a pose, so that it
+/// affects no bind.
 bool is_look(const char* array)
 {
   static const char* const looks[] = { "Layer", "Color", "Locked", "Transform", "Mode", "Stretch",

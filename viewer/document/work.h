@@ -22,14 +22,15 @@
 struct Source
 {
   QString path; ///< absolute
-  QByteArray checksum; ///< SHA-256 of the file as it was read, in hex
+  QByteArray checksum; ///< SHA-256 of the file in hex, when it was read
 };
 
-/// Everything that the user has opened and made, as a value. Copies are cheap, because datasets are
-/// shared. Datasets in a Work must not be changed; another state of the work has new objects.
+/// Everything that the user has opened and created, as a value. Copies are cheap, because datasets
+/// are shared. Datasets in a Work must not be changed; another state of the work has new dataset
+/// objects.
 struct Work
 {
-  QString name; ///< name of the mesh, for the title
+  QString name; ///< name of the mesh, for the window title
   vtkSmartPointer<vtkPolyData> surface; ///< at rest; the array Weights is optional
   bool made_here = true; ///< true if the surface or its weights differ from the mesh's file
   /// The tets whose boundary is the surface; or null.
@@ -37,7 +38,7 @@ struct Work
   /// The tets on which the weights were solved; or null.
   vtkSmartPointer<vtkUnstructuredGrid> weighted_tets;
   vtkSmartPointer<vtkPolyData> handles; ///< at rest; their pose arrays are not used
-  /// The handles of the weights' columns; null before a bind.
+  /// The handles for which the weights were computed, one per column; null before a bind.
   vtkSmartPointer<vtkPolyData> bound_handles;
   bindpose::Pose pose; ///< one entry per handle
   std::shared_ptr<const bindpose::PoseShelf> key_poses;
@@ -50,7 +51,7 @@ struct Work
   Source mesh_source, handle_source, picture_source, volume_source, curve_source;
 };
 
-/// The parts in which two states of the work differ.
+/// Parts of the work, as flags. They state which parts differ between two states.
 enum WorkPart : int
 {
   mesh_part = 1, ///< another surface
@@ -67,7 +68,7 @@ enum WorkPart : int
 };
 int differences(const Work& a, const Work& b);
 
-/// Apply to `work` the changes from `before` to `after`, and keep the rest of it.
+/// Apply the changes from `before` to `after` to `work`; all other parts of `work` are kept.
 void apply_edit(const Work& before, const Work& after, Work& work);
 
 /// Report whether two surfaces are the same apart from their weights.

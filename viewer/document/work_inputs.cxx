@@ -18,7 +18,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Return the surface of a mesh. For tets it is their boundary, with their weights.
+/// Return the surface of a mesh. For tets it is their boundary, with the weights of the tets.
 vtkSmartPointer<vtkPolyData> skin_of(vtkDataSet* mesh)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
@@ -49,7 +49,7 @@ Handles handles_of(vtkPolyData* data)
   return handles;
 }
 
-/// Adopt weights that came with the mesh for the current handles, if they fit.
+/// Use the weights of the mesh file for the current handles if they fit.
 void adopt_weights(Work& work)
 {
   if (!work.bound_handles && work.handles && weights_of(work.surface) &&

@@ -26,7 +26,7 @@ bool same_pose(const Pose& a, const Pose& b)
   return same;
 }
 
-/// Return `before` if it equals `value`, otherwise a shared copy of `value`.
+/// Return `before` if it equals `value`; otherwise return a shared copy of `value`.
 template <typename Value, typename Same>
 std::shared_ptr<const Value> shared_with(
   const std::shared_ptr<const Value>& before, const Value& value, const Same& same)
@@ -84,8 +84,8 @@ Status Body::bind(ExecutionContext& context, const PoseOptions& options)
                                source.weights, source.handles, reduced);
   if (status.usable() && options.in_tets)
   {
-    // The surface gets the same extra weights as in posing, because both are computed from the same
-    // columns.
+    // The surface and the tets get the same extra weights as in posing, because both are computed
+    // from the same columns.
     ReducedArap arap;
     Weights columns, weights;
     Status carried = arap.bind(
@@ -192,7 +192,7 @@ Status Body::play(ExecutionContext& context, const BodyRun& given,
   {
     return Status::invalid_input("no recorded simulation is available for playback");
   }
-  // A copy, because `given` may be the body's own run, which restart() clears.
+  // Copy the run, because `given` may be a reference to the body's own run, which restart() clears.
   const BodyRun run = given;
   Points posed;
   Status status = this->restart(context, *run.start, posed);

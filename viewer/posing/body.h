@@ -11,8 +11,8 @@
 namespace bindpose
 {
 
-/// Parameters of the shape's dynamics. Lengths are in bounding-box diagonals of the shape, so that
-/// the same numbers suit any file.
+/// Physical parameters of a simulated body. Lengths are in bounding-box diagonals of the shape, so
+/// that the same values suit shapes of any size.
 struct BodyOptions
 {
   double gravity = 0.5; ///< diagonals / s^2, 0 to 20
@@ -24,8 +24,8 @@ struct BodyOptions
 };
 bool operator==(const BodyOptions& a, const BodyOptions& b);
 
-/// A recorded run: the pose at its start, and the pose and the options of every step. Playing a run
-/// again gives the same bits.
+/// A recorded run of a simulation: the pose at its start, and the pose and the options of every
+/// step. Replaying a run gives the same bits.
 struct BodyRun
 {
   struct Step
@@ -37,9 +37,10 @@ struct BodyRun
   std::vector<Step> steps;
 };
 
-/// Simulates the shape as a body with mass (ReducedDynamics), on the surface or in its tets, and
-/// records the run. A free handle follows the pose while a drag constrains it, and keeps its
-/// velocity when it is released.
+/// Simulates the shape as a body with mass by reduced as-rigid-as-possible dynamics
+/// (ReducedDynamics; Jacobson et al. 2012), on the surface or in its tets, and records the run. A
+/// handle in mode free is constrained to the pose during a drag, and keeps its velocity when it is
+/// released.
 class Body
 {
 public:
@@ -50,30 +51,31 @@ public:
   explicit Body(std::shared_ptr<const PoseSource> source) : source_(std::move(source)) {}
 
   bool is_bound(const PoseOptions& options) const;
-  /// @param options  the used options are those of reduced as-rigid-as-possible: energy, tets,
-  /// extra weights
+  /// @param options  uses only the options of reduced as-rigid-as-possible: energy, tets, extra
+  /// weights
   Status bind(ExecutionContext& context, const PoseOptions& options);
   Index binds() const { return this->binds_; }
 
   /// Put the body at rest in this pose at time zero, and begin a new run.
   Status restart(ExecutionContext& context, const Pose& pose, Points& posed);
-  /// Advance by one step of 1 / steps_per_second. The report is that of vtkReducedDynamics.
+  /// Advance by one time step of 1 / steps_per_second. The report is that of vtkReducedDynamics.
   Status step(
     ExecutionContext& context, const Pose& pose, const BodyOptions& options, Points& posed);
   bool has_started() const { return this->run_.start != nullptr; }
   double time() const { return this->body_.state().time; }
   const BodyRun& run() const { return this->run_; }
-  /// Report whether the run contains all steps. It does not if there were more than longest_run.
+  /// Report whether the run contains all steps. The result is false after more than longest_run
+  /// steps.
   bool run_is_whole() const { return this->whole_; }
   /// Return one transform per handle. For handles whose mode is not full, it is the transform that
-  /// the body has computed.
+  /// the simulation computed.
   const std::vector<Affine>& transforms() const { return this->body_.transforms(); }
   /// Return the fitted rotations; null before the body has started.
   const PoseRotations* rotations();
 
-  /// Play a run from its start, and call `seen` with every shape: first the start without motion,
-  /// then each step.
-  /// @param seen  stops the run by returning false
+  /// Replay a run from its start, and call `seen` with every shape: first the shape at the start,
+  /// then the shape after each step.
+  /// @param seen  returns false to stop the replay
   Status play(ExecutionContext& context, const BodyRun& run,
     const std::function<bool(std::size_t step, const Points& posed)>& seen);
 
@@ -84,7 +86,7 @@ private:
   std::optional<PoseOptions> bound_;
   ReducedDynamics body_;
   PoseRotations rotations_; ///< cache for rotations()
-  Skinning on_surface_; ///< with tets only
+  Skinning on_surface_; ///< surface weights, used only if the body is simulated in tets
   BodyRun run_;
   bool whole_ = true;
   double diagonal_ = 0.0;

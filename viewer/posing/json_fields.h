@@ -67,7 +67,7 @@ public:
     value = found ? found->get<std::string>() : value;
   }
 
-  /// Read one of the words; the value is the word's index.
+  /// Read a word from a list of allowed words; the value is the word's index in the list.
   template <typename Choice, std::size_t Count>
   void read(const char* key, Choice& value, const char* const (&words)[Count])
   {
@@ -113,7 +113,8 @@ public:
     }
   }
 
-  /// Return a member that must be a list or an object; null if it is missing or of another type.
+  /// Return a member that must be a list (`list` is true) or an object. Return null if it is
+  /// missing or of another type.
   const Json* part(const char* key, bool list)
   {
     const Json* found = this->find(key);

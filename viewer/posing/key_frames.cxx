@@ -17,11 +17,12 @@ constexpr double longest = 36000.0;
 constexpr const char* interpolation_words[] = { "linear", "spline" };
 
 /// Return a handle's pivot, relative to its parent, at a time between keys 1 and 2. Keys 0 and 3
-/// are their neighbors, or the keys themselves at the ends.
+/// are the keys before and after these two; at the ends of the sequence they are keys 1 and 2
+/// themselves.
 Vec3 on_spline(const Vec3 (&p)[4], const double (&t)[4], double time)
 {
   const double span = t[2] - t[1];
-  // The slope at a key is that of the parabola through the key and its neighbors.
+  // The slope at a key is that of the parabola through the key and its two neighbors.
   const auto slope = [&](int k, int before, int after) -> Vec3
   {
     const double h0 = t[k] - t[before], h1 = t[after] - t[k];
@@ -151,7 +152,7 @@ std::vector<Pose> KeyFrames::frames(const Handles& handles, const Pose& base) co
   const std::size_t count = this->frame_count();
   for (std::size_t k = 0; k < count; ++k)
   {
-    // A frame time that equals a key's time up to round-off becomes that key's time.
+    // If a frame's time equals a key's time up to round-off, use the key's time.
     const double time = static_cast<double>(k) / this->frames_per_second;
     const int key = this->at(time);
     result.push_back(this->pose_at(

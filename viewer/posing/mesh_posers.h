@@ -11,8 +11,9 @@
 namespace bindpose
 {
 
-/// Full as-rigid-as-possible: every vertex of the surface, or of the tets, has its own position.
-/// The surface follows the tets. A solve starts from the result of the last one.
+/// Poses by full as-rigid-as-possible (Sorkine and Alexa 2007): every vertex of the surface, or of
+/// the tets, is an unknown. With tets the surface moves with them. A solve starts from the result
+/// of the last solve.
 class FullPoser : public Poser
 {
 public:
@@ -32,7 +33,8 @@ private:
   TetAnchors anchors_;
 };
 
-/// The smooth surface that satisfies the constraints of the handles.
+/// Poses by variational surfaces (Jacobson et al. 2010): the smooth surface that satisfies the
+/// constraints of the handles.
 class VariationalPoser : public Poser
 {
 public:

@@ -7,32 +7,34 @@
 namespace bindpose
 {
 
-/// A handle's transform as the window shows it, relative to the parent: a scale about the pivot,
-/// rotations about x, then y, then z, and a translation.
+// Values of a handle's transform in the number fields of the window, and interpolation of poses.
+
+/// A handle's transform relative to its parent, in the form in which the window shows it: a scale
+/// about the pivot, rotations about x, then y, then z, and a translation.
 struct HandleValues
 {
   Vec3 translate = Vec3::Zero();
   Vec3 degrees = Vec3::Zero();
   double scale = 1.0;
-  double stretch = 1.0; ///< bones
-  Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< bones, degrees at head and tail
-  /// True if the transform has a shear, an uneven scale or a reflection, for which there are no
-  /// fields. The other fields then contain the nearest rotation and the mean scale.
+  double stretch = 1.0; ///< for bones only
+  Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< for bones only; degrees at head and tail
+  /// True if the transform has a shear, a non-uniform scale or a reflection, which these fields
+  /// cannot express. They then contain the nearest rotation and the mean scale.
   bool more = false;
 };
 HandleValues values_of(const Handles& handles, const Pose& pose, std::size_t handle);
-/// Return the pose with other values for one handle. Keep the handle's mode, and move its
-/// descendants along.
+/// Return the pose with new values for one handle. The handle's mode is kept, and its descendants
+/// move with it.
 Pose with_values(
   const Handles& handles, const Pose& pose, std::size_t handle, const HandleValues& values);
 
 /// Interpolate between two poses, per handle and relative to its parent. Pivots, scale, shear,
-/// stretch and twist change linearly; rotations turn by the shorter arc (slerp). `share` is the
-/// fraction of the way: 0 returns `a` and 1 returns `b`, bit for bit. Below 1 the modes are those
-/// of `a`. A handle that is equal in both poses, together with all its ancestors, keeps its bits
-/// for every share.
+/// stretch and twist are interpolated linearly, rotations along the shorter arc (slerp). `share` is
+/// the interpolation parameter: 0 returns `a` and 1 returns `b`, bit for bit. Below 1 the modes are
+/// those of `a`. If a handle and all its ancestors are equal in both poses, the handle's bits do
+/// not change.
 Pose blend(const Handles& handles, const Pose& a, const Pose& b, double share);
-/// The same for poses that are already relative (relative_pose()).
+/// Like blend(), for poses that are already relative (relative_pose()).
 Pose blend_relative(const Handles& handles, const Pose& a, const Pose& b, double share);
 
 } // namespace bindpose

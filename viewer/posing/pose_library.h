@@ -6,7 +6,7 @@
 namespace bindpose
 {
 
-/// Named poses in the order in which they were stored.
+/// A list of named poses, in the order in which they were stored.
 class PoseLibrary
 {
 public:
@@ -32,7 +32,7 @@ private:
   std::vector<Entry> entries_;
 };
 
-/// [{"name": …, "handles": {…}}, …]
+/// Return [{"name": …, "handles": {…}}, …].
 nlohmann::ordered_json to_json(const PoseLibrary& library);
 Status from_json(const nlohmann::ordered_json& json, PoseLibrary& library);
 

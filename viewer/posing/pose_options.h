@@ -10,6 +10,8 @@
 namespace bindpose
 {
 
+// The pose methods of the window and their options.
+
 /// All pose methods. The window's actions use the same integers.
 enum class PoseMethod : int
 {
@@ -23,16 +25,17 @@ enum class PoseMethod : int
 };
 constexpr int pose_method_count = 7;
 
-/// Return the method's word in `bindpose deform --method`: "lbs", "dqs", "reduced-arap", "stbs",
-/// "cor", "full-arap", "variational".
+/// Return the name of the method in `bindpose deform --method`: "lbs", "dqs", "reduced-arap",
+/// "stbs", "cor", "full-arap", "variational".
 const char* to_string(PoseMethod method);
-/// Report whether the method blends by weights: all but full as-rigid-as-possible and variational
-/// surfaces.
+/// Report whether the method blends by weights. All methods do, except full as-rigid-as-possible
+/// and variational surfaces.
 bool needs_weights(PoseMethod method);
-/// Report whether the method only blends the given transforms and computes none.
+/// Report whether the method only blends the transforms of the pose and computes no transforms
+/// itself.
 bool is_skinning(PoseMethod method);
-/// Report whether the method is as-rigid-as-possible, so that it computes the rotations that the
-/// pose leaves free.
+/// Report whether the method is as-rigid-as-possible; it then computes the rotations that the pose
+/// does not prescribe.
 bool finds_rotations(PoseMethod method);
 /// Return how the method uses the stretch and the twist of bones.
 StretchUse stretch_use(PoseMethod method);
@@ -40,8 +43,8 @@ StretchUse stretch_use(PoseMethod method);
 /// background.
 bool is_slow(PoseMethod method);
 
-/// Which pseudo-edges rotate point handles in skinning. vtkSkinningDeformation uses the same
-/// integers.
+/// Source of the pseudo-edges, lines between point handles that determine how the points rotate in
+/// skinning. vtkSkinningDeformation uses the same integers.
 enum class PseudoEdgeChoice : int
 {
   none = 0,
@@ -54,33 +57,35 @@ struct PoseOptions
 {
   PoseMethod method = PoseMethod::linear_blend;
 
-  /// Skinning: weights in single precision. Positions are exact to a millionth of the shape's size.
+  /// Skinning methods: weights in single precision. Positions are accurate to a millionth of the
+  /// shape's size.
   bool single_precision = false;
-  /// Skinning: the pseudo-edges that give dragged points their rotations.
+  /// Skinning methods: the pseudo-edges that determine the rotations of dragged points.
   PseudoEdgeChoice pseudo_edges = PseudoEdgeChoice::given;
   bool pseudo_edge_stretch = false;
-  /// Stretchable bones: how to compute endpoint weights if there is no array EndpointWeights.
+  /// Stretchable bones: how to compute endpoint weights if the mesh has no array EndpointWeights.
   EndpointMethod endpoints = EndpointMethod::projection;
 
-  /// Both as-rigid-as-possible methods: which edges share a rotation.
+  /// Both as-rigid-as-possible methods: the sets of edges that share a rotation.
   ArapEnergy energy = ArapEnergy::automatic;
   /// Both as-rigid-as-possible methods: use the energy of the tets on which the weights were
   /// solved. Tets preserve volume.
   bool in_tets = false;
-  /// Reduced: number of weights in addition to the handles', 0 to 30.
+  /// Reduced as-rigid-as-possible: number of weights in addition to those of the handles, 0 to 30.
   Index extra_weights = 0;
   ExtraWeights extra_kind = ExtraWeights::bumps;
-  /// Reduced: limits per frame: iterations (1 to 1000), and microseconds (0: no limit).
+  /// Reduced as-rigid-as-possible: maximum number of iterations per frame (1 to 1000), and maximum
+  /// number of microseconds per frame (0: no limit).
   Index iterations = 100;
   double budget_microseconds = 0.0;
 
-  /// Variational surface: order 1 is a membrane, 2 a thin plate, 3 is smoother than 2; and the
-  /// conditions at the edge of the patch.
+  /// Variational surface: order (1 is a membrane, 2 a thin plate, 3 is smoother than 2), and
+  /// boundary conditions at the edge of the patch.
   int order = 2;
   PatchBoundary boundary = PatchBoundary::region;
 };
 
-/// Report whether both options can use the same bind.
+/// Report whether one bind can be used with both options.
 bool same_bind(const PoseOptions& a, const PoseOptions& b);
 bool operator==(const PoseOptions& a, const PoseOptions& b);
 inline bool operator!=(const PoseOptions& a, const PoseOptions& b)

@@ -10,7 +10,7 @@ namespace
 std::vector<Index> groups_on_surface(
   const PoseSource& source, const RotationGroups& groups, bool in_tets)
 {
-  if (!in_tets || groups.of_vertex.empty()) // empty: full ARAP with groups of elements
+  if (!in_tets || groups.of_vertex.empty()) // empty: in full ARAP the groups may be elements
   {
     return groups.of_vertex;
   }

@@ -10,18 +10,18 @@
 namespace bindpose
 {
 
-/// The rotations that a method has fitted.
+/// The rotations that an as-rigid-as-possible method has fitted, for display.
 struct PoseRotations
 {
-  /// Index of the rotation that each surface point follows, #V, -1 for none. A new bind makes a new
-  /// object.
+  /// Index of the rotation that each surface point follows, #V, -1 for none. Each bind creates a
+  /// new object.
   std::shared_ptr<const std::vector<Index>> of_point;
   std::vector<Eigen::Matrix3d> rotations;
 };
 
-/// Set `taken` to the rotations of the surface's points. A point follows its own group; in tets it
-/// follows the group of the nearest vertex of its tet. If `taken` already has groups, they must be
-/// of the same bind and are kept.
+/// Set `taken` to the rotations of the surface's points. A surface point follows the rotation of
+/// its own group; in tets it follows the group of the nearest vertex of the tet that contains it.
+/// If `taken` already has groups, they must be of the same bind and are kept.
 void take_rotations(const PoseSource& source, const RotationGroups& groups,
   const std::vector<Eigen::Matrix3d>& rotations, bool in_tets, PoseRotations& taken);
 

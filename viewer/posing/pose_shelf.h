@@ -7,16 +7,18 @@
 namespace bindpose
 {
 
-/// All stored poses, as a value for sessions and for undo.
+/// All stored poses of a document: the library and the key frames. Copies are stored in sessions
+/// and for undo.
 struct PoseShelf
 {
   PoseLibrary library;
   KeyFrames keys;
 };
 
-/// {"library": […], "key_frames": {…}}
+/// Return {"library": […], "key_frames": {…}}.
 nlohmann::ordered_json to_json(const PoseShelf& shelf);
-/// Read a shelf. Missing parts are empty. On invalid_input the shelf is unchanged.
+/// Read a shelf. A missing member gives an empty library or empty key frames. On invalid_input the
+/// shelf is unchanged.
 Status from_json(const nlohmann::ordered_json& json, PoseShelf& shelf);
 
 } // namespace bindpose

@@ -15,7 +15,7 @@ namespace bindpose
 namespace
 {
 /// Return the rows of a point array, padded with zeros to three components. The result is empty if
-/// the array is missing, or has fewer than `fewest` or more than three components.
+/// the array is missing, has fewer than `fewest` components, or has more than three.
 Points to_rows(vtkPolyData* surface, const char* name, int fewest)
 {
   vtkDataArray* array = surface->GetPointData()->GetArray(name);

@@ -14,19 +14,20 @@ namespace bindpose
 {
 
 /// Copies of everything that a bind reads (the surface, its weights and its handles), so that a
-/// bind can run in the background. A source is immutable; new weights or handles make a new source.
+/// bind can run in the background. A source is immutable; a new source is created for new weights
+/// or handles.
 struct PoseSource
 {
   Points points; ///< the surface at rest
   Triangles triangles;
   Weights weights; ///< #V x #handles; empty before a bind
   Weights endpoints; ///< the point array EndpointWeights; empty if there is none
-  /// The region ids and the point arrays Fixed, Parameterization, Tangents and Load, as
-  /// vtkVariationalSurface reads them. The other options are set when a method is bound.
+  /// The region labels and the point arrays Fixed, Parameterization, Tangents and Load, as
+  /// vtkVariationalSurface reads them. All other options are set when a method is bound.
   VariationalSurfaceOptions arrays;
   Handles handles;
   PseudoEdges pseudo_edges; ///< from the handle dataset
-  Status of_pseudo_edges; ///< why pseudo_edges cannot be used
+  Status of_pseudo_edges; ///< the reason why pseudo_edges cannot be used, or ok
   /// The tets on which the weights were solved; empty if they are unknown or were not tets.
   Points tet_points;
   Tets tets;
@@ -36,7 +37,7 @@ struct PoseSource
   bool has_tets() const { return this->tets.rows() > 0 && this->tet_weights.rows() > 0; }
 };
 
-/// Read the source from datasets. Return invalid_input for all input that the filters reject: an
+/// Create the source from datasets. Return invalid_input for all input that the filters reject: an
 /// invalid surface, invalid handles, weights that do not match the handles, endpoint weights
 /// outside [0, 1].
 /// @param tets  tets with the point array Weights; may be null

@@ -11,9 +11,9 @@
 namespace bindpose
 {
 
-/// Runs one pose method on one source with the kernels: it binds once and poses many times. The
-/// result equals that of the method's filter, bit for bit. bind() and solve() can be called on any
-/// thread, one call at a time.
+/// Base class of the pose methods of the window. A poser calls the kernels of one method on one
+/// source: it binds once and poses many times. The result equals that of the method's filter, bit
+/// for bit. bind() and solve() can be called on any thread, one call at a time.
 ///
 /// The report of a pose has the entries of the kernel. In addition it has seconds.solve (computing
 /// transforms or points) and seconds.skin (moving the surface by transforms).
@@ -22,21 +22,22 @@ class Poser
 public:
   virtual ~Poser() = default;
 
-  /// Report whether solve() has all data that these options need.
+  /// Report whether the bind contains everything that solve() needs for these options.
   virtual bool is_bound(const PoseOptions& options) const = 0;
-  /// Compute the missing parts of the bind, and keep the existing ones. Return the warnings of the
+  /// Compute the missing data of the bind, and keep the existing data. Return the warnings of the
   /// bind.
   Status bind(ExecutionContext& context, const PoseOptions& options);
-  /// Compute the surface in a pose, which has one entry per handle. With the status not_converged
-  /// the points are valid, too.
-  /// @param most_iterations  limit on iterations for a slice of a long solve; 0: the default limit
+  /// Compute the points of the surface in a pose, which has one entry per handle. The points are
+  /// also valid if the status is not_converged.
+  /// @param most_iterations  maximum number of iterations, for computing a long solve in several
+  /// calls; 0: the default limit
   Status solve(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
     Index most_iterations, Points& posed);
   /// Return the transforms that the last solve computed, at least one per handle; null if the
   /// method computes none.
   virtual const std::vector<Affine>* found() const { return nullptr; }
-  /// Return the rotations with which the last solve measured its energy; null if the method fits
-  /// none.
+  /// Return the rotations with which the last solve measured its energy; null if the method fits no
+  /// rotations.
   virtual const PoseRotations* rotations() { return nullptr; }
   /// Return the number of binds so far.
   Index binds() const { return this->binds_; }
@@ -55,7 +56,7 @@ private:
 
 /// Return the poser of a method. The four skinning methods use one type of poser.
 std::unique_ptr<Poser> make_poser(PoseMethod method, std::shared_ptr<const PoseSource> source);
-/// Report whether one poser serves both methods.
+/// Report whether the same type of poser implements both methods.
 bool same_poser(PoseMethod a, PoseMethod b);
 
 /// Return invalid_input if the options require the energy of tets and the source has no tets with

@@ -9,8 +9,8 @@
 namespace bindpose
 {
 
-/// Reduced as-rigid-as-possible on the surface or in the tets. In tets, the surface's points blend
-/// the same transforms by their own weights.
+/// Poses by reduced as-rigid-as-possible (Jacobson et al. 2012), on the surface or in the tets. In
+/// tets, the surface's points blend the same transforms by their own weights.
 class ReducedPoser : public Poser
 {
 public:
@@ -33,8 +33,9 @@ private:
 
 /// Return the options of the reduced as-rigid-as-possible kernels.
 ReducedArapOptions reduced_options(const PoseOptions& options);
-/// Compute the surface's weights for all columns of a space in the source's tets. The columns of
-/// handles are the source's own weights; extra columns are interpolated from the tets' vertices.
+/// Compute the surface's weights for all columns of a reduced space in the source's tets. The
+/// columns of handles are the source's own weights; extra columns are interpolated from the tets'
+/// vertices.
 Status weights_on_surface(
   ExecutionContext& context, const PoseSource& source, const Weights& in_tets, Weights& weights);
 

@@ -18,12 +18,12 @@ struct PosedFrames
   double frames_per_second = 24.0;
 };
 
-/// Pose all frames. Each solve starts from the result of the previous frame, as it does when the
-/// window plays them.
+/// Pose all frames of an animation. Each solve starts from the result of the previous frame, as it
+/// does when the window plays the animation.
 Status make_frames(ExecutionContext& context, const std::shared_ptr<const PoseSource>& source,
   const PoseOptions& options, const std::vector<Pose>& poses, PosedFrames& frames);
 
-/// Make the frames of a body's run: one for its start and one per step.
+/// Return the frames of a recorded simulation: one for its start and one per step.
 Status make_frames(ExecutionContext& context, const std::shared_ptr<const PoseSource>& source,
   const PoseOptions& options, const BodyRun& run, PosedFrames& frames);
 

@@ -1,5 +1,5 @@
-// Centers of rotation take seconds to compute, and endpoint weights take as long as a bind. Both
-// are phases of bind(), so that the window can show their progress and cancel them.
+// Poses by skinning. Centers of rotation take seconds to compute, and endpoint weights take as long
+// as a bind. Both are phases of bind(), so that the window can show their progress and cancel them.
 #include "posing/skinning_poser.h"
 
 #include "pose/rotation_centers.h"
@@ -98,7 +98,7 @@ Status SkinningPoser::bind_missing(ExecutionContext& context, const PoseOptions&
   return status;
 }
 
-/// Compute the same endpoint weights as vtkBoneEndpointWeights for a surface.
+/// Compute endpoint weights for a surface, as vtkBoneEndpointWeights does.
 Status SkinningPoser::make_endpoints(ExecutionContext& context, EndpointMethod method)
 {
   Phase phase(context, "endpoints", 0.1, 1.0);

@@ -9,9 +9,9 @@
 namespace bindpose
 {
 
-/// Linear blend, dual quaternions, stretchable bones and centers of rotation share one set of
-/// sparse weights. Centers, endpoint weights and automatic pseudo-edges are computed by the first
-/// bind that needs them.
+/// Poses by one of four skinning methods. Linear blend, dual quaternions, stretchable bones and
+/// centers of rotation share one set of sparse weights. Centers, endpoint weights and automatic
+/// pseudo-edges are computed by the first bind that needs them.
 class SkinningPoser : public Poser
 {
 public:

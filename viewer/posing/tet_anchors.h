@@ -9,9 +9,9 @@
 namespace bindpose
 {
 
-/// Locations of a surface's points in tets, so that the surface can follow the tets. A point that
-/// is identical to a tet's vertex moves with that vertex, bit for bit. Any other point moves with
-/// the tet that contains it or is nearest to it.
+/// Positions of a surface's points relative to tets, so that the surface can move with the tets. A
+/// point that is identical to a tet's vertex moves with that vertex, bit for bit. Any other point
+/// moves with the tet that contains it or is nearest to it.
 class TetAnchors
 {
 public:
@@ -28,7 +28,7 @@ private:
   struct Anchor
   {
     std::array<Index, 4> vertices;
-    std::array<double, 4> shares; ///< barycentric; 1, 0, 0, 0 on a vertex
+    std::array<double, 4> shares; ///< barycentric coordinates; 1, 0, 0, 0 on a vertex
   };
   std::vector<Anchor> anchors_;
 };

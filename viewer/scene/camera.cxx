@@ -1,9 +1,11 @@
-// Fitting: a camera at c with axes r (right), u (up) and f (forward) sees a point p if
+// Computes cameras that fit a shape into the picture. A camera at c with axes r (right), u (up) and
+// f (forward) and the tangent tx of half its horizontal view angle sees a point p if
 // |(p - c)·r| <= tx (p - c)·f
-// and likewise for u. The right and left borders require
+// and likewise for u. For the right and left borders of the picture this means
 // c·r - tx c·f >= max(p·r - tx p·f) =: A and
 // -c·r - tx c·f >= max(-p·r - tx p·f) =: B.
-// The sum of the two bounds c·f from above by -(A + B) / (2 tx). Their difference centers c·r.
+// The sum of both inequalities is an upper bound of c·f: -(A + B) / (2 tx). Their difference gives
+// the c·r that centers the shape.
 #include "scene/camera.h"
 
 #include "vtkCamera.h"
@@ -37,14 +39,14 @@ Frame choose_frame(const Box& box, const std::string& up)
   {
     if (named)
     {
-      frame.flat = false; // a floor, viewed from the side and above
+      frame.flat = false; // a floor is viewed from the side and above
     }
     else
     {
       frame.up = 2;
     }
   }
-  // For y up: level axes x and z; for z up: x and y; for x up: y and z.
+  // The two horizontal axes: x and z if y is up; x and y if z is up; y and z if x is up.
   const int level[2] = { frame.up == 0 ? 1 : 0, frame.up == 2 ? 1 : 2 };
   frame.depth = size[level[0]] >= size[level[1]] ? level[1] : level[0];
   return frame;
@@ -53,7 +55,7 @@ Frame choose_frame(const Box& box, const std::string& up)
 Vec3 view_direction(const Frame& frame, const View& view)
 {
   const Vec3 up = Vec3::Unit(frame.up);
-  // View from +z, +x, or -y with z up. The other level axis then points to the right.
+  // View from +z or +x, or from -y if z is up. The other horizontal axis then points to the right.
   const double side = frame.up == 2 && frame.depth == 1 ? -1.0 : 1.0;
   const Vec3 front = side * Vec3::Unit(frame.depth);
   const double azimuth = view.azimuth + (frame.flat ? 0.0 : default_azimuth);
@@ -67,13 +69,14 @@ Vec3 view_direction(const Frame& frame, const View& view)
 
 namespace
 {
-/// Axes of the camera, unit vectors.
+/// Axes of the camera, as unit vectors.
 struct Axes
 {
   Vec3 forward, right, up;
 };
 
-/// Fit the camera along the axes: move it to where all points are visible and as large as possible.
+/// Fit the camera for the given axes: move it to the position where all points are visible and as
+/// large as possible.
 void fit_along(vtkCamera* camera, PointsView points, const Axes& axes, double angle, double aspect,
   double margin)
 {
@@ -99,7 +102,8 @@ void fit_along(vtkCamera* camera, PointsView points, const Axes& axes, double an
     near_point = std::min(near_point, z);
     far_point = std::max(far_point, z);
   }
-  // A point, or a line along the view, has no width. Keep some distance from it.
+  // A single point, or a line along the view direction, has no width. Keep a minimum distance from
+  // it.
   const double smallest = std::max(0.5 * box.diagonal(), 1e-6);
   double depth =
     std::min(-(high[0] + high[1]) / (2.0 * free * tx), -(high[2] + high[3]) / (2.0 * free * ty));
@@ -135,8 +139,8 @@ bool sees_all(vtkCamera* camera, PointsView points, const Axes& axes, double asp
   return true;
 }
 
-/// Return the distance from the points' center, or the parallel scale, at which all points are
-/// visible.
+/// Return the smallest size at which all points are visible: the distance from the points' center,
+/// or the parallel scale of a parallel view.
 double least_size(vtkCamera* camera, PointsView points, const Axes& axes, double aspect)
 {
   const Vec3 center = bounding_box(points).center();
@@ -162,7 +166,8 @@ void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const 
   axes.up = axes.right.cross(axes.forward);
   camera->ParallelProjectionOff();
   fit_along(camera, points, axes, view_angle, aspect, margin);
-  // Zoom by the view angle. The perspective is preserved, and the camera never enters the shape.
+  // Zoom by changing the view angle. The perspective is preserved, and the camera never enters the
+  // shape.
   const double ty = std::tan(0.5 * view_angle * pi / 180.0);
   camera->SetViewAngle(2.0 * std::atan(ty / view.zoom) * 180.0 / pi);
 }
@@ -204,7 +209,7 @@ bool find_plane(PointsView points, Vec3& normal)
   {
     return false;
   }
-  // The mean is in the plane, unlike the center of the box.
+  // Use the mean of the points, which is in their plane; the center of the bounding box may not be.
   const Eigen::RowVector3d middle = points.colwise().mean();
   const Points apart = points.rowwise() - middle;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
@@ -236,7 +241,7 @@ void fit_parallel_camera(
   const Vec3 vertical = std::abs(normal.y()) > 0.999 ? Vec3::UnitZ() : Vec3::UnitY();
   const Vec3 up = (vertical - vertical.dot(normal) * normal).normalized();
   const Vec3 right = up.cross(normal);
-  Box box; // right, up, toward the eye
+  Box box; // along right, up, and toward the eye
   for (Index i = 0; i < points.rows(); ++i)
   {
     const Vec3 p = points.row(i);
@@ -247,7 +252,8 @@ void fit_parallel_camera(
   const double smallest = std::max(0.5 * box.diagonal(), 1e-6);
   const Vec3 center = box.center();
   const Vec3 focus = center.x() * right + center.y() * up + center.z() * normal;
-  // Use the distance of a perspective view, so that switching to perspective shows the same.
+  // Use the camera distance of a perspective view, so that switching to perspective shows the same
+  // part of the plane.
   const double scale =
     std::max({ 0.5 * size.y() / free, 0.5 * size.x() / (free * aspect), 1e-3 * smallest });
   const double distance = scale / std::tan(0.5 * view_angle * pi / 180.0);

@@ -10,22 +10,23 @@ class vtkCamera;
 namespace bindpose
 {
 
-/// The direction from which a shape is viewed.
+/// The direction from which a shape is viewed, relative to a default view.
 ///
-/// In the default view, y is up (x and z with `up`). The camera looks along the shorter of the two
-/// level axes, so that the broad side of the shape is visible: from +z if x is at least as long as
-/// z, else from +x. It then moves 28 degrees to the right and 16 degrees up. A flat shape is viewed
-/// straight from the front. The projection is perspective with a view angle of 30 degrees.
+/// In the default view, y is up (or the axis `up`). The camera looks along the shorter of the two
+/// horizontal axes, so that the broad side of the shape is visible: from +z if x is at least as
+/// long as z, otherwise from +x. The camera is then rotated about the shape by 28 degrees to the
+/// right and 16 degrees up. A flat shape is viewed straight from the front. The projection is
+/// perspective with a view angle of 30 degrees.
 struct View
 {
   std::string up = "auto"; ///< "x", "y", "z"; "auto": y, or z for a shape that is flat in y
-  double azimuth = 0.0; ///< degrees to the right, beyond the default view
-  double elevation = 0.0; ///< degrees up, beyond the default view
+  double azimuth = 0.0; ///< degrees to the right, added to the default view
+  double elevation = 0.0; ///< degrees up, added to the default view
   double zoom = 1.0; ///< factor on the size in the picture; must be above 0
 };
 
-/// Axes of the default view. Views are built on them, and cuts and slices are perpendicular to the
-/// depth axis.
+/// Axes of the default view. The `View` angles are relative to them, and cuts and slices are
+/// perpendicular to the depth axis.
 struct Frame
 {
   int up = 1; ///< 0 x, 1 y, 2 z
@@ -41,10 +42,11 @@ Frame choose_frame(const Box& box, const std::string& up);
 Vec3 view_direction(const Frame& frame, const View& view);
 
 /// Position the camera such that all points are visible and as large as possible, with a margin on
-/// each side, then apply the zoom. The fit is exact: it uses the points, not a bounding sphere.
+/// each side, then apply the zoom. The fit uses the points themselves instead of a bounding sphere,
+/// so it is exact.
 /// @param points  #P x 3, at least one
 /// @param aspect  width / height of the viewport
-/// @param margin  fraction of the viewport's width and height left free on each side
+/// @param margin  empty fraction of the viewport's width and height on each side
 void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const View& view,
   double aspect, double margin = 0.04);
 
@@ -55,13 +57,12 @@ void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const 
 void keep_in_view(vtkCamera* camera, PointsView points, double aspect_before, double aspect);
 
 /// Report whether all points are in one plane, within a millionth of the diagonal of their bounding
-/// box. If they are, set the unit normal that points to the viewer: toward +z, else +x, else -y, as
-/// in the default view. Points on a line do not define a plane.
+/// box. If they are, set the unit normal, oriented toward the viewer of the default view: toward
+/// +z, or +x if its z component is 0, or -y if both are. Points on a line do not define a plane.
 bool find_plane(PointsView points, Vec3& normal);
 
-/// Set a parallel view of a plane, straight from the side that its normal points to, with y up (z
-/// if the plane is level). All points are visible and as large as possible, with a margin on each
-/// side.
+/// Set a parallel view of a plane. The camera looks against the normal, with y up (z if the plane
+/// is horizontal). All points are visible and as large as possible, with a margin on each side.
 void fit_parallel_camera(
   vtkCamera* camera, PointsView points, const Vec3& normal, double aspect, double margin = 0.04);
 

@@ -1,5 +1,6 @@
-// Color-blind viewers can distinguish the colors: neighbors differ in lightness (after the palettes
-// of Paul Tol).
+// Legends for integer values: names, colors and counts of categories. Color-blind viewers can
+// distinguish the colors, because neighboring colors differ in lightness (after the palettes of
+// Paul Tol).
 #include "scene/categories.h"
 
 #include "base/number_text.h"
@@ -91,8 +92,8 @@ std::vector<Category> handle_categories(const std::vector<std::string>& names)
 
 namespace
 {
-/// Count the values of each category. Return the index of the first value without a category, or
-/// -1.
+/// Count how often each category occurs in an array. Return the index of the first tuple whose
+/// value belongs to no category, or -1.
 Index count_values(vtkDataArray* array, std::vector<Category>& categories)
 {
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)

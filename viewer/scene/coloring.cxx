@@ -1,5 +1,6 @@
-// The array is found by name in all tiles, the component by name or number. One range covers all
-// tiles, so that equal colors mean equal numbers in the whole picture.
+// Chooses the array, the range and the color map of a picture. The array is found by name in all
+// tiles (datasets drawn side by side), the component by name or index. One range covers all tiles,
+// so that equal colors mean equal values in the whole picture.
 #include "scene/coloring.h"
 
 #include "conversion.h"
@@ -88,12 +89,12 @@ bool is_weights_array(const std::string& name)
   return name == "Weights" || name == "RawWeights";
 }
 
-// Special values for the number of a component.
+// Special values for the index of a component.
 constexpr int tuple_length = -1;
 constexpr int no_component = -2;
 constexpr int tuple_sum = -3;
 
-// Return the number of the requested component, or one of the special values.
+// Return the index of the requested component, or one of the special values.
 int find_component(vtkDataArray* array, const std::string& component)
 {
   const int count = array->GetNumberOfComponents();
@@ -153,7 +154,8 @@ std::string component_words(vtkDataArray* array)
 
 namespace
 {
-// A tet's smallest dihedral angle is at most that of the regular tet, in degrees.
+// The dihedral angle of the regular tet in degrees. The smallest dihedral angle of a tet is at most
+// this.
 constexpr double regular_angle = 70.52877936550931;
 
 bool names_tets(ColorBy by)
@@ -166,7 +168,8 @@ std::string word_of(ColorBy by)
   return by == ColorBy::label ? "label" : by == ColorBy::quality ? "quality" : "rung";
 }
 
-// Return quality, labels or rungs, which tets have independently of their arrays.
+// Return the quality, the label or the meshing method of each tet, which are available for all
+// tets.
 vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Coloring& coloring)
 {
   TetInput tets;
@@ -232,8 +235,8 @@ std::vector<std::string> handle_names(vtkDataArray* weights)
   return names;
 }
 
-// Return for each cell the column with the largest sum over the cell's points, or -1 if no weight
-// is above 0. Return null without weights.
+// Return for each cell the column (handle) with the largest sum of weights over the cell's points,
+// or -1 if no weight is above 0. Return null if there are no weights.
 vtkSmartPointer<vtkDoubleArray> strongest_columns(vtkDataSet* data)
 {
   const FoundArray found = find_array(data, "Weights");
@@ -262,7 +265,8 @@ vtkSmartPointer<vtkDoubleArray> strongest_columns(vtkDataSet* data)
   return strongest;
 }
 
-/// Replace category numbers by their values in the table. Negative numbers have no color.
+/// Replace category indices by the categories' values in the table. Negative indices become NaN,
+/// which is drawn without color.
 void look_up(vtkDoubleArray* numbers, const std::vector<double>& table)
 {
   for (vtkIdType i = 0; i < numbers->GetNumberOfValues(); ++i)
@@ -274,7 +278,7 @@ void look_up(vtkDoubleArray* numbers, const std::vector<double>& table)
   }
 }
 
-// Return the table's value of the strongest column of each cell.
+// Return the table value of the strongest column (handle) of each cell.
 vtkSmartPointer<vtkDoubleArray> handle_values(vtkDataSet* data, const Coloring& coloring)
 {
   const auto columns = strongest_columns(data);
@@ -351,7 +355,7 @@ Status choose_handle_coloring(
   return {};
 }
 
-// Return the table's value of the cluster of each cell.
+// Return the table value of the rotation cluster of each cell.
 vtkSmartPointer<vtkDoubleArray> cluster_values(vtkDataSet* data, const Coloring& coloring)
 {
   const auto values = clusters_of_cells(data);
@@ -389,7 +393,8 @@ Status choose_cluster_coloring(
   return {};
 }
 
-// Choose bands of 0.1, or the same range without bands, and the isolines between the bands.
+// Choose a color map with bands of 0.1, or the same range without bands, and the isolines between
+// the bands.
 void choose_weight_map(
   const PictureOptions& options, double lower, double upper, Coloring& coloring)
 {
@@ -403,8 +408,8 @@ void choose_weight_map(
   }
   else if (lower < -1e-6 || upper > 1.0 + 1e-6)
   {
-    // Unconstrained weights leave [0, 1]. The bands stay at 0.1 while they can be distinguished, at
-    // most 40.
+    // Unconstrained weights can be outside of [0, 1]. Bands of 0.1 are used as long as they can be
+    // distinguished, up to 40 bands.
     from = std::floor(10.0 * lower) / 10.0;
     to = std::ceil(10.0 * upper) / 10.0;
     bands = std::min(std::round(10.0 * (to - from)), 40.0);
@@ -418,7 +423,7 @@ void choose_weight_map(
   }
 }
 
-// Check that the subtracted dataset fits a tile that has the array.
+// Check that the dataset to subtract has an array that fits the array of the tile.
 Status check_minus(const FoundArray& found, const Coloring& coloring)
 {
   const FoundArray other = find_array(coloring.minus, coloring.array);
@@ -443,7 +448,7 @@ Status check_minus(const FoundArray& found, const Coloring& coloring)
   return {};
 }
 
-// Choose the map of quantities that only tets have, from all tiles that contain tets.
+// Choose the color map of quantities that only tets have, from all tiles that contain tets.
 Status choose_tet_coloring(
   const std::vector<Tile>& tiles, const PictureOptions& options, Coloring& coloring)
 {

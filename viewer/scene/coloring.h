@@ -17,7 +17,11 @@ class vtkDoubleArray;
 namespace bindpose
 {
 
-/// The colored quantity and its color map, common to all tiles.
+// Chooses the array, the component and the color map of a picture, and computes the displayed
+// values.
+
+/// The displayed quantity and its color map, which all tiles of a picture share. A tile is one
+/// dataset of the picture.
 struct Coloring
 {
   enum class Kind
@@ -30,35 +34,37 @@ struct Coloring
   Kind kind = Kind::none;
   ColorBy by = ColorBy::array;
   std::string array;
-  std::string component; ///< as requested
-  std::string component_name; ///< as shown: name or number; empty for arrays of one component and
-                              ///< for lengths
+  std::string component; ///< as requested: name or index
+  std::string component_name; ///< as displayed: name or index; empty for arrays of one component
+                              ///< and for vector lengths
   ColorMap map;
-  std::vector<Category> categories; ///< of labels, rungs and handles
-  std::vector<double> isolines; ///< of weights: the borders of the bands, multiples of 0.1
-  vtkSmartPointer<vtkDataSet> minus; ///< the dataset whose numbers are subtracted; may be null
-  Report numbers; ///< statistics over all tiles, of row sums and differences
+  std::vector<Category> categories; ///< categories of labels, meshing methods or handles
+  std::vector<double> isolines; ///< levels of the isolines of weights: the borders of the bands,
+                                ///< multiples of 0.1
+  vtkSmartPointer<vtkDataSet> minus; ///< the dataset whose values are subtracted; may be null
+  Report numbers; ///< statistics over all tiles, for row sums and differences
 
   std::string legend_name() const;
 };
 
-/// Find the array and the component in the tiles, and the range of their values.
+/// Find the array and the component in the tiles, and choose the color map and the range of values.
 Status choose_coloring(
   const std::vector<Tile>& tiles, const PictureOptions& options, Coloring& coloring);
 
-/// Return the shown number as a separate array on the same points or cells. Return null if the data
-/// lacks the array or its component, or is not tets where only tets have the number.
+/// Return the displayed values as a separate array on the same points or cells. Return null if the
+/// data lacks the array or its component, or if the data are not tets and the quantity is defined
+/// only for tets.
 vtkSmartPointer<vtkDoubleArray> color_values(
   vtkDataSet* data, const Coloring& coloring, bool& on_points);
 
 /// Name of the array of color_values().
 constexpr const char* color_array_name = "bindpose.Color";
 
-/// Return the lines where the array color_array_name of the points has these values; no lines if
-/// the array is missing.
+/// Return the isolines at these values of the point array color_array_name. Return no lines if the
+/// array is missing.
 vtkSmartPointer<vtkPolyData> contour_lines(vtkPolyData* data, const std::vector<double>& values);
 
-constexpr double isoline_width = 1.2; ///< of weights, in pixels
+constexpr double isoline_width = 1.2; ///< width of the isolines of weights, in pixels
 
 } // namespace bindpose
 

@@ -1,5 +1,5 @@
-// Maps are defined by a few anchors and interpolated in CIE Lab, where equal steps look equal. The
-// lightness of the anchors decreases evenly from 92 to 22.
+// Color maps. Each map is defined by a few anchor colors and interpolated in CIE Lab, where equal
+// distances look equal. The lightness of the anchors decreases evenly from 92 to 22.
 #include "scene/colors.h"
 
 #include "base/number_text.h"
@@ -34,7 +34,7 @@ Rgb mix(const Rgb& a, const Rgb& b, double t)
   return rgb;
 }
 
-// In Lab, so that the lightness of the anchors is explicit.
+// CIE Lab values, so that the lightness of the anchors is explicit.
 const std::array<std::array<double, 3>, 6> sequential_anchors = { { { 92, 0, 6 }, { 78, -18, 16 },
   { 64, -24, -2 }, { 50, -15, -20 }, { 36, 6, -38 }, { 22, 22, -42 } } };
 
@@ -47,7 +47,7 @@ vtkSmartPointer<vtkLookupTable> make_table(double lower, double upper, int count
   return table;
 }
 
-// Return five to seven round values in a range, in steps of 1, 2 or 5 times a power of ten.
+// Return five to seven round values in a range, at distances of 1, 2 or 5 times a power of ten.
 std::vector<double> round_ticks(double lower, double upper)
 {
   const double rough = (upper - lower) / 5.0;
@@ -143,7 +143,7 @@ ColorMap sequential_map(double lower, double upper, int bands)
 ColorMap diverging_map(double lower, double upper, double center)
 {
   ColorMap map;
-  // Half of the range if all values equal the center.
+  // The half width of the table if all values equal the center.
   const double least = std::max(1e-12, 1e-9 * std::abs(center));
   const bool constant = !(upper - lower > 2.0 * least);
   map.lower = constant ? center - least : lower;
@@ -175,7 +175,8 @@ ColorMap winding_map()
   ColorMap map;
   map.lower = -1.0;
   map.upper = 2.0;
-  constexpr int count = 300; // steps of 0.01, so that -0.02 and 1.02 are between two entries
+  // entries of width 0.01, so that -0.02 and 1.02 are between two entries
+  constexpr int count = 300;
   map.table = make_table(map.lower, map.upper, count);
   for (int i = 0; i < count; ++i)
   {

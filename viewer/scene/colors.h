@@ -11,17 +11,19 @@
 namespace bindpose
 {
 
+// Color maps of values, and the fixed colors of pictures.
+
 /// Red, green, blue in [0, 1].
 using Rgb = std::array<double, 3>;
 
-/// The colors of Bindpose, common to pictures and window.
+/// The colors of Bindpose, used in pictures and in the window.
 namespace palette
 {
 constexpr Rgb surface{ 0.83, 0.80, 0.76 }; ///< a shape without data: warm gray
 constexpr Rgb cut{ 0.52, 0.74, 0.75 }; ///< tets that a cut exposes
 constexpr Rgb cut_edges{ 0.17, 0.30, 0.33 }; ///< edges of the exposed tets
 constexpr Rgb curve{ 0.05, 0.46, 0.32 }; ///< boundary curves: green, which no color map contains
-constexpr Rgb line{ 0.16, 0.16, 0.18 }; ///< isolines, frames
+constexpr Rgb line{ 0.16, 0.16, 0.18 }; ///< color of isolines and frames
 constexpr Rgb outline{ 0.24, 0.23, 0.22 }; ///< silhouette of a shape
 constexpr Rgb edges{ 0.44, 0.42, 0.40 }; ///< triangle edges of a surface
 constexpr Rgb text{ 0.16, 0.16, 0.18 }; ///< labels on a light background
@@ -36,7 +38,7 @@ constexpr Rgb missing{ 0.62, 0.58, 0.60 }; ///< not a number
 
 /// Return the color of the sequential map at t in [0, 1] (clamped). It runs from near the gray of
 /// the plain surface over green and teal to deep blue. Lightness decreases strictly and evenly, so
-/// that color-blind viewers and gray prints show the same order.
+/// that color-blind viewers and gray prints show the same order of values.
 Rgb sequential_color(double t);
 
 /// Return the color of a winding number: blue at 0, white at 0.5, orange at 1. Below -0.02 it jumps
@@ -56,29 +58,29 @@ struct ColorMap
   vtkSmartPointer<vtkLookupTable> table;
   double lower = 0.0; ///< lower end of the table and the legend
   double upper = 1.0;
-  std::vector<double> ticks; ///< values that the legend labels
+  std::vector<double> ticks; ///< values that are labeled in the legend
   int decimals = 1; ///< decimals of the tick texts; -1: shortest text with three digits
-  std::vector<std::string> texts; ///< texts of the ticks instead of their numbers; empty: the
-                                  ///< numbers
+  std::vector<std::string> texts; ///< texts of the ticks; empty: the values
   bool downwards = false; ///< the legend begins at the top, like a list
 };
 
 /// Return the map of weights: ten bands of one color each over [0, 1].
 ColorMap weight_map();
-/// Return the same colors in `bands` bands over [lower, upper], or without bands if `bands` is 0.
+/// Return a map with the colors of weight_map(), in `bands` bands over [lower, upper], or without
+/// bands if `bands` is 0.
 ColorMap sequential_map(double lower, double upper, int bands);
-/// Return a map of diverging_color() over [lower, upper], white at the center, which must be
-/// within the range. Equal distances from the center are equally dark.
+/// Return a map of diverging_color() over [lower, upper], white at `center`, which must be within
+/// the range. Values at equal distances from the center are equally dark.
 ColorMap diverging_map(double lower, double upper, double center);
 /// Return a map of winding_color() over [-1, 2]. Values outside get the color of the nearest end.
 ColorMap winding_map();
 
 /// Return the map's color of a value. Values outside get the color of the nearest end.
 Rgb color_of(const ColorMap& map, double value);
-/// Return a legend of single values: one field per level, from the bottom, in the map's color of
-/// the level.
+/// Return a legend of single values: one field per level, with the lowest at the bottom, in the
+/// map's color of the level.
 ColorMap level_map(const ColorMap& map, const std::vector<double>& levels);
-/// Add the levels to the ticks of the map. Ticks whose texts would overlap those of a level are
+/// Add the levels to the ticks of the map. Ticks whose texts would overlap the text of a level are
 /// removed.
 ColorMap with_levels(ColorMap map, const std::vector<double>& levels);
 /// Number of digits of values in legends; see short_number().

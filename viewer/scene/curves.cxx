@@ -28,7 +28,8 @@ constexpr double widths[classes] = { 1.0, 1.5, 2.0 };
 vtkSmartPointer<vtkPolyData> lines_of_class(vtkPolyData* data, int wanted)
 {
   vtkDataArray* multiplicity = data->GetCellData()->GetArray("Multiplicity");
-  const vtkIdType first = data->GetNumberOfVerts(); // cells are numbered starting with vertices
+  // cell ids start with the vertices, then the lines follow
+  const vtkIdType first = data->GetNumberOfVerts();
   vtkNew<vtkCellArray> lines;
   vtkNew<vtkIdList> ids;
   for (vtkIdType line = 0; line < data->GetNumberOfLines(); ++line)
@@ -96,8 +97,8 @@ std::vector<vtkSmartPointer<vtkActor>> make_curves(
     {
       continue;
     }
-    // Join edges to polylines, whose tubes have no gaps at their joints. Points are merged first,
-    // because a tube ends at a doubled point.
+    // Join edges to polylines, whose tubes have no gaps at their joints. Duplicate points are
+    // merged first, because a tube would end at them.
     vtkNew<vtkCleanPolyData> clean;
     clean->SetInputData(lines);
     clean->ConvertLinesToPointsOff();

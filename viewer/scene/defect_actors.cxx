@@ -19,7 +19,8 @@ namespace bindpose
 {
 namespace
 {
-/// Return an actor for one cell array of the defects, with cells colored by type.
+/// Return an actor for the vertices, the edges or the triangles among the defects, with cells
+/// colored by type.
 vtkSmartPointer<vtkActor> make_actor(
   vtkPolyData* defects, vtkCellArray* cells, vtkIdType first, vtkPolyData* part)
 {
@@ -61,7 +62,7 @@ std::vector<vtkSmartPointer<vtkActor>> make_defects(vtkPolyData* defects, double
     vtkNew<vtkPolyData> part;
     part->SetPolys(defects->GetPolys());
     const auto faces = make_actor(defects, defects->GetPolys(), verts + lines, part);
-    // Mostly ambient light, because the color identifies the defect.
+    // Use mostly ambient light, because shading would change the color that identifies the defect.
     faces->GetProperty()->SetInterpolationToFlat();
     faces->GetProperty()->SetAmbient(0.45);
     faces->GetProperty()->SetDiffuse(0.55);
@@ -84,10 +85,10 @@ std::vector<vtkSmartPointer<vtkActor>> make_defects(vtkPolyData* defects, double
       property->LightingOff();
       property->SetLineWidth(static_cast<float>(line_width));
       property->SetPointSize(static_cast<float>(3.0 * line_width));
-      property->SetRenderPointsAsSpheres(dots); // round
+      property->SetRenderPointsAsSpheres(dots); // draw round dots
       property->SetOpacity(hidden ? 0.35 : 1.0);
-      // The depth offset draws in front of everything else, or just in front of the surface that
-      // contains the defect.
+      // A large depth offset draws in front of everything; a small one just in front of the surface
+      // that contains the defect.
       const double nearer = hidden ? -66000.0 : -8.0;
       actor->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, nearer);
       actor->GetMapper()->SetRelativeCoincidentTopologyPointOffsetParameter(nearer);

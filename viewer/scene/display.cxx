@@ -1,4 +1,5 @@
-// libX11 is looked up at run time: VTK loads it if it needs it, and nothing else here does.
+// Detects whether an X server accepts connections. libX11 is looked up at run time, because nothing
+// else in this library uses it; VTK loads it if necessary.
 //
 // Xvfb restarts when its last client disconnects, and refuses connections meanwhile. Therefore the
 // connection that proves the display is kept until the process ends, and a refused connection is

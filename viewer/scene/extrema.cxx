@@ -1,6 +1,7 @@
-// The kernel finds the extrema on the graph of the mesh's points. The rim of a ball is a larger
-// ball of which only the far side is drawn: it stands out from any color below. Both are in front
-// of the surface, on the line to the eye; otherwise the surface would cover the rim.
+// Finds local extrema of the displayed array and draws them as balls. The kernel finds the extrema
+// on the graph of the mesh's points. The dark rim of a ball is a larger ball of which only the far
+// side is drawn, so that the ball is visible on any color. Both balls are moved in front of the
+// surface, on the line to the eye; otherwise the surface would cover the rim.
 #include "scene/extrema.h"
 
 #include "conversion.h"

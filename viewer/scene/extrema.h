@@ -21,27 +21,27 @@ class vtkRenderer;
 namespace bindpose
 {
 
-/// Find the local extrema of the shown number on each tile's mesh, along the edges of its triangles
-/// or tets, with a persistence above notable_persistence; see interior_extrema(). Points with a 1
-/// in `Weights` or `RawWeights` are handles. Their extrema are intended and left out. Tiles without
-/// the array have no extrema.
+/// Find the local extrema of the displayed array on each tile's mesh, along the edges of its
+/// triangles or tets, with a persistence above notable_persistence; see interior_extrema(). A tile
+/// is one dataset of the picture. Points with a 1 in `Weights` or `RawWeights` are handles; extrema
+/// at these points are intended and left out. Tiles without the array have no extrema.
 ///
 /// If a surface is shown without its interior, handles inside it are not among its points. The
-/// largest values of their columns near them are then counted.
+/// largest weight near such a handle is then counted as an extremum.
 ///
-/// Return invalid_input if no tile has the number at the points of a surface or of tets, or if a
-/// number is not finite.
+/// Return invalid_input if no tile has the array at the points of a surface or of tets, or if a
+/// value is not finite.
 Status find_extrema(const std::vector<Tile>& tiles, const Coloring& coloring,
   std::vector<std::vector<Extremum>>& extrema);
 
 /// Return extremum_categories() with counts over all tiles.
 std::vector<Category> count_extrema(const std::vector<std::vector<Extremum>>& extrema);
 
-/// Report picture.extrema[].maxima, .minima and .drawn, one entry per tile.
+/// Add picture.extrema[].maxima, .minima and .drawn to a report, one entry per tile.
 void report_extrema(const std::vector<std::vector<Extremum>>& extrema,
   const std::vector<std::int64_t>& drawn, Report& report);
 
-/// Balls with dark rims at extrema. Maxima and minima differ in color.
+/// Draws balls with dark rims at extrema. Maxima and minima differ in color.
 class ExtremumBalls
 {
 public:
@@ -62,13 +62,13 @@ private:
   std::vector<Place> places_;
   double radius_ = 1.0;
   std::array<vtkNew<vtkPolyData>, 2> clouds_; // minima, maxima
-  std::array<vtkNew<vtkSphereSource>, 2> spheres_; // ball, rim
+  std::array<vtkNew<vtkSphereSource>, 2> spheres_; // of a ball and of its rim
   std::vector<vtkSmartPointer<vtkActor>> actors_;
 };
 
 /// Add a ball with a dark rim at each extremum.
 /// @param seen  #V: 1 for points whose extrema are drawn; empty: all extrema are drawn
-/// @return number of extrema drawn
+/// @return number of balls
 Index add_extrema(vtkRenderer* renderer, vtkDataSet* data, const std::vector<Extremum>& extrema,
   const std::vector<char>& seen, double radius);
 

@@ -1,5 +1,5 @@
-// Legends are drawn from flat quads and lines of text. vtkScalarBarActor scales its text to the
-// available space, so that the font size would differ between pictures.
+// Draws legends from flat quads and lines of text. vtkScalarBarActor is not used, because it scales
+// its text to the available space, so that the font size would differ between pictures.
 #include "scene/legend.h"
 
 #include "base/number_text.h"
@@ -42,14 +42,14 @@ std::string tick_text(const ColorMap& map, std::size_t tick)
   return text;
 }
 
-// Return an upper estimate of the width of text in bold letters. It only reserves space.
+// Return an upper estimate of the width of bold text, in pixels, to reserve space.
 double text_width(const std::string& text, int font_size)
 {
   return 0.66 * font_size * static_cast<double>(text.size());
 }
 
-// Return the estimated width of text in plain letters. In long texts, the widths of letters average
-// out.
+// Return the estimated width of text in plain letters, in pixels. In long texts, differences
+// between the widths of letters average out.
 double words_width(const std::string& text, int font_size)
 {
   constexpr std::size_t many = 8;
@@ -138,7 +138,8 @@ void add_legend(vtkRenderer* renderer, const ColorMap& map, const std::string& n
   const PixelBox& box, int font_size, const Rgb& ink)
 {
   const double name_height = 2.0 * font_size;
-  const double bottom = box.y + 0.5 * font_size; // half the height of a tick's text sticks out
+  // half the height of a tick's text extends below the bar
+  const double bottom = box.y + 0.5 * font_size;
   const double top = box.y + box.height - name_height;
   const double left = box.x;
   const double right = box.x + bar_width(font_size);

@@ -23,13 +23,13 @@ enum class TextAlign
   right
 };
 
-/// Add one line of text. (x, y) is its left end, center or right end, at half its height.
+/// Add one line of text. (x, y) is its left end, center or right end, and the middle of its height.
 /// @param size  font size in pixels
 void add_text(vtkRenderer* renderer, const std::string& text, double x, double y, int size,
   TextAlign align, bool bold = false, const Rgb& ink = palette::text);
 
 /// Add a vertical bar with the map's colors that fills the box, its ticks on the right and the name
-/// above. For a map without ticks, only the name is drawn.
+/// above. If the map has no ticks, only the name is drawn.
 void add_legend(vtkRenderer* renderer, const ColorMap& map, const std::string& name,
   const PixelBox& box, int font_size, const Rgb& ink = palette::text);
 

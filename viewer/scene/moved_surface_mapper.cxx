@@ -1,5 +1,6 @@
-// vtkOpenGLPolyDataMapper rebuilds its index buffers whenever the data set is newer than they are.
-// The modification time of a data set includes that of its points.
+// Uploads a surface with moved points to the graphics card. vtkOpenGLPolyDataMapper rebuilds its
+// index buffers whenever the data set is newer than the buffers. The modification time of a data
+// set includes that of its points, so moved points would cause a rebuild.
 #include "scene/moved_surface_mapper.h"
 
 #include "base/parallel.h"
@@ -29,7 +30,7 @@ vtkStandardNewMacro(MovedSurfaceMapper);
 namespace
 {
 /// Return the addresses and modification times of all inputs of the buffers, except the times of
-/// points and normals.
+/// points and normals, which may change without a rebuild.
 std::vector<vtkMTimeType> state_of(MovedSurfaceMapper& mapper, vtkActor* actor)
 {
   std::vector<vtkMTimeType> state;
@@ -42,7 +43,7 @@ std::vector<vtkMTimeType> state_of(MovedSurfaceMapper& mapper, vtkActor* actor)
   { add(object, object ? object->GetMTime() : 0); };
   vtkPolyData* surface = mapper.GetInput();
   add(surface, 0);
-  add_object(&mapper); // includes the time of its lookup table
+  add_object(&mapper); // its time includes that of the lookup table
   add_object(actor->GetProperty());
   add_object(actor->GetTexture());
   for (vtkCellArray* cells :
@@ -69,7 +70,7 @@ std::vector<vtkMTimeType> state_of(MovedSurfaceMapper& mapper, vtkActor* actor)
   return state;
 }
 
-/// Convert the numbers to floats, on all cores.
+/// Convert the values to floats, on all cores.
 void copy_as_floats(vtkDoubleArray* from, vtkFloatArray* to)
 {
   to->SetNumberOfComponents(from->GetNumberOfComponents());
@@ -102,8 +103,8 @@ void MovedSurfaceMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* act
     this->drawn_.clear();
     if (this->CurrentInput)
     {
-      this->drawn_ = state_of(*this, actor); // afterward, because the first upload makes a lookup
-                                             // table
+      // after the upload, because the first upload creates a lookup table
+      this->drawn_ = state_of(*this, actor);
     }
   }
   this->microseconds_ =
@@ -143,8 +144,8 @@ void MovedSurfaceMapper::choose_shift()
   }
   const bool shifts = Eigen::Map<const Vec3>(center).norm() > far * box.GetDiagonalLength();
   using Buffer = vtkOpenGLVertexBufferObject;
-  // If shifting is disabled, VTK keeps the last shift. So VTK must have found that no shift is
-  // needed before shifting is disabled.
+  // If shifting is disabled, VTK keeps the last shift. Shifting may therefore be disabled only
+  // after an upload in which VTK needed no shift.
   Buffer* buffer = this->VBOs->GetVBO("vertexMC");
   const bool shifted = buffer && buffer->GetCoordShiftAndScaleEnabled();
   const int method = shifts || shifted ? Buffer::AUTO_SHIFT_SCALE : Buffer::DISABLE_SHIFT_SCALE;
@@ -171,7 +172,7 @@ bool MovedSurfaceMapper::upload_moved()
   if (place_buffer->GetUploadTime() < places->GetMTime())
   {
     copy_as_floats(places, this->places_);
-    // Another mapper of these points shares the buffer and may have chosen a shift.
+    // Another mapper of these points uses the same buffer and may have chosen a shift.
     place_buffer->SetCoordShiftAndScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
     place_buffer->UploadDataArray(this->places_);
   }

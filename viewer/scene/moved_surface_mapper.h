@@ -40,9 +40,10 @@ private:
   bool upload_moved();
   void choose_shift();
 
-  /// Addresses and times of all inputs of an upload except points and normals.
+  /// Addresses and modification times of all inputs of the last upload, except times of points and
+  /// normals.
   std::vector<vtkMTimeType> drawn_;
-  vtkNew<vtkFloatArray> places_; ///< of the points, as uploaded to the graphics card
+  vtkNew<vtkFloatArray> places_; ///< positions of the points, as uploaded to the graphics card
   vtkMTimeType bounds_time_ = 0; ///< modification time of the points that Bounds was computed from
   double microseconds_ = 0.0;
   int moves_ = 0;

@@ -24,12 +24,13 @@ Outline::Outline(vtkRenderer* renderer) : renderer_(renderer)
   this->lines_->SetPoints(vtkNew<vtkPoints>());
   this->mapper_->SetInputData(this->lines_);
   this->mapper_->ScalarVisibilityOff();
-  // The lines are in the surface on which they are drawn, and must win the depth test against it.
+  // The lines are in the surface on which they are drawn. The depth offset draws them in front of
+  // it.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->mapper_->SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, -1.0);
   this->actor_->SetMapper(this->mapper_);
   this->actor_->PickableOff();
-  this->actor_->UseBoundsOff(); // the bounds are those of the shape
+  this->actor_->UseBoundsOff(); // the bounds are those of the surface actor
   this->actor_->VisibilityOff();
   vtkProperty* property = this->actor_->GetProperty();
   property->LightingOff();

@@ -21,20 +21,21 @@ class ShadedSurface;
 
 constexpr double outline_width = 1.3; ///< pixels
 
-/// The silhouette of a moving shape, drawn as lines on the shape. The lines are computed again for
+/// Draws the silhouette of a moving shape as lines on the shape. The lines are computed again for
 /// every picture in which the shape or the view has changed.
 class Outline
 {
 public:
-  /// Draw in this renderer during the lifetime of the object.
+  /// Draw in this renderer as long as the object exists.
   explicit Outline(vtkRenderer* renderer);
   ~Outline();
 
-  /// Set the shape, which must outlive its use here; null: no shape.
+  /// Set the shape, which must exist until another shape is set or this object is destroyed; null:
+  /// no shape.
   void set_shape(const ShadedSurface* shape);
   /// @param width  in pixels of the window
   void show(bool shown, double width = 1.0);
-  /// Silhouette edges of the last picture.
+  /// Return the silhouette edges of the last picture.
   const std::vector<Silhouette::Edge>& edges() const { return this->edges_; }
 
 private:

@@ -1,6 +1,7 @@
-// A picture has three layers: the background over the whole window; one renderer per tile, all with
-// the same camera; text and legend on top. It is drawn larger than requested, in tiles, and
-// averaged down, because the driver's antialiasing smooths neither isolines nor color bands.
+// Renders datasets to a picture. A picture has three layers: the background over the whole window;
+// one renderer per tile (dataset), all with the same camera; text and legend on top. The picture is
+// drawn larger than requested, in parts, and averaged down, because the driver's antialiasing
+// smooths neither isolines nor color bands.
 #include "scene/picture.h"
 
 #include "base/number_text.h"
@@ -42,9 +43,9 @@ struct Legend
 
 struct Layout
 {
-  std::vector<PixelBox> tiles; // in the window
+  std::vector<PixelBox> tiles; // the area of each tile in the window
   std::vector<PixelBox> label_boxes; // below each tile
-  std::vector<PixelBox> legends; // right of the tiles, one below the other
+  std::vector<PixelBox> legends; // right of the tiles, from top to bottom
   int font = 12; // window pixels
   double title_y = 0.0;
 };
@@ -151,7 +152,7 @@ bool has_tets(const Tile& tile)
   return vtkPointSet::SafeDownCast(tile.data) && to_tets(tile.data, tets).ok();
 }
 
-// Refuse options that would have no effect.
+// Return an error for options of tets that would have no effect.
 Status check_tets(const std::vector<Tile>& tiles, const PictureOptions& options)
 {
   const bool tets = std::any_of(tiles.begin(), tiles.end(), has_tets);
@@ -175,7 +176,7 @@ Status check_tets(const std::vector<Tile>& tiles, const PictureOptions& options)
   return {};
 }
 
-// Count all defects of the picture. A context that is common to all tiles counts once.
+// Count all defects of the picture. A context dataset that several tiles show is counted once.
 std::vector<Category> all_defects(const std::vector<Tile>& tiles, bool& any)
 {
   std::vector<Category> categories = defect_categories();
@@ -256,7 +257,7 @@ bool sorts_by_depth(const std::vector<Tile>& tiles, const PictureOptions& option
       [](const Tile& tile) { return !tile.context.empty() || tile.defects; });
 }
 
-// Choose the number of columns that shows the shapes as large as possible.
+// Choose the number of columns of tiles for which the shapes appear as large as possible.
 int choose_columns(int count, double width, double height, double shape_aspect)
 {
   int best = 1;
@@ -274,10 +275,10 @@ int choose_columns(int count, double width, double height, double shape_aspect)
   return best;
 }
 
-// Fraction of the height that lists of names may take.
+// Largest fraction of the picture's height that lists of names may occupy.
 constexpr double list_share = 0.94;
 
-// Return the map that a legend shows: a bar, or one field per isosurface level.
+// Return the map that a legend shows: the whole map as a bar, or one field per isosurface level.
 ColorMap make_legend_map(const PictureOptions& options, const ColorMap& map)
 {
   if (options.isosurfaces.empty())
@@ -288,8 +289,8 @@ ColorMap make_legend_map(const PictureOptions& options, const ColorMap& map)
                         : level_map(map, options.isosurfaces);
 }
 
-// Place boxes at the right border, each as high as it needs, together at half height. Lists that do
-// not fit are shortened.
+// Place the legends at the right border, each as high as necessary. The stack of legends is
+// centered vertically. Lists that do not fit are shortened.
 int place_legends(std::vector<Legend>& legends, int width, int top, Layout& layout)
 {
   const int margin = layout.font;
@@ -307,7 +308,7 @@ int place_legends(std::vector<Legend>& legends, int width, int top, Layout& layo
   {
     PixelBox box;
     box.width = legend_width(legend.map, legend.name, layout.font);
-    // A bar of fields is as long as the texts require.
+    // The height of a list of names follows from its texts.
     const double fields = legend.map.texts.empty() ? 17.5 : 1.7 * legend.map.texts.size();
     const double share = legend.map.downwards ? list_share / legends.size()
                                               : 0.62 / std::min<double>(legends.size(), 1.5);
@@ -488,7 +489,8 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     (size[across] + 1e-9 * size.norm() + 1e-300) / (size[frame.up] + 1e-9 * size.norm() + 1e-300),
     0.2, 5.0);
   std::vector<Legend> legends;
-  const bool tells = !coloring.map.ticks.empty(); // clusters have no names
+  // colors of clusters have no names, so they get no legend
+  const bool tells = !coloring.map.ticks.empty();
   if (options.legend && coloring.kind != Coloring::Kind::none && tells)
   {
     legends.push_back({ make_legend_map(options, coloring.map), coloring.legend_name() });

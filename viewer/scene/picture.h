@@ -22,9 +22,9 @@ namespace bindpose
 /// One dataset of a picture. Its type determines how it is drawn:
 /// - surface: smooth shading with sharp edges kept; arrays as colors; weights in bands with
 ///   isolines;
-/// - tets: cut open in the middle with whole tets kept ("crinkle cut"), the exposed sides in
-///   another color with edges; or cut through by the plane; or all tets shrunk; arrays as colors on
-///   all sides;
+/// - tets: cut open in the middle with whole tets kept ("crinkle cut"), the exposed faces in
+///   another color with edges. The alternatives are tets that are cut by the plane, and tets that
+///   are all shrunk. Arrays are shown as colors on all faces;
 /// - defects (output of vtkSurfaceDefects): one color per type, with a legend;
 /// - image volume: one slice through the middle, and for a winding number also the surface where it
 ///   is 0.5; on request isosurfaces or a volume rendering instead of the slice;
@@ -36,24 +36,24 @@ struct Tile
   vtkSmartPointer<vtkDataSet> data;
   vtkSmartPointer<vtkPolyData> handles; ///< drawn on top; may be null
   std::string label; ///< below the tile; may be empty
-  /// Additional data, drawn uncolored: surfaces and tets see-through, curves as tubes.
+  /// Additional datasets that are drawn uncolored: surfaces and tets see-through, curves as tubes.
   std::vector<vtkSmartPointer<vtkDataSet>> context{};
   /// Output of vtkSurfaceDefects, drawn over a surface, which is then see-through; may be null.
   vtkSmartPointer<vtkPolyData> defects{};
 };
 
-/// Source of the colors.
+/// The quantity that determines the colors.
 enum class ColorBy
 {
   array, ///< the array named by PictureOptions::array
   winding_number, ///< the array WindingNumber
-  label, ///< tets: the decision in the cell array Label
+  label, ///< tets: the decision inside or outside, in the cell array Label
   quality, ///< tets: the smallest dihedral angle, degrees
-  rung, ///< tets: the method that made them, from the field data Method
+  rung, ///< tets: the meshing method, from the field data Method
   handle, ///< cells of meshes: the handle with the largest Weights at the cell, by name
-  row_sum, ///< the sum of each point's RawWeights
+  row_sum, ///< the sum of each point's `RawWeights`
   rotation_cluster, ///< cells: the rotation cluster of most of their points (RotationCluster)
-  rotation ///< the angle of each point's Rotation
+  rotation ///< the angle of each point's `Rotation`, in degrees
 };
 
 /// A plane in space.
@@ -74,28 +74,29 @@ struct PictureOptions
 {
   int width = 1200; ///< pixels, 16 to 8192
   int height = 900;
-  /// Factor on the number of pixels in each direction, 1 to 8, for the same picture: lines, points,
-  /// text and legends grow along. See check_picture_size().
+  /// Factor on the number of pixels in each direction, 1 to 8, for a sharper version of the same
+  /// picture. Lines, points, text and legends are scaled by the same factor. See
+  /// check_picture_size().
   int scale = 1;
-  /// Point or cell array that gives the colors. Empty: no colors; for an image volume,
-  /// WindingNumber or else its first array.
+  /// Point or cell array that is displayed as colors. Empty: no colors; for an image volume, the
+  /// array WindingNumber, or its first array if that is missing.
   std::string array;
   ColorBy color_by = ColorBy::array; ///< `array` must be empty for all values except
                                      ///< ColorBy::array
-  /// Dataset whose numbers are subtracted from the shown number, point by point or cell by cell. It
-  /// needs the same array and component and the same number of points or cells. Null: no
+  /// Dataset whose values are subtracted from the displayed values, point by point or cell by cell.
+  /// It needs the same array and component and the same number of points or cells. Null: no
   /// subtraction.
   vtkSmartPointer<vtkDataSet> minus;
-  /// Show local extrema of the shown number as balls; see find_extrema(). On tets, only extrema on
-  /// the drawn sides are visible.
+  /// Show local extrema of the displayed array as balls; see find_extrema(). On tets, only extrema
+  /// on the drawn faces are visible.
   bool extrema = false;
-  /// Name or number of the array's component. Empty: the first component of Weights, the length of
-  /// a 3-vector, the first component of other arrays.
+  /// Name or index of the array's component. Empty: the first component of Weights, the length of a
+  /// 3-vector, the first component of other arrays.
   std::string component;
-  /// Values at the ends of the colors. If lower > upper, the range comes from the data of all
-  /// tiles. Row sums and differences then extend equally far to both sides of 1 and 0. Some ranges
-  /// are fixed: weights 0 to 1 (wider if a weight is outside), winding numbers -1 to 2, quality 0
-  /// to 70.5 degrees, the angle of a regular tet.
+  /// Values at the ends of the color map. If lower > upper, the range comes from the data of all
+  /// tiles. The range of row sums is then symmetric about 1, and the range of differences symmetric
+  /// about 0. Some ranges are fixed: weights 0 to 1 (wider if a weight is outside), winding numbers
+  /// -1 to 2, quality 0 to 70.5 degrees (the dihedral angle of a regular tet).
   std::array<double, 2> range = { 0.0, -1.0 };
   View view;
   Background background = Background::white;
@@ -103,43 +104,42 @@ struct PictureOptions
                    ///< possible
   std::string title;
   bool legend = true;
-  bool bands = true; ///< weights in bands of 0.1; else their colors change smoothly
+  bool bands = true; ///< show weights in bands of 0.1; otherwise their colors change smoothly
   bool isolines = true; ///< lines of weights at the borders of the bands (steps of 0.1)
   bool edges = false; ///< triangle edges of surfaces
   bool handle_names = false; ///< draw the name next to each handle
-  bool cut = true; ///< tets: expose the interior; else only the outside is visible
-  /// The plane cuts through tets. Otherwise a tet is whole, and shown if its center is behind the
-  /// plane.
+  bool cut = true; ///< tets: expose the interior; otherwise only the outside is visible
+  /// If true, the plane cuts through tets. If false, tets stay whole, and a tet is shown if its
+  /// center is behind the plane.
   bool slice = false;
   /// Position of cuts and slices along the view's depth axis: 0 at its lower end, 1 at its upper
   /// end. The part toward the camera is removed.
   double section = 0.5;
-  /// Plane of cuts and slices, instead of `section`.
+  /// Plane of cuts and slices; replaces `section`.
   std::optional<Plane> section_plane;
   double shrink = 1.0; ///< size factor of each tet about its center, in (0, 1]; below 1 there are
                        ///< gaps between tets
   /// Levels of the isosurfaces that image volumes show instead of a slice, each in the map's color.
-  /// The innermost surfaces (the highest level; the lowest level if below 0) are opaque, the other
-  /// surfaces see-through.
+  /// The innermost surfaces are opaque: that of the highest level, and that of the lowest level if
+  /// it is below 0. All other surfaces are see-through.
   std::vector<double> isosurfaces;
-  /// Show image volumes of winding numbers by volume rendering instead of a slice; see
+  /// Show image volumes of winding numbers by volume rendering instead of slices; see
   /// make_winding_volume().
   bool volume = false;
-  /// A pixel is the average of this many samples in each direction, 1 to 4. The graphics driver
-  /// antialiases each sample with 4 samples. 1 disables all antialiasing.
+  /// Number of samples per pixel in each direction, 1 to 4; a pixel is their average. The graphics
+  /// driver antialiases each sample with 4 more samples. 1 disables all antialiasing.
   int supersampling = 2;
-  /// Tiles that are not drawn but are included in the view and the range of the colors: the other
-  /// frames of a moving picture.
+  /// Tiles that are not drawn but are included in the view and the range of the colors, for example
+  /// the other frames of a moving picture.
   std::vector<Tile> around;
 };
 
-/// The position of the tiles in a finished picture, so that tests can check numbers against the
-/// picture.
+/// The positions of the tiles in a finished picture, with which tests compare values with pixels.
 struct PictureGeometry
 {
   struct TileView
   {
-    Eigen::Matrix4d world_to_pixel; ///< homogeneous, rows x y depth w
+    Eigen::Matrix4d world_to_pixel; ///< from homogeneous world coordinates to rows x, y, depth, w
     int x = 0, y = 0, width = 0, height = 0; ///< the tile, in pixels from the lower left corner
   };
   std::vector<TileView> tiles;
@@ -153,32 +153,33 @@ struct PictureGeometry
 ///
 /// Return invalid_input with one sentence for:
 /// - no tile or an empty tile;
-/// - an array or component that no tile has (the sentence lists the existing ones);
+/// - an array or component that no tile has (the sentence lists the existing names);
 /// - options out of range;
 /// - isosurfaces or a volume rendering of data that check_volume() refuses;
 /// - a section that leaves no tet;
-/// - colors of tets if there are no tets;
+/// - a color quantity of tets (label, quality, method) if there are no tets;
 /// - differences of unequal datasets;
 /// - extrema of an array that is not a point array of a mesh;
 /// - a slice of tets that are shrunk or have no section.
 ///
-/// Warn of levels that are not reached. Return unavailable if there is no display. The same input
-/// gives the same picture on the same machine and driver.
+/// A warning names isosurface levels that no value reaches. Return unavailable if there is no
+/// display. The same input gives the same picture on the same machine and driver.
 Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& options,
   vtkSmartPointer<vtkImageData>& image, PictureGeometry* geometry = nullptr);
 
-/// Render into a PNG file. The file is written completely or not at all. Return invalid_input also
-/// if the file exists and must not be overwritten, or cannot be written.
+/// Render into a PNG file. The file is written completely or not at all. In addition to the errors
+/// of render_to_image(), return invalid_input if the file exists and must not be overwritten, or
+/// cannot be written.
 ///
 /// Report where applicable: picture.width, picture.height, picture.tiles, picture.array,
 /// picture.component, picture.range, picture.isosurfaces, picture.tets (drawn),
-/// picture.colors[].name and .count (labels, rungs, cells of handles), picture.defects[].name and
-/// .count, picture.extrema[].maxima, .minima and .drawn (one entry per tile),
-/// picture.difference.largest (absolute) and .rms, picture.row_sum.minimum and .maximum.
+/// picture.colors[].name and .count (of labels, meshing methods, or cells per handle),
+/// picture.defects[].name and .count, picture.extrema[].maxima, .minima and .drawn (one entry per
+/// tile), picture.difference.largest (absolute) and .rms, picture.row_sum.minimum and .maximum.
 Status render_to_png(const std::vector<Tile>& tiles, const PictureOptions& options,
   const std::string& path, bool overwrite = false);
 
-/// Write an image of render_to_image.
+/// Write an image that render_to_image() returned to a PNG file.
 Status write_png(vtkImageData* image, const std::string& path, bool overwrite);
 
 } // namespace bindpose

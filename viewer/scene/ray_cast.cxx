@@ -1,6 +1,7 @@
-// In the coordinates of the ray, a triangle is hit if it contains the origin, which the signs of
-// three areas decide. Triangles that share an edge compute its area from the same numbers with
-// opposite signs, so that at least one of them is hit.
+// Finds the first triangle or tet that a ray through a pixel intersects. In the coordinates of the
+// ray, a triangle is hit if it contains the origin. The signs of three areas decide this. Triangles
+// that share an edge compute its area from the same coordinates with opposite signs, so that at
+// least one of them is hit.
 #include "scene/ray_cast.h"
 
 #include <algorithm>
@@ -11,13 +12,14 @@ namespace bindpose
 {
 namespace
 {
-/// Return twice the signed area of the triangle of the origin and two points.
+/// Return twice the signed area of the triangle with corners at the origin, `a` and `b`.
 double area(const double* a, const double* b)
 {
   return a[0] * b[1] - a[1] * b[0];
 }
 
-/// Report whether the ray hits a triangle of transformed points, and where.
+/// Report whether the ray hits a triangle of transformed points. If so, set the barycentric
+/// coordinates and the distance of the hit.
 bool meets(const double* a, const double* b, const double* c, Vec3& shares, double& distance)
 {
   Vec3 areas;
@@ -91,7 +93,7 @@ bool first_tet(const SightRay& ray, PointsView points, TetsView tets,
     };
     if (beside(0) || beside(1))
     {
-      continue; // the shrunk tet is within the tet
+      continue; // the shrunk tet is inside of this tet, so it is not hit either
     }
     Eigen::Matrix<double, 3, 4> own;
     for (int k = 0; k < 4; ++k)

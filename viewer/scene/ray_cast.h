@@ -8,20 +8,20 @@
 namespace bindpose
 {
 
-/// The ray through a pixel.
+/// The ray from the eye through a pixel.
 struct SightRay
 {
   Vec3 origin = Vec3::Zero();
-  Vec3 direction = Vec3::UnitZ(); ///< unit
+  Vec3 direction = Vec3::UnitZ(); ///< unit vector
 };
 
-/// Transform points to the coordinates of a ray: two coordinates across the ray, in which the ray
-/// is the origin, and the distance along it.
+/// Transform points to the coordinates of a ray: two coordinates perpendicular to the ray, which
+/// are 0 on the ray, and the distance along the ray.
 Points seen_along(const SightRay& ray, PointsView points);
 
 /// Report whether the line of the ray goes through a triangle of transformed points, in front of or
-/// behind the origin of the ray. areas[k] is twice the signed area of the ray and the side opposite
-/// corner k.
+/// behind the origin of the ray. areas[k] is twice the signed area of the triangle that the ray
+/// forms with the edge opposite corner k, projected along the ray.
 bool surrounds_ray(const double* a, const double* b, const double* c, Vec3& areas);
 
 /// The first intersection of a ray with a mesh.
@@ -38,7 +38,7 @@ struct SightHit
 /// triangles that share an edge.
 bool first_triangle(const SightRay& ray, PointsView points, TrianglesView triangles, SightHit& hit);
 
-/// Find the first tet that a ray enters, among those with wanted[t] = 1 (#T). Each tet is scaled
+/// Find the first tet that a ray enters, among the tets with wanted[t] = 1 (#T). Each tet is scaled
 /// about its center by `size`. 100,000 tets take about 1 millisecond.
 bool first_tet(const SightRay& ray, PointsView points, TetsView tets,
   const std::vector<char>& wanted, double size, SightHit& hit);

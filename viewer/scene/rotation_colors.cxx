@@ -1,5 +1,6 @@
-// Clusters are graph-colored greedily in the order of their numbers. The search for a free color
-// begins at the cluster's own number, so that all colors are used about equally often.
+// Assigns colors to rotation clusters (vertices that share one fitted rotation) such that adjacent
+// clusters differ. The clusters are graph-colored greedily in ascending order. The search for a
+// free color begins at the cluster's own index, so that all colors are used about equally often.
 #include "scene/rotation_colors.h"
 
 #include "base/most_frequent.h"
@@ -25,9 +26,9 @@ vtkDataArray* cluster_array(vtkDataSet* data)
   return data ? data->GetPointData()->GetArray("RotationCluster") : nullptr;
 }
 
-/// Call `each` for every cell with the cell, the cluster of most of its points (the lowest if
-/// several are equally frequent), and the clusters of all its points in ascending order. A cell
-/// without a cluster gets -1 and an empty list.
+/// Call `each` for every cell. Its arguments are the cell, the cluster of most of its points (the
+/// lowest if several are equally frequent), and the clusters of all its points in ascending order.
+/// A cell without a cluster gets -1 and an empty list.
 template <typename Cell>
 void for_each_cell(vtkDataSet* data, const Cell& each)
 {
@@ -51,10 +52,10 @@ void for_each_cell(vtkDataSet* data, const Cell& each)
   }
 }
 
-using Pairs = std::set<std::pair<int, int>>; // higher, lower
+using Pairs = std::set<std::pair<int, int>>; // pairs of a higher and a lower cluster
 
-/// Assign a handle color to each cluster. It differs from those of the lower clusters that it
-/// touches.
+/// Return a handle color for each cluster. It differs from the colors of the lower clusters that
+/// touch the cluster.
 std::vector<std::size_t> deal_colors(std::size_t clusters, const Pairs& touching)
 {
   std::vector<std::size_t> colors;

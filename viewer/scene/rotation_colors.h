@@ -13,8 +13,9 @@ class vtkDoubleArray;
 namespace bindpose
 {
 
-/// Check the point array RotationCluster. Return invalid_input if no dataset has the array, or if a
-/// value is not -1 (no cluster) or a cluster number 0, 1, … below the number of points plus cells.
+/// Check the point array RotationCluster: the index of the rotation cluster (vertices that share
+/// one fitted rotation) of each point, -1 for none. Return invalid_input if no dataset has the
+/// array, or if a value is not an integer from -1 to the number of points plus cells.
 Status check_clusters(const std::vector<vtkDataSet*>& datasets);
 
 /// Return for each cell the cluster of most of its points (the lowest if several are equally
@@ -22,13 +23,13 @@ Status check_clusters(const std::vector<vtkDataSet*>& datasets);
 /// The data must have passed check_clusters().
 vtkSmartPointer<vtkDoubleArray> clusters_of_cells(vtkDataSet* data);
 
-/// Return the clusters of all datasets by number, with the count of their cells. The colors are
-/// those of handles, assigned such that clusters that touch differ. The datasets must have passed
-/// check_clusters().
+/// Return the clusters of all datasets in ascending order, each with the number of its cells. The
+/// colors are those of handles, assigned such that clusters that touch differ. The datasets must
+/// have passed check_clusters().
 std::vector<Category> cluster_categories(const std::vector<vtkDataSet*>& datasets);
 
-/// Return the upper end of a scale of angles that contains `largest` degrees. It is a round angle,
-/// so that it rarely changes while a shape is bent.
+/// Return the upper end of the color range for rotation angles up to `largest` degrees. The result
+/// is a round angle, so that it rarely changes while a shape is bent.
 double angle_scale(double largest);
 
 } // namespace bindpose

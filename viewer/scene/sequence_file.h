@@ -9,6 +9,9 @@
 namespace bindpose
 {
 
+// Names of the numbered files of an animation, and ParaView's collection files (.pvd) that list
+// them.
+
 /// The frames of a sequence: files and times.
 struct Sequence
 {
@@ -21,7 +24,7 @@ std::string numbered_file(const std::string& path, int frame);
 /// Return the collection file next to the frames: OUT.pvd for OUT.vtp.
 std::string collection_file(const std::string& path);
 
-/// Return the text of ParaView's collection (.pvd) of files in the same folder.
+/// Return the text of ParaView's collection file (.pvd) for files in the same folder.
 std::string format_collection(const std::vector<std::string>& files, double frames_per_second);
 
 /// Read a collection. File names are relative to its folder; files are sorted by time. Return
@@ -32,7 +35,8 @@ Status read_collection(const std::string& path, Sequence& sequence);
 /// Return the number of frames per second; 24 if the times do not determine it.
 double frames_per_second(const Sequence& sequence);
 
-/// Choose at most `most` of `count` items, evenly spaced, including the first and the last.
+/// Choose at most `most` of `count` items and return their indices. They are evenly spaced and
+/// include the first and the last item.
 std::vector<std::size_t> evenly(std::size_t count, std::size_t most);
 
 } // namespace bindpose

@@ -81,7 +81,7 @@ DrawnTriangles triangles_of(vtkPolyData* surface)
   return drawn;
 }
 
-/// Copy all arrays of `from`: the tuples with these ids, in this order.
+/// Copy all arrays of `from`. The result has the tuples with these ids, in this order.
 void gather(vtkDataSetAttributes* from, const std::vector<Index>& ids, vtkDataSetAttributes* to)
 {
   bool all = static_cast<vtkIdType>(ids.size()) == from->GetNumberOfTuples();
@@ -139,7 +139,8 @@ void ShadedSurface::take(vtkPolyData* surface)
   vtkPointData* data = this->display_->GetPointData();
   gather(surface->GetPointData(), this->input_points_, data);
   gather(surface->GetCellData(), this->input_cells_, this->display_->GetCellData());
-  data->SetNormals(nullptr); // our normals follow the shape, those of a file do not
+  // normals of the file would not follow the moved shape; they are replaced
+  data->SetNormals(nullptr);
   data->SetNormals(this->normals_);
   this->move(to_points(surface).view());
 }

@@ -15,22 +15,22 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// A surface prepared for drawing: triangles, smooth normals within patches, and vertices doubled
-/// along sharp edges so that these edges stay sharp. Sharp edges are determined once, in the
-/// initial shape. Moving the vertices then costs one pass over triangles and vertices, so that a
-/// shape can be bent at mouse rate.
+/// A surface prepared for drawing: triangles, smooth normals within patches, and vertices
+/// duplicated along sharp edges so that these edges stay sharp. Sharp edges are determined once, in
+/// the initial shape. Moving the vertices then costs one pass over triangles and vertices, so that
+/// a shape can be bent while the mouse moves.
 ///
 /// Polygons are triangulated; vertex and line cells are left out. Triangles are not reoriented:
 /// lighting is two-sided, and neighbors with opposite orientation are separated by a sharp edge.
 class ShadedSurface
 {
 public:
-  /// @param feature_angle  angle in degrees between the normals of two triangles at or above which
-  ///   their common edge is drawn sharp; in (0, 180]
+  /// @param feature_angle  angle between the normals of two adjacent triangles, in degrees, in (0,
+  /// 180]. At or above it, their common edge is drawn sharp.
   explicit ShadedSurface(vtkPolyData* surface, double feature_angle = 50.0);
 
-  /// Report whether another surface has the same points and cells, so that this object can use its
-  /// arrays.
+  /// Report whether another surface has the same points and cells as the input, so that take() can
+  /// use its arrays.
   bool is_of(vtkPolyData* surface) const;
   /// Reset the points to those of `surface`, and replace the point and cell arrays by those of
   /// `surface`. is_of(surface) must be true.
@@ -41,7 +41,7 @@ public:
   vtkPolyData* polydata() const { return this->display_; }
   /// Point of the input for each point of polydata().
   const std::vector<Index>& input_points() const { return this->input_points_; }
-  /// Triangles of points of polydata().
+  /// Return the triangles; their ids are points of polydata().
   TrianglesView triangles() const { return this->triangles_; }
 
   /// Set the positions of the input's points, #V x 3, in the input's order. The cost is O(#V + #F).
@@ -57,10 +57,10 @@ private:
   std::vector<Index> input_points_;
   std::vector<Index> input_cells_; ///< input cell of each triangle
   Triangles triangles_;
-  std::vector<Index> first_triangle_; ///< start of each point's range in triangles_of_points_, and
-                                      ///< the end
-  std::vector<Index> triangles_of_points_; ///< ascending for each point
-  Points triangle_normals_; ///< scratch
+  std::vector<Index> first_triangle_; ///< index of each point's first entry in
+                                      ///< triangles_of_points_, and the total number of entries
+  std::vector<Index> triangles_of_points_; ///< triangles at each point, in ascending order
+  Points triangle_normals_; ///< temporary
   vtkNew<vtkFloatArray> normals_; ///< of the drawn points
 };
 

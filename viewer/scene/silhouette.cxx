@@ -1,5 +1,5 @@
-// Triangles are adjacent if their points are at the same position. If more than two meet at an
-// edge, each is compared with the next.
+// Finds silhouette edges. Triangles are adjacent if they share an edge by position. If more than
+// two triangles share an edge, each triangle is compared with the next one.
 #include "scene/silhouette.h"
 
 #include "base/parallel.h"

@@ -9,7 +9,7 @@
 namespace bindpose
 {
 
-/// The viewer of a surface: at a position, or in a parallel view along a direction.
+/// The eye that looks at a surface: at a position, or in a parallel view along a direction.
 struct Eye
 {
   Vec3 place = Vec3::Zero();
@@ -18,14 +18,14 @@ struct Eye
 };
 
 /// Silhouette edges of a surface: edges between a triangle that faces the eye and a triangle that
-/// faces away, whatever the orientation of the triangles, and edges of only one triangle. The
-/// adjacency of triangles is computed once, the edges for every pose and view.
+/// faces away, and edges of only one triangle. The orientation of the triangles has no effect. The
+/// adjacency of triangles is computed once, the silhouette edges for every pose and view.
 class Silhouette
 {
 public:
-  /// Build the adjacency. Points at the same position count as one, so that the drawn surface may
-  /// be split along sharp edges. The cost is a sort of the points and of the sides of the
-  /// triangles.
+  /// Build the adjacency. Points at the same position are treated as one point, because a drawn
+  /// surface is split along sharp edges. The cost is a sort of the points and of the triangle
+  /// edges.
   /// @param points     #V x 3, at rest
   /// @param triangles  #F x 3, of these points
   Silhouette(PointsView points, TrianglesView triangles);
@@ -36,17 +36,17 @@ public:
   void find(PointsView points, const Eye& eye, std::vector<Edge>& edges);
 
 private:
-  struct Side // small, because all of them are read for every frame
+  struct Side // small, because all sides are read in every frame
   {
     std::array<int, 2> points;
     int triangle;
     int other; ///< triangle on the other side; -1 if there is none
-    bool same_way; ///< both triangles traverse it in the same direction, so their orientations
-                   ///< differ
+    bool same_way; ///< both triangles traverse the edge in the same direction, so their
+                   ///< orientations differ
   };
   TrianglesView triangles_;
   std::vector<Side> sides_;
-  std::vector<signed char> facing_; ///< scratch, per triangle
+  std::vector<signed char> facing_; ///< temporary; one value per triangle
 };
 
 } // namespace bindpose

@@ -1,5 +1,6 @@
-// A side is visible if one of its two tets is kept and the other is not. Sides are matched once, by
-// sorting them by their vertices. A new plane then costs one pass over centers and one over sides.
+// Selects the tets on one side of a plane and their visible faces. A face is visible if one of its
+// two tets is kept and the other is not. Faces of neighboring tets are matched once, by sorting
+// them by their vertices. A new plane then costs one pass over tet centers and one over faces.
 #include "scene/tet_cut.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@ namespace bindpose
 {
 namespace
 {
-// Side k is opposite vertex k and oriented to point away from it.
+// Face k is opposite vertex k and oriented to point away from it.
 constexpr int side[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
 } // namespace
 
@@ -17,7 +18,7 @@ TetCut::TetCut(PointsView points, TetsView tets)
   struct Entry
   {
     std::array<Index, 3> key;
-    Index at; // 4 tet + side
+    Index at; // 4 * tet + k of the face
   };
   std::vector<Entry> entries;
   entries.reserve(4 * static_cast<std::size_t>(tets.rows()));
@@ -36,7 +37,7 @@ TetCut::TetCut(PointsView points, TetsView tets)
   }
   std::sort(entries.begin(), entries.end(),
     [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.at < b.at; });
-  // The other tet of each side; -1 if there is none, or if more than two tets share the side.
+  // The other tet of each face; -1 if there is none, or if more than two tets share the face.
   std::vector<Index> other(entries.size(), -1);
   for (std::size_t i = 0, j = 0; i < entries.size(); i = j)
   {

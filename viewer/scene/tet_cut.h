@@ -9,21 +9,21 @@
 namespace bindpose
 {
 
-/// Tets that a plane exposes without cutting any ("crinkle cut"): tets whose center is not beyond
+/// Tets behind a plane, drawn without cutting them ("crinkle cut"): tets whose center is not beyond
 /// the plane are kept whole. Neighbors and centers are computed once, so that a plane can be
 /// dragged.
 class TetCut
 {
 public:
-  /// Sides of tets, oriented outward, with the tet of each side.
+  /// Triangular faces of tets, oriented outward, with the tet of each face.
   struct Sides
   {
     Triangles triangles; ///< #S x 3 vertex ids
-    std::vector<Index> tets; ///< #S
+    std::vector<Index> tets; ///< #S: the tet of each face
   };
 
   TetCut() = default;
-  /// Build the sides. The cost is O(#T log #T): 100,000 tets take 0.1 seconds.
+  /// Build the faces and match them. The cost is O(#T log #T): 100,000 tets take 0.1 seconds.
   explicit TetCut(PointsView points, TetsView tets);
 
   /// Remove the tets whose center is on the side of the plane that the normal points to. keep_all()
@@ -34,14 +34,14 @@ public:
   Index kept_count() const { return this->kept_count_; }
   /// #T: 1 for a kept tet.
   const std::vector<char>& kept() const { return this->kept_; }
-  /// Sides of kept tets on the boundary of the whole mesh, and sides that the cut exposes.
+  /// Faces of kept tets on the boundary of the whole mesh, and faces that the cut exposes.
   const Sides& outside() const { return this->outside_; }
   const Sides& laid_open() const { return this->laid_open_; }
-  /// Return the smallest and largest coordinate of a center along a direction.
+  /// Return the smallest and largest coordinate of the tet centers along a direction.
   std::array<double, 2> reach(const Vec3& direction) const;
 
 private:
-  /// A side with its one or two tets, oriented outward from the first.
+  /// A face with its one or two tets, oriented outward from the first tet.
   struct Facet
   {
     std::array<Index, 3> vertices;
@@ -58,17 +58,17 @@ private:
   Sides laid_open_;
 };
 
-/// Tets with gaps between them: four points per tet, moved toward the tet's center.
+/// Tets with gaps between them: each tet has its own four points, moved toward the tet's center.
 struct ShrunkTets
 {
   Points points; ///< 4 #kept x 3
   Triangles triangles; ///< 4 #kept x 3, oriented outward
-  std::vector<Index> tets; ///< 4 #kept: tet of each triangle
-  std::vector<Index> vertices; ///< 4 #kept: input vertex of each point
+  std::vector<Index> tets; ///< 4 #kept: the tet of each triangle
+  std::vector<Index> vertices; ///< 4 #kept: the input vertex of each point
 };
 
 /// @param factor  size factor of each tet about its center, in (0, 1]
-/// @param kept  #T, 1 for the tets to return
+/// @param kept  #T: 1 for the tets to shrink and return
 ShrunkTets shrink_tets(
   PointsView points, TetsView tets, const std::vector<char>& kept, double factor);
 

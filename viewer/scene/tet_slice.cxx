@@ -1,5 +1,5 @@
-// VTK's filters do the cutting. Values are linear in a tet, so the bands and isolines of a slice
-// are exact.
+// Cuts tets by a plane with VTK's filters. Values are linear in a tet, so the bands and isolines of
+// a slice are exact.
 #include "scene/tet_slice.h"
 
 #include "conversion.h"

@@ -1,6 +1,6 @@
-// The appearance of each type of dataset. All types of surfaces are drawn by add_surface(): smooth
-// or flat triangles, colored by one number per point or cell. Colors are looked up per pixel after
-// the number has been interpolated, so that bands and isolines agree.
+// Creates the actors of each type of dataset. add_surface() draws all types of surfaces: smooth or
+// flat triangles, colored by one value per point or cell. Values are interpolated first, and colors
+// are looked up per pixel, so that bands and isolines agree.
 #include "scene/tile_actors.h"
 
 #include "conversion.h"
@@ -43,7 +43,7 @@ namespace bindpose
 {
 namespace
 {
-// Return a shallow copy with the shown number as its only array.
+// Return a shallow copy of the data with the displayed values as its only array.
 template <typename Data>
 vtkSmartPointer<Data> with_color_values(Data* data, const Coloring& coloring)
 {
@@ -99,7 +99,7 @@ vtkSmartPointer<vtkActor> add_actor(
   use_surface_material(actor);
   if (mapper->GetScalarVisibility())
   {
-    // Flatter light and less gloss make the colors readable.
+    // More ambient light and less gloss make the colors readable.
     actor->GetProperty()->SetAmbient(0.32);
     actor->GetProperty()->SetDiffuse(0.74);
     actor->GetProperty()->SetSpecular(0.04);
@@ -108,8 +108,8 @@ vtkSmartPointer<vtkActor> add_actor(
   return actor;
 }
 
-// Draw the surface behind lines that are in it. The lines must win the depth test; pushing the
-// surface back does that without a visible shift.
+// Draw the surface with a depth offset behind lines that are on it. Otherwise parts of the lines
+// would fail the depth test. The offset of the surface is not visible.
 void push_back(vtkActor* actor)
 {
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
@@ -198,8 +198,8 @@ Plane section_of(const Box& box, const PictureOptions& options, const Frame& fra
 
 // ---- Tets --------------------------------------------------------------------------------------
 
-// Return faces with the grid's points and the shown number. owners[f] is the tet of face f, for
-// numbers per tet.
+// Return faces with the grid's points and the displayed values. owners[f] is the tet of face f, for
+// values per tet.
 vtkSmartPointer<vtkPolyData> face_polydata(
   vtkUnstructuredGrid* grid, const Triangles& faces, const std::vector<Index>& owners)
 {
@@ -241,8 +241,8 @@ void add_shrunk(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
   add_flat(renderer, data, coloring, scale);
 }
 
-// Add the cut of the plane, unlit so that its colors are readable, and the outside behind the
-// plane.
+// Add the slice of the tets by the plane, unlit so that its colors are readable, and the part of
+// the boundary behind the plane.
 Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
   const Plane& plane, const PictureOptions& options, const Coloring& coloring, double scale,
   Index& shown, std::vector<char>& seen)
@@ -333,7 +333,7 @@ Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
 
 // ---- Volumes -----------------------------------------------------------------------------------
 
-// Return a plane of samples, or a cut by the section plane.
+// Return a slice of the image along an axis, or a cut by the section plane.
 vtkSmartPointer<vtkPolyData> slice_faces(
   vtkImageData* image, const PictureOptions& options, const Frame& frame)
 {
@@ -402,7 +402,8 @@ void add_isosurfaces(vtkRenderer* renderer, vtkImageData* image, const PictureOp
     const auto actor = add_actor(renderer, surface, Coloring());
     const Rgb color = color_of(coloring.map, level);
     actor->GetProperty()->SetColor(color[0], color[1], color[2]);
-    // Slightly darker than the map, so that its white at 0.5 stands out from a white background.
+    // Draw slightly darker than the map, so that the map's white at 0.5 stands out from a white
+    // background.
     actor->GetProperty()->SetAmbient(0.14);
     actor->GetProperty()->SetDiffuse(0.76);
     const bool innermost = level == *highest || (level == *lowest && level < 0.0);
@@ -422,7 +423,7 @@ void add_handles(
   vtkNew<vtkHandleSetRepresentation> representation;
   representation->SetHandles(handles);
   representation->SetRenderer(renderer);
-  // Balls of 1.2 % of the picture's shorter side are readable at all sizes.
+  // A ball of 1.2 % of the picture's shorter side is readable at all picture sizes.
   const double pixels = std::clamp(0.012 * std::min(options.width, options.height), 3.0, 24.0);
   representation->SetPixelScale(scale * pixels / representation->GetPointSize());
   representation->SetShowLabels(options.handle_names);
@@ -566,8 +567,8 @@ Points shown_points(
 
 namespace
 {
-// Return the radius of curves' tubes. 0.25 % of the picture's diagonal is readable, like lines in a
-// drawing.
+// Return the radius of the tubes of curves. Tubes of 0.25 % of the picture's diagonal are readable,
+// like lines in a drawing.
 double tube_radius(const Tile& tile, const PictureOptions& options, const Coloring& coloring)
 {
   return 0.0025 * bounding_box(shown_points(tile, options, coloring)).diagonal();
@@ -619,8 +620,8 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
   const Coloring& coloring, const std::vector<Extremum>& extrema, const Frame& frame, double scale,
   Drawn& shown)
 {
-  // Points whose extrema are drawn. Empty: all points of a surface. For tets, the points of the
-  // drawn sides.
+  // Flags of the points whose extrema are drawn. Empty: all points of a surface. For tets, only the
+  // points of the drawn faces are set.
   std::vector<char> seen;
   if (auto* image = vtkImageData::SafeDownCast(tile.data))
   {
@@ -731,8 +732,8 @@ void add_lights(vtkRenderer* renderer)
   kit->SetHeadLightWarmth(0.5);
   kit->SetKeyToBackRatio(3.6);
   kit->AddLightsToRenderer(renderer);
-  // Only volume renderings use this ambient color: CPU ray casting takes the ambient light from
-  // lights, surfaces have their own.
+  // This ambient color affects only volume renderings: CPU ray casting takes the ambient light from
+  // the lights, whereas surfaces have their own ambient property.
   renderer->GetLights()->InitTraversal();
   vtkLight* first = renderer->GetLights()->GetNextItem();
   const double full = 1.0 / first->GetIntensity();

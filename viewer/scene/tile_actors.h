@@ -15,24 +15,25 @@ namespace bindpose
 /// Report whether a dataset is a handle dataset.
 bool is_handle_data(vtkDataSet* data);
 
-/// Return the points that a tile shows: all points that cells use, the posed handles, and the
-/// corners of an image. For an image these are the corners of its slice if the frame is known, or
-/// of the box that contains its isosurfaces and its volume rendering.
+/// Return the points that a tile (one dataset of a picture) shows: all points that cells use, the
+/// posed handles, and the corners of an image. For an image these are the corners of its slice if
+/// the frame is known. Otherwise they are the corners of the box that contains its isosurfaces and
+/// its volume rendering.
 Points shown_points(const Tile& tile, const PictureOptions& options, const Coloring& coloring,
   const Frame* frame = nullptr);
 
-/// Amount of the data that a picture shows.
+/// Numbers of the elements that a picture shows.
 struct Drawn
 {
   Index tets = 0;
   Index extrema = 0;
 };
 
-/// Add a tile's props to its renderer.
+/// Add a tile's actors to its renderer.
 /// @param extrema  extrema of the tile's data
 /// @param scale  window pixels per picture pixel, for line widths and handle sizes
-/// @param shown  counts, increased by what is drawn
-/// @return invalid_input if the section leaves none of a tile's tets
+/// @param shown  counts, increased by the drawn elements
+/// @return invalid_input if the section plane removes all of a tile's tets
 Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
   const Coloring& coloring, const std::vector<Extremum>& extrema, const Frame& frame, double scale,
   Drawn& shown);

@@ -1,5 +1,5 @@
-// ffmpeg is a separate program. It is found on the PATH, run on a folder of pictures, and killed
-// when the user cancels.
+// Runs ffmpeg to write moving pictures. ffmpeg is a separate program: it is found on the PATH, run
+// on a folder of pictures, and killed when the user cancels.
 #include "scene/video_file.h"
 
 #include "file_kind.h"
@@ -19,14 +19,14 @@ std::vector<std::string> codec_of(const std::string& ending)
 {
   if (ending == "gif")
   {
-    // Use a palette of these frames, not the common one of 256 colors.
+    // Compute a palette of 256 colors from these frames; ffmpeg's default palette is generic.
     return { "-vf", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse" };
   }
   if (ending == "apng")
   {
     return { "-plays", "0", "-f", "apng" };
   }
-  // Players only support even sizes and one color per four pixels.
+  // Many players support only even sizes and one color per four pixels.
   const std::string even = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
   return ending == "webm" ? std::vector<std::string>{ "-vf", even, "-c:v", "libvpx-vp9", "-crf",
     "24", "-b:v", "0", "-pix_fmt", "yuv420p" }

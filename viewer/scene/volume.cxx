@@ -1,5 +1,6 @@
-// Isosurfaces and slices use flying edges, which walk the sample grid row by row. Their time is
-// that of reading the samples, so that a level can be dragged.
+// Isosurfaces and slices of image volumes. They use VTK's flying edges filters, which process the
+// sample grid row by row. The computation takes as long as reading the samples, so that a user can
+// drag a level.
 #include "scene/volume.h"
 
 #include "vtkCellArray.h"
@@ -20,7 +21,7 @@ namespace bindpose
 {
 namespace
 {
-// Return the image with only this array, because filters pass all arrays through.
+// Return a copy of the image with only this array, because filters pass all arrays through.
 vtkSmartPointer<vtkImageData> with_array_only(vtkImageData* image, const std::string& array)
 {
   auto copy = vtkSmartPointer<vtkImageData>::New();
@@ -122,7 +123,7 @@ vtkSmartPointer<vtkPolyData> slice(
 
 bool value_at(vtkImageData* image, const std::string& array, const Vec3& place, double& value)
 {
-  // Clamp to the border, so that rounding does not decide there.
+  // Clamp the position to the image, so that rounding does not exclude positions on the border.
   double bounds[6];
   image->GetBounds(bounds);
   const double slack = 1e-6 * image->GetLength();

@@ -16,11 +16,12 @@ class vtkPolyData;
 namespace bindpose
 {
 
+// Isosurfaces, slices and values of image volumes.
+
 /// Check whether isosurfaces, slices and volume rendering can be made of this point array. Return
 /// invalid_input with one sentence for: no image, an image one sample thick, no such point array
-/// (the sentence lists the existing ones), an array of several components, a value that is not
-/// finite.
-/// Report: volume.samples, volume.minimum, volume.maximum.
+/// (the sentence lists the existing arrays), an array of several components, a value that is not
+/// finite. Report: volume.samples, volume.minimum, volume.maximum.
 Status check_volume(vtkDataSet* data, const std::string& array);
 
 /// Return the surface where the array's value, interpolated linearly between samples, equals the
@@ -37,12 +38,12 @@ vtkSmartPointer<vtkPolyData> slice(
 /// is outside the image by more than a millionth of its diagonal.
 bool value_at(vtkImageData* image, const std::string& array, const Vec3& place, double& value);
 
-/// Return the sum of the areas of the polygons.
+/// Return the total area of the polygons.
 double surface_area(vtkPolyData* surface);
 
-/// Return the bounding box of all samples next to a crossing of a level and, with `far_from_zero`,
-/// of samples whose absolute value is above 0.1. If there are none, return the box of the whole
-/// image.
+/// Return the bounding box of all samples next to a crossing of a level. With `far_from_zero`, also
+/// include samples whose absolute value is above 0.1. If there are no such samples, return the box
+/// of the whole image.
 Box occupied_box(vtkImageData* image, const std::string& array, const std::vector<double>& levels,
   bool far_from_zero);
 

@@ -21,7 +21,7 @@ namespace bindpose
 {
 namespace
 {
-// The range of the map. Values outside get the color of the nearest end.
+// The range of winding_map(). Values outside get the color of the nearest end.
 constexpr double lowest = -1.0;
 constexpr double highest = 2.0;
 } // namespace
@@ -47,7 +47,7 @@ double winding_opacity(double winding_number, double step)
 vtkSmartPointer<vtkVolume> make_winding_volume(
   vtkImageData* image, const std::string& array, double pixels)
 {
-  // Clamp the values, because the mapper spreads its table over their range.
+  // Clamp the values, because the mapper spreads its color table over the range of the values.
   vtkDataArray* values = image->GetPointData()->GetArray(array.c_str());
   vtkNew<vtkFloatArray> clamped;
   clamped->SetName(array.c_str());
@@ -66,7 +66,8 @@ vtkSmartPointer<vtkVolume> make_winding_volume(
   const double step = *std::min_element(spacing, spacing + 3);
   vtkNew<vtkColorTransferFunction> colors;
   vtkNew<vtkPiecewiseFunction> opacities;
-  constexpr int count = 600; // steps of 0.005, so that the map's jumps at -0.02 and 1.02 stay sharp
+  // entries of width 0.005, so that the map's jumps at -0.02 and 1.02 stay sharp
+  constexpr int count = 600;
   for (int i = 0; i <= count; ++i)
   {
     const double w = lowest + (highest - lowest) * i / count;

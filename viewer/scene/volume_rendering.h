@@ -11,22 +11,22 @@ class vtkVolume;
 namespace bindpose
 {
 
-/// Return the opacity, in [0, 1], of a winding number for a ray from one sample to the next. It is
-/// 0 for |w| <= 0.02, the tolerance of winding_color(), so that the outside is clear. It is 0.6
-/// from 0.42 to 0.58, at the border of the inside. It is 3 % per unit of length inside, and
-/// increases to 24 % toward -1 and toward 2.
+/// Return the opacity, in [0, 1], that a winding number adds to a ray between two samples. The
+/// opacity is 0 for |w| <= 0.02, the tolerance of winding_color(), so that the outside is clear.
+/// From 0.42 to 0.58, at the border of the inside, it is 0.6. Inside it is 3 % per unit of length,
+/// and it increases to 24 % toward -1 and toward 2.
 /// @param step  distance of samples, in hundredths of the volume's diagonal
 double winding_opacity(double winding_number, double step);
 
 /// Return a volume rendering of a winding number, shaded by its gradient, in the colors of
-/// winding_color(). The opacity is per unit of length where a value fills space, and per sample at
-/// a jump from 0 to 1 between two samples. So both look the same on every grid. check_volume() must
-/// accept the point array.
+/// winding_color(). The opacity is defined per unit of length where the value changes slowly, and
+/// per sample where it jumps from 0 to 1 between two samples. The picture is therefore similar on
+/// grids of any resolution. check_volume() must accept the point array.
 ///
 /// Rays are cast on the CPU. With a software graphics driver, as on servers, that is several times
 /// faster than VTK's GPU mapper, and it gives the same picture on every machine.
 /// @param pixels  distance of neighboring rays in pixels; 0: adapted to the time available for a
-///   picture
+/// picture
 vtkSmartPointer<vtkVolume> make_winding_volume(
   vtkImageData* image, const std::string& array, double pixels);
 

@@ -1,11 +1,12 @@
-// A tile shows a part of each renderer's view. The viewport becomes that part within the tile, and
-// a copy of the camera covers only the part, with a narrower angle and a shifted window center. 2D
-// actors, which are positioned in window pixels, are moved along. Tiles overlap by a margin that is
-// cut off, because a wide line just outside a tile would not be drawn in the tile.
+// Draws a picture of any size in tiles. A tile shows a part of each renderer's view. The renderer's
+// viewport becomes the area of that part in the tile. A copy of the camera covers only the part,
+// with a narrower view angle and a shifted window center. 2D actors, which are positioned in window
+// pixels, are moved by the same amount. Tiles overlap by a margin that is cut off, because a wide
+// line just outside a tile would not be drawn in the tile.
 //
-// A transparent picture is drawn over black and over white, then solved for color and opacity. That
-// is correct for every drawing method. The framebuffer's own alpha is correct only for some methods
-// (not for surfaces that are sorted by depth).
+// A transparent picture is drawn twice, over black and over white; color and opacity are computed
+// from both. This is correct for every drawing method. The framebuffer's own alpha is correct only
+// for some methods (not for surfaces that are sorted by depth).
 #include "scene/window_picture.h"
 
 #include "vtkActor.h"
@@ -34,7 +35,7 @@ namespace bindpose
 {
 namespace
 {
-/// Size of a tile with its margins, which any graphics card can draw, and size of a margin, in
+/// Size of a tile with its margins, which any graphics card can draw, and width of a margin, in
 /// samples.
 constexpr int tile_size = 3072;
 constexpr int tile_margin = 160;
@@ -57,7 +58,7 @@ Rect common_part(const Rect& a, const Rect& b)
   return both;
 }
 
-/// Shows parts of a renderer's view during its lifetime.
+/// Makes a renderer show parts of its view; restores the renderer when the object is destroyed.
 class TiledRenderer
 {
 public:
@@ -111,7 +112,7 @@ public:
       static_cast<double>(part.y - tile.y) / tile.height,
       static_cast<double>(part.x + part.width - tile.x) / tile.width,
       static_cast<double>(part.y + part.height - tile.y) / tile.height);
-    if (this->renderer_->GetGradientBackground()) // the part's section of the whole gradient
+    if (this->renderer_->GetGradientBackground()) // give the part its section of the whole gradient
     {
       const double low = static_cast<double>(part.y - this->whole_.y) / this->whole_.height;
       const double high = low + static_cast<double>(part.height) / this->whole_.height;
@@ -124,7 +125,7 @@ public:
     camera->SetParallelScale(share * this->camera_->GetParallelScale());
     const double half = std::tan(0.5 * vtkMath::RadiansFromDegrees(this->camera_->GetViewAngle()));
     camera->SetViewAngle(2.0 * vtkMath::DegreesFromRadians(std::atan(share * half)));
-    // Offset from the center of the view to that of the part, in halves of the part.
+    // Offset from the center of the view to the center of the part, in half sizes of the part.
     camera->SetWindowCenter(
       (2.0 * (part.x - this->whole_.x) + part.width - this->whole_.width) / part.width,
       (2.0 * (part.y - this->whole_.y) + part.height - this->whole_.height) / part.height);
@@ -136,7 +137,8 @@ public:
     }
   }
 
-  /// Set the background to gray if the renderer is the lowest, with nothing behind it.
+  /// Set the background to a gray level if the renderer is in the lowest layer and nothing is drawn
+  /// behind it.
   void set_ground(double level)
   {
     if (this->renderer_->GetLayer() == 0)
@@ -161,14 +163,14 @@ private:
   vtkSmartPointer<vtkRenderer> renderer_;
   vtkSmartPointer<vtkCamera> camera_;
   int drawn_;
-  Color below_{}, above_{}; // background
+  Color below_{}, above_{}; // background colors of the renderer
   bool gradient_ = false;
   std::array<double, 4> viewport_{};
-  Rect whole_; // in the picture
+  Rect whole_; // the area of the renderer in the picture
   std::vector<std::pair<vtkSmartPointer<vtkActor2D>, std::array<double, 2>>> flat_;
 };
 
-/// The samples of a tile, four bytes each.
+/// The samples of a tile, four bytes per sample.
 using Samples = vtkSmartPointer<vtkUnsignedCharArray>;
 
 /// Return averages of red, green and blue over the samples of a pixel, 0 to 255.
@@ -193,8 +195,9 @@ std::array<double, 3> average(const Samples& pixels, const Rect& tile, int x, in
   return mean;
 }
 
-/// Fill a part of the image from a tile's samples over white and, for transparent pictures, over
-/// black. The visible fraction of the background determines the opacity.
+/// Fill the part of the image that a tile covers. The arguments are the tile's samples over white
+/// and, for transparent pictures, over black. The visible fraction of the background determines the
+/// opacity.
 void fill_image(const Samples& on_white, const Samples& on_black, const Rect& tile,
   const Rect& part, int samples, vtkImageData* image)
 {
@@ -220,7 +223,8 @@ void fill_image(const Samples& on_white, const Samples& on_black, const Rect& ti
         seen += (white[k] - black[k]) / (3.0 * 255.0);
       }
       const double opacity = 1.0 - seen;
-      const bool clear = opacity < 1.5 / 255.0; // almost clear: planes that only exist to be picked
+      // almost clear: planes that are drawn only so that they can be picked
+      const bool clear = opacity < 1.5 / 255.0;
       to = std::transform(black.begin(), black.end(), to,
         [&](double value) { return clear ? byte(0.0) : byte(value / opacity); });
       *to++ = clear ? byte(0.0) : byte(255.0 * opacity);
@@ -238,7 +242,8 @@ Status read_samples(vtkRenderWindow* window, const Rect& tile, Samples& pixels)
     : Status::failure(StatusCode::internal_error, "cannot read the picture back from OpenGL");
 }
 
-/// Return the length of a tile without margins; the whole length if it fits into one tile.
+/// Return the length of a tile without margins; the length of the whole picture if it fits into one
+/// tile.
 int core_length(int length, int samples)
 {
   return length <= tile_size ? length : (tile_size - 2 * tile_margin) / samples * samples;

@@ -29,14 +29,15 @@ struct WindowPicture
   int width = 0, height = 0; ///< pixels
   /// A pixel is the average of this many samples in each direction.
   int samples = 2;
-  /// Draw no background: the image is RGBA, not premultiplied, instead of RGB. Everything is drawn
-  /// twice.
+  /// Draw no background. The image is RGBA (not premultiplied) instead of RGB, and everything is
+  /// drawn twice.
   bool transparent = false;
 };
 
 /// Draw the content of a window at any size, even larger than the largest framebuffer. The picture
-/// is drawn in tiles, each a part of every renderer's view, so that the graphics memory needed is
-/// that of one tile. Sizes in pixels (of lines, text) are in samples.
+/// is drawn in tiles, so that the required graphics memory is that of one tile. A tile is a part of
+/// every renderer's view. Sizes that actors specify in pixels (line widths, text) are drawn in
+/// samples instead; see ScaledLines.
 ///
 /// On return, the window's size, cameras and viewports are restored; the window is not drawn again
 /// with them. Return internal_error if the driver returns no pixels. Perspective and parallel
@@ -44,8 +45,8 @@ struct WindowPicture
 Status draw_in_tiles(
   vtkRenderWindow* window, const WindowPicture& picture, vtkSmartPointer<vtkImageData>& image);
 
-/// Scales the widths of lines, points and widget handles by a factor during its lifetime, for
-/// pictures that are drawn larger than the window.
+/// Scales the widths of lines, points and widget handles by a factor while the object exists. Use
+/// it for pictures that are drawn larger than the window.
 class ScaledLines
 {
 public:

@@ -1,6 +1,8 @@
-// The layout is defined for axes of 80 pixels and scaled to the requested size. Parts that would be
-// seen edge-on or along themselves are left out, because they can be neither recognized nor used.
-// Only the half of a ring toward the camera is drawn, so that three rings do not look like a cage.
+// Lays out, draws and picks the gizmo: the arrows, plates, rings and boxes with which users move,
+// rotate and scale a handle. The layout is defined for axes of 80 pixels and scaled to the
+// requested size. Parts that point at the viewer or are seen edge-on are left out, because users
+// can neither recognize nor use them. Only the half of a ring toward the camera is drawn, so that
+// three rings do not look like a cage.
 #include "gizmo.h"
 
 #include <Eigen/Geometry>
@@ -16,34 +18,37 @@ namespace bindpose
 {
 namespace
 {
-/// Distances from the origin in pixels, for axes of 80 pixels.
+/// Distances of the gizmo's parts from its origin, in pixels, for axes of 80 pixels.
 struct Layout
 {
-  double shaft; // end of the shaft, which begins at the gap
-  double cone; // end of the cone; 0: none
-  double plate; // center along both axes; 0: none
-  double box; // center; 0: none
-  double ring; // radius; 0: none
-  double view_ring; // radius; 0: none
+  double shaft; // end of an arrow's shaft, which begins at `gap`
+  double cone; // tip of an arrow's cone; 0: none
+  double plate; // coordinate of a plate's center on both axes; 0: none
+  double box; // center of a box; 0: none
+  double ring; // radius of the rings about the axes; 0: none
+  double view_ring; // radius of the ring that faces the camera; 0: none
 };
-// In the order of GizmoKind.
+// One layout per GizmoKind, in the same order.
 constexpr Layout layouts[5] = { {}, { 74, 92, 33, 0, 0, 0 }, { 0, 0, 0, 0, 78, 96 },
   { 76, 0, 0, 80, 0, 104 }, { 84, 102, 27, 45, 64, 124 } };
-constexpr double gap = 15.0; // around the ball
+constexpr double gap = 15.0; // space around the ball of the handle
 constexpr double plate_half = 7.0;
 constexpr double cone_radius = 5.6;
 constexpr double box_half = 4.6;
 constexpr double thin = 2.4;
-constexpr double thick = 3.8; // thickness under the mouse
+constexpr double thick = 3.8; // thickness of a part under the mouse
 constexpr double outline = 1.2;
 constexpr double twist_radius = 20.0;
 constexpr double stretch_from = 10.0;
 constexpr double stretch_to = 30.0;
 constexpr double stretch_room = 32.0; // distance kept free around tips
 constexpr int ring_sides = 72;
-constexpr double along_sight = 0.985; // cosine beyond which an axis is seen along itself
-constexpr double edge_on = 0.13; // cosine below which a plate is seen edge-on
-constexpr double face_on = 0.3; // sine below which a ring is drawn whole
+// an axis with a larger cosine to the viewing direction points at the viewer
+constexpr double along_sight = 0.985;
+// a plate whose normal has a smaller cosine to the viewing direction is seen edge-on
+constexpr double edge_on = 0.13;
+// a ring whose axis has a smaller sine to the viewing direction is drawn as a whole
+constexpr double face_on = 0.3;
 
 const char* const letters[3] = { "X", "Y", "Z" };
 
@@ -197,7 +202,7 @@ Gizmo::Part Gizmo::ring(
   ring.thickness = thin;
   const double radius = pixels * this->unit_ * this->pixel_;
   const Vector3d sight = this->view_.sight_to(center);
-  // Begin on the far side, so that the half in front is in one piece.
+  // Begin the ring on the side away from the camera, so that the half in front is one polyline.
   Vector3d u = sight - axis * axis.dot(sight);
   whole = whole || u.norm() < face_on;
   u = u.norm() > 1e-6 ? Vector3d(u.normalized()) : axis.unitOrthogonal();
@@ -279,7 +284,7 @@ void Gizmo::add_bone()
     knob.part = stretch_bone;
     knob.color = this->setup_.bone;
     const double pixel = this->unit_ * this->pixel_;
-    // Move the knob farther out if an arrow's tip is in its position.
+    // Move the box for stretching farther out if the tip of an arrow is at its position.
     double out = stretch_to;
     const auto is_taken = [&]()
     {
@@ -323,8 +328,8 @@ void Gizmo::add_bone()
   }
 }
 
-/// Add lines for the dragged part: a long line along its axis, or the start and the current
-/// position of a turn.
+/// Add lines for the dragged part: a long line along the axis of a move, or two lines of a
+/// rotation, to its start and to its current position.
 void Gizmo::add_drag()
 {
   const int part = this->marks_.active;
@@ -434,8 +439,8 @@ void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
   {
     const bool hot =
       !part.guide && (part.part == this->marks_.hovered || part.part == this->marks_.active);
-    // Mixing halfway with white would lose the axis color. Lighten the color less, and enlarge the
-    // part.
+    // Show the part under the mouse larger and lighter. Mixing halfway with white would lose the
+    // color of its axis, so the color is mixed with less white.
     Color color = part.color;
     for (double& c : color)
     {
@@ -533,7 +538,7 @@ std::optional<Vector2d> Gizmo::grip(int wanted) const
     }
     else
     {
-      // away from the middle, where a ring in front crosses an axis
+      // away from the middle of the ring, where another ring in front crosses an axis
       place = part.path[part.path.size() * 2 / 5];
     }
     return Vector2d(this->view_.to_display(place).head<2>());

@@ -20,15 +20,16 @@ enum class GizmoKind
   all = 4
 };
 
-/// Parts of the gizmo. The numbers equal the interaction states of the representation. In a group
-/// of three parts, the axis is the number minus the number of the first part.
+/// Parts of the gizmo, the arrows, plates, rings and boxes around a selected handle. The values
+/// equal the interaction states of the representation. In a group of three parts, the axis is the
+/// value minus the value of the first part.
 enum GizmoPart : int
 {
   no_part = 0,
   move_x = 10,
   move_y,
   move_z,
-  move_yz, ///< in a plane; the number gives the fixed axis
+  move_yz, ///< a plate, which moves in a plane; value - move_yz is the axis perpendicular to it
   move_zx,
   move_xy,
   turn_x = 20,
@@ -44,7 +45,7 @@ enum GizmoPart : int
   twist_tail
 };
 
-/// Names of the parts in tours.
+/// Names of the parts in tours, the scripted demonstrations of the window.
 struct GizmoPartWord
 {
   const char* word;
@@ -62,18 +63,18 @@ struct GizmoSetup
   GizmoKind kind = GizmoKind::all;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< axes as columns
-  bool only_moves = false; ///< no turning, scaling or stretching
+  bool only_moves = false; ///< true: the gizmo has no parts for rotating, scaling or stretching
   std::optional<Eigen::Vector3d> tail; ///< tail of a bone, whose head is the origin
-  bool twists_apart = true; ///< a twist ring at each end, else one ring in the middle
+  bool twists_apart = true; ///< two twist rings, at head and tail; otherwise one ring in the middle
   double pixels = 80.0; ///< length of the axes of a gizmo that only moves
   /// Red, green and blue by convention, in shades that viewers with any type of color blindness can
   /// distinguish.
   Color axes[3] = { { 0.80, 0.15, 0.25 }, { 0.50, 0.80, 0.25 }, { 0.18, 0.43, 0.93 } };
   Color bone = { 0.72, 0.40, 0.72 };
-  Color plain = { 0.60, 0.61, 0.65 }; ///< parts without an axis
+  Color plain = { 0.60, 0.61, 0.65 }; ///< color of parts without an axis
 };
 
-/// Return the kind of gizmo that has a part: the given kind if it has the part.
+/// Return a kind of gizmo that has the part: `kind` if it has the part, otherwise another kind.
 GizmoKind gizmo_with(int part, GizmoKind kind);
 /// Return the radius of a ring, in pixels of the window.
 double ring_pixels(const GizmoSetup& setup, int part);
@@ -83,13 +84,13 @@ struct GizmoMarks
 {
   int hovered = no_part;
   int active = no_part; ///< the dragged part; all other parts are left out
-  /// The ends of two lines from the origin during a turn, in world coordinates: the grabbed
-  /// position and its current position.
+  /// The ends of two lines that start at the origin during a rotation, in world coordinates: the
+  /// position at which the ring was grabbed, and its current position.
   std::optional<Eigen::Vector3d> spokes[2];
 };
 
-/// Arrows, plates, rings and boxes around one position, with constant size on the screen. They are
-/// laid out in world coordinates for one view, for picking or drawing.
+/// The gizmo: arrows, plates, rings and boxes around one position, with constant size on the
+/// screen. They are laid out in world coordinates for one view, for picking or drawing.
 class Gizmo
 {
 public:
@@ -102,7 +103,7 @@ public:
   int pick(const Eigen::Vector2d& mouse, double tolerance) const;
   /// @param outline  receives the same shapes, slightly larger, for the outline hull
   void draw(HandleShapes& solid, HandleShapes& outline) const;
-  /// The letters X, Y, Z next to the tips, and next to a ring under the mouse.
+  /// The letter X, Y or Z next to a tip, or next to a ring under the mouse.
   struct Label
   {
     std::string text;
@@ -119,15 +120,15 @@ private:
     int part = no_part;
     int rank = 0;
     Color color{};
-    std::vector<Eigen::Vector3d> path; // a tube
+    std::vector<Eigen::Vector3d> path; // the center line of a tube
     double thickness = 2.4; // pixels
-    std::vector<Eigen::Vector3d> plate; // four corners
-    std::vector<Eigen::Vector3d> box; // one center
-    double box_half = 0.0; // pixels
-    std::vector<Eigen::Vector3d> cone; // base and tip
+    std::vector<Eigen::Vector3d> plate; // the four corners of a plate
+    std::vector<Eigen::Vector3d> box; // the center of a box
+    double box_half = 0.0; // half of the box's side, in pixels
+    std::vector<Eigen::Vector3d> cone; // the base and the tip of a cone
     double cone_radius = 0.0; // pixels
-    bool guide = false; // visible, but cannot be picked
-    bool quiet = false; // without an outline
+    bool guide = false; // true: a guide line, which is visible but cannot be picked
+    bool quiet = false; // true: drawn without an outline
     std::string label;
   };
   void add_axes();

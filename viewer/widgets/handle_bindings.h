@@ -6,8 +6,8 @@
 namespace bindpose
 {
 
-/// The effects of keys and buttons on the widget. Actions without a key are listed for
-/// documentation only.
+/// The effects of keys and buttons on the widget. Actions without a key are listed only for the
+/// documentation.
 enum class HandleAction
 {
   select,
@@ -44,14 +44,14 @@ enum class BrushAction
   cancel
 };
 
-/// One row of the table of keys and buttons. The widget's documentation and the program's key sheet
-/// are made from the table, and the widget looks up its keys in it.
+/// One row of the table of keys and buttons. The table is used three times: for the widget's
+/// documentation, for the program's key sheet, and by the widget to look up keys.
 template <typename Action>
 struct Binding
 {
   Action action;
-  /// "pose", "drag" (in any mode), "move rest", "add points", "add bones", "add cage",
-  /// "paint regions"
+  /// The condition of the row: "pose", "drag" (in any mode), "move rest", "add points", "add
+  /// bones", "add cage", "paint regions".
   const char* when;
   const char* input; ///< in the form shown to users
   const char* keys; ///< key names (KeySym of vtkRenderWindowInteractor), each between blanks; or ""

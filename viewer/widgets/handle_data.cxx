@@ -1,6 +1,6 @@
-// Arrays are looked up once per call, not once per cell, because hundreds of handles are read at
-// every move of the mouse. Nothing is cached between calls, so edits of an array without Modified()
-// are seen.
+// Reads and writes handle datasets for the widgets. Arrays are looked up once per call instead of
+// once per cell, because hundreds of handles are read at every move of the mouse. Nothing is cached
+// between calls, so that changes of an array without Modified() take effect.
 #include "handle_data.h"
 
 #include "pose/found_rotations.h"
@@ -18,7 +18,7 @@ namespace bindpose
 {
 namespace
 {
-/// A cell array that may be missing, too short or of another shape.
+/// Reads a cell array that may be missing, too short or of another shape.
 class CellNumbers
 {
 public:
@@ -98,7 +98,7 @@ public:
     place.tail = place.rest_tail;
     if (!this->at_rest_)
     {
-      // the stretch lengthens a bone from its head
+      // `stretch` is the factor on the length of a bone; its head does not move
       const Vec3 tail = place.head + place.stretch * (place.tail - place.head);
       place.head = place.transform * place.rest_head.homogeneous();
       place.tail = place.transform * tail.homogeneous();
@@ -113,7 +113,7 @@ private:
   CellNumbers kinds_, modes_, locks_, parents_, transforms_, stretches_, twists_, colors_;
 };
 
-/// Return the array in the form that a drag requires: doubles, one tuple per cell.
+/// Return an array that a drag can write to: doubles, one tuple per cell.
 vtkDataArray* writable(
   vtkPolyData* data, const char* name, int components, const std::vector<double>& rest)
 {
@@ -171,7 +171,7 @@ std::string HandleData::name(vtkIdType cell) const
   {
     return names->GetValue(cell);
   }
-  // The names that the filters give: points and bones are numbered separately.
+  // Use the same default names as the filters: points are counted separately from bones.
   const std::vector<HandlePlace> all = this->places(true);
   const bool bone = all[static_cast<std::size_t>(cell)].is_bone();
   int number = 0;

@@ -18,13 +18,14 @@ namespace bindpose
 /// The interactively editable properties of one cell of a handle dataset.
 struct HandlePlace
 {
-  int kind = 0; ///< HandleKind; negative: a bar, which is not a handle
+  int kind = 0; ///< HandleKind; negative: a bar (cage element or pseudo-edge), which is not a
+                ///< handle
   int mode = static_cast<int>(HandleMode::automatic); ///< HandleMode
   bool locked = false;
   vtkIdType parent = -1;
   Vec3 rest_head = Vec3::Zero(); ///< for a bar: its first point
-  Vec3 rest_tail = Vec3::Zero(); ///< for a bar: its second point; for all but bones and bars:
-                                 ///< rest_head
+  Vec3 rest_tail = Vec3::Zero(); ///< for a bar: its second point; for a bone: its tail; for all
+                                 ///< others: rest_head
   Vec3 head = Vec3::Zero(); ///< posed, or at rest if that was requested
   Vec3 tail = Vec3::Zero();
   Affine transform = identity_affine();
@@ -50,12 +51,12 @@ public:
 
   /// Return all cells. With at_rest, transforms and stretches are ignored.
   std::vector<HandlePlace> places(bool at_rest = false) const;
-  /// Replace mode automatic by the mode that with_found_rotations() chooses for a method that finds
-  /// rotations, else by full.
+  /// Replace mode automatic by the mode that a pose method uses for it. If the method computes
+  /// rotations, with_found_rotations() chooses the mode; otherwise it is full.
   static void resolve_modes(std::vector<HandlePlace>& places, bool finds_rotations);
-  /// Return one cell, or a default one if the cell does not exist.
+  /// Return one cell, or a default-constructed HandlePlace if the cell does not exist.
   HandlePlace place(vtkIdType cell, bool at_rest = false) const;
-  /// The ends of a bar. Cage elements follow their cage vertices, pseudo-edges follow their points.
+  /// The ends of a bar. Cage elements end at their cage vertices, pseudo-edges at their points.
   struct Bar
   {
     vtkIdType cell;
@@ -70,7 +71,7 @@ public:
     double stretch;
     Eigen::Vector2d twist;
   };
-  /// Write the pose of some cells. The array Transform is created if it is missing. Stretch and
+  /// Write the poses of some cells. The array Transform is created if it is missing. Stretch and
   /// Twist are written if they exist or if a value differs from the rest pose. Other cells and
   /// arrays do not change.
   void set_poses(const std::vector<vtkIdType>& cells, const std::vector<CellPose>& poses);

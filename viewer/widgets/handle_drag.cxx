@@ -1,13 +1,15 @@
-// Every type of drag compares the followed mouse position with that at the start:
+// Converts mouse motion to a motion in world coordinates. Every type of drag compares the current
+// mouse position (slowed down in fine mode) with that at the start:
 //
-// - A move along a plane uses the intersections of both rays with the plane. A move along a line
-//   uses the plane through the line that faces the camera most, and the distance along the line.
-// - A turn is the angle, in the ring's plane, from the start's intersection to the current one. It
-//   is summed step by step, so that several turns are counted. A ring seen from its side has no
-//   usable intersections; there the distance along its near side is used, as if a finger rolled the
-//   ring.
+// - A move in a plane uses the intersections of both rays with the plane. A move along a line uses
+//   the plane through the line that faces the camera most, and the distance along the line.
+// - A rotation is the angle between the intersections at the start and now, in the plane of the
+//   ring. Angles are summed move by move, so that several turns are counted. A ring seen from its
+//   side has no usable intersections. There the mouse distance along the near side of the ring is
+//   used, as if a finger rolled the ring.
 // - A scale is the ratio of distances from the pivot, on the screen or along an axis.
-// - An arm uses the smallest rotation toward the mouse, in the plane that faces the camera.
+// - An arm (from the pivot to the tail of a bone) uses the smallest rotation toward the mouse, in
+//   the plane that faces the camera.
 #include "handle_drag.h"
 
 #include <algorithm>
@@ -23,12 +25,14 @@ namespace bindpose
 namespace
 {
 constexpr double fine_share = 0.1;
-constexpr double seen_along = 0.998; // cosine beyond which a line is too near to the viewing
-                                     // direction
-constexpr double seen_from_side = 0.12; // cosine of a ring's axis to the viewing direction
+// a line with a larger cosine to the viewing direction cannot be followed
+constexpr double seen_along = 0.998;
+// a ring whose axis has a smaller cosine to the viewing direction is seen from its side
+constexpr double seen_from_side = 0.12;
 constexpr double smallest_factor = 0.01;
-constexpr double near_pixels = 8.0; // distance from the pivot up to which a scale uses no ratio
-constexpr double double_pixels = 80.0; // mouse motion that then gives a factor of two
+// a scale that starts nearer to the pivot does not use the ratio of distances
+constexpr double near_pixels = 8.0;
+constexpr double double_pixels = 80.0; // mouse motion that then scales by a factor of two
 
 Affine3d about(const Vector3d& pivot, const Matrix3d& linear)
 {
@@ -43,8 +47,8 @@ int count_bits(int axes)
   return (axes & 1) + ((axes >> 1) & 1) + ((axes >> 2) & 1);
 }
 
-/// Return the only axis in the mask, or the only axis not in the mask. Return -1 for no axis and
-/// all axes.
+/// Return the only axis in the mask, or the only axis that is not in the mask. Return -1 for masks
+/// of no axis or all axes.
 int single_axis(int axes)
 {
   const int mask = count_bits(axes) == 2 ? 7 ^ axes : axes;
@@ -91,8 +95,8 @@ Vector3d Drag::axis() const
                     : Vector3d(this->setup_.frame.col(single));
 }
 
-/// Return the distance along an axis through the grabbed position; nothing if the axis is seen
-/// along itself.
+/// Return the distance of the mouse along an axis through the grabbed position; nothing if the axis
+/// points at the viewer.
 std::optional<double> Drag::along(const Vector3d& axis, const Vector2d& mouse) const
 {
   const Vector3d& place = this->setup_.grabbed;
@@ -190,7 +194,7 @@ DragMotion Drag::moved() const
       Vector3d own = s.frame.transpose() * way;
       for (int k = 0; k < 3; ++k)
       {
-        // exactly in the plane, without the round-off of the intersections
+        // components outside of the plane are exactly 0, without round-off
         own[k] = (s.axes >> k) & 1 ? this->snapped(own[k], s.length_step) : 0.0;
       }
       way = s.frame * own;
@@ -265,7 +269,7 @@ DragMotion Drag::scaled() const
   }
   if (this->typed_)
   {
-    // A negative number mirrors. The magnitude is at least smallest_factor.
+    // A typed negative factor mirrors. The magnitude is at least smallest_factor.
     factor = std::copysign(std::max(std::abs(*this->typed_), smallest_factor), *this->typed_);
   }
   else if (before && after && std::abs(*before) > near_pixels * this->view_.pixel_at(s.pivot))

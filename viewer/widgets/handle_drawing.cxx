@@ -1,6 +1,6 @@
-// Sizes are in pixels. Every ball gets the world radius that corresponds to its size at its
-// position. An outline is a slightly larger hull of the same shape, of which only the back sides
-// are drawn.
+// Draws handles and bars. Sizes are in pixels: every ball gets the world radius that corresponds to
+// its size in pixels at its position. An outline is a slightly larger copy of the same shape, of
+// which only the back faces are drawn.
 #include "handle_drawing.h"
 
 #include <algorithm>

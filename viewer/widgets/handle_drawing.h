@@ -16,11 +16,12 @@ struct HandleLook
 {
   Color modes[3];
   Color outline;
-  Color selected; ///< outline of selected handles, inside another outline in the color `outline`
+  Color selected; ///< outline color of selected handles; a second outline in the color `outline`
+                  ///< surrounds it
   double pixel_scale = 1.0; ///< factor on the width of outlines
 };
 
-/// Handles that are highlighted.
+/// The handles to highlight.
 struct HandleMarks
 {
   vtkIdType hovered = -1;
@@ -31,14 +32,14 @@ struct HandleMarks
 /// Return a color mixed with white.
 Color lighter(const Color& color);
 
-/// Add all handles and bars to the shapes: the bodies, and slightly larger copies for the outline
-/// hull.
+/// Add all handles and bars to the shapes: the bodies to `solid`, and slightly larger copies to
+/// `outline`.
 void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places,
   const std::vector<HandleData::Bar>& bars, const HandleSizes& sizes, const HandleLook& look,
   const HandleMarks& marks, HandleShapes& solid, HandleShapes& outline);
 
-/// Return the position of a handle's name: right of a ball; for a bone, on the side that faces
-/// right, so that the name does not cover the bone.
+/// Return the display position of a handle's name: right of a ball; for a bone, on the side that
+/// faces right, so that the name does not cover the bone.
 /// @param ball  radius of a ball in pixels
 Eigen::Vector2d label_place(const ScreenView& view, const HandlePlace& place, double ball);
 

@@ -1,5 +1,6 @@
-// Picking is computed on the screen, without rendering. Every position is projected once, and the
-// first candidate in the order of rank, distance and depth is kept.
+// Finds the handle under the mouse. Picking is computed on the screen, without rendering. Every
+// position is projected once. The candidate with the best priority is kept, then the nearest to the
+// mouse, then the nearest to the camera.
 #include "handle_picking.h"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ HandlePick pick_handle(const ScreenView& view, const std::vector<HandlePlace>& p
     }
     const Vector3d tail = view.to_display(place.tail);
     const double to_tail = (tail.head<2>() - mouse).norm();
-    // At a joint of two bones, prefer the tail. Users usually want to turn the upper bone, and
+    // At a joint of two bones, prefer the tail. Users usually want to rotate the upper bone, and
     // rarely to move the lower bone away from it.
     if (to_tail <= end)
     {

@@ -7,7 +7,7 @@
 namespace bindpose
 {
 
-/// The part of a handle under the mouse. The numbers equal the interaction states of the
+/// The part of a handle under the mouse. The values equal the interaction states of the
 /// representation.
 enum class HandlePart
 {
@@ -21,7 +21,7 @@ enum class HandlePart
 struct HandleSizes
 {
   double ball = 7.0; ///< radius of a ball, pixels
-  double bone_width = 0.08; ///< half the width divided by the length
+  double bone_width = 0.08; ///< half of a bone's width, as a fraction of its length
   double tolerance = 4.0; ///< distance in pixels from the drawn part that still counts as a hit
 
   /// Return the radius of a bone's end.

@@ -29,8 +29,9 @@ Affine after(const Affine3d& motion, const Affine& transform)
   return moved;
 }
 
-/// Return the position on the first grabbed bone at which a follower's branch is attached: 0 at its
-/// head, 1 at its tail.
+/// Return the position on the first grabbed bone at which the branch of a follower is attached: 0
+/// at the bone's head, 1 at its tail. Followers are handles below the grabbed handles in the
+/// hierarchy.
 double attachment(const std::vector<HandlePlace>& places, const HandleGroup& group, vtkIdType cell)
 {
   const HandlePlace& bone = places[static_cast<std::size_t>(group.cells.front())];
@@ -81,7 +82,7 @@ HandleGroup make_group(
   { return std::find(grabbed.begin(), grabbed.end(), cell) != grabbed.end(); };
   for (vtkIdType cell = 0; descend && cell < count; ++cell)
   {
-    // Walk up the hierarchy. The number of steps is bounded, in case the file contains a cycle.
+    // Walk up the hierarchy. The loop is bounded, in case the file contains a cycle of parents.
     vtkIdType ancestor = places[static_cast<std::size_t>(cell)].parent;
     for (vtkIdType step = 0; step < count && ancestor >= 0 && ancestor < count; ++step)
     {
@@ -117,7 +118,7 @@ std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& pl
   const Vec3 arm = motion.linear() * (bone.tail - bone.head);
   const bool is_bone = bone.is_bone() && arm.norm() > 0.0;
   const Vec3 axis = is_bone ? Vec3(arm.normalized()) : Vec3::UnitY();
-  // The followers inherit stretch and twist as in transform_for_child().
+  // Followers inherit stretch and twist as in transform_for_child().
   const auto following = [&](vtkIdType cell)
   {
     const double along = attachment(places, group, cell);

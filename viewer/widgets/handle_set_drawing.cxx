@@ -1,9 +1,9 @@
-// The shapes are rebuilt whenever the handles, the camera or the window change. All solid parts are
-// one polydata, all outlines another.
+// The drawing functions of vtkHandleSetRepresentation. The shapes are rebuilt whenever the handles,
+// the camera or the window change. All bodies are one polydata, all outlines another.
 //
 // Handles are inside the shape that they bend. To make them visible, they are drawn in the overlay
-// pass after the depth buffer has been cleared. So they hide each other correctly, and nothing
-// hides them. The gizmo is drawn in the same way afterward.
+// pass after the depth buffer has been cleared. They therefore hide each other correctly, but
+// nothing else hides them. The gizmo is drawn in the same way afterward.
 #include "handle_drawing.h"
 #include "handle_set_internals.h"
 #include "screen_view.h"
@@ -121,7 +121,7 @@ void vtkHandleSetRepresentation::BuildRepresentation()
       Vector2d at = bindpose::label_place(view, place, this->PixelScale * this->PointSize);
       if (dragged && self.Dragged->part() != bindpose::no_part)
       {
-        // below the gizmo, where the screen is free
+        // below the gizmo, where nothing else is drawn
         const double aside = this->PixelScale * (1.45 * this->GizmoSize + 14.0);
         at = view.to_display(place.head).head<2>();
         at += Vector2d(-0.25 * aside, at[1] > 1.2 * aside ? -aside : aside);
@@ -142,7 +142,7 @@ void vtkHandleSetRepresentation::BuildRepresentation()
     gizmo_marks.hovered = self.HoveredPart;
     if (self.Dragged)
     {
-      // The constraint is drawn, no matter how the drag was started.
+      // Draw the constraint for any drag, including drags that a key has started.
       gizmo_marks.active = self.Dragged->part();
       setup.kind = bindpose::gizmo_with(gizmo_marks.active, setup.kind);
       setup.frame = self.Dragged->frame();

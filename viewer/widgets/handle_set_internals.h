@@ -1,7 +1,7 @@
 #ifndef handle_set_internals_h
 #define handle_set_internals_h
 
-// Internal state of vtkHandleSetRepresentation, common to the files that implement its member
+// Internal state of vtkHandleSetRepresentation, used by all files that implement its member
 // functions.
 
 #include "gizmo.h"
@@ -27,7 +27,7 @@
 namespace bindpose
 {
 
-/// Shapes and their outline hull, as two actors.
+/// Draws shapes and their outlines, as two actors.
 class ShapeActors
 {
 public:
@@ -91,13 +91,13 @@ public:
   bindpose::ShapeActors Gizmo;
   bindpose::ScreenLabels Labels;
   std::vector<vtkIdType> Selected;
-  int HoveredPart = bindpose::no_part; // of the gizmo
+  int HoveredPart = bindpose::no_part; // part of the gizmo under the mouse
 
   std::optional<bindpose::PoseDrag> Dragged;
   bindpose::RestEditor Editor{ this->Data };
-  std::string Message; // why the last edit was refused
+  std::string Message; // reason why the last edit was refused
 
-  std::string LastName; // of the last drag
+  std::string LastName; // name of the last drag
   std::string LastText;
 };
 

@@ -1,5 +1,6 @@
-// Poses as numbers. Each function splits the transform, replaces one part and combines the parts
-// again.
+// The member functions of vtkHandleSetRepresentation that read and set the translation, rotation,
+// scale, stretch and twist of a handle. Each setter splits the transform, replaces one part and
+// combines the parts again.
 #include "handle_set_internals.h"
 #include "pose/transform_parts.h"
 
@@ -28,7 +29,7 @@ bool vtkHandleSetRepresentation::WriteHandle(vtkIdType handle, const HandlePlace
   const bindpose::HandleGroup group =
     bindpose::make_group(places, { handle }, this->MoveDescendants != 0);
   // Followers move by the motion from the old to the new transform. The handle itself gets exactly
-  // the given numbers.
+  // the values that were set.
   Eigen::Affine3d motion = Eigen::Affine3d::Identity();
   const Eigen::Matrix3d inverse = before.transform.leftCols<3>().inverse();
   if (posed.transform != before.transform && inverse.allFinite())

@@ -1,6 +1,7 @@
-// Balls are a subdivided icosahedron, created once. Tubes carry their circle along the path without
-// twist. A bone is an octahedron: head, a square waist around the axis near the head, tail. Each of
-// its 8 sides has its own three corners, so that the shading is flat.
+// Creates the triangles of balls, bones and gizmo parts. A ball is a subdivided icosahedron,
+// created once. A tube moves its circle along the path without twist. A bone is an octahedron with
+// the head, four corners around the axis near the head, and the tail. Each of its 8 faces has its
+// own three corners, so that the shading is flat.
 #include "handle_shapes.h"
 
 #include "vtkCellArray.h"

@@ -13,7 +13,7 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Red, green, blue in [0, 1].
+/// A color: red, green, blue in [0, 1].
 using Color = std::array<double, 3>;
 
 /// Collects balls, bones and the parts of a gizmo in one polydata with point normals and a color
@@ -25,20 +25,20 @@ public:
   explicit HandleShapes(bool fine) : fine_(fine) {}
   /// Add a smooth ball.
   void add_ball(const Eigen::Vector3d& center, double radius, const Color& color);
-  /// Add an elongated octahedron with flat sides. Its waist is at 1/8 of its length from the head.
-  /// @param half_width  distance of the four waist corners from the axis, world units
-  /// @param margin      distance by which every corner moves outward (for the outline hull), world
-  ///   units
+  /// Add a bone: an elongated octahedron with flat faces. Four of its corners are at 1/8 of its
+  /// length from the head.
+  /// @param half_width  distance of these four corners from the axis, world units
+  /// @param margin      distance by which every corner moves outward (for the outline), world units
   void add_bone(const Eigen::Vector3d& head, const Eigen::Vector3d& tail, double half_width,
     const Color& color, double margin = 0.0);
 
-  /// Add a round tube along a polyline, with caps at both ends. A closed polyline ends at its first
-  /// point.
+  /// Add a round tube along a polyline, with caps at both ends. A closed polyline repeats its first
+  /// point at its end.
   void add_tube(const std::vector<Eigen::Vector3d>& path, double radius, const Color& color);
   /// Add a cone with its base.
   void add_cone(
     const Eigen::Vector3d& base, const Eigen::Vector3d& tip, double radius, const Color& color);
-  /// Add a box with flat sides along the columns of the frame.
+  /// Add a box with flat faces along the columns of the frame.
   void add_box(const Eigen::Vector3d& center, const Eigen::Matrix3d& frame,
     const Eigen::Vector3d& half, const Color& color);
 

@@ -1,6 +1,7 @@
-// Each part has its own type of drag. Balls, bodies and heads move in the plane that faces the
-// camera. A tail aims its bone, or reaches. Parts of the gizmo are named after their effect. A
-// handle whose mode is position always moves.
+// Converts a drag of the mouse to poses. Each grabbed part has its own type of drag. Balls, bodies
+// and heads move in the plane that faces the camera. A tail rotates its bone toward the mouse, or
+// also stretches it (`reach`). The names of the gizmo's parts state their effects. A handle whose
+// mode is position is always moved.
 #include "pose_drag.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ DragKind kind_of_part(int part, bool reach)
   return part == stretch_bone ? DragKind::stretch : DragKind::move;
 }
 
-/// Report whether a part affects only the grabbed handle.
+/// Report whether a part affects only the grabbed handle, not all selected handles.
 bool is_of_one(int part)
 {
   return part == static_cast<int>(HandlePart::tail) || part >= stretch_bone;
@@ -68,7 +69,7 @@ DragSetup setup_of(const HandlePlace& place, int part, const DragSettings& setti
   setup.axes = axes_of_part(part);
   if (is_twist(part))
   {
-    // about the bone, through the ring's position on it
+    // Rotate about the bone, through the position of the ring on it.
     setup.frame =
       Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), setup.arm).toRotationMatrix();
     setup.axes = 2;
@@ -128,7 +129,7 @@ void PoseDrag::press_axis(int axis, bool plane)
 {
   if (is_twist(this->start_part_) || this->drag_.setup().kind == DragKind::stretch)
   {
-    return; // these drags have their own axis
+    return; // these drags have their own axis, which cannot be changed
   }
   const int axes = plane ? 7 ^ (1 << axis) : 1 << axis;
   this->presses_ = axes == this->pressed_axes_ ? (this->presses_ + 1) % 3 : 1;

@@ -12,12 +12,14 @@
 namespace bindpose
 {
 
-/// Settings common to all drags of one widget.
+/// Settings for all drags of one widget.
 struct DragSettings
 {
-  bool local_space = false; ///< axes of the gizmo and of the keys X, Y, Z are the handle's own
+  bool local_space = false; ///< the gizmo and the keys X, Y, Z use the handle's own axes instead of
+                            ///< the world's
   bool descend = true;
-  bool bone_arrays = true; ///< write stretch and twist to their arrays, else into the transform
+  bool bone_arrays = true; ///< write stretch and twist to their arrays; otherwise multiply them
+                           ///< into the transform
   bool reach = false; ///< dragging a tail also stretches the bone
   double ring_pixels = 80.0;
   double length_step = 0.0;
@@ -25,16 +27,18 @@ struct DragSettings
   double factor_step = 0.1;
 };
 
-/// Return the mask of axes to which a part of the gizmo is constrained; 7 for parts without a
-/// constraint.
+/// Return the mask of axes (see DragSetup) to which a part of the gizmo is constrained; 7 for parts
+/// without a constraint.
 int axes_of_part(int part);
 
-/// One drag of handles. It derives a Drag from the grabbed part and poses from the Drag's motion.
+/// One drag of handles. It creates a Drag for the grabbed part and computes poses from the Drag's
+/// motion.
 class PoseDrag
 {
 public:
   /// @param part      HandlePart or GizmoPart
-  /// @param grabbed   cells, the one under the mouse first; none of them may be free or locked
+  /// @param grabbed   cells of the handles to drag, the one under the mouse first; none of them may
+  /// be in mode free or locked
   PoseDrag(const ScreenView& view, std::vector<HandlePlace> places, int part,
     const std::vector<vtkIdType>& grabbed, const Eigen::Vector2d& mouse,
     const DragSettings& settings);
@@ -47,20 +51,21 @@ public:
   /// first press uses the settings' space, the second the other space, and the third removes the
   /// constraint.
   void press_axis(int axis, bool plane);
-  /// Handle a key of a number: a digit, '.', '-' (toggles the sign) or 'b' (deletes the last
-  /// character). Return false for any other key.
+  /// Handle a key that edits a typed value: a digit, '.', '-' (toggles the sign) or 'b' (deletes
+  /// the last character). Return false for any other key.
   bool type(char key);
   const std::string& typed() const { return this->typed_; }
 
-  /// "move", "turn", "scale", "stretch", "twist".
+  /// Return the name of the drag: "move", "turn", "scale", "stretch", "twist".
   const char* name() const;
   /// Return the amount for display, such as "X 0.25" or "30.0°".
   std::string text();
-  /// Return the part of the gizmo to draw, which corresponds to the drag; no_part if there is none.
+  /// Return the part of the gizmo that corresponds to the drag, for drawing; no_part if there is
+  /// none.
   int part() const;
   /// Return the axes of the constraint.
   const Eigen::Matrix3d& frame() const { return this->drag_.setup().frame; }
-  /// Return the ends of a turn's lines from the pivot to the ring; see GizmoMarks.
+  /// Return the ends of the two lines from the pivot to the ring of a rotation; see GizmoMarks.
   std::array<std::optional<Eigen::Vector3d>, 2> spokes(double radius);
 
 private:

@@ -1,7 +1,8 @@
-// The position of a click is the first of these that exists: the end of a handle under the mouse;
-// the intersection of the ray with the surface, or the point halfway to its exit; the intersection
-// with the plane that faces the camera through the previously placed position. A cage surrounds a
-// shape: its vertices are placed in that plane, the first vertex on the surface.
+// Creates and moves handles at rest with the mouse. A click gets the first of these positions that
+// exists: the end of a handle under the mouse; the intersection of the ray with the surface, or the
+// position halfway to the exit of the ray; the intersection of the ray with the plane that faces
+// the camera through the previously placed position. A cage surrounds a shape, so only its first
+// vertex is on the surface; its other vertices are placed in that plane.
 //
 // Every edit renumbers cells, so an unfinished cage is identified by the names of its vertices.
 #include "rest_editor.h"
@@ -49,7 +50,7 @@ EditResult RestEditor::take_result()
   return result;
 }
 
-// ---- Where the mouse is ------------------------------------------------------------------------
+// ---- Position under the mouse ------------------------------------------------------------------
 
 std::optional<RestEditor::Target> RestEditor::end_under(const ScreenView& view,
   const Eigen::Vector2d& mouse, const EditSettings& settings, bool any_kind) const
@@ -60,7 +61,7 @@ std::optional<RestEditor::Target> RestEditor::end_under(const ScreenView& view,
   const std::vector<HandlePlace> places = this->data_.places(true);
   for (std::size_t i = 0; i < places.size(); ++i)
   {
-    for (const bool tail : { true, false }) // at a joint, the upper bone's tail
+    for (const bool tail : { true, false }) // at a joint, prefer the tail of the upper bone
     {
       const HandlePlace& place = places[i];
       const Vec3& at = tail ? place.tail : place.head;
@@ -76,7 +77,7 @@ std::optional<RestEditor::Target> RestEditor::end_under(const ScreenView& view,
       }
     }
   }
-  // A tail at the same position wins over a head that was found first.
+  // If a head was found first, prefer a tail at the same position.
   for (std::size_t i = 0; best && !best->tail && i < places.size(); ++i)
   {
     if (places[i].is_bone() && (places[i].tail - best->place).norm() == 0.0)
@@ -142,7 +143,7 @@ void RestEditor::hover(const ScreenView& view, const Hand& hand, const EditSetti
   {
     return;
   }
-  // An undo may have removed the vertices.
+  // Discard vertices of the unfinished cage that an undo has removed.
   while (!this->cage_.empty() && this->cell_named(this->cage_.back()) < 0)
   {
     this->cage_.pop_back();
@@ -214,7 +215,7 @@ void RestEditor::move(const ScreenView& view, const Hand& hand, const EditSettin
     return;
   }
   const bool bone = settings.mode == EditMode::add_bones;
-  // Outside the shape, a bone's tail keeps its head's depth.
+  // Outside the shape, the tail of a bone is placed at the depth of the head.
   this->target_ = this->find(
     view, hand, settings, bone ? std::optional<Vec3>(this->head_.place) : std::nullopt, false);
   this->preview_ = Preview();
@@ -263,9 +264,9 @@ void RestEditor::release(const ScreenView& view, const Hand& hand, const EditSet
       (view.to_display(handle.head) - view.to_display(handle.tail)).head<2>().norm();
     if (length < shortest_pixels * settings.sizes.ball / 7.0)
     {
-      return; // a click
+      return; // the bone is too short: treat the press as a click
     }
-    // a bone that starts at a bone's end is its child
+    // a bone that starts at the end of another bone becomes its child
     handle.parent =
       this->data_.place(this->head_.cell).is_bone() ? this->handle_of(this->head_.cell) : -1;
   }
@@ -312,10 +313,10 @@ bool RestEditor::press_cage(const Target& target)
     const Index to = this->handle_of(target.cell);
     if (from < 0)
     {
-      this->cage_ = { name }; // continue from that vertex
+      this->cage_ = { name }; // continue the cage from that vertex
       return true;
     }
-    // Going back along the edge that was just added is ignored.
+    // A click on the previous vertex, back along the edge that was just added, is ignored.
     const bool back = this->cage_.size() > 1 && name == this->cage_[this->cage_.size() - 2];
     if (!back)
     {
@@ -458,7 +459,7 @@ void RestEditor::move_rest(const ScreenView& view, const Hand& hand, const EditS
   this->drag_->move_to(hand.mouse, hand.fine);
   this->drag_->set_snapping(hand.snap);
   Vec3 way = this->drag_->motion().motion.translation();
-  // Start again from the initial state, because edits must not accumulate.
+  // Start again from the state before the drag, because edits must not accumulate.
   vtkNew<vtkPolyData> valid;
   valid->ShallowCopy(this->data_.get());
   this->data_.get()->ShallowCopy(this->start_);
@@ -483,7 +484,7 @@ void RestEditor::move_rest(const ScreenView& view, const Hand& hand, const EditS
         [&](const Handles& before, EditedHandles& after)
         { return move_ends(before, this->ends_, places, after); }))
   {
-    this->data_.get()->ShallowCopy(valid); // keep the last valid position
+    this->data_.get()->ShallowCopy(valid); // restore the last valid state
   }
   this->data_.get()->Modified();
 }

@@ -18,7 +18,7 @@
 namespace bindpose
 {
 
-/// The effect of the mouse. The numbers equal the edit modes of the representation.
+/// The effect of the mouse. The values equal the edit modes of the representation.
 enum class EditMode
 {
   pose = 0,
@@ -39,17 +39,18 @@ struct Hand
 struct EditSettings
 {
   EditMode mode = EditMode::pose;
-  bool place_inside = true; ///< place points and bones at mid-thickness, else on the surface
-  double length_step = 0.0; ///< snap step for moving rest positions
+  bool place_inside = true; ///< place points and bones inside the surface, at half of its
+                            ///< thickness; otherwise on the surface
+  double length_step = 0.0; ///< distance to which moves of rest positions snap
   HandleSizes sizes;
   Eigen::Vector3d focus = Eigen::Vector3d::Zero(); ///< depth of new handles if there is no surface
 };
 
-/// The effect of an edit on the numbers of the cells.
+/// The effect of an edit on the dataset and the ids of its cells.
 struct EditResult
 {
   bool changed = false;
-  std::string message; ///< reason for a refusal, else empty
+  std::string message; ///< reason for a refusal; otherwise empty
   std::vector<Index> cell_of;
   std::vector<Index> added;
 };
@@ -65,11 +66,11 @@ public:
 
   /// Update the preview for a mouse position without a pressed button.
   void hover(const ScreenView& view, const Hand& hand, const EditSettings& settings);
-  /// Clear the preview, because the mouse is on nothing.
+  /// Clear the preview, because the mouse is not on a position for a handle.
   void leave();
   /// Handle a press of the button. Return true if a drag or a placement has begun or is complete
   /// (see take_result()).
-  /// @param selected  all of these are moved if one of them is
+  /// @param selected  selected cells; all of them are moved if one of them is dragged
   bool press(const ScreenView& view, const Hand& hand, const EditSettings& settings,
     const std::vector<vtkIdType>& selected);
   void move(const ScreenView& view, const Hand& hand, const EditSettings& settings);
@@ -78,8 +79,8 @@ public:
   bool busy() const { return this->busy_; }
   /// Restore the dataset to its state before the interaction.
   void cancel();
-  /// Constrain a move to axes of the world, a mask as in DragSetup. The same mask again removes the
-  /// constraint.
+  /// Constrain a move to axes of the world, a mask as in DragSetup. A second call with the same
+  /// mask removes the constraint.
   void constrain(int axes);
 
   ///@{
@@ -92,10 +93,10 @@ public:
 
   /// Return the result of the last edit and clear it.
   EditResult take_result();
-  /// "move rest", "add point", "add bone", "add cage vertex", "add cage edge", "close cage",
-  /// "remove cage vertex".
+  /// Return the name of the edit: "move rest", "add point", "add bone", "add cage vertex", "add
+  /// cage edge", "close cage", "remove cage vertex".
   const std::string& name() const { return this->name_; }
-  /// Return the bone or other handle whose end a press would use; -1 if there is none.
+  /// Return the bone or other handle to whose end a press would snap; -1 if there is none.
   vtkIdType target() const { return this->target_ ? this->target_->cell : -1; }
 
   struct Preview
@@ -108,11 +109,11 @@ public:
   const Preview& preview() const { return this->preview_; }
 
 private:
-  /// The position where a press would place something.
+  /// The position at which a press would place a handle.
   struct Target
   {
     Vec3 place = Vec3::Zero();
-    vtkIdType cell = -1; ///< a handle with an end at this position
+    vtkIdType cell = -1; ///< a handle whose end is at this position; -1 if there is none
     bool tail = false;
     bool snapped = false;
   };
@@ -125,7 +126,7 @@ private:
     const std::vector<vtkIdType>& selected);
   void move_rest(const ScreenView& view, const Hand& hand, const EditSettings& settings);
   bool edit(const char* name, const HandleListEdit& edit);
-  /// Return the index of a cell in the list of handles.
+  /// Return the index of a cell's handle in the list of handles.
   Index handle_of(vtkIdType cell) const;
   vtkIdType cell_named(const std::string& name) const;
   void remember();
@@ -139,7 +140,7 @@ private:
   bool busy_ = false;
   Target head_; // head of the unfinished bone
   std::vector<std::string> cage_; // names of the added vertices, in order
-  // State of a move of rest positions:
+  // State of a move of rest positions: the dataset at its start, and the following members.
   vtkSmartPointer<vtkPolyData> start_;
   std::optional<Drag> drag_;
   std::vector<HandleEnd> ends_;

@@ -15,8 +15,10 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// The surface on which handles are placed or regions are painted. Its probe is built on demand,
-/// and again after points or cells have changed. (Arrays may change with every move of the mouse.)
+/// The surface on which handles are placed or regions are painted. It owns a probe, the search
+/// structure for ray intersections and inside tests. The probe is built on demand, and built again
+/// after points or cells have changed. It does not depend on arrays, which may change with every
+/// move of the mouse.
 class RestSurface
 {
 public:
@@ -27,14 +29,14 @@ public:
   /// Return the probe. Return null without a surface, or if the surface has no triangle or cannot
   /// be read.
   const SurfaceProbe* probe();
-  /// Number of times a probe was built. It increases when points or triangles have changed.
+  /// Number of times that a probe was built. It increases when points or triangles have changed.
   int builds() const { return this->builds_; }
-  /// Valid after probe() has returned a probe.
+  /// Return the points of the surface; valid after probe() has returned a probe.
   PointsView points() const { return this->input_.points.view(); }
   TrianglesView triangles() const { return this->input_.triangles.view(); }
   /// Return the vertex of a triangle that is nearest to a position.
   Vec3 nearest_vertex(Index triangle, const Vec3& place) const;
-  /// Return the center of its bounding box; the origin without a surface.
+  /// Return the center of the surface's bounding box; the origin without a surface.
   Vec3 center();
 
 private:

@@ -1,4 +1,5 @@
-// A text actor renders its letters in the opaque pass and shows them in the overlay pass.
+// Draws short texts in the window. A text actor renders its letters in the opaque pass and shows
+// them in the overlay pass, so both passes are necessary.
 #include "screen_labels.h"
 
 #include "vtkCoordinate.h"

@@ -23,6 +23,7 @@ class ScreenLabels
 public:
   vtkTextProperty* text() const { return this->text_; }
   void clear() { this->shown_ = 0; }
+  /// Add a text.
   /// @param scale   factor on the font's size
   /// @param color  text color, without a background plate; null: the font's own color and plate
   void add(const std::string& text, const Eigen::Vector2d& display, double scale,

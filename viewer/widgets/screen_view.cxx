@@ -1,6 +1,7 @@
-// The mapping from world to display is the camera's matrix, a division, and an affine map of the
-// view's square to the viewport's pixels. The affine map is derived from the renderer's own mapping
-// of two corners of the square, so that both agree to the last pixel.
+// Maps positions from world to display: multiply by the camera's matrix, divide by w, and map
+// normalized view coordinates to the viewport's pixels with an affine map. The affine map is
+// derived from the renderer's own mapping of two corners of the viewport, so that both mappings
+// agree exactly.
 #include "screen_view.h"
 
 #include "vtkCamera.h"

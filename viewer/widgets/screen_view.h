@@ -9,11 +9,11 @@ class vtkRenderer;
 namespace bindpose
 {
 
-/// The ray through a pixel of the window.
+/// The ray from the eye through a pixel of the window.
 struct Ray
 {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< in the near plane
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ(); ///< unit, away from the eye
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ(); ///< unit vector, away from the eye
 };
 
 /// A renderer's camera at one moment. It maps world positions to the screen and back. The camera is
@@ -23,7 +23,8 @@ class ScreenView
 public:
   explicit ScreenView(vtkRenderer* renderer);
 
-  /// Display coordinates in pixels, from the window's lower left; z is the depth, 0 near to 1 far.
+  /// Return display coordinates in pixels, from the window's lower left corner; z is the depth, 0
+  /// near to 1 far.
   Eigen::Vector3d to_display(const Eigen::Vector3d& world) const;
   Ray ray(const Eigen::Vector2d& display) const;
   /// Return the world length of a pixel at a position; 0 behind the eye.
@@ -38,15 +39,15 @@ public:
 private:
   Eigen::Matrix4d to_clip_;
   Eigen::Matrix4d from_clip_;
-  Eigen::Vector2d lower_; // display coordinates of the view's corners
+  Eigen::Vector2d lower_; // display coordinates of the viewport's corners: lower left, upper right
   Eigen::Vector2d upper_;
   Eigen::Vector3d eye_;
   Eigen::Vector3d sight_;
   Eigen::Vector3d right_;
   Eigen::Vector3d up_;
   bool parallel_ = false;
-  double pixel_slope_ = 0.0; // world length of a pixel: anywhere if parallel, else at distance 1
-                             // from the eye
+  // world length of a pixel; in a perspective view, at distance 1 from the eye
+  double pixel_slope_ = 0.0;
 };
 
 /// Intersect a ray with a plane. Return false if there is no intersection in front of the ray's

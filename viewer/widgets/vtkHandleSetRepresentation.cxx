@@ -1,9 +1,9 @@
 // This file connects the handle dataset (handle_data, handle_poses), the mouse (handle_picking,
 // gizmo, pose_drag; rest_editor in edit modes) and the drawing in handle_set_drawing.cxx.
 //
-// A drag keeps the poses from its start. Every move computes one motion D from the start to now and
-// writes D * start for the grabbed handle and its descendants. So no error accumulates, and a
-// cancel copies the start back.
+// A drag stores the poses from its start. Every move of the mouse computes one motion D since the
+// start, and writes D * start for the grabbed handle and its descendants. Therefore no error
+// accumulates, and a cancel restores the stored poses.
 #include "vtkHandleSetRepresentation.h"
 
 #include "handle_picking.h"
@@ -67,7 +67,7 @@ void vtkHandleSetRepresentation::SetHandles(vtkPolyData* handles)
   {
     return;
   }
-  this->Internal->Editor.cancel(); // writes into the old handles
+  this->Internal->Editor.cancel(); // this writes into the old handles, so it must come first
   this->Internal->Editor.finish_cage();
   this->Internal->Data.set(handles);
   this->HoveredHandle = -1;
@@ -207,7 +207,7 @@ int vtkHandleSetRepresentation::GetDragRefusal(vtkIdType handle)
   {
     return IS_NO_HANDLE;
   }
-  // At rest, a handle has its own position, whatever its mode.
+  // In edit modes a handle is shown at its rest position, whatever its pose.
   const bool poses = this->EditMode == POSE;
   const bool free = place.is_free() && poses && !this->DragFree;
   return place.locked         ? IS_LOCKED
@@ -591,7 +591,7 @@ void vtkHandleSetRepresentation::TakeEdit()
         selected.push_back(result.cell_of[cell]);
       }
     }
-    // A new handle becomes the only selected one.
+    // A new handle becomes the only selected handle.
     self.Selected = result.added.empty() ? selected : std::vector<vtkIdType>{ result.added.back() };
     this->SetHoveredHandle(-1);
   }

@@ -17,31 +17,31 @@
  *   grabbed position that faces the camera.
  * - A bone's tail turns the bone about its posed head, by the shortest rotation toward the mouse.
  *   The bone keeps its length, unless Reach is on: then the tail stays under the mouse.
- * - The gizmo (see SetGizmo()) is drawn at the selected handle. Its arrows move along its axes, its
- *   plates move in its planes, its rings turn about its axes and about the viewing direction. Its
- *   boxes scale along its axes, the gray box or ring scales uniformly. For a bone, the box beyond
- *   its tail stretches it and the rings around it twist it.
- * - All selected handles move, turn and scale together, about the grabbed handle. Dragging a tail,
- *   stretching and twisting affect one bone only.
- * - With MoveDescendants (on), the same motion is applied to all handles below them by `Parent`.
- *   The descendants of a stretched bone move with its tail; those of a bone twisted at its tail
- *   turn with it.
- * - A handle whose Mode is position never turns: when other handles turn, it moves with its
- *   position.
+ * - The gizmo (see SetGizmo()) is drawn at the selected handle. Its arrows move the handle along
+ *   axes, its plates (small squares) move it in planes, its rings rotate it about the axes and
+ *   about the viewing direction. Its boxes scale along the axes; the gray box or ring scales
+ *   uniformly. For a bone, the box beyond the tail stretches the bone and the rings around it twist
+ *   the bone.
+ * - All selected handles move, rotate and scale together, about the grabbed handle. Dragging a
+ *   tail, stretching and twisting affect one bone only.
+ * - With MoveDescendants (on), the same motion is applied to all handles below the dragged handles
+ *   in the hierarchy of `Parent`. The descendants of a stretched bone move with its tail; the
+ *   descendants of a bone twisted at its tail rotate with the tail.
+ * - A handle whose Mode is position never rotates: when a group of handles rotates, only its
+ *   position follows the rotation.
  * - A handle whose Mode is free can be selected but not dragged, because the solver determines its
- *   position. A handle with a number other than 0 in the cell array `Locked` cannot be dragged
- *   either, because it follows its parent. See GetDragRefusal().
+ *   position. A handle with a nonzero value in the cell array `Locked` cannot be dragged either; it
+ *   only follows its parent. See GetDragRefusal().
  *
  * CancelWidgetInteraction() restores all poses bit by bit.
  *
  * **Stretch and twist** are read by the stretchable bones of vtkSkinningDeformation: `Stretch`, the
- * posed length divided by the rest length, and `Twist`, the angles in degrees at head and tail.
- * Methods that do not read these arrays need StretchableBones off. Then a stretch scales the
- * transform along the bone, and a twist, which has only one ring, turns the transform about the
- * bone.
+ * posed length divided by the rest length, and `Twist`, the angles in degrees at head and tail. For
+ * methods that do not read these arrays, set StretchableBones off. Then a stretch scales the
+ * transform along the bone. A twist has only one ring and rotates the transform about the bone.
  *
- * **Scale** along an axis is exact in the 3x4 transform. In world space, scaling a turned handle
- * causes a shear, which pose files cannot store.
+ * **Scale** along an axis is exact in the 3x4 transform. Scaling a rotated handle along the world's
+ * axes causes a shear, which pose files cannot store.
  *
  * **Picking** is computed on the screen, without rendering. A part is hit if the mouse is within
  * its drawn radius plus PickTolerance. The order of priority is: boxes, cones and bone parts of the
@@ -49,33 +49,34 @@
  * tails, heads, bodies. Among parts of equal priority, the nearest to the mouse wins, then the
  * nearest to the camera.
  *
- * **Edit modes** (SetEditMode()) show handles at rest and change inputs of a bind, in place:
- * points, cells and the arrays HandleName, HandleKind, Parent and RegionId. All other cell arrays
- * follow their handles. New handles are at rest and have an unused name (p1, b1, c1, …). An edit
- * that would give an invalid handle dataset (two points at one position, a bone of length 0) is
- * refused; see GetEditMessage(). Cells are numbered starting with points, so numbers of bones
- * change when a point is added. Selected handles stay selected.
+ * In **edit modes** (SetEditMode()) handles are shown at rest, and edits change inputs of a bind in
+ * place: points, cells and the arrays HandleName, HandleKind, Parent and RegionId. All other cell
+ * arrays keep their values for each handle. New handles are at rest and have an unused name (p1,
+ * b1, c1, …). An edit that would give an invalid handle dataset (two points at one position, a bone
+ * of length 0) is refused; see GetEditMessage(). Points come before bones in the dataset, so the
+ * cell ids of bones change when a point is added. Selected handles stay selected.
  * - MOVE_REST drags rest positions in the plane that faces the camera: points, cage vertices,
  *   pivots, ends of bones with all bones that meet there, whole bones by their body. If the dragged
  *   handle is selected, all selected handles move.
  * - ADD_POINTS adds a point where the button is released, on the surface (SetSurface()) under the
- *   mouse. With PlaceInside, the point is halfway to where the line of sight leaves the inside
- *   again, by winding number. Overlapping and nested parts count as one; a cavity ends the inside.
- *   On an open surface, the point is halfway to the second hit, or on the only hit. Outside the
- *   surface, mouse events go to the camera.
+ *   mouse. With PlaceInside, the point is halfway between this position and the position where the
+ *   line of sight leaves the inside again. The winding number determines the inside: overlapping
+ *   and nested components are one inside, and a cavity is outside. On an open surface, the point is
+ *   halfway to the second intersection of the line of sight, or on the only intersection. Outside
+ *   the surface, mouse events go to the camera.
  * - ADD_BONES draws a bone from the position of the press to that of the release, at the same
- *   depths. Outside the surface, its tail is in the plane through its head that faces the camera. A
- *   bone that begins at the end of another bone is a child of that bone, so that the next drag
- *   continues the chain.
+ *   depths as in ADD_POINTS. Outside the surface, its tail is in the plane through its head that
+ *   faces the camera. A bone that begins at the end of another bone is a child of that bone, so
+ *   that the next drag continues the chain.
  * - ADD_CAGE adds a cage vertex with every click, joined to the last one by a cage edge. A click on
- *   the first vertex closes the cage; a click on another cage vertex joins it. The first vertex is
- *   on the surface under the mouse, if there is any. The other vertices are in the plane through it
- *   that faces the camera. FinishCage() ends the cage without closing it.
- * - Snap moves positions to ends of other handles and to vertices of the surface. If none is near
- *   while rest positions are moved, it moves in steps.
+ *   the first vertex closes the cage; a click on another cage vertex adds an edge to it. The first
+ *   vertex is on the surface under the mouse, if there is any. The other vertices are in the plane
+ *   through the first vertex that faces the camera. FinishCage() ends the cage without closing it.
+ * - Snap moves positions to ends of other handles and to vertices of the surface. If none is near,
+ *   moved rest positions snap to multiples of LengthStep.
  *
  * Sizes are in pixels of the window, multiplied by PixelScale (for pictures that are rendered
- * larger than they are shown). Handles are drawn over everything else unless DrawOnTop is off.
+ * larger than the window). Handles are drawn over everything else unless DrawOnTop is off.
  */
 
 #ifndef vtkHandleSetRepresentation_h
@@ -113,11 +114,11 @@ public:
     ON_HEAD = 2, ///< a bone's head
     ON_TAIL = 3, ///< a bone's tail
     ON_BODY = 4, ///< a bone between its ends
-    // Parts of the gizmo at the selected handle:
+    // The parts of the gizmo at the selected handle follow. MOVE_X, MOVE_Y and MOVE_Z are arrows.
     MOVE_X = 10, ///< arrows
     MOVE_Y,
     MOVE_Z,
-    MOVE_YZ, ///< plates
+    MOVE_YZ, ///< plates; MOVE_YZ moves in the plane of y and z
     MOVE_ZX,
     MOVE_XY,
     TURN_X = 20, ///< rings
@@ -131,7 +132,8 @@ public:
     STRETCH = 40, ///< the box beyond a bone's tail
     TWIST_HEAD, ///< rings around a bone
     TWIST_TAIL,
-    PLACING = 50 ///< in an edit mode, the button would add something at this position
+    PLACING = 50 ///< the pointer is at a position where, in an edit mode, the button would add
+                 ///< something
   };
 
   /// The effect of the mouse on handles.
@@ -157,7 +159,7 @@ public:
   enum SpaceType
   {
     WORLD = 0,
-    LOCAL = 1 ///< the handle's own axes, turned with it; the y axis is along a bone
+    LOCAL = 1 ///< the handle's own axes, rotated with the handle; the y axis is along a bone
   };
 
   /// The reason why a handle cannot be dragged.
@@ -171,7 +173,7 @@ public:
   };
 
   ///@{
-  /// The handle dataset. It is edited in place; in POSE only the pose arrays change.
+  /// The handle dataset. It is edited in place. In the edit mode POSE only the pose arrays change.
   void SetHandles(vtkPolyData* handles);
   vtkPolyData* GetHandles();
   ///@}
@@ -183,8 +185,8 @@ public:
   vtkGetMacro(EditMode, int);
   ///@}
   ///@{
-  /// In POSE, draw handles at rest, whatever their pose. They can be selected but not dragged.
-  /// Default off. A change ends the current interaction.
+  /// Draw handles at rest in the edit mode POSE, whatever their pose. They can be selected but not
+  /// dragged. Default off. A change ends the current interaction.
   void SetShowRest(vtkTypeBool show);
   vtkGetMacro(ShowRest, vtkTypeBool);
   vtkBooleanMacro(ShowRest, vtkTypeBool);
@@ -196,7 +198,7 @@ public:
   vtkPolyData* GetSurface();
   ///@}
   ///@{
-  /// Place points and bones inside the surface, else on the surface. Default on.
+  /// Place points and bones inside the surface; otherwise on the surface. Default on.
   vtkSetMacro(PlaceInside, vtkTypeBool);
   vtkGetMacro(PlaceInside, vtkTypeBool);
   vtkBooleanMacro(PlaceInside, vtkTypeBool);
@@ -217,7 +219,7 @@ public:
   bool IsInteracting();
 
   ///@{
-  /// The type of the gizmo; see GizmoType. Default GIZMO_NONE.
+  /// The gizmo at the selected handle; see GizmoType. Default GIZMO_NONE.
   vtkSetClampMacro(Gizmo, int, GIZMO_NONE, GIZMO_ALL);
   vtkGetMacro(Gizmo, int);
   ///@}
@@ -232,17 +234,17 @@ public:
   vtkGetMacro(GizmoSize, double);
   ///@}
   ///@{
-  /// Write stretches and twists to `Stretch` and `Twist`, else into `Transform`; see the class
-  /// documentation. Default on.
+  /// Write stretches and twists to `Stretch` and `Twist`; otherwise multiply them into `Transform`.
+  /// See the class documentation. Default on.
   vtkSetMacro(StretchableBones, vtkTypeBool);
   vtkGetMacro(StretchableBones, vtkTypeBool);
   vtkBooleanMacro(StretchableBones, vtkTypeBool);
   ///@}
   ///@{
-  /// Steps of drags that snap. LengthStep is the step along each axis from the start of the drag;
-  /// 0, the default, selects a round number near a fiftieth of the size of the renderer's content
-  /// (see GetSnapLength()). DegreeStep is in degrees (default 15). FactorStep applies to factors
-  /// (default 0.1).
+  /// Snap distances of drags. LengthStep is the distance along each axis from the start of the
+  /// drag; 0, the default, selects a round length near a fiftieth of the size of the renderer's
+  /// content (see GetSnapLength()). DegreeStep is in degrees (default 15). FactorStep applies to
+  /// factors (default 0.1).
   vtkSetClampMacro(LengthStep, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(LengthStep, double);
   vtkSetClampMacro(DegreeStep, double, 0.0, 180.0);
@@ -250,12 +252,13 @@ public:
   vtkSetClampMacro(FactorStep, double, 0.0, 10.0);
   vtkGetMacro(FactorStep, double);
   ///@}
-  /// Return LengthStep, or the number that is used instead of 0.
+  /// Return LengthStep, or the automatic length if LengthStep is 0.
   double GetSnapLength();
   ///@{
-  /// Modifiers of the current drag, which may change at any time. Fine applies a tenth of the
-  /// mouse's motion from now on. Snap moves in steps. Reach, which takes effect at the next drag,
-  /// makes tails stretch their bones. Default off. The widget sets them from Shift, Ctrl and Alt.
+  /// Modifiers of the current drag, which may change at any time. With Fine on, only a tenth of
+  /// each following mouse motion is applied. With Snap on, values snap to multiples of LengthStep,
+  /// DegreeStep or FactorStep. With Reach on, dragging a tail also stretches its bone; this takes
+  /// effect at the next drag. Default off. The widget sets them from Shift, Ctrl and Alt.
   vtkSetMacro(Fine, vtkTypeBool);
   vtkGetMacro(Fine, vtkTypeBool);
   vtkSetMacro(Snap, vtkTypeBool);
@@ -270,8 +273,8 @@ public:
   vtkGetMacro(PointSize, double);
   ///@}
   ///@{
-  /// Half the width of a bone as a fraction of its length, limited to 0.5 to 2 ball radii.
-  /// Default 0.08, range 0.001 to 0.5.
+  /// Half of a bone's width as a fraction of its length. The drawn half width is limited to the
+  /// range from 0.5 to 2 ball radii. Default 0.08, range 0.001 to 0.5.
   vtkSetClampMacro(BoneWidth, double, 0.001, 0.5);
   vtkGetMacro(BoneWidth, double);
   ///@}
@@ -305,21 +308,23 @@ public:
   vtkBooleanMacro(DrawOnTop, vtkTypeBool);
   ///@}
   ///@{
-  /// Move handles below the dragged one in the `Parent` hierarchy with it. Default on.
+  /// Move the handles below the dragged handle in the `Parent` hierarchy together with it. Default
+  /// on.
   vtkSetMacro(MoveDescendants, vtkTypeBool);
   vtkGetMacro(MoveDescendants, vtkTypeBool);
   vtkBooleanMacro(MoveDescendants, vtkTypeBool);
   ///@}
 
   ///@{
-  /// Allow drags of free handles, which pull a moving body and release it at the end. Default off.
+  /// Allow drags of handles in mode free. Such a drag pulls a simulated body and releases it at the
+  /// end. Default off.
   vtkSetMacro(DragFree, vtkTypeBool);
   vtkGetMacro(DragFree, vtkTypeBool);
   vtkBooleanMacro(DragFree, vtkTypeBool);
   ///@}
 
   ///@{
-  /// Draw handles in mode automatic as a method that finds rotations treats them (see
+  /// Draw handles in mode automatic as a method that computes rotations treats them (see
   /// vtkReducedARAP): handles that are only translated are drawn as mode position. Default off.
   vtkSetMacro(FindsRotations, vtkTypeBool);
   vtkGetMacro(FindsRotations, vtkTypeBool);
@@ -327,9 +332,9 @@ public:
   ///@}
 
   ///@{
-  /// Colors by Mode (full: orange; position, tail and ends: blue; free: gray) and color of the
-  /// outline. The outline of a selected handle has its own color and is surrounded by the normal
-  /// outline.
+  /// Colors by Mode: FullColor orange; position, tail and ends blue; free gray. There is also a
+  /// color of the outline. The outline of a selected handle has its own color and is surrounded by
+  /// the normal outline.
   vtkSetVector3Macro(FullColor, double);
   vtkGetVector3Macro(FullColor, double);
   vtkSetVector3Macro(PositionColor, double);
@@ -370,17 +375,17 @@ public:
   /// Handle being dragged; -1 if there is none.
   vtkGetMacro(ActiveHandle, vtkIdType);
 
-  /// Return DRAGGABLE or the reason why not; see RefusalType.
+  /// Return DRAGGABLE, or the reason why the handle cannot be dragged; see RefusalType.
   int GetDragRefusal(vtkIdType handle);
 
   ///@{
-  /// The pose of a handle as numbers. The pivot c is its rest position, for a bone its head. A
-  /// point x moves to c + translation + R S (x - c), where R is the rotation and S a scale along
-  /// the handle's own axes at rest (the world's axes; for a bone, y is along the bone). Each setter
-  /// changes one part and keeps the other parts, but setting the scale removes a shear. With
-  /// MoveDescendants, handles below the handle move with it. A setter changes nothing and returns
-  /// false if the handle does not exist or is locked, a number is not finite, the axis has length
-  /// 0, a factor is 0, or a stretch is not positive.
+  /// Translation, rotation, scale, stretch and twist of a handle. The pivot c is its rest
+  /// position, for a bone its head. A point x moves to c + translation + R S (x - c), where R is
+  /// the rotation and S a scale along the handle's own axes at rest (the world's axes; for a bone,
+  /// y is along the bone). Each setter changes one part and keeps the other parts, but setting the
+  /// scale removes a shear. With MoveDescendants on, the descendants of the handle move with it. A
+  /// setter changes nothing and returns false if the handle does not exist or is locked, a value
+  /// is not finite, the axis has length 0, a factor is 0, or a stretch is not positive.
   bool SetHandleTranslation(vtkIdType handle, const double translation[3]);
   bool SetHandleRotation(vtkIdType handle, const double axis[3], double degrees);
   bool SetHandleScale(vtkIdType handle, const double factors[3]);
@@ -388,18 +393,18 @@ public:
   bool SetHandleStretch(vtkIdType handle, double ratio);
   bool SetHandleTwist(vtkIdType handle, double headDegrees, double tailDegrees);
   void GetHandleTranslation(vtkIdType handle, double translation[3]);
-  /// Return the angle in degrees, 0 to 180, and the axis of length 1.
+  /// Return the rotation angle in degrees, 0 to 180, and the axis as a unit vector.
   double GetHandleRotation(vtkIdType handle, double axis[3]);
   void GetHandleScale(vtkIdType handle, double factors[3]);
   double GetHandleStretch(vtkIdType handle);
   void GetHandleTwist(vtkIdType handle, double degrees[2]);
-  /// Return the handle to rest, with its mode kept.
+  /// Return the handle to rest; its mode is kept.
   bool ResetHandle(vtkIdType handle);
   ///@}
 
   ///@{
-  /// Name, mode (0 full, 1 position, 2 free, 3 tail, 4 ends, 5 auto) and posed ends of a handle. If
-  /// the handle is not a bone, its tail equals its head.
+  /// Return the name, the mode (0 full, 1 position, 2 free, 3 tail, 4 ends, 5 auto) and the posed
+  /// ends of a handle. If the handle is not a bone, its tail equals its head.
   std::string GetHandleName(vtkIdType handle);
   int GetHandleMode(vtkIdType handle);
   bool IsBone(vtkIdType handle);
@@ -411,31 +416,31 @@ public:
   /// of InteractionStateType.
   int ComputeInteractionState(int x, int y, int modify = 0) override;
 
-  /// Clear the highlight, because the mouse is on nothing.
+  /// Clear the highlight, because the mouse is not on a handle.
   void LeaveHandles();
 
   ///@{
-  /// One drag: grab the part in the interaction state (nothing if the state is OUTSIDE or the
-  /// handle is free), follow the display position, and end. The state and the hovered handle come
-  /// from ComputeInteractionState().
+  /// Start, continue and end one drag. The grabbed part is that of the interaction state; nothing
+  /// happens if the state is OUTSIDE or the handle cannot be dragged. The state and the hovered
+  /// handle come from ComputeInteractionState().
   void StartWidgetInteraction(double eventPos[2]) override;
   void WidgetInteraction(double eventPos[2]) override;
   void EndWidgetInteraction(double eventPos[2]) override;
   ///@}
   /// End the drag and restore all poses to their state at its start.
   void CancelWidgetInteraction();
-  /// Start a drag of the selected handles without grabbing a part of them: a move in the plane that
-  /// faces the camera, a turn about the viewing direction, or a uniform scale. Return false if no
-  /// handle can be dragged, or if the handle cannot turn or scale.
+  /// Start a drag of the selected handles by their pivots: a move in the plane that faces the
+  /// camera, a rotation about the viewing direction, or a uniform scale. Return false if the handle
+  /// that was selected last cannot be dragged, or cannot rotate or scale.
   bool StartDrag(int gizmo, double eventPos[2]);
 
   ///@{
   /// Constrain the current drag to an axis (0, 1, 2) or to the plane perpendicular to it. The first
   /// call uses Space, the second the other space, and the third removes the constraint.
   void ConstrainDrag(int axis, bool plane);
-  /// Handle a key of a number that replaces the mouse: a digit, '.', '-' (toggles the sign) or 'b'
-  /// (deletes the last character). The number is a length along the axis of the constraint (X
-  /// without a constraint), degrees, or a factor. Return false for any other key.
+  /// Handle a key that edits a typed value, which replaces the mouse: a digit, '.', '-' (toggles
+  /// the sign) or 'b' (deletes the last character). The value is a length along the axis of the
+  /// constraint (X without a constraint), degrees, or a factor. Return false for any other key.
   bool TypeIntoDrag(char key);
   ///@}
   ///@{
@@ -451,7 +456,7 @@ public:
   bool GetGizmoGrip(int part, double display[2]);
 
   ///@{
-  /// vtkWidgetRepresentation and vtkProp.
+  /// The methods of vtkWidgetRepresentation and vtkProp.
   void BuildRepresentation() override;
   double* GetBounds() VTK_SIZEHINT(6) override;
   vtkMTimeType GetMTime() override;

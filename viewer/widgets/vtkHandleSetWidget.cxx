@@ -144,13 +144,13 @@ bool vtkHandleSetWidget::Hover()
   {
     representation->LeaveHandles();
   }
-  // Within a handle the highlight does not change.
+  // Away from the gizmo, the highlight does not depend on the part of the handle.
   const bool on_gizmo = state >= vtkHandleSetRepresentation::MOVE_X ||
     state_before >= vtkHandleSetRepresentation::MOVE_X;
   if (representation->GetEditMode() > vtkHandleSetRepresentation::MOVE_REST &&
     (on_gizmo || state_before != state))
   {
-    this->Render(); // the preview follows the mouse
+    this->Render(); // redraw the preview of an edit mode, which follows the mouse
   }
   if (representation->GetHoveredHandle() != handle_before || (on_gizmo && state != state_before))
   {
@@ -207,7 +207,7 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
   }
   if (!self->Hover())
   {
-    return; // the camera handles the event
+    return; // not on a handle: the camera handles the event
   }
   self->EventCallbackCommand->SetAbortFlag(1);
   vtkHandleSetRepresentation* representation = self->GetHandleSetRepresentation();
@@ -215,7 +215,7 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
   const bool on_gizmo = representation->GetInteractionState() >= vtkHandleSetRepresentation::MOVE_X;
   if (!on_gizmo && self->Interactor->GetShiftKey())
   {
-    // (A position for a new handle counts as a part of the gizmo.)
+    // A position for a new handle is treated like a part of the gizmo.
     representation->ToggleSelected(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
     self->Render();
@@ -253,7 +253,7 @@ void vtkHandleSetWidget::PressInMode()
     static_cast<double>(this->Interactor->GetEventPosition()[1]) };
   if (this->Interactor->GetRepeatCount() > 0 && representation->FinishCage())
   {
-    this->Render(); // a double click
+    this->Render(); // redraw: a double click has ended the cage
     return;
   }
   this->ReadModifiers();

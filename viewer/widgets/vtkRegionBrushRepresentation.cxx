@@ -1,6 +1,7 @@
-// The position under the mouse is a ray's first intersection. The disc's vertices come from the
-// kernel (surface_disc), or from a pass over all vertices. Only labels that change are written and
-// recorded, so a cancel restores exactly these.
+// Paints labels on the vertices around the mouse position. That position is the first intersection
+// of a ray with the surface. The kernel surface_disc() returns the vertices of the disc by distance
+// along the surface; otherwise a pass over all vertices finds them. Only labels that change are
+// written and recorded, so a cancel restores exactly these labels.
 #include "vtkRegionBrushRepresentation.h"
 
 #include "handle_shapes.h"
@@ -30,8 +31,9 @@ using Eigen::Vector3d;
 namespace
 {
 constexpr int outline_sides = 64;
-constexpr double spacing = 0.4; // distance between the discs of a stroke, in radii
-constexpr int most_discs = 200; // per move of the mouse
+// distance between the discs of a stroke, as a fraction of the radius
+constexpr double spacing = 0.4;
+constexpr int most_discs = 200; // maximum number of discs per move of the mouse
 } // namespace
 
 class vtkRegionBrushRepresentation::Internals
@@ -39,7 +41,7 @@ class vtkRegionBrushRepresentation::Internals
 public:
   bindpose::RestSurface Surface;
   std::unique_ptr<bindpose::SurfaceDisc> Disc;
-  int DiscOf = -1; // the build of the surface that Disc belongs to
+  int DiscOf = -1; // build number of the surface for which Disc was created
 
   bool HasPlace = false;
   Vector3d Place = Vector3d::Zero();
@@ -47,8 +49,9 @@ public:
   bindpose::Index Triangle = -1;
 
   bool Painting = false;
-  Vector2d Last = Vector2d::Zero(); // display position of the stroke
-  std::vector<std::pair<vtkIdType, double>> Before; // labels that have changed
+  Vector2d Last = Vector2d::Zero(); // last display position of the stroke
+  // changed vertices with their labels before the stroke
+  std::vector<std::pair<vtkIdType, double>> Before;
 
   vtkNew<vtkPolyDataMapper> Mapper;
   vtkNew<vtkActor> Actor;
@@ -239,7 +242,7 @@ void vtkRegionBrushRepresentation::WidgetInteraction(double eventPos[2])
   {
     return;
   }
-  // Place discs along the path of the mouse, which may be long since the last event.
+  // Place discs along the path of the mouse, because it may have moved far since the last event.
   const Vector2d to(eventPos);
   const Vector2d way = to - self.Last;
   const double pixel =
@@ -306,7 +309,7 @@ void vtkRegionBrushRepresentation::BuildRepresentation()
         self.Place + this->GetDiscRadius() * (std::cos(angle) * u + std::sin(angle) * v));
     }
     shapes.add_tube(circle, 2.0 * pixel, { 0.13, 0.13, 0.15 });
-    // Move it toward the eye, so that the dark one becomes its edge.
+    // Move the circle toward the eye. The dark circle behind it then appears as its edge.
     for (Vector3d& place : circle)
     {
       place -= 3.0 * pixel * view.sight_to(place);

@@ -3,21 +3,22 @@
  * @brief   a disc on a surface that paints region labels
  *
  * Paints the point array `RegionId` of a surface (vtkPolyData) in place. The vertices within Radius
- * of the point where the line of sight meets the surface get the label RegionId, or 0 (free) while
- * Erase is on. A handle of kind region with that RegionId then owns these vertices; see
- * vtkHandleFileReader. The class is the representation of vtkRegionBrushWidget.
+ * of the point where the line of sight intersects the surface get the label RegionId, or 0 (no
+ * region) while Erase is on. A handle of kind region with that RegionId then owns these vertices;
+ * see vtkHandleFileReader. The class is the representation of vtkRegionBrushWidget.
  *
  * With Geodesic (on), the distance is measured along the surface, from triangle to triangle, so
  * that the brush does not reach through thin walls or over gaps. Otherwise the distance is measured
  * through space, and all vertices in the ball are painted.
  *
- * The array is an int array with one number per point, 0 where nothing is painted. It is created if
- * it is missing; an existing array of another type keeps its type. A stroke is one step: all discs
- * from StartWidgetInteraction() to EndWidgetInteraction(). They are placed densely along the
- * mouse's path, so that no vertex is missed. CancelWidgetInteraction() restores the labels.
+ * The array is an int array with one label per point, 0 where nothing is painted. It is created if
+ * it is missing; an existing array of another type keeps its type. A stroke consists of all discs
+ * from StartWidgetInteraction() to EndWidgetInteraction(); it is one step for undo. The discs are
+ * placed densely along the mouse's path, so that no vertex is missed. CancelWidgetInteraction()
+ * restores the labels.
  *
- * At 100,000 triangles, a disc of a tenth of the shape's size costs less than a millisecond. The
- * first use on a surface builds a tree over its triangles (about 0.1 s).
+ * On a surface with 100,000 triangles, a disc of a tenth of the shape's size takes less than a
+ * millisecond. The first use on a surface builds a tree over its triangles (about 0.1 s).
  */
 
 #ifndef vtkRegionBrushRepresentation_h
@@ -58,16 +59,16 @@ public:
   vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Radius, double);
   ///@}
-  /// Return Radius, or the number that is used instead of 0.
+  /// Return Radius, or the automatic radius if Radius is 0.
   double GetDiscRadius();
   ///@{
-  /// Measure distances along the surface, else through space. Default on.
+  /// Measure distances along the surface; otherwise through space. Default on.
   vtkSetMacro(Geodesic, vtkTypeBool);
   vtkGetMacro(Geodesic, vtkTypeBool);
   vtkBooleanMacro(Geodesic, vtkTypeBool);
   ///@}
   ///@{
-  /// Paint 0. Default off.
+  /// Erase: paint the label 0. Default off.
   vtkSetMacro(Erase, vtkTypeBool);
   vtkGetMacro(Erase, vtkTypeBool);
   vtkBooleanMacro(Erase, vtkTypeBool);
@@ -91,7 +92,7 @@ public:
   bool IsPainting();
 
   ///@{
-  /// vtkWidgetRepresentation and vtkProp.
+  /// The methods of vtkWidgetRepresentation and vtkProp.
   int ComputeInteractionState(int x, int y, int modify = 0) override;
   void StartWidgetInteraction(double eventPos[2]) override;
   void WidgetInteraction(double eventPos[2]) override;
@@ -103,7 +104,7 @@ public:
   ///@}
   /// End the stroke and restore all labels to their state at its start.
   void CancelWidgetInteraction();
-  /// Clear the disc, because the mouse is not on the surface.
+  /// Hide the disc, because the mouse is not on the surface.
   void Leave();
 
 protected:

@@ -18,7 +18,7 @@
 
 namespace
 {
-constexpr double growth = 1.15; // factor on the radius per step
+constexpr double growth = 1.15; // factor on the radius per turn of the wheel or press of a key
 
 bool is_key(const char* keys, const char* key)
 {
@@ -129,7 +129,7 @@ void vtkRegionBrushWidget::SelectAction(vtkAbstractWidget* widget)
   auto* self = static_cast<vtkRegionBrushWidget*>(widget);
   if (self->State == PAINTING || !self->Hover())
   {
-    return; // the camera handles the event
+    return; // not on the surface: the camera handles the event
   }
   self->EventCallbackCommand->SetAbortFlag(1);
   self->State = PAINTING;

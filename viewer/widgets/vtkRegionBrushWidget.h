@@ -101,7 +101,7 @@ private:
 
   int State = HOVERING;
   bool Canceled = false;
-  bool Erased = false; // the last stroke erased
+  bool Erased = false; // true if the last stroke erased
 };
 
 #endif

@@ -1,5 +1,7 @@
 #include "document/options.h"
 
+#include "weights/weight_methods.h"
+
 #include <QtGlobal>
 
 #include <cmath>
@@ -36,11 +38,28 @@ QVariant checked_direction(const QVariant& value)
 }
 } // namespace
 
-const std::vector<OptionInfo>& option_table()
+namespace
 {
-  static const std::vector<OptionInfo> table = {
-    { "bind.method", QT_TRANSLATE_NOOP("Document", "type of weights"), 0, 0, 1,
-      { "bounded-biharmonic", "monotone" } },
+/// Return the words of the weight methods, in the order of the registry.
+/// @param constrained  only bounded and monotone weights, which come first
+std::vector<const char*> method_words(bool constrained)
+{
+  std::vector<const char*> words;
+  for (const bindpose::WeightMethod& method : bindpose::weight_methods())
+  {
+    if (method.constrained || !constrained)
+    {
+      words.push_back(method.word);
+    }
+  }
+  return words;
+}
+
+std::vector<OptionInfo> make_option_table()
+{
+  std::vector<OptionInfo> table = {
+    { "bind.method", QT_TRANSLATE_NOOP("Document", "type of weights"), 0, 0, any,
+      method_words(true) },
     { "bind.domain", QT_TRANSLATE_NOOP("Document", "domain of weights"), 0, 0, 4,
       { "auto", "volume", "embedding", "cage", "surface" } },
     { "pose.method", QT_TRANSLATE_NOOP("Document", "pose method"), 0, 0, 6,
@@ -85,10 +104,8 @@ const std::vector<OptionInfo>& option_table()
       { "weights", "row-sums", "difference" } },
     { "weights.raw", QT_TRANSLATE_NOOP("Document", "raw weights"), 0, 0, 1,
       { "normalized", "raw" } },
-    { "weights.compare_with", QT_TRANSLATE_NOOP("Document", "method to compare with"), 1, 0, 9,
-      { "bounded-biharmonic", "monotone", "harmonic", "biharmonic", "triharmonic",
-        "graph-biharmonic", "linear-subspace", "inverse-distance", "smoothed-harmonic",
-        "bone-heat" } },
+    { "weights.compare_with", QT_TRANSLATE_NOOP("Document", "method to compare with"), 1, 0, any,
+      method_words(false) },
     { "weights.slice", QT_TRANSLATE_NOOP("Document", "slice of weights"), false },
     { "weights.orientation", QT_TRANSLATE_NOOP("Document", "orientation of the slice of weights"),
       2, 0, 3, { "x", "y", "z", "free" } },
@@ -122,6 +139,20 @@ const std::vector<OptionInfo>& option_table()
     { "volume.surface_look", QT_TRANSLATE_NOOP("Document", "surface style"), 1, 0, 3,
       { "solid", "see-through", "edges", "hidden" } },
   };
+  for (OptionInfo& option : table)
+  {
+    if (!option.words.empty())
+    {
+      option.highest = static_cast<double>(option.words.size() - 1);
+    }
+  }
+  return table;
+}
+} // namespace
+
+const std::vector<OptionInfo>& option_table()
+{
+  static const std::vector<OptionInfo> table = make_option_table();
   return table;
 }
 

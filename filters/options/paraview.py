@@ -48,9 +48,9 @@ def hints(option):
     """An option that only some methods use is shown for these methods; a set's methods are those of its filter."""
     words = option.fields.get("methods", [])
     method = next((other for other in option.owner.options if other.name == "method"), None)
-    if not words or not method or method.type != "choice":
+    if not words or not method:
         return []
-    values = " ".join(str(method.choices[word]) for word in words)
+    values = " ".join(str(method.choices.get(word, word)) for word in words)
     return ["<Hints>", f'  <PropertyWidgetDecorator type="GenericDecorator" mode="visibility" property="Method" values="{values}"/>',
             "</Hints>"]
 

@@ -8,8 +8,8 @@
 namespace bindpose
 {
 
-/// Allocates memory that begins at a cache line, so that the widest registers never read across two
-/// lines.
+/// Allocates memory that begins at a cache line, so that a load of the widest registers never
+/// crosses a cache line.
 template <typename T>
 struct LineAllocator
 {

@@ -1,3 +1,4 @@
+// Dense Cholesky factorization by LAPACK, or by Eigen if the build has no LAPACK.
 #include "base/dense_cholesky.h"
 
 #include <Eigen/Cholesky>
@@ -5,7 +6,7 @@
 #ifdef BINDPOSE_HAS_CHOLMOD
 #include "base/serial_blas.h"
 
-// NOLINTBEGIN(readability-identifier-naming): LAPACK's and BLAS's names
+// NOLINTBEGIN(readability-identifier-naming): these are the names of LAPACK and BLAS functions
 extern "C"
 {
   void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);

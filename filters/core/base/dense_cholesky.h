@@ -6,15 +6,15 @@
 namespace bindpose
 {
 
-/// Factorization A = L L^T of a dense symmetric matrix, by LAPACK if the build has it.
+/// Factorization A = L L^T of a dense symmetric matrix. It uses LAPACK if the build contains it.
 /// Cost: n^3 / 6 multiply-adds.
 class DenseCholesky
 {
 public:
-  /// Factor A, of which the lower triangle is read. Return false if A is not positive definite to
-  /// round-off.
+  /// Factor A; only the lower triangle of the matrix is read. Return false if A is not positive
+  /// definite to round-off.
   bool factor(Eigen::MatrixXd a);
-  /// Return an estimate of 1 / (|A| |A^-1|) in the one-norm.
+  /// Return an estimate of the reciprocal condition number 1 / (|A| |A^-1|) in the one-norm.
   double reciprocal_condition() const;
   /// Replace X by X L^-T.
   void solve_right(Eigen::MatrixXd& x) const;

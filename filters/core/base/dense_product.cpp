@@ -1,6 +1,7 @@
-// A blocked product: pieces of a and b are copied so that the innermost loop reads them
-// sequentially, and its sums, a tile of c, stay in registers. Every sum runs over the inner index
-// in order, in blocks of a fixed size, for every size of registers and tiles.
+// A blocked matrix product. Blocks of a and b are copied, so that the innermost loop reads them
+// sequentially and its sums, a tile of c, stay in registers. Every sum runs over the inner index in
+// ascending order, in blocks of a fixed size. Therefore the result does not depend on the size of
+// registers and tiles.
 #include "base/dense_product.h"
 
 #include "base/packs.h"
@@ -13,17 +14,21 @@ namespace bindpose
 
 namespace
 {
-constexpr Index inner_block = 256; ///< with the columns of a tile: at most 32 KiB, the first-level
-                                   ///< cache
-constexpr Index row_block = 192; ///< times inner_block: 384 KiB, the second-level cache
+/// Length of a block along the inner index. With the columns of a tile, a block takes at most 32
+/// KiB, the size of the first-level cache.
+constexpr Index inner_block = 256;
+/// Rows of a block of a. With inner_block columns, a block takes 384 KiB and fits into the
+/// second-level cache.
+constexpr Index row_block = 192;
 
-/// Rows and columns of a tile. Its sums use 24 registers of AVX-512, or 12 of 16 registers.
+/// Size of a tile of c. The sums of a tile use 24 registers of AVX-512, or 12 of the 16 registers
+/// of the other instruction sets.
 template <int bytes>
 struct Tile
 {
   static constexpr Index lanes = PackOf<double, bytes>::lanes;
   static constexpr Index rows = bytes == 64 ? 12 : bytes == 32 ? 6 : 3;
-  static constexpr Index packs = bytes == 16 ? 4 : 2; ///< per row
+  static constexpr Index packs = bytes == 16 ? 4 : 2; ///< packs in a row of the tile
   static constexpr Index cols = packs * lanes;
 };
 
@@ -64,7 +69,8 @@ Index tiles_of(Index count, Index size)
   return (count + size - 1) / size;
 }
 
-/// Copy rows begin to end of a, columns first to first + inner, in tiles; zeros pad the last tile.
+/// Copy the rows [begin, end) and columns [first, first + inner) of a in tiles. The last tile is
+/// padded with zeros.
 template <int bytes>
 BINDPOSE_ALWAYS_INLINE void pack_rows(
   const StridedMatrix& a, Index begin, Index end, Index first, Index inner, double* to)
@@ -83,7 +89,7 @@ BINDPOSE_ALWAYS_INLINE void pack_rows(
   }
 }
 
-/// Copy a tile's columns of b, beginning at `left`; zeros replace missing columns.
+/// Copy the columns of one tile of b, beginning at `left`. Missing columns are filled with zeros.
 template <int bytes>
 BINDPOSE_ALWAYS_INLINE void pack_columns(
   const StridedMatrix& b, Index left, Index first, Index inner, double* to)
@@ -172,7 +178,8 @@ void add_product(
 void add_dense_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
   const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> c)
 {
-  // The matrices are column-major, so the transposed product is computed, which is row-major.
+  // add_product() writes a row-major matrix, but c is column-major. Therefore the transposed
+  // product is computed.
   add_product({ b.data(), b.cols(), b.rows(), b.outerStride(), 1 },
     { a.data(), a.cols(), a.rows(), a.outerStride(), 1 }, c.data(), c.outerStride());
 }

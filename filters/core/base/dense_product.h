@@ -1,6 +1,8 @@
 #ifndef bindpose_base_dense_product_h
 #define bindpose_base_dense_product_h
 
+// Products of dense matrices with the same bits on every machine.
+
 #include "base/mesh.h"
 
 namespace bindpose
@@ -15,13 +17,14 @@ struct StridedMatrix
 };
 
 /// Add a b to c, a row-major matrix of #a.rows x #b.cols whose rows are c_stride apart. The rows of
-/// b must be contiguous (b.column = 1). With `lower`, only entries (i, j) with j <= i are
-/// guaranteed to be added; this halves the time if the result is known to be symmetric.
+/// b must be contiguous (b.column = 1). If `lower` is true, only entries (i, j) with j <= i are
+/// guaranteed to be added, which halves the time. This is sufficient if the result is known to be
+/// symmetric.
 ///
-/// Eigen and BLAS are not used for these reasons: release builds of Eigen use only SSE2, the bits
-/// of BLAS depend on the machine, and its speed depends on whether it supports the processor. This
-/// function is compiled for several register sizes and computes the same bits with each one that
-/// has fused operations. It runs on one thread.
+/// Eigen is not used, because release builds of Eigen use only SSE2. BLAS is not used, because its
+/// results depend on the machine and its speed depends on whether it supports the processor. This
+/// function is compiled for several register sizes. It computes the same bits with all instruction
+/// sets that have fused multiply-add operations. It runs on one thread.
 void add_product(
   const StridedMatrix& a, const StridedMatrix& b, double* c, Index c_stride, bool lower = false);
 

@@ -1,9 +1,9 @@
 #ifndef bindpose_base_exact_h
 #define bindpose_base_exact_h
 
-// Exact signs in the plane and numbers of doubled precision, for cases in which double rounding
-// would decide on which side a point is. All functions use plain double arithmetic (no fused
-// operations, no long double), so every machine computes the same bits.
+// Exact signs in the plane and double-double arithmetic (about 106 bits), for cases in which the
+// rounding of doubles would decide on which side a point is. All functions use plain double
+// arithmetic (no fused operations, no long double), so every machine computes the same bits.
 
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ inline void two_sum(double a, double b, double& high, double& low)
 /// multiply-add).
 inline void two_product(double a, double b, double& high, double& low)
 {
-  constexpr double splitter = 134217729.0; // 2^27 + 1
+  constexpr double splitter = 134217729.0; // splits a double into two halves
   const double ta = splitter * a;
   const double tb = splitter * b;
   const double a_high = ta - (ta - a);
@@ -79,7 +79,7 @@ inline DoubleDouble sqrt(const DoubleDouble& a)
   {
     return {};
   }
-  // One Newton step doubles the digits of the double root.
+  // One Newton step doubles the number of correct digits.
   const double root = std::sqrt(a.high);
   const DoubleDouble rest = a - DoubleDouble(root) * DoubleDouble(root);
   return { root, rest.value() / (2.0 * root) };
@@ -140,7 +140,8 @@ inline int orientation_2d(double ax, double ay, double bx, double by, double cx,
   const double left = (ax - cx) * (by - cy);
   const double right = (ay - cy) * (bx - cx);
   const double determinant = left - right;
-  constexpr double bound = 3.3306690738754716e-16; // (3 + 16 e) e, e = 2^-53
+  // Relative error bound (3 + 16 e) e, with e = 2^-53.
+  constexpr double bound = 3.3306690738754716e-16;
   if (std::abs(determinant) > bound * (std::abs(left) + std::abs(right)))
   {
     return determinant > 0.0 ? 1 : -1;

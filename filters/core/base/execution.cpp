@@ -1,3 +1,5 @@
+// Progress, cancellation and computing time per phase. Progress callbacks are limited to one per 50
+// ms and phase change.
 #include "base/execution.h"
 
 #include <algorithm>
@@ -56,7 +58,8 @@ void ExecutionContext::emit(double fraction_of_whole, bool force)
     return;
   }
   this->last_emit_ = now;
-  // A repeated step starts from its beginning; the reported progress must not decrease.
+  // If a kernel repeats a part of its work, its progress starts again; the reported progress must
+  // not decrease.
   this->furthest_ = std::max(this->furthest_, fraction_of_whole);
   this->progress_(this->furthest_, this->phase_);
 }

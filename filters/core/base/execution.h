@@ -12,17 +12,18 @@
 namespace bindpose
 {
 
-/// Interface between a kernel and its caller: progress in named phases, cancel, number of threads,
-/// and seconds per phase. A default-constructed context uses all cores and has no callbacks.
+/// Interface between a kernel and its caller: progress in named phases, cancellation, number of
+/// threads, and computing time per phase. A default-constructed context uses all cores and has no
+/// callbacks.
 class ExecutionContext
 {
 public:
-  /// Receives the fraction of the whole in [0, 1], which never decreases, and the name of the
-  /// phase. It is called on the thread that created the context, at most every 50 ms and at every
-  /// change of phase.
+  /// Receives the completed fraction of the whole computation in [0, 1], which never decreases, and
+  /// the name of the phase. Called on the thread that created the context, at most every 50 ms and
+  /// at every change of phase.
   using ProgressCallback = std::function<void(double fraction, const std::string& phase)>;
-  /// Returns true if the user wants to stop. It is called on any thread, so it must be thread-safe
-  /// and cheap.
+  /// Returns true if the computation must stop. Called on any thread, so it must be thread-safe and
+  /// fast.
   using CancelCallback = std::function<bool()>;
 
   ExecutionContext() = default;
@@ -36,16 +37,17 @@ public:
   int threads() const { return this->threads_; }
 
   void request_cancel() { this->canceled_.store(true, std::memory_order_relaxed); }
-  /// Report whether the work is canceled. Thread-safe. Once true, it stays true. Kernels call it at
-  /// least every 100 ms.
+  /// Report whether the computation is canceled. Thread-safe. Once true, the result stays true.
+  /// Kernels call this function at least every 100 ms.
   bool canceled() const;
 
-  /// Report progress within the current phase, in [0, 1]. It is cheap. Calls on threads other than
-  /// the one that created the context are ignored, so that parallel bodies may call it.
+  /// Report progress within the current phase, in [0, 1]. Fast enough for frequent calls. Calls on
+  /// threads other than the one that created the context are ignored, so that parallel bodies may
+  /// call it.
   void progress(double fraction_of_phase);
 
-  /// Return the seconds spent in each phase, summed over its runs, in order of first appearance.
-  /// The keys are "seconds.NAME" (see Report).
+  /// Return the seconds spent in each phase, in the order in which the phases first began. If a
+  /// phase ran several times, its value is the sum. The keys are "seconds.NAME" (see Report).
   const Report& seconds() const { return this->seconds_; }
   void add_seconds(const std::string& phase, double seconds);
   /// Return the seconds since the context was created.
@@ -61,7 +63,7 @@ private:
   mutable std::atomic<bool> canceled_{ false };
   std::thread::id owner_ = std::this_thread::get_id();
   int threads_ = 0;
-  double begin_ = 0.0; // range of the current phase within the whole
+  double begin_ = 0.0; // range of the current phase as fractions of the whole computation
   double end_ = 1.0;
   double furthest_ = 0.0; // largest fraction reported so far
   std::string phase_;
@@ -70,8 +72,8 @@ private:
   Report seconds_;
 };
 
-/// Scope of one phase. It names the current work, maps progress into [begin, end] of the enclosing
-/// phase and adds its seconds to the context. The name is the key in the report
+/// Scope of one phase. It sets the name of the current work, maps progress to [begin, end] of the
+/// enclosing phase, and adds its duration to the context. The name appears in the report's key
 /// ("factor" -> "seconds.factor"); progress bars show it unchanged.
 class Phase
 {
@@ -91,8 +93,8 @@ private:
   std::chrono::steady_clock::time_point start_;
 };
 
-/// Scope of an unnamed step of the current phase. It maps progress into [begin, end] of the
-/// enclosing phase or range, so that progress never decreases from one step to the next.
+/// Scope of an unnamed part of the current phase. It maps progress to [begin, end] of the enclosing
+/// phase or range, so that progress never decreases from one part to the next.
 class ProgressRange
 {
 public:

@@ -1,20 +1,23 @@
-// Multifrontal Cholesky factorization in single precision.
+// Multifrontal Cholesky factorization in single precision (Duff and Reid 1983).
 //
-// The supernodes are eliminated one after another, children before parents. Each one has a dense
-// front: the block of its own columns, which becomes part of the factor, and the update matrix of
-// the rows below, which is passed to its parent. For each supernode
-// 1. its columns of the matrix and the columns of its children's update matrices are added up,
-// 2. the block is factored: spotrf on the square at the top, strsm on the rows below,
-// 3. the update matrix is computed: minus the product of those rows with themselves (ssyrk), plus
-//    the remaining columns of the children's update matrices.
+// Supernodes are groups of consecutive columns with the same pattern. They are eliminated one after
+// another, children before parents. Each supernode has a dense matrix called the front. The front
+// consists of the block of the supernode's own columns, which becomes part of the factor, and of
+// the update matrix of the rows below, which is passed to the parent. Each supernode takes three
+// steps:
+// 1. The supernode's columns of the matrix and the columns of its children's update matrices are
+//    added up.
+// 2. The block is factored: spotrf on the square at the top, strsm on the rows below.
+// 3. The update matrix is computed: minus the product of the rows below with their transpose
+//    (ssyrk), plus the remaining columns of the children's update matrices.
 //
 // There are two stacks of update matrices, one for even and one for odd depth. Supernodes are in
 // postorder. Therefore the children's matrices are on top of their stack when the parent needs
 // them, and the parent's matrix is pushed onto the other stack.
 //
-// Compared with CHOLMOD's own method (left-looking, double), there are fewer and larger products
-// and half the bytes. The matrix is scaled to a unit diagonal, because otherwise single precision
-// would lose the rows with small entries.
+// Compared with CHOLMOD's own method (left-looking, double precision), there are fewer and larger
+// products, and the factor takes half the memory. The matrix is scaled to a unit diagonal, because
+// otherwise rows with small entries would lose their digits in single precision.
 #include "base/float_cholesky.h"
 
 #include "base/supernode_solve.h"
@@ -28,7 +31,7 @@
 #ifdef BINDPOSE_HAS_CHOLMOD
 #include "base/serial_blas.h"
 
-// NOLINTBEGIN(readability-identifier-naming): LAPACK's and BLAS's names
+// NOLINTBEGIN(readability-identifier-naming): these are the names of LAPACK and BLAS functions
 extern "C"
 {
   void spotrf_(const char* uplo, const int* n, float* a, const int* lda, int* info);
@@ -45,15 +48,16 @@ namespace bindpose
 
 namespace
 {
-/// Data that clones share.
+/// The analysis, which all clones share.
 struct Plan
 {
   std::shared_ptr<const Supernodes> nodes;
-  std::vector<int> parent; // parent supernode, -1: none
-  std::vector<int> position; // index of each stored entry of the matrix among the factor's values
-  // Depth of each supernode below its root, modulo 2. It is the index of its stack.
+  std::vector<int> parent; // parent of each supernode; -1: no parent
+  std::vector<int> position; // index in the factor's values of each stored entry of the matrix
+  // Depth of each supernode below its root, modulo 2, which is the index of the stack for its
+  // update matrix.
   std::vector<unsigned char> depth;
-  std::size_t stack_size[2] = { 0, 0 }; // number of floats
+  std::size_t stack_size[2] = { 0, 0 }; // capacity of the two stacks, in floats
   std::atomic<Index> factorizations{ 0 };
 
   int count() const { return static_cast<int>(this->parent.size()); }
@@ -85,10 +89,11 @@ struct FloatCholesky::Impl
   std::vector<float> values;
   std::vector<float> stack[2];
   std::size_t top[2] = { 0, 0 };
-  std::vector<int> waiting[2]; // the supernodes whose update matrices are on the stacks
-  std::vector<int> row_in_front; // index of each row in the front that is being assembled
+  std::vector<int> waiting[2]; // supernodes whose update matrices are on the stacks
+  // Per row of the matrix: its index in the front that is being assembled.
+  std::vector<int> row_in_front;
   std::vector<Run> runs;
-  Eigen::VectorXd scale; // 1 / sqrt(diagonal), by unknown
+  Eigen::VectorXd scale; // 1 / sqrt(diagonal entry), per unknown
 
   void scatter(const SparseMatrix& matrix, double shift);
   int eliminate(int s);
@@ -179,7 +184,7 @@ Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& ma
     plan->depth[s] = plan->parent[s] < 0 ? 0 : !plan->depth[plan->parent[s]];
   }
   std::size_t top[2] = { 0, 0 };
-  // Number of floats in the children's update matrices.
+  // Number of floats in the update matrices of each supernode's children.
   std::vector<std::size_t> held(static_cast<std::size_t>(count), 0);
   for (int s = 0; s < count; ++s)
   {
@@ -228,7 +233,7 @@ Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& ma
 }
 
 #ifdef BINDPOSE_HAS_CHOLMOD
-/// Write the scaled matrix into the blocks.
+/// Write the entries of the scaled matrix to the blocks of the factor.
 void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift)
 {
   const int n = this->plan->size();
@@ -236,7 +241,7 @@ void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift)
   for (int j = 0; j < n; ++j)
   {
     const double diagonal = matrix.coeff(j, j);
-    // A diagonal entry that is not positive fails at its pivot.
+    // If a diagonal entry is not positive, the factorization fails at its pivot.
     this->scale[j] = diagonal > 0.0 ? 1.0 / std::sqrt(diagonal) : 1.0;
   }
   std::fill(this->values.begin(), this->values.end(), 0.0F);
@@ -255,8 +260,8 @@ void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift)
   }
 }
 
-/// Find the rows of the front to which a child's update matrix is added. No run crosses from the
-/// columns of the block to the rows below.
+/// Find the rows of the front to which a child's update matrix is added. A run is either within the
+/// columns of the block or within the rows below.
 void FloatCholesky::Impl::find_runs(int child, int columns)
 {
   const int* row = this->plan->nodes->rows.data() + this->plan->nodes->first_row[child] +
@@ -296,8 +301,8 @@ int FloatCholesky::Impl::eliminate(int s)
 
   const float one = 1.0F;
   const float minus_one = -1.0F;
-  // The first columns of a child's update matrix belong to the block and are added now. The others
-  // are added after this supernode's own update matrix has been computed.
+  // The first columns of a child's update matrix belong to the block and are added now. The
+  // remaining columns are added after this supernode's own update matrix has been computed.
   const auto add_children = [&](bool now)
   {
     std::size_t at = end_of_children;
@@ -350,7 +355,7 @@ int FloatCholesky::Impl::eliminate(int s)
   }
   for (int j = 0; j < columns; ++j)
   {
-    // LAPACK's test accepts NaN.
+    // LAPACK does not detect NaN.
     const float pivot = block[static_cast<std::size_t>(j) * rows + j];
     if (!(pivot > 0.0F) || !std::isfinite(pivot))
     {
@@ -430,7 +435,7 @@ Status FloatCholesky::factor(const SparseMatrix&, double, const ExecutionContext
 }
 #endif
 
-/// rhs and x are #unknowns x columns, column-major.
+/// Solve for several columns. rhs and x are #unknowns x columns, column-major.
 void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
 {
   const std::vector<int>& order = this->plan->nodes->order;
@@ -455,7 +460,8 @@ void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
         size = std::max(size, value);
         finite = finite && std::isfinite(value);
       }
-      // The scaling allows right-hand sides of any magnitude.
+      // Scale each right-hand side by its size, so that all magnitudes are within the range of
+      // floats.
       factor[c] = size > 0.0 && finite ? size : 1.0;
       float* into = scaled.data() + c;
       for (std::size_t i = 0; i < n; ++i)

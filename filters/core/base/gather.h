@@ -10,7 +10,7 @@ namespace bindpose
 
 /// Call body(i, list) for all i in [0, count) on the context's threads. Concatenate the items that
 /// the bodies append to their lists, in the order of i, so that the result is the same for any
-/// number of threads. Cancel is checked every 16 items.
+/// number of threads. A cancel request is checked every 16 items.
 /// @return false if canceled; `all` is then incomplete.
 template <typename Item, typename Body>
 bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, const Body& body,

@@ -1,3 +1,5 @@
+// Cotangent weights, stiffness matrices, lumped masses and polyharmonic energies of triangle and
+// tet meshes.
 #include "base/laplacian.h"
 
 #include "base/side_flux.h"
@@ -79,8 +81,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> cotangent_weights(
     {
       continue;
     }
-    // grad phi_i = g_i / (6 V) with g_i the inward normal of the facet opposite to i, of length
-    // twice the facet's area.
+    // The gradient is grad phi_i = g_i / (6 V). g_i is the inward normal of the facet opposite to
+    // corner i, with a length of twice the facet's area.
     Vec3 g[4];
     g[1] = (p[2] - p[0]).cross(p[3] - p[0]);
     g[2] = (p[3] - p[0]).cross(p[1] - p[0]);
@@ -158,7 +160,8 @@ SparseMatrix boundary_flux(PointsView points, TetsView tets)
     const Vec3 outwards = 0.5 * twice_area(facets[i].side);
     for (int c = 0; c < 4; ++c)
     {
-      // The gradient of the corner's function points away from the facet opposite to the corner.
+      // The gradient of the corner's basis function points away from the facet opposite to the
+      // corner.
       const double third = outwards.dot(-twice_area(c)) / six_volumes / 3.0;
       for (const int end : corners)
       {
@@ -227,7 +230,7 @@ SparseMatrix harmonic_energy(const SparseMatrix& stiffness, const Eigen::VectorX
   }
   if (k > 2)
   {
-    // A product of three is symmetric only up to round-off.
+    // The product of three matrices is symmetric only up to round-off.
     q = SparseMatrix(0.5 * (q + SparseMatrix(q.transpose())));
   }
   return q;

@@ -12,10 +12,10 @@
 namespace bindpose
 {
 
-/// Request pages of 2 MiB for memory that has not been touched yet. If the system provides them on
-/// demand, the first touch of a gigabyte takes a fourth of the time, freeing it takes a thirtieth
-/// (measured), and random access misses less often. The request is only a hint: contents, addresses
-/// and results never depend on it.
+/// Request pages of 2 MiB for memory that has not been touched yet. If the system provides such
+/// pages, the first write to a gigabyte takes a fourth of the time and freeing it takes a thirtieth
+/// (measured). Random access has fewer misses in the address translation cache. The request is only
+/// a hint: contents, addresses and results never depend on it.
 inline void ask_for_large_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes)
 {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
@@ -30,10 +30,10 @@ inline void ask_for_large_pages([[maybe_unused]] void* begin, [[maybe_unused]] s
 #endif
 }
 
-/// Reserve large pages for `count` items in total. Existing items are moved. Appending items then
-/// costs only the writes. Random access to some megabytes then rarely misses the address
-/// translation cache; such a miss costs more than a miss of the data cache (measured: 1.3-2x less
-/// time per look-up).
+/// Reserve memory in large pages for a total of `count` items. Existing items are moved. Appending
+/// items then needs no further allocation. Random access to some megabytes then has few misses in
+/// the address translation cache; such a miss takes more time than a miss in the data cache
+/// (measured: 1.3-2x less time per look-up).
 template <typename Item>
 void reserve_in_large_pages(std::vector<Item>& items, std::size_t count)
 {

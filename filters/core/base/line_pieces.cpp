@@ -1,3 +1,5 @@
+// Division of a line into pieces of equal size relative to a local length, by integrating 1 /
+// length along the line.
 #include "base/line_pieces.h"
 
 #include <algorithm>
@@ -9,12 +11,12 @@ namespace bindpose
 std::vector<double> line_cuts(double from, double to, const std::function<double(double)>& length,
   const std::function<int(double)>& pieces)
 {
-  // passed[i] is the number of local lengths between the start and at[i].
+  // passed[i] is the length of the line from the start to at[i], measured in local lengths.
   std::vector<double> passed{ 0.0 };
   std::vector<double> at{ from };
   while (at.back() < to)
   {
-    constexpr double part = 0.5; // step in local lengths, because they change along the line
+    constexpr double part = 0.5; // step in units of the local length, which changes along the line
     const double here = length(at.back());
     const double step = std::min(part * here, to - at.back());
     passed.push_back(passed.back() + step / here);

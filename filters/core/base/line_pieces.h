@@ -7,11 +7,11 @@
 namespace bindpose
 {
 
-/// Return the parameters, ascending between `from` < `to`, that cut a stretch of a line into pieces
-/// of equal size, measured in local lengths.
-/// @param length local length at a parameter, in units of the parameter, > 0
-/// @param pieces number of pieces for a stretch that is this many local lengths long, >= 1
-/// Cost: two calls of `length` per local length.
+/// Return the parameters, ascending between `from` < `to`, that cut a line into pieces of equal
+/// size. Sizes are measured in local lengths. Cost: two calls of `length` per local length.
+/// @param length returns the local length at a parameter, in units of the parameter, > 0
+/// @param pieces returns the number of pieces (>= 1) for a line that is this many local lengths
+/// long
 std::vector<double> line_cuts(double from, double to, const std::function<double(double)>& length,
   const std::function<int(double)>& pieces);
 

@@ -1,6 +1,8 @@
+// Memory of the process and limits for it, as reported by the system.
+//
 // On Linux, /proc/self/statm and status describe the process, and MemAvailable of /proc/meminfo
-// describes the machine (free pages and caches that can be dropped). memory.max and memory.current
-// describe the process's control group and all enclosing groups.
+// describes the machine (free pages and caches that can be freed). The files memory.max and
+// memory.current describe the process's control group and all enclosing groups.
 #include "base/memory.h"
 
 #include <algorithm>
@@ -65,7 +67,7 @@ double address_space_leaves()
 
 double group_leaves()
 {
-  // The line of the unified hierarchy is "0::/path".
+  // In the unified hierarchy, the line has the form "0::/path".
   std::string group;
   std::ifstream file("/proc/self/cgroup");
   for (std::string line; std::getline(file, line);)

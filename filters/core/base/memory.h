@@ -1,6 +1,8 @@
 #ifndef bindpose_base_memory_h
 #define bindpose_base_memory_h
 
+// Memory use of the process and checks of memory limits.
+
 #include "base/mesh.h"
 #include "base/status.h"
 
@@ -11,27 +13,29 @@ namespace bindpose
 
 constexpr double mebibyte = 1024.0 * 1024.0;
 
-/// Return the resident memory of this process in bytes; 0 if unknown (on systems other than Linux).
+/// Return the resident memory of this process in bytes; 0 if it is unknown (on systems other than
+/// Linux).
 double resident_memory();
 
 /// Return the peak resident memory of this process in bytes. Unlike the value of getrusage(), it
-/// excludes the memory that the parent had when it created this process.
+/// excludes the memory that the parent process used when it created this process.
 double peak_memory();
 
-/// Return the bytes that this process can still take. This is the minimum of the machine's
-/// available memory and of the unused parts of the limits on the process's address space and on its
-/// control group. Infinite if none of them is known.
+/// Return the number of bytes that this process can still allocate. This is the minimum of the
+/// machine's available memory and of the unused parts of the limits on the process's address space
+/// and on its control group. The result is infinite if none of these values is known.
 double available_memory();
 
 /// Check whether a computation fits into memory. Call it before the memory is allocated, so that
 /// the computation ends with a message instead of being killed.
-/// @param what subject of the message, such as "the weights of 24 handles on 63000 vertices"
-/// @param bytes memory that it takes in addition to the current memory of the process
+/// @param what subject of the error message, such as "the weights of 24 handles on 63000 vertices"
+/// @param bytes memory of the computation in addition to the current memory of the process
 /// @param limit MiB that the whole process may use; 0: all available memory
-/// @return ok, or internal_error with both numbers.
+/// @return ok, or internal_error with the needed and the available memory.
 Status check_memory(const std::string& what, double bytes, Index limit);
 
-/// Return the bytes that are left under such a limit.
+/// Return the number of bytes that the process can still allocate under a limit of this many MiB
+/// (0: all available memory).
 double memory_left(Index limit);
 
 } // namespace bindpose

@@ -1,3 +1,5 @@
+// Bounding boxes, validity checks, volumes, edges and connected components of triangle and tet
+// meshes.
 #include "base/mesh.h"
 
 #include "base/disjoint_sets.h"
@@ -103,7 +105,8 @@ Status check_mesh(PointsView points, TetsView tets)
 
 double signed_volume(PointsView points, TrianglesView triangles)
 {
-  // Relative to the center of the box, because the determinants would cancel far from the origin.
+  // Coordinates are relative to the center of the box. Far from the origin, the determinants would
+  // lose digits by cancellation.
   const Vec3 c = triangles.rows() ? bounding_box(points, triangles).center() : Vec3::Zero();
   double six_volumes = 0.0;
   for (Index t = 0; t < triangles.rows(); ++t)
@@ -178,7 +181,7 @@ std::vector<Edge> mesh_edges(TrianglesView triangles)
 {
   const std::vector<TriangleSide> sides = sides_by_edge(triangles);
   std::vector<Edge> edges;
-  edges.reserve(sides.size() / 2 + 1); // as many as a closed surface has
+  edges.reserve(sides.size() / 2 + 1); // a closed surface has this many edges
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end)
   {
     end = end_of_edge(sides, begin);

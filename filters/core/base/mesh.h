@@ -1,6 +1,8 @@
 #ifndef bindpose_base_mesh_h
 #define bindpose_base_mesh_h
 
+// Types and basic operations of triangle and tet meshes.
+
 #include "base/status.h"
 
 #include <Eigen/Core>
@@ -13,7 +15,8 @@
 namespace bindpose
 {
 
-/// Vertex and element ids. 64 bit like vtkIdType, so that connectivity is shared, not copied.
+/// Vertex and element ids. 64 bit like vtkIdType, so that connectivity arrays are shared and not
+/// copied.
 using Index = std::int64_t;
 
 /// One position, direction or displacement.
@@ -29,9 +32,9 @@ using Tets = Eigen::Matrix<Index, Eigen::Dynamic, 4, Eigen::RowMajor>;
 /// #V x #handles, one row per vertex (the layout of a VTK array with #handles components).
 using Weights = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Read-only view of a matrix in its own layout: of a matrix above or of an Eigen::Map of foreign
-/// memory. It never copies. Unlike Eigen::Ref it accepts no other types, so that functions can be
-/// overloaded for triangles and tets; evaluate an expression before you pass it.
+/// Read-only view of one of the matrix types above, or of an Eigen::Map with the same layout on
+/// external memory. It never copies. Unlike Eigen::Ref it accepts no other types, so that functions
+/// can be overloaded for triangles and tets. Expressions must be evaluated before they are passed.
 template <typename Matrix>
 class MatrixView : public Eigen::Map<const Matrix>
 {
@@ -73,18 +76,18 @@ struct Box
   bool empty() const { return (this->lower.array() > this->upper.array()).any(); }
   Vec3 size() const { return this->empty() ? Vec3::Zero() : Vec3(this->upper - this->lower); }
   Vec3 center() const { return 0.5 * (this->lower + this->upper); }
-  /// Return the length of the diagonal, the unit in which Bindpose states lengths; 0 for an empty
-  /// box.
+  /// Return the length of the diagonal, which is the unit of relative lengths in Bindpose; 0 for an
+  /// empty box.
   double diagonal() const { return this->size().norm(); }
 };
 
 Box bounding_box(PointsView points);
-/// Return the box of the vertices that a triangle uses, so that stray points do not stretch it.
+/// Return the bounding box of the vertices that triangles use. Unused points do not affect it.
 Box bounding_box(PointsView points, TrianglesView triangles);
 
 /// Check that all used coordinates are finite and all vertex ids are in range; otherwise return
-/// invalid_input with the first violation. An empty mesh is valid; callers that need triangles
-/// check for them.
+/// invalid_input with the first invalid coordinate or id. An empty mesh is valid; callers that need
+/// triangles must check for them.
 Status check_mesh(PointsView points, TrianglesView triangles);
 Status check_mesh(PointsView points, TetsView tets);
 
@@ -99,31 +102,33 @@ Eigen::VectorXd tet_volumes(PointsView points, TetsView tets);
 /// Return the facets that belong to exactly one tet, oriented outwards.
 Triangles boundary_triangles(TetsView tets);
 
-/// An edge of a triangle mesh and its use by triangles.
+/// An edge of a triangle mesh and the number of triangles that use it.
 struct Edge
 {
   Index a = 0, b = 0; ///< vertex ids, a < b
-  int uses = 0; ///< triangles at the edge
-  int net_direction = 0; ///< (#triangles that run a->b) - (#triangles that run b->a)
+  int uses = 0; ///< number of triangles at the edge
+  /// (number of triangles that use it as a->b) - (number of triangles that use it as b->a).
+  int net_direction = 0;
 };
 
 /// Return all edges, sorted by (a, b). Edges from a vertex to itself (degenerate triangles) are
 /// omitted.
 std::vector<Edge> mesh_edges(TrianglesView triangles);
 
-/// Numbers of edges of a surface, by their use.
+/// Numbers of edges of a surface, by the number and orientation of their triangles.
 struct EdgeCounts
 {
   Index edges = 0;
   Index boundary = 0; ///< used by one triangle
   Index nonmanifold = 0; ///< used by three triangles or more
-  Index misoriented = 0; ///< used by two triangles that run the same way
-  /// Closed in the sense of the winding number: every edge's directions cancel.
+  Index misoriented = 0; ///< used by two triangles in the same direction
+  /// Whether the surface is closed in the sense of the winding number: every edge is used equally
+  /// often in both directions.
   bool closed = true;
 };
 EdgeCounts count_edges(TrianglesView triangles);
 
-/// Connected components by shared vertices.
+/// Connected components of a mesh. Triangles are connected if they share a vertex.
 struct Components
 {
   Index count = 0;

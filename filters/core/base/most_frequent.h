@@ -8,8 +8,8 @@
 namespace bindpose
 {
 
-/// Return the most frequent value, the lowest of equally frequent ones. Sorts the range, which must
-/// not be empty.
+/// Return the most frequent value. If several values are equally frequent, return the lowest one.
+/// The range is sorted and must not be empty.
 template <typename Iterator>
 typename std::iterator_traits<Iterator>::value_type most_frequent(Iterator begin, Iterator end)
 {

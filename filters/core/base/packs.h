@@ -7,10 +7,10 @@
 namespace bindpose
 {
 
-/// Numbers that one instruction processes. 32 bytes (8 floats or 4 doubles) are a register of AVX2,
-/// for use with BINDPOSE_SIMD_CLONES. 64 bytes are a register of AVX-512. They are useless on AVX2,
-/// where GCC keeps them in memory, so they are for functions that are compiled for each width
-/// (BINDPOSE_SIMD_WIDTHS).
+/// A pack: numbers that one instruction processes in parallel. 32 bytes (8 floats or 4 doubles) are
+/// a register of AVX2, for use with BINDPOSE_SIMD_CLONES. 64 bytes are a register of AVX-512. Packs
+/// of 64 bytes are slow on AVX2, where GCC stores them in memory. Therefore they are used only in
+/// functions that are compiled for each register size (BINDPOSE_SIMD_WIDTHS).
 template <typename Scalar, int bytes = 32>
 struct PackOf
 {
@@ -43,7 +43,7 @@ BINDPOSE_ALWAYS_INLINE double sum_of(const PackOf<double>::Pack& p)
   return (p[0] + p[2]) + (p[1] + p[3]);
 }
 
-/// Add A x_j to y_j, j = 0, 1, 2, for `count` columns of A, in their order.
+/// Add A x_j to y_j for j = 0, 1, 2. A has `count` columns, which are processed in ascending order.
 /// @param x_stride distance from x_j to x_j+1; the y_j have #rows entries each
 template <Index count, int bytes = 32, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void add_columns(

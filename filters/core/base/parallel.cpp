@@ -1,3 +1,5 @@
+// Parallel loops with TBB whose results do not depend on the number of threads.
+//
 // There is one TBB task per block. TBB chooses the thread that runs a block. The blocks, and the
 // order in which partial sums are added, are fixed.
 #include "base/parallel.h"
@@ -16,7 +18,7 @@ namespace bindpose
 
 int thread_count(int asked)
 {
-  // TBB would print a warning for more threads.
+  // TBB would print a warning if more threads than cores were requested.
   const int cores = tbb::info::default_concurrency();
   return asked > 0 ? std::min(asked, cores) : cores;
 }
@@ -52,7 +54,8 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
   }
   else
   {
-    // Isolated, so that a thread that waits for the last block does not start other tasks.
+    // The loop is isolated, so that a thread that waits for the last block does not start other
+    // tasks.
     const auto share = [&]
     {
       tbb::this_task_arena::isolate(
@@ -61,13 +64,14 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
     const int threads = thread_count(context.threads());
     if (threads == thread_count(0))
     {
-      // The existing arena is used. An arena per call would exist until its workers have left, and
-      // such arenas accumulate on a busy machine.
+      // The existing arena is used. A new arena per call would exist until its worker threads have
+      // left it, and such arenas would accumulate on a busy machine.
       share();
     }
     else
     {
-      thread_local std::map<int, tbb::task_arena> arenas; // kept between calls for the same reason
+      // Kept between calls, because new arenas would accumulate.
+      thread_local std::map<int, tbb::task_arena> arenas;
       arenas.try_emplace(threads, threads).first->second.execute(share);
     }
   }

@@ -9,13 +9,14 @@
 namespace bindpose
 {
 
-/// Lends working memory to parallel bodies. There are as many objects as bodies that run
-/// concurrently; each one is created when it is first needed.
+/// Working memory for parallel loop bodies. Each body that runs concurrently uses a separate
+/// object, which is created when it is first needed and then reused.
 template <typename T>
 class PerThread
 {
 public:
-  /// @param make function () -> std::unique_ptr<T>
+  /// Call use(object) with an object that no other thread is using. @param make function () ->
+  /// std::unique_ptr<T>
   template <typename Make, typename Use>
   void with(const Make& make, const Use& use)
   {
@@ -37,7 +38,7 @@ public:
     this->idle_.push_back(std::move(one));
   }
 
-  /// Call see(const T&) for each object. No body may run meanwhile.
+  /// Call see(const T&) for each object. No body may run at the same time.
   template <typename See>
   void for_each(const See& see) const
   {

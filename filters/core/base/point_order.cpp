@@ -1,5 +1,5 @@
-// The box of the points is divided into 16 or 32 cells along each axis, numbered in Morton order. A
-// counting sort distributes the points to the cells.
+// Spatial sort of points. The box of the points is divided into 16 or 32 cells along each axis,
+// which are numbered in Morton order. A counting sort distributes the points to the cells.
 #include "base/point_order.h"
 
 #include <algorithm>
@@ -11,7 +11,8 @@ namespace bindpose
 
 std::vector<std::int32_t> order_by_place(const std::vector<Vec3>& points)
 {
-  // The box of a sample of the points. Points outside are assigned to the cells at its sides.
+  // This is the box of a sample of the points. Points outside the box are assigned to the nearest
+  // cells.
   Box box;
   constexpr std::size_t some = 16;
   for (std::size_t i = 0; i < points.size(); i += some)
@@ -24,7 +25,7 @@ std::vector<std::int32_t> order_by_place(const std::vector<Vec3>& points)
   constexpr std::size_t many = 16384;
   const int bits = points.size() < many ? 4 : 5;
   const double cells = std::ldexp(1.0, bits);
-  std::array<std::uint32_t, 32> spread{}; // bit i moved to bit 3 i
+  std::array<std::uint32_t, 32> spread{}; // spread[n] is n with bit i moved to bit 3 i
   for (std::uint32_t i = 0; i < spread.size(); ++i)
   {
     for (int bit = 0; bit < 5; ++bit)

@@ -1,5 +1,6 @@
-// Each column has its own steps and directions. All columns that have not converged are multiplied
-// and preconditioned together, which is several times faster per column than one by one.
+// Conjugate gradients for many right-hand sides. Each column has its own step lengths and search
+// directions. All columns that have not converged are multiplied and preconditioned in one call,
+// which is several times faster per column than separate calls.
 #include "base/refined_solve.h"
 
 #include <algorithm>
@@ -29,7 +30,8 @@ double refined_solve(const FloatCholesky& factor,
     }
   }
   double worst = 0.0;
-  // Residuals, preconditioned residuals and directions of the open columns, side by side.
+  // Residuals, preconditioned residuals and search directions of the open columns, one matrix
+  // column each.
   MatrixXd r = rhs(Eigen::all, open);
   MatrixXd z;
   MatrixXd p;
@@ -46,7 +48,7 @@ double refined_solve(const FloatCholesky& factor,
     last = now;
     const MatrixXd product = multiply(p);
     const VectorXd curvature = p.cwiseProduct(product).colwise().sum();
-    std::vector<Index> kept; // indices among the open columns
+    std::vector<Index> kept; // indices of the columns that stay open, as columns of r
     for (Index k = 0; k < static_cast<Index>(open.size()); ++k)
     {
       bool ends = !(curvature[k] > 0.0) || !std::isfinite(now[k]);

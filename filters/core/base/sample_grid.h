@@ -10,7 +10,8 @@ namespace bindpose
 {
 
 /// Samples in a box, x fastest: sample (i, j, k) of the extent is at origin + spacing * (i, j, k).
-/// The value of a sample depends on its point only, so any sub-extent gets the same bits.
+/// The point of a sample depends only on (i, j, k), so results are bit-identical for every
+/// sub-extent.
 struct SampleGrid
 {
   Vec3 origin = Vec3::Zero();
@@ -18,7 +19,7 @@ struct SampleGrid
   /// First and last index along x, y, z, inclusive, as in VTK. Empty by default.
   std::array<Index, 6> extent{ 0, -1, 0, -1, 0, -1 };
 
-  /// Number of samples along an axis, never negative.
+  /// Return the number of samples along an axis, never negative.
   Index size(int axis) const
   {
     return std::max<Index>(0, this->extent[2 * axis + 1] - this->extent[2 * axis] + 1);
@@ -30,7 +31,7 @@ struct SampleGrid
       this->spacing.cwiseProduct(
         Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
   }
-  /// Return the point of the sample with this index within the extent, from 0.
+  /// Return the point of a sample. `number` is the index of the sample within the extent, from 0.
   Vec3 point(Index number) const
   {
     const Index nx = this->size(0), ny = this->size(1);

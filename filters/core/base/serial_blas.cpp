@@ -1,3 +1,5 @@
+// Limits BLAS and OpenMP to one thread within a scope. The functions of the BLAS in use are looked
+// up at run time.
 #include "base/serial_blas.h"
 
 #include <dlfcn.h>

@@ -9,10 +9,10 @@ namespace bindpose
 /// Scope in which calls of BLAS and CHOLMOD from this thread run on this thread only. If the BLAS
 /// does not support concurrent calls, they are serialized, too.
 ///
-/// A threaded OpenBLAS is set once to use one thread. OpenMP regions started from this thread are
-/// made inactive. OpenBLAS built without threads (libopenblas0-serial) has no locks either: two
-/// concurrent calls share a work buffer and occasionally return wrong numbers. With this library
-/// only one call runs at a time.
+/// A threaded OpenBLAS is configured once to use one thread. OpenMP regions started from this
+/// thread are made inactive. OpenBLAS built without threads (libopenblas0-serial) has no locks: two
+/// concurrent calls would share a work buffer and occasionally return wrong results. Therefore,
+/// with this library, only one thread at a time can be in such a scope.
 class SerialBlas
 {
 public:

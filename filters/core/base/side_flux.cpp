@@ -1,3 +1,4 @@
+// Flux of piecewise linear functions through sides of triangles.
 #include "base/side_flux.h"
 
 #include <cmath>
@@ -12,17 +13,18 @@ SparseMatrix side_flux(
   for (const TriangleSide& side : sides)
   {
     const Index t = side.triangle;
-    const int k = (side.corner + 2) % 3; // opposite to the edge
+    const int k = (side.corner + 2) % 3; // corner opposite to the edge
     const Vec3 p[3] = { points.row(triangles(t, 0)), points.row(triangles(t, 1)),
       points.row(triangles(t, 2)) };
-    const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]); // its length is twice the area
+    // The length of the normal is twice the area.
+    const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
     const double squared = normal.squaredNorm();
     if (!(squared > 0.0))
     {
       continue;
     }
     const Vec3 unit = normal / std::sqrt(squared);
-    // The length of `outwards` is that of the edge.
+    // The length of `outwards` is the length of the edge.
     const Vec3 outwards = (p[(k + 2) % 3] - p[(k + 1) % 3]).cross(unit);
     for (Index c = 0; c < 3; ++c)
     {

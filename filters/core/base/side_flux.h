@@ -7,8 +7,9 @@
 namespace bindpose
 {
 
-/// Return N (#V x #V): N_ij is the integral of phi_i n . grad phi_j over these sides of triangles,
-/// the flux out of each triangle. n lies in the plane of the triangle.
+/// Return the matrix N of the flux out of triangles through these sides (#V x #V): N_ij is the
+/// integral of phi_i n . grad phi_j over the sides. n lies in the plane of the triangle and is
+/// normal to the side.
 SparseMatrix side_flux(
   PointsView points, TrianglesView triangles, const std::vector<TriangleSide>& sides);
 

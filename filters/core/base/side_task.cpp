@@ -1,3 +1,4 @@
+// A task that runs on a separate thread after a delay and is canceled with its owner.
 #include "base/side_task.h"
 
 #include <chrono>
@@ -19,7 +20,7 @@ SideTask::SideTask(double delay, ExecutionContext& context, Work work)
     }
     catch (const std::system_error&)
     {
-      // No thread is available: finish() does the work.
+      // No thread is available, so finish() does the work.
     }
   }
 }

@@ -13,14 +13,14 @@
 namespace bindpose
 {
 
-/// Work that may be needed later and runs on a separate thread while the owner does something else.
+/// Runs work that may be needed later on a separate thread, in parallel with the owner's thread.
 /// The owner decides afterward whether to use the result, so an early start changes only the time
 /// until the result is available.
 class SideTask
 {
 public:
-  /// Runs on one thread. Its context is canceled when the owner's context is canceled, and by the
-  /// destructor.
+  /// The work runs on one thread. Its context is canceled when the owner's context is canceled, and
+  /// by the destructor.
   using Work = std::function<void(ExecutionContext& context)>;
 
   /// Start the work after `delay` seconds. If the context has only one thread, finish() does the
@@ -42,11 +42,11 @@ private:
   const Work work_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  bool wanted_ = false; ///< finish() was called
+  bool wanted_ = false; ///< true after finish() was called
   std::atomic<bool> dropped_{ false }; ///< set by the destructor
   bool finished_ = false;
   std::exception_ptr failure_;
-  std::thread thread_; ///< none if the context has one thread
+  std::thread thread_; ///< not started if the context has only one thread
 };
 
 } // namespace bindpose

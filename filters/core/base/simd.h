@@ -3,13 +3,14 @@
 
 /// BINDPOSE_SIMD_CLONES in front of a function compiles it for several instruction sets; the best
 /// one for the machine is selected at run time. Use it only for loops that the compiler vectorizes
-/// over independent items. Then every clone computes the same bits, because operations are
-/// contracted to fused ones only in files that request it (see BindposeCompiler.cmake). Functions
-/// that it calls must be BINDPOSE_ALWAYS_INLINE; others use the baseline instruction set.
+/// over independent items. Then every clone computes the same bits, because multiplications and
+/// additions are contracted to fused operations only in files that request it (see
+/// BindposeCompiler.cmake). Functions called in the loop must be BINDPOSE_ALWAYS_INLINE, because
+/// other functions use the baseline instruction set.
 ///
-/// BINDPOSE_SIMD_WIDTHS(define, Scalar) is for loops over packs of a register's size. It expands
-/// define(version, bytes, Scalar) once for each instruction set. `define` is a macro for a function
-/// that begins with `version` and works on packs of `bytes` bytes.
+/// BINDPOSE_SIMD_WIDTHS(define, Scalar) is for loops over packs (base/packs.h) whose size is that
+/// of a register. It expands define(version, bytes, Scalar) once for each instruction set. `define`
+/// is a macro for a function that begins with `version` and works on packs of `bytes` bytes.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
   !defined(__SANITIZE_ADDRESS__)
 #define BINDPOSE_SIMD_CLONES \

@@ -1,5 +1,5 @@
-// A binary tree of axis-aligned boxes. It is split at the median of the elements' centers along the
-// longest side and searched nearest box first.
+// Nearest element by a binary tree of axis-aligned boxes. Nodes are split at the median of the
+// elements' centers along the longest side. The search visits the nearest box first.
 #include "base/simplex_locator.h"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 #ifndef bindpose_base_simplex_locator_h
 #define bindpose_base_simplex_locator_h
 
+// Search for the element of a mesh that contains a point or is nearest to it.
+
 #include "base/mesh.h"
 
 #include <array>
@@ -13,9 +15,9 @@ namespace bindpose
 /// point that is nearest to the query point (for a triangle the fourth is 0).
 struct SimplexLocation
 {
-  Index element = -1; ///< -1: the mesh has no element or the point is not finite
+  Index element = -1; ///< element id; -1: the mesh has no element or the point is not finite
   std::array<double, 4> barycentric{ 0.0, 0.0, 0.0, 0.0 };
-  double distance = 0.0; ///< from the point to the element, 0 inside
+  double distance = 0.0; ///< distance from the query point to the element, 0 inside
 };
 
 /// Return the point of a triangle or tet that is nearest to p, as barycentric coordinates and
@@ -25,12 +27,12 @@ SimplexLocation nearest_in_tet(
   const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// Finds the element that contains a point, or the nearest element, by a tree of boxes. Building
-/// costs O(n log n), a query near the mesh O(log n). Of equally near elements, the one of the
-/// lowest id is returned.
+/// costs O(n log n), a query near the mesh O(log n). If several elements are equally near, the one
+/// with the lowest id is returned.
 class SimplexLocator
 {
 public:
-  /// The locator keeps views: points and elements must outlive it.
+  /// Build the tree. The object stores views, so points and elements must outlive it.
   SimplexLocator(PointsView points, TetsView tets);
   SimplexLocator(PointsView points, TrianglesView triangles);
 
@@ -40,8 +42,8 @@ private:
   struct Node
   {
     Vec3 lower, upper;
-    Index begin = 0, end = 0; // range in order_ of a leaf
-    Index right = -1; // the left child follows its parent; -1: leaf
+    Index begin = 0, end = 0; // range in order_ of a leaf's elements
+    Index right = -1; // right child; the left child is the next node; -1: a leaf
   };
   void build();
   Index build(Index begin, Index end);

@@ -7,7 +7,7 @@
 namespace bindpose
 {
 
-/// Sort the items and keep one of equal items.
+/// Sort the items and remove duplicates.
 template <typename Item>
 void sort_unique(std::vector<Item>& items)
 {

@@ -1,15 +1,15 @@
-// One interface, two backends.
+// Sparse Cholesky factorization with one interface and two backends, CHOLMOD and Eigen.
 //
 // CHOLMOD: cholmod_analyze returns a symbolic factor, which clones share. Each clone copies it when
 // it first factors and has its own workspace (cholmod_common), so that clones can factor
 // concurrently. The factor is always supernodal LL', because a simplicial LDL' would accept
 // negative pivots silently.
 //
-// A factorization is serial, because handles are solved in parallel one level up, and a threaded
-// BLAS would make results depend on the number of threads. CHOLMOD also assembles supernodes in
-// OpenMP regions of four threads. These threads would obstruct each other, so the regions are made
-// inactive for the call. OpenBLAS should be the threaded build, set to use one thread: the build
-// without threads does not support concurrent calls (see SerialBlas).
+// A factorization is serial: the caller solves for several handles in parallel, and a threaded BLAS
+// would make results depend on the number of threads. CHOLMOD also assembles supernodes in OpenMP
+// regions of four threads. These threads would obstruct each other, so the regions are made
+// inactive for the call. The threaded build of OpenBLAS, configured to use one thread, is
+// preferable: the build without threads does not support concurrent calls (see SerialBlas).
 #include "base/sparse_solver.h"
 
 #include "base/memory.h"
@@ -38,7 +38,7 @@ struct Counters
   std::atomic<Index> factorizations{ 0 };
 };
 
-/// Interface of a backend; SparseSolver counts and checks.
+/// Interface of a backend. SparseSolver counts factorizations and checks arguments.
 class Factorization
 {
 public:
@@ -98,7 +98,8 @@ public:
 
   std::unique_ptr<Factorization> clone() const override
   {
-    // Eigen's solver cannot be copied; its analysis is cheap compared with a factorization.
+    // Eigen's solver cannot be copied, so the analysis is repeated. It is fast compared with a
+    // factorization.
     auto copy = std::make_unique<EigenFactorization>();
     copy->pattern_ = this->pattern_;
     if (copy->pattern_)
@@ -108,7 +109,7 @@ public:
     return copy;
   }
 
-  // The analysis allocates the factor.
+  // The analysis already allocates the factor.
   bool has_factor() const override { return true; }
   double bytes() const override
   {
@@ -204,7 +205,7 @@ public:
     {
       return this->failure("factored");
     }
-    // LAPACK accepts NaN; the estimate of the condition is then 0 or NaN.
+    // LAPACK does not detect NaN in the matrix; the estimate of the condition is then 0 or NaN.
     return cholmod_rcond(this->factor_, &this->common_) > 0.0
       ? Status()
       : Status::invalid_input("the matrix to factor contains values that are not finite");
@@ -323,9 +324,9 @@ private:
 
   SparseSolver::Ordering ordering_;
   mutable cholmod_common common_{};
-  std::shared_ptr<cholmod_factor> pattern_; // shared by clones
+  std::shared_ptr<cholmod_factor> pattern_; // the analysis, shared by clones
   cholmod_factor* factor_ = nullptr; // null before the first factorization
-  cholmod_dense* x_ = nullptr; // kept between solves
+  cholmod_dense* x_ = nullptr; // kept between solves to reuse its memory
   cholmod_dense* y_ = nullptr;
   cholmod_dense* e_ = nullptr;
   std::shared_ptr<const Supernodes> supernodes_;
@@ -410,8 +411,8 @@ Status SparseSolver::analyze(const SparseMatrix& matrix)
   {
     return Status::invalid_input("the matrix to factor must be square and compressed");
   }
-  // METIS uses the C library's random generator. Analyses are serialized, so that each one is
-  // repeatable.
+  // METIS uses the random generator of the C library. Analyses never run concurrently, so that each
+  // one is repeatable.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   this->impl_->size = matrix.rows();

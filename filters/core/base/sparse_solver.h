@@ -22,8 +22,9 @@ struct Supernodes;
 /// concurrent factorizations, use one clone() per thread; all clones share one analysis.
 ///
 /// The backend is CHOLMOD's supernodal method (dense blocks, BLAS; GPL) if it is built in.
-/// Otherwise it is Eigen's SimplicialLDLT, which is several times slower on volume meshes. Both are
-/// deterministic: METIS seeds its generator itself, and analyses never run concurrently.
+/// Otherwise it is Eigen's SimplicialLDLT, which is several times slower on volume meshes. Both
+/// backends are deterministic: METIS seeds its random generator itself, and analyses never run
+/// concurrently.
 class SparseSolver
 {
 public:
@@ -36,15 +37,15 @@ public:
   enum class Ordering
   {
     automatic, ///< METIS above 500 unknowns, AMD below (Eigen's backend always uses AMD)
-    metis, ///< nested dissection: least fill on meshes
-    amd ///< minimum degree: fastest to compute
+    metis, ///< nested dissection: smallest factor on meshes
+    amd ///< approximate minimum degree: fastest to compute
   };
   struct Options
   {
     Backend backend = Backend::automatic;
     Ordering ordering = Ordering::automatic;
-    /// MiB that the whole process may use; 0: all available memory. A factorization that would take
-    /// more is rejected before it begins.
+    /// MiB that the whole process may use; 0: all available memory. A factorization that needs more
+    /// memory is rejected before it begins.
     Index memory_limit = 0;
   };
 
@@ -56,7 +57,7 @@ public:
 
   /// Report whether this build has CHOLMOD.
   static bool has_cholmod();
-  /// Return a sentence for the user if CHOLMOD runs on a BLAS that is not known to be fast (the
+  /// Return a warning for the user if CHOLMOD uses a BLAS that is not known to be fast (the
   /// reference BLAS is about 17 times slower than OpenBLAS), otherwise an empty string.
   static std::string blas_warning();
 
@@ -68,8 +69,8 @@ public:
   /// be too large.
   Status analyze(const SparseMatrix& matrix);
   /// Factor a matrix of the analyzed pattern. The status is invalid_input if the matrix is not
-  /// positive definite; the message names the unknown whose pivot failed. It is internal_error if
-  /// the factor does not fit into memory.
+  /// positive definite; the message contains the unknown whose pivot failed. The status is
+  /// internal_error if the factor does not fit into memory.
   Status factor(const SparseMatrix& matrix);
   /// Solve for the columns of rhs with the last factorization.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
@@ -79,18 +80,19 @@ public:
   /// Return a solver with the same analysis and no factorization, for use on another thread.
   SparseSolver clone() const;
 
-  /// Return the positions of the factor's nonzeros; null for Eigen's backend and before analyze().
-  /// Other factorizations use them (see FloatCholesky).
+  /// Return the positions of the factor's nonzeros, which other factorizations reuse (see
+  /// FloatCholesky). The result is null for Eigen's backend and before analyze().
   std::shared_ptr<const Supernodes> supernodes() const;
 
-  /// Return the bytes of this object's factor, which are known after analyze().
+  /// Return the memory of this object's factor in bytes, which is known after analyze().
   double factor_bytes() const;
-  /// Return the number of unknowns, of nonzeros of the factor, and of floating-point operations of
-  /// one factorization.
+  /// Return the number of unknowns. The next two functions return the number of nonzeros of the
+  /// factor and the number of floating-point operations of one factorization.
   Index size() const;
   double factor_nonzeros() const;
   double factor_operations() const;
-  /// Return how often this solver and all its clones analyzed and factored.
+  /// Return the total number of analyses by this solver and all its clones. The next function
+  /// returns the number of factorizations.
   Index analyses() const;
   Index factorizations() const;
 

@@ -1,3 +1,4 @@
+// Status codes, reports of measured values, and the cleanup of text for messages.
 #include "base/status.h"
 
 #include <algorithm>
@@ -35,8 +36,8 @@ auto find_entry(Entries& entries, const std::string& key)
     entries.begin(), entries.end(), [&](const auto& entry) { return entry.first == key; });
 }
 
-/// Return the bytes of the printable UTF-8 character at the beginning of the text, or 0 if there is
-/// none.
+/// Return the length in bytes of the UTF-8 character at the beginning of the text, or 0 if there is
+/// no valid printable character.
 std::size_t character_length(std::string_view text)
 {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -57,7 +58,7 @@ std::size_t character_length(std::string_view text)
       return 0;
     }
   }
-  // An overlong encoding, a surrogate, or a code beyond the last character.
+  // Reject an overlong encoding, a surrogate, or a code beyond the last character.
   const unsigned second = byte(1);
   const bool wrong = (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
     (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);

@@ -1,6 +1,8 @@
 #ifndef bindpose_base_status_h
 #define bindpose_base_status_h
 
+// Status and report of a computation.
+
 #include <cstdint>
 #include <string>
 #include <type_traits>
@@ -11,25 +13,27 @@
 namespace bindpose
 {
 
-/// Outcome of a computation. Filters expose these values as integers in this order.
+/// Outcome of a computation. Filters return the integer values of these codes.
 enum class StatusCode
 {
   ok = 0,
-  not_converged, ///< a result exists; its residuals are in the report and exceed the tolerance
-  invalid_input, ///< the caller's data cannot be used; the message names the first violation
+  not_converged, ///< there is a result, but its residuals (see the report) exceed the tolerance
+  invalid_input, ///< the caller's data cannot be used; the message contains the first violation
   canceled,
-  unavailable, ///< a component is missing, or the method cannot do it; the message says what to do
+  /// A component is missing, or the method does not support the case; the message says what to do.
+  unavailable,
   internal_error
 };
 
-/// Return "ok", "not_converged", …: the words of reports, files and Python.
+/// Return "ok", "not_converged", …, as used in reports, files and Python.
 const char* to_string(StatusCode code);
 
 /// Measured values by key, in the order in which they were first set.
 ///
 /// A key is one of the report's documented names. A dot makes an object ("seconds.factor"). "[]."
-/// makes a list of objects whose columns are vectors of equal length ("handles[].name"). A key that
-/// does not apply is absent. Field data, JSON and Python use the same keys.
+/// makes a list of objects: the values of all keys with the same prefix are vectors of equal
+/// length, with one entry per object ("handles[].name"). A key that does not apply is absent. Field
+/// data, JSON and Python use the same keys.
 class Report
 {
 public:
@@ -37,7 +41,7 @@ public:
     std::vector<double>, std::vector<std::string>>;
 
   void set(const std::string& key, Value value);
-  /// Store any number: integers remain integers, others become doubles.
+  /// Store a number. Integers remain integers, other numbers become doubles.
   template <typename Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
   void set(const std::string& key, Number value)
   {
@@ -45,15 +49,15 @@ public:
     this->set(key, Value(static_cast<Stored>(value)));
   }
   void set(const std::string& key, const char* value) { this->set(key, Value(std::string(value))); }
-  /// Add to a number, or set it if it is absent (for the seconds of a phase that runs several
-  /// times).
+  /// Add to the number for the key, or set the number if it is absent. Used for a phase that runs
+  /// several times.
   void add(const std::string& key, double value);
   void erase(const std::string& key);
-  /// Copy all entries of the other report, replacing those of the same key.
+  /// Copy all entries of the other report. Existing entries with the same keys are replaced.
   void merge(const Report& other);
 
   const Value* find(const std::string& key) const;
-  /// Return the number for the key, or the fallback if it is absent or not a number.
+  /// Return the number for the key, or `fallback` if it is absent or not a number.
   double number(const std::string& key, double fallback) const;
   std::string text(const std::string& key, const std::string& fallback = {}) const;
 
@@ -64,11 +68,12 @@ private:
   std::vector<std::pair<std::string, Value>> entries_;
 };
 
-/// Return the text with a '?' for every control character and every byte that is not UTF-8. The
-/// content of a file or a name must not break a line, a terminal or a Python string.
+/// Return the text with a '?' for every control character and every byte that is not UTF-8. This
+/// keeps text from files and names from breaking a line, a terminal or a Python string.
 std::string one_line(std::string text);
 
-/// Outcome of a computation: code, one sentence, warnings (one sentence each) and the numbers.
+/// Outcome of a computation: a code, a message of one sentence, warnings (one sentence each) and a
+/// report of measured values.
 struct Status
 {
   StatusCode code = StatusCode::ok;
@@ -77,7 +82,7 @@ struct Status
   Report report;
 
   bool ok() const { return this->code == StatusCode::ok; }
-  /// Report whether there is a result to pass on: ok or not_converged.
+  /// Report whether there is a result: the code is ok or not_converged.
   bool usable() const { return this->ok() || this->code == StatusCode::not_converged; }
 
   /// Return a failed status. The message is passed through one_line().

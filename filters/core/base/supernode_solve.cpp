@@ -1,7 +1,8 @@
-// The solve runs supernode by supernode. The supernode's own unknowns and those of the rows below
-// are gathered in a small array, so that each column of the block meets contiguous memory. Four
-// columns are processed at a time, because the small array is then read and written a quarter as
-// often.
+// Triangular solves with a supernodal Cholesky factor in single precision. The solve processes one
+// supernode after the other. The entries of the supernode's own unknowns and of the rows below are
+// copied to a small contiguous array, so that products with the columns of the block use contiguous
+// memory. Four columns are processed per pass, so that the small array is read and written a
+// quarter as often.
 #include "base/supernode_solve.h"
 
 #include "base/simd.h"
@@ -16,17 +17,17 @@ namespace bindpose
 
 namespace
 {
-constexpr int group = 4; // columns of a block that are processed together
+constexpr int group = 4; // number of columns of a block that are processed together
 
-/// Entries of one row, for all right-hand sides.
+/// Entries of one row for four right-hand sides.
 typedef float Row4 __attribute__((vector_size(16)));
 typedef float Row8 __attribute__((vector_size(32)));
 /// Partial sums of the dot products of a single right-hand side.
 typedef float Lanes __attribute__((vector_size(64), aligned(4)));
 constexpr int lanes = 16;
 
-/// Solve with the triangle at the top of each group of columns, then subtract from the rows below:
-/// t -= block x.
+/// Solve with the triangle at the top of each group of columns, then subtract the products from the
+/// rows below: t -= block x.
 template <typename Row>
 BINDPOSE_ALWAYS_INLINE void forward(const float* block, int rows, int width, float* entries)
 {
@@ -63,8 +64,8 @@ BINDPOSE_ALWAYS_INLINE void forward(const float* block, int rows, int width, flo
   }
 }
 
-/// Compute the dot products of `count` columns, from row `first` on, with t. The sums are
-/// independent of each other.
+/// Compute the dot products of `count` columns with t, from row `first` on. The sums do not depend
+/// on each other, so they run in parallel.
 template <int count, typename Row>
 BINDPOSE_ALWAYS_INLINE void dots(const float* a, const Row* t, int first, int rows, Row* sums)
 {
@@ -112,7 +113,8 @@ BINDPOSE_ALWAYS_INLINE void dots(const float* a, const float* t, int first, int 
   }
 }
 
-/// Solve t = block^-T t; the entries of the rows below are given.
+/// Solve t = block^-T t for the entries of the supernode's own rows. The entries of the rows below
+/// are input.
 template <typename Row>
 BINDPOSE_ALWAYS_INLINE void backward(const float* block, int rows, int width, float* entries)
 {

@@ -1,5 +1,5 @@
-// Facets are put into buckets by their smallest vertex, about a dozen per bucket. Each bucket is
-// sorted.
+// Sorted facets of a tet mesh. Facets are put into buckets by their smallest vertex id, about a
+// dozen per bucket. Then each bucket is sorted.
 #include "base/tet_facets.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ std::vector<TetFacet> tet_facets(TetsView tets)
       facets.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]),
       [](const TetFacet& x, const TetFacet& y)
       {
-        // The first vertices are equal.
+        // The first vertices are equal within a bucket.
         return x.vertices[1] != y.vertices[1] ? x.vertices[1] < y.vertices[1]
           : x.vertices[2] != y.vertices[2]    ? x.vertices[2] < y.vertices[2]
                                               : x.tet < y.tet;

@@ -1,6 +1,8 @@
 #ifndef bindpose_base_tet_facets_h
 #define bindpose_base_tet_facets_h
 
+// Sorted facets of a tet mesh.
+
 #include "base/mesh.h"
 
 #include <array>
@@ -9,15 +11,16 @@
 namespace bindpose
 {
 
-/// Corners of a positive tet's sides, ordered to point outwards; side k is opposite to corner k.
+/// Corners of the four facets of a positive tet, ordered so that normals point outwards. Facet k is
+/// opposite to corner k.
 constexpr int facet_corners[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
 
-/// A side of a tet, identified by its vertices in ascending order.
+/// A facet of a tet, identified by its vertex ids in ascending order.
 struct TetFacet
 {
   std::array<Index, 3> vertices;
   Index tet;
-  int side; ///< row of facet_corners
+  int side; ///< index of the facet in facet_corners
 };
 
 /// Return the 4 #T facets, sorted by vertices, then by tet, so that the facets of two neighbors are

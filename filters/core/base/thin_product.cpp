@@ -1,3 +1,4 @@
+// Products of a large dense matrix, or its transpose, with three columns.
 #include "base/thin_product.h"
 
 #include "base/packs.h"
@@ -18,7 +19,8 @@ BINDPOSE_SIMD_CLONES void multiply(
   Index c = 0;
   for (; c + 4 <= cols; c += 4)
   {
-    // Skip zeros: given blocks, those of full handles, are zero except at these handles.
+    // Skip groups of zeros. Such groups are frequent, because the blocks of specified (full)
+    // handles are zero except at these handles.
     if (any_of_four(x + c) || any_of_four(x + cols + c) || any_of_four(x + 2 * cols + c))
     {
       add_columns<4>(rows, a + c * rows, x + c, cols, y);

@@ -1,6 +1,8 @@
 #ifndef bindpose_base_thin_product_h
 #define bindpose_base_thin_product_h
 
+// Products of a large dense matrix with three columns.
+
 #include "base/mesh.h"
 
 namespace bindpose
@@ -9,9 +11,9 @@ namespace bindpose
 /// A matrix with one column per coordinate.
 using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// Return A X and A^T X for three columns. A library's product for matrices of any size spends more
-/// time on rearranging A than on the product. Here each number of A is read once. The bits are the
-/// same on every processor.
+/// Return A X and A^T X for three columns. A general matrix product of a library would spend more
+/// time on rearranging A than on the product. This function reads each entry of A once. The bits
+/// are the same on every processor.
 Coordinates thin_product(const Eigen::MatrixXd& a, const Coordinates& x);
 Coordinates transposed_thin_product(const Eigen::MatrixXd& a, const Coordinates& x);
 

@@ -1,4 +1,5 @@
-// Sides are put into buckets by the lower of their vertices, then each small bucket is sorted.
+// Sides of triangles, sorted by edge. Sides are put into buckets by their lower vertex id, then
+// each small bucket is sorted.
 #include "base/triangle_sides.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ std::vector<TriangleSide> sides_by_edge(TrianglesView triangles)
   std::vector<TriangleSide> sides(static_cast<std::size_t>(triangles.size()));
   for_each(
     [&](const TriangleSide& side) { sides[next[static_cast<std::size_t>(side.a)]++] = side; });
-  // next[v] is now the end of the sides of vertex v.
+  // next[v] is now the index after the last side of vertex v.
   std::size_t begin = 0;
   for (Index v = 0; v < vertices; ++v)
   {

@@ -1,16 +1,20 @@
-// A clean surface is passed to TetGen unchanged. Any other surface is first refined exactly until
-// its triangles meet only in shared vertices and edges. TetGen then fills the convex hull (or a box
-// around it) with tets that keep all these triangles, and tets with a winding number below the
-// threshold are removed. If the region is bounded mostly by openings, small tets in a box are tried
-// first, because their boundary can follow the winding number.
+// Method cdt: constrained Delaunay tets by TetGen, with fallbacks for surfaces on which TetGen
+// fails.
 //
-// TetGen 1.5 fails on some inputs with one set of switches and on others with another set, so two
-// sets are tried. Then both are tried with vertices rounded to a coarser grid (which welds nearly
-// coincident ones) and with vertices moved a little (which separates the triangles of soups). The
-// last attempt is a plain Delaunay triangulation of the refined vertices, or of the surface's
-// vertices if too many triangles cross. Its tets need not respect the triangles.
+// A clean surface is passed to TetGen unchanged. The triangles of any other surface are first cut
+// exactly along their crossings (the refinement), until they intersect only in shared vertices and
+// edges. TetGen then fills the convex hull (or a box around it) with tets that keep all these
+// triangles, and tets with a winding number below the threshold are removed. If openings form most
+// of the region's boundary, small tets in a box are tried first, because the boundary of small tets
+// can follow an isosurface of the winding number.
 //
-// cdt_tets_fill.cpp then adds vertices inside the kept tets and improves the tets.
+// TetGen 1.5 fails on some inputs with one set of switches and on other inputs with another set, so
+// two sets are tried. Then both sets are tried with vertices rounded to a coarser grid, which welds
+// nearly coincident vertices, and with slightly displaced vertices, which separates the triangles
+// of soups. The last attempt is a plain Delaunay triangulation of the refined vertices, or of the
+// surface's vertices if too many triangles cross. Its tets need not respect the triangles.
+//
+// cdt_tets_fill.cpp then inserts vertices into the tets that are kept, and improves these tets.
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
@@ -26,7 +30,7 @@
 namespace bindpose
 {
 
-/// A set of arguments for TetGen.
+/// Command-line switches and domain of a TetGen run.
 struct CdtTets::Way
 {
   std::string switches;
@@ -39,12 +43,13 @@ struct CdtTets::TetgenRun
   MesherAnswer answer;
 };
 
-/// A change of the vertices before refinement.
+/// A modification of the vertices before the refinement.
 struct CdtTets::Move
 {
   const char* name;
-  double snap; ///< fraction of the diagonal
-  double jitter; ///< fraction of the diagonal
+  /// Spacing of the grid to which vertices are rounded, as a fraction of the bounding-box diagonal.
+  double snap;
+  double jitter; ///< largest displacement, as a fraction of the bounding-box diagonal
 
   bool moves() const { return this->snap > 0.0 || this->jitter > 0.0; }
 };
@@ -107,7 +112,7 @@ Status CdtTets::build(double seconds)
     MesherData data;
     data.points = this->surface_.points;
     data.triangles = this->surface_.triangles;
-    // Without switch c, TetGen removes the tets outside.
+    // Without the switch `c`, TetGen removes the tets outside the surface.
     status =
       this->try_tetgen({ this->options_.keep_outside ? "pYcA" : "pYA", false }, no_move, data);
     if (status.ok() || this->final(status))
@@ -144,7 +149,7 @@ Status CdtTets::build(double seconds)
     }
     if (this->too_many_crossings_ || this->out_of_patience())
     {
-      break; // small moves of the vertices do not reduce the crossings
+      break; // small displacements of the vertices do not reduce the number of crossings
     }
   }
   if (this->too_many_crossings_ && first_refined.points.rows() == 0)
@@ -160,8 +165,8 @@ Status CdtTets::build(double seconds)
   return status;
 }
 
-/// Report whether the refinements and TetGen runs have used up their time. The Delaunay
-/// triangulation, which is the last attempt, takes a tenth of that time.
+/// Report whether the refinements and TetGen runs have used the time budget. The last attempt, a
+/// Delaunay triangulation, takes a tenth of that time.
 bool CdtTets::out_of_patience() const
 {
   constexpr double patience = 8.0; // seconds
@@ -170,11 +175,11 @@ bool CdtTets::out_of_patience() const
     patience + per_triangle * static_cast<double>(this->surface_.triangles.rows());
 }
 
-/// Run TetGen on refined triangles, with one set of switches after the other. If the surface has
-/// wide openings, small tets are tried first. The triangles alone then give tets too coarse to
-/// follow the winding number, which may reach the threshold outside the convex hull. The exception
-/// is a sheet with a sliver in front of it, which has a very large doubtful volume: small tets miss
-/// the sliver too.
+/// Run TetGen on refined triangles with each set of switches in turn. If the surface has wide
+/// openings, small tets are tried first, because tets between the triangles alone are too coarse to
+/// follow the winding number, which may reach the threshold outside the convex hull. Small tets are
+/// not tried first for a sheet with a sliver in front of it, because they miss the sliver too. Such
+/// a sheet has a very large doubtful_share().
 Status CdtTets::try_switches(const Move& move, const MesherData& refined)
 {
   const Phase phase(this->context_, "tetgen", 0.4, 1.0);
@@ -200,17 +205,17 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
       return status;
     }
   }
-  // Switch T sets how flat a tet on two triangles must be for TetGen to treat the two as coplanar.
-  // The triangles are cut exactly. With the default of 1e-8, TetGen finds coplanar triangles where
-  // there are none, and crashes on them. If both sets of switches crash, other sets usually crash
-  // as well: on the same triangles one set in thirty succeeds.
+  // Switch `T` sets the tolerance of TetGen's test for coplanar triangles. With the default of
+  // 1e-8, TetGen takes exactly cut triangles for coplanar although they are not, and crashes. If
+  // both sets of switches crash, other sets usually crash as well: in an experiment one set in
+  // thirty succeeded on the same triangles.
   std::vector<Way> ways{ { "pYcAT1e-12", false }, { "pYAT1e-16", true } };
   if (move.jitter > 0.0)
   {
-    ways.erase(ways.begin()); // no coplanar triangles are left
+    ways.erase(ways.begin()); // after random displacements no triangles are coplanar
   }
-  // If the first set of switches takes long, the last one is started in parallel, provided that two
-  // processes do not need too much memory.
+  // If the first set of switches takes long, the run with the last set is started in parallel,
+  // provided that two processes do not need too much memory.
   constexpr Index most_triangles = 1000000;
   constexpr double long_time = 1.0; // seconds
   constexpr double never = 1e6;
@@ -232,13 +237,13 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
     }
     if (this->timed_out_ || (!status.ok() && this->out_of_patience()))
     {
-      break; // with other switches, the same triangles reach the time limit as well
+      break; // with other switches, TetGen reaches the time limit on the same triangles as well
     }
     if (!done() && this->wrong_volume_ && !fine_tried)
     {
       try_fine();
     }
-    // If small tets are wrong too, more runs of TetGen cannot help.
+    // If small tets have a wrong volume too, more runs of TetGen cannot help.
     this->finer_is_no_better_ = fine_is_wrong && this->wrong_volume_;
     if (done())
     {
@@ -248,8 +253,8 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
   return status;
 }
 
-/// Compute tets in a box around the region that are small enough to resolve its boundary between
-/// triangles.
+/// Compute tets in a box around the region. They are small enough to resolve the boundary of the
+/// region in the openings between triangles.
 Status CdtTets::try_fine_tets(const Move& move, const MesherData& refined)
 {
   this->wrong_volume_ = false;
@@ -259,12 +264,12 @@ Status CdtTets::try_fine_tets(const Move& move, const MesherData& refined)
   }
   const double box = bounding_box(refined.points).size().prod();
   constexpr double tets_inside = 400.0;
-  constexpr double most_tets = 2e4; // in the box, before TetGen grades them
+  constexpr double most_tets = 2e4; // maximum number of tets in the box, before TetGen grades them
   const double bound =
     std::max(std::min(this->volume_bound(), this->inside_.volume() / tets_inside), box / most_tets);
   const Status status = this->try_tetgen({ "pAq2a" + short_number(bound), true }, move, refined);
   this->fine_fails_ = !status.ok() && !this->wrong_volume_;
-  this->timed_out_ = false; // without small tets TetGen may finish soon
+  this->timed_out_ = false; // TetGen may finish in time if no small tets are requested
   return status;
 }
 
@@ -285,7 +290,7 @@ CdtTets::TetgenRun CdtTets::run_tetgen(
   return run;
 }
 
-/// Keep the inside tets of a TetGen run.
+/// Keep the tets of a TetGen run that are inside, and log the attempt.
 Status CdtTets::judge(const Way& way, const Move& move, const TetgenRun& run)
 {
   const double start = this->context_.elapsed_seconds();
@@ -301,9 +306,9 @@ Status CdtTets::judge(const Way& way, const Move& move, const TetgenRun& run)
 Status CdtTets::try_delaunay(const MesherData& refined)
 {
   const double start = this->context_.elapsed_seconds();
-  // No triangles must be kept, so nearly coincident vertices would only make slivers. One vertex
-  // per small box is kept.
-  constexpr double near = 1e-7; // in bounding-box diagonals
+  // A Delaunay triangulation need not contain the triangles. Nearly coincident vertices would only
+  // create slivers, so one vertex per small box is kept.
+  constexpr double near = 1e-7; // size of a box, in bounding-box diagonals
   MesherData input = refined;
   std::set<std::array<double, 3>> boxes;
   Index kept = 0;
@@ -345,7 +350,7 @@ Status CdtTets::try_delaunay(const MesherData& refined)
   return status;
 }
 
-/// Move the vertices, then cut the triangles along their crossings.
+/// Displace the vertices, then cut the triangles along their crossings.
 Status CdtTets::refine(const Move& move, MesherData& refined)
 {
   const Phase phase(this->context_, "refine", 0.0, 0.4);
@@ -409,7 +414,8 @@ Status CdtTets::move_vertices(const Move& move, RepairedSurface& moved)
   return {};
 }
 
-/// Run one job of the helper, for at most `seconds` of processor time and until the deadline.
+/// Run one job of the helper executable bindpose-mesher. The job ends after `seconds` of processor
+/// time or at the deadline.
 Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherData& input,
   double seconds, MesherAnswer& answer, ExecutionContext& context) const
 {
@@ -421,13 +427,13 @@ Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherD
   MesherRequest request;
   request.arguments = arguments;
   request.memory_limit = this->options_.memory_limit;
-  // On a busy machine the helper may get only a quarter of a processor.
+  // On a busy machine the helper may get only a quarter of the time of a processor.
   constexpr double slack = 4.0;
   request.processor_limit = seconds;
   request.time_limit = std::min(left, slack * seconds);
   if (arguments.front() == "refine")
   {
-    // The helper stops by itself a little earlier and reports its progress.
+    // The helper ends a little before the limit and reports its progress.
     constexpr double earlier = 0.9;
     request.arguments.insert(
       request.arguments.end(), { "--time", std::to_string(earlier * std::min(left, seconds)) });
@@ -435,7 +441,7 @@ Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherD
   return run_mesher(request, input, answer, context);
 }
 
-/// Report whether no other rung can help after this status.
+/// Report whether no other attempt can succeed after this status.
 bool CdtTets::final(const Status& status) const
 {
   return status.code == StatusCode::canceled || status.code == StatusCode::unavailable ||
@@ -443,7 +449,8 @@ bool CdtTets::final(const Status& status) const
       (this->finer_is_no_better_ || this->context_.elapsed_seconds() >= this->deadline_));
 }
 
-/// Keep the tets that the surface winds around. Return ok if their volume is right.
+/// Keep the tets in which the winding number reaches the threshold. Return ok if their volume
+/// matches the region.
 Status CdtTets::keep_inside(const MesherData& data)
 {
   const Phase phase(this->context_, "label", 0.9, 1.0);
@@ -492,8 +499,8 @@ Status CdtTets::take_inside(
   }
   kept.conservativeResize(count, 4);
   std::vector<TetFacet> facets = tet_facets(kept);
-  // A tet without a neighbor is removed if it has less than this fraction of the volume. Winding
-  // numbers that vary around the threshold leave such tets.
+  // A tet without a neighbor is removed if its volume is less than this fraction of the total. Such
+  // tets occur where the winding number varies around the threshold.
   const double lone = this->inside_.labels_are_exact() ? 1e-8 : 1e-4;
   drop_crumbs(data.points, kept, facets, lone);
   peel_slivers(data.points, kept, facets, flat_height * this->diagonal_);
@@ -510,15 +517,15 @@ Status CdtTets::take_inside(
   }
   const double volume = tet_volumes(data.points, kept).sum();
   const double misfit = this->inside_.misfit(volume);
-  // The graph cut may prefer a smooth boundary to the right volume. If it misses the volume by more
-  // than this, the threshold's tets are used.
+  // The graph cut may choose a smooth boundary at the cost of a wrong volume. If the misfit exceeds
+  // this, the labels of the threshold are used.
   constexpr double price_of_smoothness = 0.05;
   const bool fits = this->inside_.fits(volume) &&
     (method == SegmentationMethod::threshold || misfit <= price_of_smoothness);
   this->wrong_volume_ = !fits;
   if (fits || misfit < this->misfit_)
   {
-    // The best tets are kept in case no other rung fits.
+    // The tets with the smallest misfit are kept in case no later attempt has the right volume.
     this->misfit_ = misfit;
     this->volume_ = volume;
     this->mesh_.points = data.points;
@@ -542,8 +549,8 @@ Status CdtTets::take_inside(
                  : wrong_volume(volume, this->inside_);
 }
 
-/// Remove tets with no volume, or with a volume of rounding errors, which TetGen sometimes returns
-/// away from the boundary. Edges and facets around them are swapped until they disappear.
+/// Remove tets without volume (up to rounding errors), which TetGen sometimes creates away from the
+/// boundary. Edges and facets around such tets are swapped until the tets disappear.
 Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet>& facets)
 {
   constexpr double rounding = 1e-12; // relative to the cube of the longest edge
@@ -560,7 +567,7 @@ Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet
   TetMesh mesh{ points, tets };
   ImproveOptions options;
   options.angle = 1e-8; // degrees
-  options.least_angle = 0.0; // no vertex moves
+  options.least_angle = 0.0; // held vertices do not move
   options.keep_boundary = true;
   Improvement done;
   if (!improve_tets(mesh, std::vector<char>(static_cast<std::size_t>(points.rows()), 1), {},
@@ -573,7 +580,7 @@ Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet
   return {};
 }
 
-/// Take all segmented tets, except those that rounding has flattened.
+/// Take all tets inside and outside, except those that rounding has flattened.
 void CdtTets::take_all(
   const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside)
 {
@@ -603,7 +610,7 @@ Status CdtTets::complete()
   this->deadline_ = std::max(this->start_ + this->options_.time_limit, this->deadline_);
   if (this->options_.keep_outside)
   {
-    this->renumber(); // the tets must stay as they were segmented
+    this->renumber(); // with `keep_outside`, the tets must remain as they were segmented
     return {};
   }
   Status status;
@@ -641,8 +648,8 @@ double CdtTets::mean_surface_edge() const
   return sum / static_cast<double>(std::max<Index>(1, triangles.size()));
 }
 
-/// Return the volume of a regular tet whose edges have the length interior_edge, but at least a
-/// third of the mean edge of the surface.
+/// Return the volume of a regular tet whose edge length is `interior_edge`, but at least a third of
+/// the mean edge length of the surface.
 double CdtTets::volume_bound() const
 {
   constexpr double default_edge = 0.04;
@@ -652,8 +659,8 @@ double CdtTets::volume_bound() const
     std::pow(std::max(fraction * this->diagonal_, this->mean_surface_edge() / 3.0), 3.0);
 }
 
-/// Renumber the vertices: those of the input first, in their order, then the others. Remove unused
-/// ones.
+/// Renumber the vertices: the input's vertices first, in their input order, then the others. Remove
+/// unused vertices.
 void CdtTets::renumber()
 {
   std::vector<char> used(static_cast<std::size_t>(this->mesh_.points.rows()), 0);

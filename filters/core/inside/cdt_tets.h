@@ -1,6 +1,9 @@
 #ifndef bindpose_inside_cdt_tets_h
 #define bindpose_inside_cdt_tets_h
 
+// Method cdt of tetrahedralize(): constrained Delaunay tets by TetGen, of which those inside are
+// kept.
+
 #include "base/execution.h"
 #include "base/tet_facets.h"
 #include "inside/enclosed_region.h"
@@ -17,7 +20,8 @@ namespace bindpose
 
 struct MesherAnswer;
 
-/// The attempts (rungs) of a method, each with its seconds and its outcome.
+/// Log of the attempts ("rungs") of a meshing method. Each attempt has a duration in seconds and an
+/// outcome.
 class RungLog
 {
 public:
@@ -32,52 +36,53 @@ private:
   std::vector<std::string> outcomes_;
 };
 
-/// See TetrahedralizeOptions.
+/// Options of method cdt; documented at TetrahedralizeOptions.
 struct CdtOptions
 {
-  /// Used for open surfaces only. A closed surface has integer winding numbers.
+  /// Used for open surfaces only, because a closed surface has integer winding numbers.
   SegmentationOptions segmentation;
   double time_limit = 120.0;
   Index memory_limit = 0;
   bool bare = false;
   double interior_edge = 0.0;
-  bool keep_outside = false; ///< Keep the segmented tets unchanged, including those outside.
+  bool keep_outside = false; ///< keep all segmented tets unchanged, including the tets outside
   HandlePlaces handles;
 };
 
-/// Return the failure "the tets hold 3.9, but the winding number encloses 8".
+/// Return a failure such as "the tets hold 3.9, but the winding number encloses 8".
 Status wrong_volume(double volume, const EnclosedRegion& inside);
 
-/// Constrained Delaunay tets of the convex hull of a surface, reduced to the tets that the surface
-/// winds around. The helper executable computes them. This class implements the rungs of method
-/// cdt. Call build() first, then complete().
+/// Constrained Delaunay tets of the convex hull of a surface, reduced to the tets in which the
+/// winding number reaches the threshold. TetGen computes them in the helper executable
+/// bindpose-mesher. This class implements all attempts of method cdt. Call build() first, then
+/// complete().
 class CdtTets
 {
 public:
   CdtTets(const RepairedSurface& surface, EnclosedRegion& inside, const CdtOptions& options,
     RungLog& log, ExecutionContext& context);
 
-  /// Try one rung after the other until the kept tets have the right volume, for at most `seconds`.
-  /// On failure, the tets with the smallest misfit() are kept.
+  /// Try one set of TetGen arguments after the other, for at most `seconds`, until the tets inside
+  /// have the right volume. On failure, the tets with the smallest misfit() are kept.
   Status build(double seconds);
   /// Return EnclosedRegion::misfit of the kept tets, or infinity if there are none.
   double misfit() const { return this->misfit_; }
   /// Return the volume of the tets inside.
   double volume() const { return this->volume_; }
-  /// Add vertices inside (those of handles first), improve flat tets and renumber the vertices so
-  /// that those of the input come first. The only failure is canceled; any other problem becomes a
-  /// warning.
+  /// Insert vertices inside (at the points of handles first), improve flat tets, and renumber the
+  /// vertices so that the input's vertices come first. The only failure is canceled; any other
+  /// problem becomes a warning.
   Status complete();
 
   TetMesh& mesh() { return this->mesh_; }
   std::vector<Index>& original_vertices() { return this->mesh_original_; }
   const std::vector<std::string>& warnings() const { return this->warnings_; }
-  /// Winding numbers from which the segmentation was computed, #T; and 1 for the tets inside, #T.
-  /// Filled with keep_outside only, else empty.
+  /// With `keep_outside` only, else empty: winding numbers from which the segmentation was
+  /// computed, #T, and flags that are 1 for the tets inside, #T.
   const Eigen::VectorXd& winding_numbers() const { return this->winding_numbers_; }
   const std::vector<char>& inside() const { return this->kept_; }
-  /// The report of the kept tets: segmentation and, if it is a graph cut, energy, threshold_energy
-  /// and counts.changed_by_cut (see Segmentation).
+  /// Report of the kept tets: segmentation and, if the labels are from a graph cut, energy,
+  /// threshold_energy and counts.changed_by_cut (see Segmentation).
   const Report& report() const { return this->report_; }
 
 private:
@@ -85,7 +90,8 @@ private:
   struct Way;
   struct TetgenRun;
   struct Inside;
-  /// Tets at the boundary with a smaller height are removed, in bounding-box diagonals.
+  /// Tets at the boundary are removed if their height is smaller than this, in bounding-box
+  /// diagonals.
   static constexpr double flat_height = 1e-11;
 
   Status try_switches(const Move& move, const MesherData& refined);
@@ -126,18 +132,18 @@ private:
   double diagonal_ = 0.0;
   double start_ = 0.0;
   double deadline_ = 0.0;
-  std::vector<Index> original_; ///< input id of the first vertices of the rung's points
-  bool wrong_volume_ = false; ///< the rung gave tets, but their volume is wrong
+  std::vector<Index> original_; ///< input ids of the current attempt's first vertices
+  bool wrong_volume_ = false; ///< the attempt gave tets, but their volume is wrong
   bool finer_is_no_better_ = false; ///< finer tets cannot improve the result
   bool timed_out_ = false; ///< the last run of TetGen reached its time limit
-  double job_seconds_ = 0.0; ///< total of the refinements and the TetGen runs
-  bool too_many_crossings_ = false; ///< the refinement gave up because too many triangles cross
+  double job_seconds_ = 0.0; ///< total duration of the refinements and the TetGen runs
+  bool too_many_crossings_ = false; ///< the refinement was stopped because too many triangles cross
   bool fine_fails_ = false; ///< small tets were tried, and TetGen returned none
   TetMesh mesh_;
   Eigen::VectorXd winding_numbers_;
   std::vector<char> kept_;
   std::vector<Index> mesh_original_;
-  std::vector<Index> handle_vertices_; ///< vertices at the points of handles inside
+  std::vector<Index> handle_vertices_; ///< vertices at the points of the handles that are inside
   double misfit_ = std::numeric_limits<double>::infinity();
   double volume_ = 0.0;
   std::vector<std::string> warnings_;

@@ -1,6 +1,7 @@
-// Weights need vertices inside the tets of method cdt in order to vary there. Points of a lattice
-// that gets coarser away from the boundary (inner_points.h) become vertices (tet_insertion.h). Then
-// flat tets are improved (tet_improvement.h). Both steps keep the boundary.
+// Vertices inside the tets of method cdt. Weights can vary inside a volume only if the tets have
+// vertices there. The points of an octree that becomes coarser away from the boundary
+// (inner_points.h) are inserted as vertices (tet_insertion.h). Then flat tets are improved
+// (tet_improvement.h). The boundary is not changed, except for the edges of coplanar triangles.
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
@@ -21,37 +22,39 @@ namespace bindpose
 
 namespace
 {
-/// Boundary triangles within this distance of one plane, in bounding-box diagonals, are coplanar.
+/// Boundary triangles count as coplanar if they are within this distance of one plane, in
+/// bounding-box diagonals.
 constexpr double coplanar = 1e-10;
 /// Approximate minimum number of tets if no interior edge length is requested.
 constexpr Index fewest_tets = 1500;
-/// Approximate number of tets per triangle of the surface in the same case.
+/// Approximate number of tets per triangle of the surface if no interior edge length is requested.
 constexpr double tets_per_triangle = 4.2;
 /// Largest number of tets if an interior edge length is requested.
 constexpr Index most_tets_on_request = 20000000;
-/// Approximate number of tets per vertex inside and per boundary triangle.
+/// Approximate number of tets per inner vertex and per boundary triangle, used for estimates.
 constexpr Index tets_per_vertex = 6;
 constexpr Index tets_per_boundary_triangle = 2;
 
-/// Return the largest number of new vertices. It gives the wanted number of tets. It also leaves
-/// some vertices for the space between the triangles if these are many already.
+/// Return the maximum number of new vertices. It is chosen such that the mesh gets `fewest_tets` or
+/// `tets_per_triangle` times #triangles tets, whichever is more. If the boundary alone already
+/// requires so many tets, a small number of vertices is still allowed.
 Index most_inner_vertices(Index surface_triangles, Index boundary_triangles)
 {
-  constexpr double least = 0.1; // per triangle
+  constexpr double least = 0.1; // vertices per triangle
   const double triangles = static_cast<double>(surface_triangles);
   const double tets = std::max(static_cast<double>(fewest_tets), tets_per_triangle * triangles) -
     static_cast<double>(tets_per_boundary_triangle * boundary_triangles);
   return static_cast<Index>(std::max(least * triangles, tets / tets_per_vertex));
 }
 
-/// Remove the places whose distance to one of `others` is less than half of the local length.
+/// Remove the places whose distance to one of `others` is less than half of the local edge length.
 void remove_near(Points& places, const Points& others, const SizingField& sizes)
 {
   if (others.rows() == 0)
   {
     return;
   }
-  std::vector<Index> order(static_cast<std::size_t>(others.rows())); // along x
+  std::vector<Index> order(static_cast<std::size_t>(others.rows())); // sorted by x
   std::iota(order.begin(), order.end(), Index(0));
   std::sort(
     order.begin(), order.end(), [&](Index a, Index b) { return others(a, 0) < others(b, 0); });
@@ -59,7 +62,7 @@ void remove_near(Points& places, const Points& others, const SizingField& sizes)
   for (Index i = 0; i < places.rows(); ++i)
   {
     const Vec3 p = places.row(i);
-    constexpr double spacing = 0.5; // in local lengths
+    constexpr double spacing = 0.5; // in local edge lengths
     const double least = spacing * sizes.at(p);
     bool near = false;
     for (auto other = std::lower_bound(order.begin(), order.end(), p.x() - least,
@@ -86,11 +89,11 @@ struct CdtTets::Inside
   Points places; ///< positions of new vertices
 };
 
-/// Add vertices inside, those of handles first.
+/// Insert vertices inside, beginning with the points of handles.
 Status CdtTets::fill()
 {
   const double start = this->context_.elapsed_seconds();
-  constexpr double found = 0.35; // fraction of the time
+  constexpr double found = 0.35; // fraction of the time for finding the positions
   Inside inside;
   Status status;
   {
@@ -117,13 +120,14 @@ Status CdtTets::fill()
   return status;
 }
 
-/// Find positions of new vertices. Boundary edges that are too long for them are split.
+/// Find positions of new vertices. Boundary edges that are long compared with the edge length
+/// inside are split.
 Status CdtTets::find_places(Inside& inside)
 {
   const double wanted = this->options_.interior_edge * this->diagonal_;
   if (wanted > 0.0)
   {
-    constexpr double long_edge = 3.0; // in wanted lengths
+    constexpr double long_edge = 3.0; // in units of the requested length
     return this->find_even_places(
       wanted, long_edge * wanted, most_tets_on_request, most_tets_on_request, inside);
   }
@@ -139,18 +143,19 @@ Status CdtTets::find_places(Inside& inside)
   {
     return status;
   }
-  // Use one length everywhere, so that there are enough tets.
+  // Use one edge length everywhere, so that there are enough tets.
   const double length =
     std::cbrt(this->volume_ / (static_cast<double>(fewest_tets) * regular_tet_volume));
   constexpr double long_edge = 2.0;
-  constexpr double share = 0.6; // fraction of the tets that splitting the boundary may create
+  // Maximum fraction of the tets that may result from splitting boundary edges.
+  constexpr double share = 0.6;
   return this->find_even_places(length, long_edge * length,
     static_cast<Index>(share * static_cast<double>(fewest_tets)), fewest_tets / tets_per_vertex,
     inside);
 }
 
-/// Find at most about `most` positions whose distances are at most about `length`. First, boundary
-/// edges longer than `long_edge` are split until there are `most_tets`.
+/// Find up to about `most` positions with distances of up to about `length`. First, boundary edges
+/// longer than `long_edge` are split until there are `most_tets` tets.
 Status CdtTets::find_even_places(
   double length, double long_edge, Index most_tets, Index most, Inside& inside)
 {
@@ -169,9 +174,10 @@ Status CdtTets::find_inner_places(Index most, Inside& inside)
     : Status::canceled();
 }
 
-/// Set the lengths of edges inside. Near the boundary they equal its shortest edges. They grow by
-/// three quarters of the distance to these, up to `longest`. (With mean lengths, tets are too
-/// coarse for small details between long triangles.)
+/// Set the target edge lengths inside. At a boundary vertex, the length is that of the shortest
+/// boundary edge at the vertex. It increases with the distance from the boundary at a rate of 0.75,
+/// up to `longest`. (With the mean instead of the shortest edge, tets are too coarse for small
+/// details between long triangles.)
 Status CdtTets::look_inside(double longest, Inside& inside)
 {
   const Points& points = this->mesh_.points;
@@ -206,12 +212,13 @@ Status CdtTets::look_inside(double longest, Inside& inside)
   return inside.interior.build(points, boundary, this->context_);
 }
 
-/// Return the points of the handles that are inside, and points between them. Points between them
-/// keep some distance from the boundary: there are enough vertices there, and tets in between would
-/// be flat. Remove other positions near the returned points.
+/// Return the points of the handles that are inside, and samples of the handles' segments and
+/// triangles. Samples keep some distance from the boundary, because the boundary has enough
+/// vertices and tets between the two would be flat. Other positions near the returned points are
+/// removed.
 Points CdtTets::places_of_handles(Inside& inside) const
 {
-  constexpr double near = 0.3; // in local lengths
+  constexpr double near = 0.3; // in local edge lengths
   constexpr double touching = 1e-6; // in bounding-box diagonals
   const SizingField& sizes = *inside.sizes;
   const HandleSamples samples =
@@ -245,7 +252,7 @@ Status CdtTets::insert(const Points& places, std::vector<Index>& vertices)
   return status;
 }
 
-/// Accept the tets if they are valid and fill the same volume.
+/// Replace the mesh by `mesh` if its tets are valid and fill the same volume.
 Status CdtTets::accept(TetMesh& mesh)
 {
   const double after = tet_volumes(mesh.points, mesh.tets).sum();
@@ -265,7 +272,7 @@ Status CdtTets::accept(TetMesh& mesh)
 }
 
 /// Improve flat tets. The vertices of the input and of handles do not move. The boundary changes
-/// only by swapped diagonals of coplanar triangles.
+/// only where the shared edge of two coplanar triangles is swapped.
 Status CdtTets::improve()
 {
   const double start = this->context_.elapsed_seconds();

@@ -1,3 +1,5 @@
+// Creases of a surface: sharp, open and non-manifold edges that bound the enclosed region, with
+// points along long edges.
 #include "inside/crease_points.h"
 
 #include "base/triangle_sides.h"
@@ -10,15 +12,15 @@ namespace bindpose
 
 namespace
 {
-/// Return the cosine of the angle above which an edge, or the turn between two crease edges, is
-/// sharp.
+/// Return the cosine of the angle above which an edge is sharp. The same angle is used for the turn
+/// between two crease edges.
 double cosine(double degrees)
 {
   return std::cos(degrees / 57.295779513082320877);
 }
 
-/// Report whether a triangle's edge bounds the region. The test point is near the middle of the
-/// edge, inside the triangle.
+/// Report whether the triangle bounds the region at one of its edges. The test point is near the
+/// middle of the edge, inside the triangle.
 bool bounds(const RegionBoundary& region, const TriangleSide& side)
 {
   const Vec3 middle = 0.5 *
@@ -34,7 +36,8 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
 {
   const std::vector<TriangleSide> sides = sides_by_edge(region.triangles());
   const double smooth = cosine(angle);
-  std::vector<std::pair<Index, Index>> ends; // (vertex, other end), in both directions
+  // Pairs (vertex, other end of a crease edge), in both directions.
+  std::vector<std::pair<Index, Index>> ends;
   std::vector<Vec3> between;
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
   {
@@ -55,7 +58,8 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
     const Vec3 a = region.points().row(sides[i].a);
     const Vec3 b = region.points().row(sides[i].b);
     constexpr double most = 1000.0;
-    // Points are closer than the requested length, so that facets next to the crease rarely cut it.
+    // The spacing is smaller than the requested length, so that few facets next to the crease cut
+    // it.
     constexpr double dense = 0.7;
     const double length = dense * std::min({ field.at(a), field.at(b), field.at(0.5 * (a + b)) });
     const double parts = std::min(std::ceil((b - a).norm() / length), most);

@@ -10,14 +10,15 @@ namespace bindpose
 /// Points from which a mesher recovers the sharp edges of a surface.
 struct CreasePoints
 {
-  std::vector<Index> corners; ///< input vertices where creases end, meet or turn
+  std::vector<Index> corners; ///< input vertices at which creases end, branch or change direction
   std::vector<Index> vertices; ///< other input vertices on creases
   /// Evenly spaced points on crease edges that are longer than the sizing field allows.
   Points between;
 };
 
-/// Find the creases that bound the region. A crease is an edge at which the surface turns by more
-/// than `angle` degrees, is open or is non-manifold. Ids ascend.
+/// Find the creases that bound the region. A crease is an edge that is open or non-manifold, or at
+/// which the normals of its two triangles differ by more than `angle` degrees. Vertex ids are in
+/// ascending order.
 CreasePoints find_creases(
   const RegionBoundary& region, const SizingField& field, double angle = 30.0);
 

@@ -1,3 +1,5 @@
+// Volume of the region that a surface encloses, and winding numbers of the tets in it.
+//
 // The winding number of the whole surface determines the region. If the surface is closed, the
 // winding number is the same integer in each region between its triangles. One point per region,
 // far from the triangles, is then enough. If the surface is open, every tet is evaluated.
@@ -19,12 +21,12 @@ namespace
 {
 constexpr double smallest_volume_ratio = 0.9;
 constexpr double largest_volume_ratio = 1.1;
-/// Winding numbers this near to the threshold occur at openings (or in no region). On the two sides
-/// of a wall they are far apart.
+/// At openings (and in no region of a closed surface), winding numbers are this near to the
+/// threshold. On the two sides of a wall they differ by more.
 constexpr double doubtful = 0.25;
 
-/// Return points spread evenly over a box, always the same: an additive recurrence with the powers
-/// of the root of x^4 = x + 1, the three-dimensional golden ratio.
+/// Return points spread evenly over a box. They are the same in every run: an additive recurrence
+/// with the powers of 1 / x, where x is the positive root of x^4 = x + 1.
 Points spread_points(const Box& box, Index count)
 {
   const Vec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
@@ -59,7 +61,8 @@ Status EnclosedRegion::build(
   }
   if (surface.clean() && surface.found.components == 1)
   {
-    // The surface winds once around its inside, and nowhere twice.
+    // The winding number of a clean surface is 1 inside and never 2, so the volume is 0 for
+    // thresholds above 1.
     this->volume_ = threshold <= 1.0 ? signed_volume(surface.points, surface.triangles) : 0.0;
     this->volume_error_ = 0.0;
   }
@@ -69,7 +72,7 @@ Status EnclosedRegion::build(
 Status EnclosedRegion::sample(
   const RepairedSurface& surface, double& negative, ExecutionContext& context)
 {
-  // The queries are the samples below, then tets.
+  // Expect the samples below and, later, the centers of tets.
   WindingNumber::Options winding;
   winding.expected_queries = 500000;
   Status status = this->winding_.build(surface.points, surface.triangles, context, winding);
@@ -79,18 +82,18 @@ Status EnclosedRegion::sample(
     this->volume_error_ = 0.0;
     return status.usable() ? Status() : status;
   }
-  // Samples are added until enough are inside, as long as that takes less than a second or two. A
-  // sample costs about 1 us, and 15 ns per open edge if the winding number is exact.
+  // Add samples until enough of them are inside, but for at most about two seconds. A sample takes
+  // about 1 us with the fast method; with an exact method it takes 0.1 us plus 15 ns per open edge.
   const double cost = this->winding_.method() == WindingMethod::fast
     ? 1.0
     : 0.1 + 0.015 * static_cast<double>(surface.found.boundary_edges);
-  constexpr double affordable = 2e6; // us
+  constexpr double affordable = 2e6; // microseconds
   constexpr double most_samples = 1e6;
-  // The number of points is that of a grid with 40 points along the longest side. The points are
-  // not a grid: faces aligned with its planes (boxes, CAD) would add or remove a whole layer of
-  // cells.
+  // The initial number of points is that of a grid with 40 points along the longest side. The
+  // points do not form a grid: faces aligned with the planes of a grid (boxes, CAD) would add or
+  // remove a whole layer of cells.
   const Vec3 size = this->box_.size();
-  constexpr double enough = 20000.0; // samples inside, for an error below one percent
+  constexpr double enough = 20000.0; // samples inside, which give an error below one percent
   constexpr double growth = 3.375;
   auto samples = static_cast<Index>((40.0 * size / size.maxCoeff()).array().ceil().max(1.0).prod());
   for (;; samples = static_cast<Index>(growth * static_cast<double>(samples)))
@@ -155,7 +158,7 @@ Status EnclosedRegion::only_specks(const RepairedSurface& surface) const
   constexpr Index fewest_triangles = 10000;
   constexpr double loose = 0.9; // fraction of the triangle sides that are boundary edges
   constexpr double largest_share = 1e-3; // fraction of the box volume
-  constexpr double largest_thickness = 0.1; // in triangle sizes
+  constexpr double largest_thickness = 0.1; // relative to the mean size of a triangle
   const Index count = surface.triangles.rows();
   const double share = this->volume_ / this->box_.size().prod();
   if (count < fewest_triangles || share > largest_share ||
@@ -192,8 +195,8 @@ Status EnclosedRegion::label(const MesherData& data, Eigen::VectorXd& w, Executi
   return status;
 }
 
-/// Label the tets of a closed surface: the winding number is constant in a region between
-/// triangles.
+/// Compute the winding numbers of the tets of a closed surface: the value is constant in a region
+/// between triangles.
 Status EnclosedRegion::label_regions(
   const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context) const
 {
@@ -225,8 +228,8 @@ Status EnclosedRegion::label_regions(
   return context.canceled() ? Status::canceled() : Status();
 }
 
-/// Label the tets of an open surface at their centers, or, for large tets near the threshold, by
-/// the mean of four points.
+/// Compute the winding numbers of the tets of an open surface: the value at the center or, for
+/// large tets near the threshold, the mean of four points.
 Status EnclosedRegion::label_tets(
   const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context) const
 {
@@ -236,7 +239,8 @@ Status EnclosedRegion::label_tets(
   {
     return status;
   }
-  // Fast winding numbers within their error bound of the threshold may be on the wrong side of it.
+  // If a fast winding number is within its error bound of the threshold, it may be on the wrong
+  // side of the threshold. Evaluate these values exactly.
   const double doubt = this->winding_.method() == WindingMethod::fast
     ? this->winding_.status().report.number("error_bound", 0.0)
     : 0.0;
@@ -274,7 +278,7 @@ Status EnclosedRegion::label_tets(
   {
     for (int k = 0; k < 4; ++k)
     {
-      // Quadrature rule with four points, of degree 2.
+      // Quadrature rule of degree 2 with four points.
       constexpr double near = 0.5854101966249685;
       constexpr double others = 0.1381966011250105;
       more.row(4 * static_cast<Index>(i) + k) = 4.0 * others * centers.row(tets[i]) +
@@ -287,8 +291,8 @@ Status EnclosedRegion::label_tets(
   {
     w[tets[i]] = 0.25 * values.segment(4 * static_cast<Index>(i), 4).sum();
   }
-  // TetGen's box is larger than the surface's. Outside the surface's box, numbers of two sheets may
-  // add up to the threshold, but such points are not inside.
+  // TetGen's box is larger than the box of the surface. Outside the surface's box, the winding
+  // numbers of two sheets may add up to the threshold, but such points are not inside.
   for (Index t = 0; t < w.size(); ++t)
   {
     const Vec3 p = centers.row(t);

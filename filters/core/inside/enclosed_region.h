@@ -8,15 +8,17 @@
 namespace bindpose
 {
 
-/// The region {winding number >= threshold} in the bounding box of a surface. It labels tets as
-/// inside or outside and checks whether a volume fits the region.
+/// The region {winding number >= threshold} in the bounding box of a surface. This class computes
+/// the winding numbers by which tets are labeled inside or outside, and it checks whether a volume
+/// matches that of the region.
 class EnclosedRegion
 {
 public:
   /// Build the winding number and estimate the volume. If the surface encloses more volume with the
-  /// negative orientation than with the positive one, it is turned inside out. (Closed components
-  /// are already oriented; open ones may not be.) Sample points in the box are added until 20,000
-  /// are inside, fewer if these would take seconds.
+  /// negative orientation than with the positive one, all its triangles are flipped. (Closed
+  /// components are already oriented outwards; open components may not be.) The volume is estimated
+  /// from sample points in the box. Points are added until 20,000 of them are inside, or until more
+  /// would take longer than about two seconds.
   Status build(RepairedSurface& surface, double threshold, bool& turned, ExecutionContext& context);
 
   const WindingNumber& winding() const { return this->winding_; }
@@ -25,33 +27,33 @@ public:
   /// Return the relative standard error of volume() from sampling, 0 if the volume is exact.
   double volume_error() const { return this->volume_error_; }
   /// Return the volume in which the winding number is within 0.25 of the threshold, as a multiple
-  /// of volume(). It is near 0 if the surface itself bounds the region, and over 1 if the openings
-  /// of the surface do.
+  /// of volume(). It is near 0 if triangles form the boundary of the region, and over 1 if openings
+  /// of the surface form most of the boundary.
   double doubtful_share() const { return this->doubtful_share_; }
   /// Report whether a volume matches volume() within 10 % plus the sampling error.
   bool fits(double volume) const;
-  /// Return |log(volume / volume())|: 0 for equal volumes, the same for half and double, infinity
-  /// for no volume.
+  /// Return |log(volume / volume())|. The misfit is 0 for equal volumes, log 2 for a volume that is
+  /// twice or half as large, and infinity for an empty volume.
   double misfit(double volume) const;
-  /// Report whether tets are labeled exactly, which is true for a closed surface. If no tet is
-  /// inside, finer tets cannot change that.
+  /// Report whether labels of tets are exact, which is the case for a closed surface. If they are
+  /// exact and no tet is inside, finer tets cannot change that.
   bool labels_are_exact() const { return this->closed_; }
-  /// Return the error of a surface that encloses no volume. The message contains the largest
+  /// Return the error for a surface that encloses no volume. The message contains the largest
   /// winding number sampled so far.
   Status encloses_nothing() const;
-  /// Return the error of a method whose tets of some size are all outside. The code is unavailable
-  /// if the surface encloses a volume that is too thin for such tets.
+  /// Return the error for a method whose tets of a certain size are all outside. The code is
+  /// `unavailable` if the surface encloses a volume that is too thin for such tets.
   Status no_tets() const;
 
-  /// Return the error of thousands of loose triangles that enclose only specks, between triangles
-  /// near each other and thinner than a tenth of a triangle's size. Tets of such specks represent
-  /// no shape and take minutes.
+  /// Return an error if the surface consists of thousands of loose triangles that enclose only
+  /// specks: volumes between neighboring triangles, thinner than a tenth of a triangle's size. Tets
+  /// of specks represent no shape and take minutes. Otherwise return ok.
   Status only_specks(const RepairedSurface& surface) const;
 
-  /// Compute the winding number of each tet. If the surface is closed, all tets of a region get the
-  /// number of its largest tet. Otherwise a tet gets the number at its center, or, if it is large
-  /// and near the threshold, the mean of four points. A tet whose center is outside the surface's
-  /// box gets 0.
+  /// Compute the winding number of each tet. If the surface is closed, the winding number of a
+  /// region's largest tet is assigned to all tets of the region. Otherwise the value is that at the
+  /// tet's center or, if the tet is large and the value is near the threshold, the mean of four
+  /// points. The value is 0 if the center is outside the surface's box.
   Status label(const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context);
 
 private:
@@ -64,7 +66,7 @@ private:
   double threshold_ = 0.5;
   bool closed_ = false;
   double volume_ = 0.0;
-  double volume_error_ = 1.0; ///< relative
+  double volume_error_ = 1.0; ///< relative standard error
   double doubtful_share_ = 0.0;
   double largest_winding_ = 0.0;
 };

@@ -1,6 +1,8 @@
-// The surface is written as OFF. The tets are read as MEDIT, which fTetWild writes if the output's
-// name ends in .mesh. The printed lines report which of the five stages has ended. The duration of
-// each stage is estimated.
+// Runs the program fTetWild.
+//
+// The surface is written as OFF. The tets are read as MEDIT, which fTetWild writes if the name of
+// the output file ends in .mesh. Progress is derived from the lines that fTetWild prints at the end
+// of each of its five stages, with an estimated duration per stage.
 #include "inside/ftetwild_process.h"
 
 #include "base/number_text.h"
@@ -41,7 +43,7 @@ Status check_options(const FtetwildOptions& options)
   return check_limits(options.time_limit, options.memory_limit);
 }
 
-/// The output of fTetWild: updates the progress and stores the last line.
+/// Parses the output of fTetWild: updates the progress and stores the last line.
 class Lines
 {
 public:
@@ -73,13 +75,13 @@ private:
   std::string last_;
 };
 
-/// Return the tets with positive orientation and without unused vertices.
+/// Return the tets, oriented positively and without unused vertices.
 TetMesh clean_up(const MeditMesh& read)
 {
   TetMesh mesh{ Points(0, 3), read.tets };
   if (tet_volumes(read.points, mesh.tets).sum() < 0.0)
   {
-    mesh.tets.col(0).swap(mesh.tets.col(1)); // all tets have the same orientation
+    mesh.tets.col(0).swap(mesh.tets.col(1)); // if one tet is negative, all are negative
   }
   std::vector<Index> number(static_cast<std::size_t>(read.points.rows()), -1);
   std::vector<Index> used;
@@ -141,7 +143,8 @@ Status run_ftetwild(PointsView points, TrianglesView triangles, const FtetwildOp
   {
     return Status::failure(StatusCode::internal_error, folder.error());
   }
-  // fTetWild contains absolute lengths that do not scale with the input.
+  // Some absolute lengths in fTetWild do not scale with the input, so the input is scaled to unit
+  // size.
   const UnitFrame frame(bounding_box(points, triangles));
   const std::string surface = folder.path() + "/surface.off";
   const std::string tets = folder.path() + "/tets.mesh";

@@ -1,6 +1,8 @@
 #ifndef bindpose_inside_ftetwild_process_h
 #define bindpose_inside_ftetwild_process_h
 
+// Tetrahedralization by the external program fTetWild.
+
 #include "base/execution.h"
 #include "base/mesh.h"
 
@@ -9,6 +11,7 @@
 namespace bindpose
 {
 
+/// Options of run_ftetwild().
 struct FtetwildOptions
 {
   /// Largest distance between the tets' boundary and the surface, in bounding-box diagonals
@@ -29,16 +32,20 @@ std::string find_ftetwild();
 /// It accepts any triangles, moves them within epsilon and keeps none of their vertices. A tet is
 /// inside if the winding number of the moved surface is above 0.5.
 ///
-/// `mesh` has positive tets and no unused vertices. It is empty if nothing is enclosed.
+/// `mesh` has positive tets and no unused vertices. It is empty if the surface encloses no volume.
 ///
 /// The surface and the result are stored in a temporary folder, which is always removed. A guarding
 /// shell process (ScratchFolder) removes it if this process is killed. fTetWild runs in a separate
 /// process group, with context.threads() threads.
 ///
-/// invalid_input: coordinates not finite or larger than 1e100, ids out of range, no triangles, all
-/// points equal, an option out of range. unavailable: no executable; the message names it and says
-/// where to get it. canceled: fTetWild is killed within 20 ms. internal_error: fTetWild crashed,
-/// failed, ran out of time or memory, or wrote no mesh; or the temporary folder cannot be created.
+/// Status codes:
+/// - invalid_input: a coordinate is not finite or larger than 1e100, an id is out of range, there
+///   are no triangles, all points are equal, or an option is out of range.
+/// - unavailable: there is no executable; the message contains its name and where to get it.
+/// - canceled: fTetWild is killed within 20 ms.
+/// - internal_error: fTetWild crashed, failed, exceeded its time or memory limit, or wrote no mesh;
+///   or the temporary folder cannot be created.
+///
 /// Cost: seconds to minutes.
 Status run_ftetwild(PointsView points, TrianglesView triangles, const FtetwildOptions& options,
   TetMesh& mesh, ExecutionContext& context);

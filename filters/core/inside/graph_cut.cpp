@@ -1,9 +1,11 @@
-// Most nodes are decided without flow, because their own costs outweigh their edges. The other
-// nodes make a network. A node that is cheaper inside is connected to the source, with the
-// difference of its two costs as capacity; a node that is cheaper outside is connected to the sink.
-// The maximum flow from source to sink saturates the cheapest edges that separate the two. Costs
-// are first rounded to integers, so that the flow arithmetic is exact and the result does not
-// depend on rounding.
+// Minimization of a binary energy by maximum flow (Boykov, Kolmogorov, 2004).
+//
+// Most nodes are labeled without flow, because the difference of their two costs exceeds the costs
+// of their edges. The other nodes form a network. A node that is cheaper inside is connected to the
+// source, with the difference of its two costs as capacity; a node that is cheaper outside is
+// connected to the sink. The maximum flow from source to sink saturates the cheapest edges that
+// separate the two. Costs are first rounded to integers, so that the flow arithmetic is exact and
+// the result does not depend on rounding.
 #include "inside/graph_cut.h"
 
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
@@ -29,8 +31,8 @@ struct Stop
 {
 };
 
-/// Residual capacities. Writes check for cancel now and then, because the algorithm has no
-/// callback.
+/// Residual capacities of the flow algorithm. Writes also check for a cancel request at intervals,
+/// because the algorithm has no callback.
 struct Residuals
 {
   using key_type = Arc;
@@ -112,7 +114,7 @@ double CutEnergy::of(const std::vector<char>& inside) const
 
 namespace
 {
-/// Labels of nodes, most of which are decided before any flow.
+/// Labels of the nodes. Most labels are decided before the maximum flow is computed.
 class Labels
 {
 public:
@@ -122,9 +124,9 @@ public:
   {
   }
 
-  /// Decide nodes that are on the same side in every minimum: their gain there, including edges to
-  /// decided nodes, is larger than the cost of all their other edges. Each decision can decide
-  /// neighbors in turn. The loop ends after a round that decides few nodes.
+  /// Decide nodes that have the same label in every minimum: the gain of this label, including
+  /// edges to decided nodes, exceeds the cost of all other edges of the node. A decision may make a
+  /// decision for a neighbor possible. The loop ends after a round that decides few nodes.
   void decide()
   {
     const auto nodes = static_cast<Index>(this->labels_.size());
@@ -141,7 +143,8 @@ public:
         this->add(edge.a, edge.b, edge.cost, edges);
         this->add(edge.b, edge.a, edge.cost, edges);
       }
-      constexpr double rounding = 1e-9; // an undecided node does no harm
+      // Relative margin for rounding; nodes within it remain undecided, which is safe.
+      constexpr double rounding = 1e-9;
       Index left = 0;
       Index decided = 0;
       for (Index i = 0; i < nodes; ++i)
@@ -161,13 +164,14 @@ public:
           ++left;
         }
       }
-      // The loop ends if at most one node is decided per 20 undecided ones.
+      // The loop ends if a round decides at most one node per 20 undecided nodes.
       constexpr Index few = 20;
       go_on = few * decided > left;
     }
   }
 
-  /// Return the energy of the undecided nodes, given their decided neighbors.
+  /// Return the energy as a function of the undecided nodes, with the labels of their decided
+  /// neighbors inserted.
   CutEnergy rest()
   {
     this->ids_.assign(this->labels_.size(), -1);
@@ -191,8 +195,8 @@ public:
     return rest;
   }
 
-  /// Return the labels of all nodes. @param rest labels of the undecided nodes, by their ids in
-  /// rest().
+  /// Return the labels of all nodes. @param rest labels of the undecided nodes, indexed by their
+  /// ids in rest().
   std::vector<char> with(const std::vector<char>& rest) const
   {
     std::vector<char> all = this->labels_;
@@ -216,7 +220,7 @@ private:
   }
 
   const CutEnergy& energy_;
-  std::vector<double> gains_; ///< gain of the label inside
+  std::vector<double> gains_; ///< cost of label outside minus cost of label inside, per node
   std::vector<char> labels_;
   std::vector<Index> ids_; ///< id of each node in rest(), or -1
 };
@@ -243,7 +247,7 @@ Status cut(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext&
   {
     Index from, to;
     Flow capacity;
-    Index pair; ///< index of the pair of opposite arcs
+    Index pair; ///< index of the pair of opposite arcs to which this arc belongs
   };
   std::vector<Line> lines;
   lines.reserve(2 * (energy.edges.size() + static_cast<std::size_t>(nodes)));
@@ -303,7 +307,7 @@ Status cut(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext&
   all.reserve(lines.size());
   for (const Arc& arc : boost::make_iterator_range(boost::edges(network)))
   {
-    all.push_back(arc); // in the order of their indices
+    all.push_back(arc); // arcs are visited in the order of their indices
   }
   std::vector<Arc> reverse(lines.size());
   for (const auto& arcs : arcs_of_pair)
@@ -336,7 +340,7 @@ Status cut(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext&
   inside.resize(static_cast<std::size_t>(nodes));
   for (Index i = 0; i < nodes; ++i)
   {
-    inside[i] = colors[i] == boost::black_color; // the source's tree
+    inside[i] = colors[i] == boost::black_color; // black nodes belong to the source's tree
   }
   return {};
 }

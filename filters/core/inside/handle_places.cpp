@@ -1,6 +1,6 @@
-// A line is divided into pieces that are equal relative to the local length. A triangle is halved
-// at its longest edge until that edge is short enough. The midpoints of the halved edges are its
-// samples.
+// Samples of handles at a local edge length. A line is divided into segments of equal length
+// relative to the local edge length. A triangle is bisected at its longest edge until that edge is
+// short enough; the samples are the midpoints of the bisected edges.
 #include "inside/handle_places.h"
 
 #include "base/line_pieces.h"
@@ -16,7 +16,7 @@ namespace bindpose
 
 namespace
 {
-constexpr double most = 1000.0; // pieces of a line
+constexpr double most = 1000.0; // maximum number of samples on a line
 
 class Sampler
 {

@@ -9,7 +9,7 @@
 namespace bindpose
 {
 
-/// The geometry of handles, for a mesher that makes them part of a volume.
+/// Points, segments and triangles of handles, at which a mesher creates vertices.
 struct HandlePlaces
 {
   Points points; ///< #H x 3: point handles, ends of bones, vertices of cages
@@ -22,15 +22,16 @@ struct HandlePlaces
 /// Return invalid_input for coordinates that are not finite and for ids out of range.
 Status check_places(const HandlePlaces& places);
 
+/// Result of sample_places().
 struct HandleSamples
 {
-  Points points; ///< each position once
-  Index chosen = 0; ///< number of the handles' own points, which come first
+  Points points; ///< sample points without duplicates
+  Index chosen = 0; ///< number of points of the handles themselves; they come first
 };
 
 /// Return the handles' points, followed by points on segments (at least one per segment) and
-/// triangles. `length` returns the distance of neighboring samples at a point (> 0). A line gets at
-/// most 1,000 samples.
+/// triangles. `length` must return the target distance between neighboring samples at a point (>
+/// 0). There are at most 1,000 samples per line.
 HandleSamples sample_places(
   const HandlePlaces& places, const std::function<double(const Vec3&)>& length);
 

@@ -1,6 +1,8 @@
-// The octree is built level by level: a cell that is larger than the sizes allow is divided into
-// eight. A cell that does not meet the surface is entirely inside or entirely outside. Cells
-// outside are not divided.
+// Points inside a closed surface, taken from an octree.
+//
+// The octree is built level by level: a cell that is larger than the sizing field allows is divided
+// into eight. A cell that does not intersect the surface is entirely inside or entirely outside.
+// Cells outside are not divided.
 #include "inside/inner_points.h"
 
 #include "base/parallel.h"
@@ -16,11 +18,12 @@ namespace bindpose
 
 namespace
 {
-// Largest side of a cell in requested lengths. The edges of tets are 0.87 and 1 cell sides long.
+// Maximum side of a cell, in units of the requested edge length. The edges of the tets are 0.87 and
+// 1 times as long as the cell's side.
 constexpr double largest_cell = 1.1;
-// Distance from the surface, relative to the requested length there.
+// Minimum distance of points from the surface, relative to the requested edge length there.
 constexpr double clearance = 0.5;
-constexpr int deepest = 19; // levels
+constexpr int deepest = 19; // maximum number of octree levels
 constexpr Index block = 256;
 
 /// Integer coordinates in units of half of the smallest cell's side: 21 bits per coordinate.
@@ -32,7 +35,7 @@ public:
   Lattice(const Interior& interior, const SizingField& sizes, ExecutionContext& context)
     : interior_(interior), sizes_(sizes), context_(context)
   {
-    // The root is a power of two times as large as the largest requested cells.
+    // The side of the root is a power of two times the side of the largest cells allowed.
     const Box& box = interior.box();
     const double side = box.size().maxCoeff();
     double whole = largest_cell * sizes.largest();
@@ -42,16 +45,17 @@ public:
     this->lower_ = box.center() - Vec3::Constant(0.5 * whole);
   }
 
-  /// Build the octree and choose its points. @return false when canceled, or if more than `most`
+  /// Build the octree and choose its points. @return false if canceled, or if more than `most`
   /// cells are inside; then points() is empty.
   bool build(Index most)
   {
     std::vector<Cell> cells{ Cell() };
-    constexpr double chosen = 0.7; // fraction of the time before choose()
-    double done = 0.0; // fraction of that part
+    constexpr double chosen = 0.7; // fraction of the total time before choose()
+    double done = 0.0; // completed fraction of the time before choose()
     for (int level = 0; !cells.empty(); ++level)
     {
-      // Most cells are in the last levels, and the number of levels is not known.
+      // The number of levels is unknown and most cells are in the last levels, so progress is
+      // estimated from the number of cells.
       const double share = static_cast<double>(cells.size()) / static_cast<double>(most);
       const double next = std::min(0.5 * (1.0 + done), done + share);
       const ProgressRange range(this->context_, chosen * done, chosen * next);
@@ -76,8 +80,8 @@ private:
     bool large = false;
   };
 
-  /// A position, with the last bit 1 if the position may be outside. Equal positions sort so that
-  /// the ones known to be inside come first.
+  /// A packed position. The last bit is 1 if the position may be outside. Equal positions are
+  /// sorted so that the key of a position known to be inside comes first.
   using Key = std::uint64_t;
   static constexpr int bits = 21;
   static constexpr Key mask = (Key(1) << bits) - 1;
@@ -134,8 +138,8 @@ private:
       });
   }
 
-  /// Compute the cells of the next level. Cells that are not divided contribute their corners and
-  /// centers.
+  /// Compute the cells of the next level. The corners and centers of cells that are not divided are
+  /// added to keys_.
   bool cut(std::vector<Cell>& cells, int level, Index most)
   {
     const std::uint64_t units = side_of(level);
@@ -174,7 +178,7 @@ private:
     keys.erase(std::unique(keys.begin(), keys.end(), [](Key a, Key b) { return a >> 1 == b >> 1; }),
       keys.end());
     std::vector<char> good(keys.size(), 0);
-    // At distance d from the surface, the sizes are larger by growth * d.
+    // At the distance d from the surface, the requested length is larger by growth * d.
     const double least = clearance / (1.0 + clearance * this->sizes_.growth());
     const bool whole = parallel_for(this->context_, static_cast<Index>(keys.size()), block,
       [&](Index begin, Index end)
@@ -205,7 +209,7 @@ private:
   const Interior& interior_;
   const SizingField& sizes_;
   ExecutionContext& context_;
-  double unit_; ///< half of a smallest cell's side
+  double unit_; ///< half of the side of a smallest cell
   Vec3 lower_;
   std::vector<Key> keys_; ///< corners and centers of the undivided cells
   Index cells_inside_ = 0;
@@ -220,13 +224,14 @@ Status Interior::build(Points points, Triangles boundary, ExecutionContext& cont
   this->box_ = bounding_box(this->points_, this->boundary_);
   this->tree_ = std::make_unique<TriangleTree>(this->points_, this->boundary_);
   WindingNumber::Options options;
-  options.expected_queries = std::max<Index>(1, this->boundary_.rows()); // approximate
+  // An estimate of the number of queries.
+  options.expected_queries = std::max<Index>(1, this->boundary_.rows());
   return this->winding_.build(this->points_, this->boundary_, context, options);
 }
 
 bool Interior::contains(const Vec3& p) const
 {
-  constexpr double half = 0.5; // the winding numbers are 0 and 1
+  constexpr double half = 0.5; // the winding number is 0 or 1
   return this->winding_.evaluate_at(p) > half;
 }
 
@@ -248,21 +253,22 @@ double Interior::layer(const SizingField& sizes) const
     const double size = sizes.at((a + b + c) / 3.0);
     sum += 0.5 * (b - a).cross(c - a).norm() / (size * size);
   }
-  constexpr double least_growth = 0.1; // a layer does not show slower growth
+  // The size of a layer depends little on growth rates below this.
+  constexpr double least_growth = 0.1;
   return sum * static_cast<double>(step) / (2.0 * std::max(sizes.growth(), least_growth));
 }
 
 namespace
 {
-/// Searches the scale of sizes that gives a wanted number of points. The number decreases with a
-/// power of the scale. The power depends on the surface: 3 in wide spaces, 2 in a layer at the
-/// surface, less if many triangles are near each other.
+/// Searches the scale of the edge lengths for which the number of points has the wanted value. The
+/// number of points decreases with a power of the scale. The exponent depends on the surface: 3 in
+/// wide spaces, 2 in a layer at the surface, less if many triangles are near each other.
 class ScaleSearch
 {
 public:
   ScaleSearch(double first, double wanted) : wanted_(wanted), least_(first) {}
 
-  /// Add a measurement: the number of points at a scale, or infinity if they were too many to
+  /// Add a measurement: the number of points at a scale, or infinity if there were too many to
   /// count.
   void add(double scale, double points)
   {
@@ -284,7 +290,7 @@ public:
   {
     const Sample& many = this->many_;
     const Sample& few = this->few_;
-    constexpr double blind = 12.0; // step without a finite measurement
+    constexpr double blind = 12.0; // factor of the scale if there is no finite measurement
     constexpr double largest_step = 12.0;
     constexpr double least_step = 1.1;
     if (few.scale == 0.0)
@@ -300,7 +306,7 @@ public:
       return std::max(
         this->least_, few.scale * std::max(largest_step_back, few.points / this->wanted_));
     }
-    double share = 0.5; // fraction of the way from many to few
+    double share = 0.5; // logarithmic position between the scales of many_ and few_
     if (std::isfinite(many.points) && few.points > 0.0)
     {
       constexpr double margin = 0.15;
@@ -310,7 +316,7 @@ public:
     return many.scale * std::pow(few.scale / many.scale, share);
   }
 
-  /// Report whether all scales between the measured ones are practically equal.
+  /// Report whether the interval between the two measured scales is too small to continue.
   bool ended() const
   {
     constexpr double alike = 1.05;
@@ -325,13 +331,13 @@ private:
     double points = 0.0;
   };
   double wanted_;
-  double least_; ///< smallest scale
+  double least_; ///< smallest scale that may be tried
   double power_ = 1.0;
-  Sample many_; ///< measurement at the largest scale that gave more than wanted
-  Sample few_; ///< measurement at the smallest scale that gave at most the wanted number
+  Sample many_; ///< measurement at the largest scale with more points than wanted
+  Sample few_; ///< measurement at the smallest scale with at most the wanted number of points
 };
 
-/// Return `wanted` of the points, evenly spaced in their order.
+/// Return a subset of `wanted` points, at equal intervals in the order of the points.
 Points thinned(const Points& points, Index wanted)
 {
   Points kept(wanted, 3);
@@ -346,15 +352,17 @@ Points thinned(const Points& points, Index wanted)
 bool inner_points(const Interior& interior, SizingField& sizes, Index most,
   ExecutionContext& context, Points& inner)
 {
-  constexpr double too_many = 5.0; // times `most`: the attempt ends
-  constexpr double few_cells = 2000.0; // computed soon in any case
+  constexpr double too_many = 5.0; // an attempt ends at this multiple of `most`
+  // Number of cells that is allowed in any case, because it takes little time.
+  constexpr double few_cells = 2000.0;
   constexpr double enough = 1.2;
   constexpr double least_enough = 0.6;
   constexpr int attempts = 20;
-  constexpr double most_growth = 1.0; // cells could not follow sizes that grow faster
+  constexpr double most_growth = 1.0; // cells cannot follow edge lengths that grow faster
   const double wanted = static_cast<double>(std::max<Index>(1, most));
   ScaleSearch search(sizes.scale(), wanted);
-  // Initial guess: at most surfaces there are 4 to 20 points per cell of the layer.
+  // Increase the scale of the edge lengths before the first attempt: for most surfaces there are 4
+  // to 20 points per cell of the layer at the surface.
   const double first_scale = sizes.scale();
   const auto raise = [&]
   {
@@ -373,13 +381,13 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
     }
   };
   raise();
-  Points fewer; // the largest set so far that is not too large
-  Points more; // the smallest set so far that is too large
+  Points fewer; // largest set so far with at most the allowed number of points
+  Points more; // smallest set so far with too many points
   double before = -1.0;
-  double begin = 0.0; // start of this attempt's progress
+  double begin = 0.0; // progress at the start of this attempt
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
-    // Two or three attempts are typical.
+    // There are typically two or three attempts.
     constexpr double share = 0.45; // fraction of the remaining progress
     const double end = begin + share * (1.0 - begin);
     const ProgressRange range(context, begin, end);
@@ -402,7 +410,8 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
       continue;
     }
     search.add(sizes.scale(), points);
-    const bool same = whole && points == before; // the largest size limits the cells, not the scale
+    // The maximum edge length limits the cells, so the scale has no effect.
+    const bool same = whole && points == before;
     before = points;
     if (!many && (points >= least_enough * wanted || sizes.scale() == first_scale))
     {
@@ -422,8 +431,8 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
     }
     sizes.set_scale(search.next());
   }
-  // In a plate all cells may be divided at the same scale. No scale then gives a number between
-  // none and too many, so a subset of the points is kept.
+  // In a plate all cells may be divided at the same scale. Then the number of points jumps from too
+  // few to too many at this scale, so a subset of the larger set is used.
   constexpr double too_few = 0.3;
   const bool thin_out = more.rows() > 0 && static_cast<double>(fewer.rows()) < too_few * wanted;
   inner = thin_out ? thinned(more, static_cast<Index>(wanted)) : std::move(fewer);

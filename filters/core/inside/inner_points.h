@@ -1,6 +1,8 @@
 #ifndef bindpose_inside_inner_points_h
 #define bindpose_inside_inner_points_h
 
+// Points inside a closed surface at a graded distance, as vertices of tets.
+
 #include "base/execution.h"
 #include "base/mesh.h"
 #include "inside/sizing_field.h"
@@ -21,9 +23,9 @@ public:
   /// Report whether every point of the surface is at least `distance` away from p.
   bool is_clear(const Vec3& p, double distance) const;
   const Box& box() const { return this->box_; }
-  /// Estimate the number of cells of these sizes in the layer at the surface: A / (2 growth size^2)
-  /// over an area A. The estimate is correct up to a factor that changes little with the sizes.
-  /// Cost: at most 2,047 evaluations of the sizes.
+  /// Estimate the number of octree cells in the layer at the surface for these edge lengths: A / (2
+  /// growth size^2) for an area A of the surface. The estimate is correct up to a factor that
+  /// depends little on the edge lengths. Cost: at most 2,047 evaluations of the sizing field.
   double layer(const SizingField& sizes) const;
 
 private:
@@ -34,12 +36,13 @@ private:
   Box box_;
 };
 
-/// Find points inside. Their distances are about the sizes, and their distances from the surface
-/// about half of that. The points are corners and centers of the cells of an octree, whose Delaunay
-/// tets are well shaped. If that gives more than `most` points, the sizes are enlarged, by a scale
-/// and by faster growth, until there are about `most`. Cost: some microseconds per cell, for two or
-/// three attempts.
-/// @return false when canceled.
+/// Find points inside. The distance between neighboring points is about the local edge length of
+/// `sizes`, and their distance from the surface is at least about half of it. The points are
+/// corners and centers of the cells of an octree, whose Delaunay tets are well shaped. If there are
+/// more than `most` points, the edge lengths are increased, by a scale and by a higher growth rate,
+/// until there are about `most` points. Cost: some microseconds per cell, for two or three
+/// attempts.
+/// @return false if canceled.
 bool inner_points(const Interior& interior, SizingField& sizes, Index most,
   ExecutionContext& context, Points& inner);
 

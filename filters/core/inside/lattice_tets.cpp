@@ -1,14 +1,19 @@
-// Lattice vertices are numbered corners first (x fastest), then centers. All loops run in the order
-// of these numbers, so results are the same for any number of threads.
+// Isosurface stuffing of a body-centered cubic lattice (Labelle and Shewchuk 2007).
+//
+// The ids of lattice vertices are the corners first (x fastest), then the centers. All loops run in
+// the order of the ids, so results are the same for any number of threads.
 //
 // Stuffing:
 // 1. Label lattice vertices inside + and the others -.
 // 2. Find the cut point of each edge between + and - by bisection. Winding numbers jump at the
 //    surface, so no faster method is safe.
-// 3. Move a vertex with a cut point nearer than alpha times the edge length there, and label it 0.
-// 4. Keep each tet with a + vertex and no - vertex. Of a tet with + and - vertices keep the + side,
-//    with cut points instead of the - vertices. If that leaves a quadrilateral on a face, both tets
-//    of the face must divide it along the same diagonal: see diagonal_at_first().
+// 3. If a cut point is nearer to a vertex than alpha times the edge length, move the vertex to the
+//    cut point and label it 0.
+// 4. Keep each tet with a + vertex and no - vertex. If a tet has both + and - vertices, keep the
+// part
+//    at the + vertices, with cut points instead of the - vertices. If this part has a quadrilateral
+//    on a face, both tets at the face must divide the quadrilateral along the same diagonal: see
+//    diagonal_at_first().
 #include "inside/lattice_tets.h"
 
 #include "base/parallel.h"
@@ -25,8 +30,8 @@ namespace
 using Tet = std::array<Index, 4>;
 using Edge2 = std::pair<Index, Index>;
 
-// The largest distances, in edge lengths, at which a vertex moves to a cut point. With these all
-// dihedral angles are above 10.78 degrees (Labelle and Shewchuk, table 1).
+// The largest distances, in edge lengths, at which a vertex moves to a cut point. With these
+// distances, all dihedral angles are above 10.78 degrees (Labelle and Shewchuk, table 1).
 constexpr double alpha_long = 0.24999;
 constexpr double alpha_short = 0.41189;
 
@@ -71,18 +76,18 @@ public:
     return this->lattice_.origin +
       this->lattice_.spacing * Vec3(at[0] + shift, at[1] + shift, at[2] + shift);
   }
-  /// Return the parity, which differs between neighbors along a long edge.
+  /// Return the parity of a vertex. The two ends of a long edge have different parities.
   bool even(Index v) const
   {
     const auto at = this->position(v);
     return (at[0] + at[1] + at[2]) % 2 == 0;
   }
-  /// Report whether an edge is long (1). An edge between a corner and a center is short
-  /// (sqrt(3)/2).
+  /// Report whether an edge is long: it joins two corners or two centers and its length is 1. An
+  /// edge between a corner and a center is short; its length is sqrt(3)/2.
   bool is_long(Index v, Index w) const { return this->is_center(v) == this->is_center(w); }
 
-  /// Call body(tet) for the tets between cube (i, j, k) and its three upper neighbors. The first
-  /// two vertices are centers, the last two corners.
+  /// Call body(tet) for the tets that cube (i, j, k) shares with its next cube along each of the
+  /// three axes. The first two vertices of a tet are centers, the last two are corners.
   template <typename Body>
   void tets_of_cube(Index i, Index j, Index k, const Body& body) const
   {
@@ -168,7 +173,7 @@ SampleGrid grid_of(const Lattice& lattice, bool centers)
   return grid;
 }
 
-/// Remove unused vertices, keep the order of the others, and orient all tets positively.
+/// Remove unused vertices, keep the order of the other vertices, and orient all tets positively.
 void compact(const std::vector<Vec3>& points, std::vector<Tet>& tets, TetMesh& mesh)
 {
   std::vector<Index> id(points.size(), -1);
@@ -270,7 +275,8 @@ private:
       });
   }
 
-  /// Return the parameter at which the edge crosses the region's boundary, from its first vertex.
+  /// Return the position 0 … 1 on the edge, from its first vertex, at which it crosses the boundary
+  /// of the region.
   double cut_of(const Edge2& edge) const
   {
     const bool first_inside = this->sign_[edge.first] > 0;
@@ -285,13 +291,13 @@ private:
     return 0.5 * (lower + upper);
   }
 
-  /// Move each vertex that has a cut point too near to the nearest such point.
+  /// Move each vertex that has a cut point within the snapping distance to the nearest cut point.
   void snap()
   {
     struct End
     {
       Index vertex, edge;
-      double distance; // in edge lengths of a long edge
+      double distance; // in units of the length of a long edge
       bool too_near;
     };
     std::vector<End> ends;
@@ -354,11 +360,12 @@ private:
     return this->cut_vertex_[static_cast<std::size_t>(at - this->edges_.begin())];
   }
 
-  /// Select the diagonal of the quadrilateral a, b, bc, ac that a cut leaves on the face of +
-  /// vertices a, b and - vertex c. Return true if the diagonal starts at a, false if it starts at
-  /// b. The face has one long edge. If that is a-b, the diagonal starts at the even vertex of the
-  /// two. Otherwise it starts at the + vertex that is not on the long edge, so that it ends at the
-  /// long edge's cut point. The result is the same for both tets of the face.
+  /// Select the diagonal of the quadrilateral a, b, bc, ac. It is the remaining part of a face
+  /// whose vertices a and b are + and whose vertex c is -; ac and bc are cut points. Return true if
+  /// the diagonal starts at a, false if it starts at b. The face has one long edge. If the long
+  /// edge is a-b, the diagonal starts at the even one of these two vertices. Otherwise it starts at
+  /// the + vertex that is not on the long edge, so that it ends at the long edge's cut point. The
+  /// result is the same for both tets of the face.
   bool diagonal_at_first(Index a, Index b, Index c) const
   {
     if (this->numbering_.is_long(a, b))
@@ -418,20 +425,22 @@ private:
     }
   }
 
-  /// Fill the case + + - -: a prism with the ends (a, ac, ad) and (b, bc, bd). Its face (ac, ad,
-  /// bd, bc) is on the boundary, so its diagonal can be chosen: the one with the better angle.
+  /// Fill the inside of a tet with two + vertices a, b and two - vertices c, d: a prism with the
+  /// ends (a, ac, ad) and (b, bc, bd). Its face (ac, ad, bd, bc) is on the boundary, so its
+  /// diagonal can be chosen: the one with the better angle.
   void fill_wedge(Index a, Index b, Index c, Index d, std::vector<Tet>& out) const
   {
     std::vector<Tet> best;
     double best_angle = -1.0;
     for (const bool free_at_first : { true, false })
     {
-      // Sides of the prism: (a, b | ac, bc), then (ac, bc | ad, bd) with the free diagonal, then
-      // (ad, bd | a, b).
+      // Sides of the prism: (a, b | ac, bc), then (ac, bc | ad, bd) with the diagonal that can be
+      // chosen, then (ad, bd | a, b).
       std::vector<Tet> tets;
       const std::array<Index, 3> top{ a, this->cut_vertex(a, c), this->cut_vertex(a, d) };
       const std::array<Index, 3> bottom{ b, this->cut_vertex(b, c), this->cut_vertex(b, d) };
-      // Side k is between corners k and k + 1. Its diagonal starts at the top of corner k or k + 1.
+      // Quadrilateral k of the prism is between corners k and k + 1. Its diagonal starts at the top
+      // of corner k or k + 1.
       const std::array<bool, 3> at_k{ this->diagonal_at_first(a, b, c), free_at_first,
         !this->diagonal_at_first(a, b, d) };
       if (!split_prism(top, bottom, at_k, tets))
@@ -454,7 +463,8 @@ private:
     out.insert(out.end(), best.begin(), best.end());
   }
 
-  /// Fill the case + + + -: a prism with the ends (a, b, c) and their cut points.
+  /// Fill the inside of a tet with three + vertices and one - vertex: a prism with the ends (a, b,
+  /// c) and their three cut points.
   void fill_cut_corner(const std::array<Index, 3>& plus, Index minus, std::vector<Tet>& out) const
   {
     std::array<Index, 3> bottom{};
@@ -467,10 +477,10 @@ private:
     split_prism(plus, bottom, at_k, out);
   }
 
-  /// Divide a prism with the ends `top` and `bottom` into three tets. If at_k[k], the diagonal of
-  /// the side between corners k and k + 1 starts at top[k] and ends at bottom[k + 1], else it
-  /// starts at top[k + 1]. Return false if the three diagonals are cyclic: no tets then fill the
-  /// prism.
+  /// Divide a prism with the ends `top` and `bottom` into three tets. If at_k[k] is true, the
+  /// diagonal of the quadrilateral between corners k and k + 1 starts at top[k] and ends at
+  /// bottom[k + 1]. Otherwise it starts at top[k + 1] and ends at bottom[k]. Return false if the
+  /// three diagonals are cyclic, because then no three tets fill the prism.
   static bool split_prism(const std::array<Index, 3>& top, const std::array<Index, 3>& bottom,
     const std::array<bool, 3>& at_k, std::vector<Tet>& out)
   {
@@ -484,7 +494,7 @@ private:
       const int last = (k + 2) % 3;
       if (at_k[k] && !at_k[last])
       {
-        // Both diagonals at corner k start at its top.
+        // The two diagonals at corner k both start at its top vertex.
         out.push_back({ top[k], bottom[0], bottom[1], bottom[2] });
         if (at_k[next])
         {

@@ -1,7 +1,9 @@
+// Separation of a tet mesh's boundary into a 2-manifold.
+//
 // The triangles of the boundary are the facets with one tet. From each of their edges, a walk
 // through the tets around the edge ends at another boundary triangle. The two triangles bound the
-// same wedge of the solid and are neighbors. The corners of neighbors at their common edge are the
-// same vertex.
+// same wedge of the solid and are neighbors. The corners of two neighbors at their shared edge
+// become the same vertex.
 #include "inside/manifold_boundary.h"
 
 #include "base/disjoint_sets.h"
@@ -35,7 +37,7 @@ public:
     }
   }
 
-  /// Return the same facet in the tet on its other side, or -1 on the boundary.
+  /// Return the id of the same facet in the tet on its other side, or -1 on the boundary.
   Index other(Index facet) const { return this->other_[facet]; }
 
   std::array<Index, 3> corners(Index facet) const
@@ -45,7 +47,7 @@ public:
     return { tet[of[0]], tet[of[1]], tet[of[2]] };
   }
 
-  /// Return the other facet of the same tet at the edge from a to b.
+  /// Return the other facet of the same tet that has the edge from a to b.
   Index around(Index facet, Index a, Index b) const
   {
     const Index first = facet - facet % 4;
@@ -79,12 +81,12 @@ private:
   std::vector<Index> other_;
 };
 
-/// The triangles of the boundary with their neighbors across edges. Side 3 f + k is the edge from
+/// The triangles of the boundary with their neighbors across edges. Side 3 f + k is the side from
 /// corner k of triangle f to the next corner.
 struct Skin
 {
-  std::vector<std::array<Index, 3>> corners; ///< vertices of the tets
-  std::vector<Index> opposite; ///< side of the neighbor
+  std::vector<std::array<Index, 3>> corners; ///< ids of the tets' vertices
+  std::vector<Index> opposite; ///< per side: the side of the neighboring triangle
 };
 
 Skin skin_of(TetsView tets)
@@ -122,8 +124,8 @@ Index next_side(Index side)
   return side % 3 == 2 ? side - 2 : side + 1;
 }
 
-/// Find sides whose two vertices are also those of another edge. This happens if the solid pinches
-/// along an edge and is connected around each of the edge's ends.
+/// Find sides that join the same two vertices as a side of another edge. This happens if the solid
+/// touches itself along an edge and is connected around both ends of the edge.
 std::vector<char> doubled_sides(const std::vector<Index>& vertex)
 {
   std::vector<std::array<Index, 3>> sides;
@@ -155,10 +157,10 @@ TriangleMesh manifold_boundary(const TetMesh& tets)
     corners.unite(next_side(side), skin.opposite[side]);
   }
   std::vector<Vec3> points;
-  std::vector<Index> vertex(skin.opposite.size(), -1); // vertex of each triangle's corners
+  std::vector<Index> vertex(skin.opposite.size(), -1); // output vertex at each corner
   for (Index corner = 0; corner < count; ++corner)
   {
-    const Index first = corners.find(corner); // the smallest of its set, so it already has a vertex
+    const Index first = corners.find(corner); // the first corner of the set already has a vertex
     if (first == corner)
     {
       vertex[corner] = static_cast<Index>(points.size());
@@ -166,7 +168,7 @@ TriangleMesh manifold_boundary(const TetMesh& tets)
     }
     vertex[corner] = vertex[first];
   }
-  // An edge between two vertices must be unique, so each doubled edge gets a vertex at its middle.
+  // Two vertices must be joined by at most one edge, so each doubled edge is split at its midpoint.
   const std::vector<char> doubled = doubled_sides(vertex);
   std::vector<Index> middle(vertex.size(), -1);
   std::vector<std::array<Index, 3>> triangles;
@@ -180,7 +182,7 @@ TriangleMesh manifold_boundary(const TetMesh& tets)
   }
   for (Index first = 0; first < count; first += 3)
   {
-    std::vector<Index> ring; // starts at a middle, if there is one
+    std::vector<Index> ring; // starts at a midpoint, if there is one
     for (Index side = first; side < first + 3; ++side)
     {
       ring.push_back(vertex[side]);

@@ -1,3 +1,5 @@
+// Preparation of a surface for tetrahedralize(): repair, removal of back-side triangles, and
+// construction of the winding number. Each modification adds a warning.
 #include "inside/prepared_surface.h"
 
 #include "surface/back_sides.h"
@@ -7,7 +9,7 @@ namespace bindpose
 
 namespace
 {
-/// Return "1 triangle was" or "2 triangles were".
+/// Return a phrase such as "1 triangle was" or "2 triangles were".
 std::string counted(Index count, const char* one, const char* many)
 {
   return std::to_string(count) + " " + (count == 1 ? one : many) + (count == 1 ? " was" : " were");
@@ -31,7 +33,7 @@ void report_turned(PreparedSurface& prepared)
   }
 }
 
-/// Repair the surface again without back-side triangles, if there are any. The diagnosis in the
+/// If there are back-side triangles, repair the surface again without them. The diagnosis in the
 /// report remains that of the whole surface.
 Status leave_out_backs(
   PointsView points, TrianglesView triangles, PreparedSurface& prepared, ExecutionContext& context)

@@ -9,25 +9,25 @@
 namespace bindpose
 {
 
-/// A surface made ready for tetrahedralize(): welded, oriented, with its winding number. One
-/// preparation serves several calls, for example tets and then lattices of two resolutions.
+/// A surface made ready for tetrahedralize(): welded and oriented, with its winding number. The
+/// same object can be used for several calls, for example tets and then lattices of two
+/// resolutions.
 struct PreparedSurface
 {
   RepairedSurface surface;
   EnclosedRegion inside;
   std::vector<DefectPlace> defects;
   double winding_threshold = 0.5;
-  /// counts.* of the diagnosis, counts.back_triangles, counts.turned_triangles,
-  /// counts.turned_components
+  /// counts.* of the diagnosis of surface defects, counts.back_triangles, counts.turned_triangles,
+  /// counts.turned_components.
   Report report;
-  /// One sentence per type of triangles that were removed or turned.
+  /// One sentence per type of triangles that were removed or flipped.
   std::vector<std::string> warnings;
 };
 
 /// Repair the surface (repair_surface), remove back-side triangles (back_sides) and build the
-/// winding number (EnclosedRegion).
-/// invalid_input: ids out of range, coordinates that are not finite, no triangle with an area.
-/// Cost: about 5 us per triangle.
+/// winding number (EnclosedRegion). Return invalid_input if an id is out of range, a coordinate is
+/// not finite, or no triangle has an area. Cost: about 5 us per triangle.
 Status prepare_surface(PointsView points, TrianglesView triangles, double winding_threshold,
   PreparedSurface& prepared, ExecutionContext& context);
 

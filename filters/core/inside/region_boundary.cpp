@@ -1,3 +1,6 @@
+// Tests whether triangles bound the region {winding number >= threshold}, by winding numbers at
+// points on both sides of a triangle. The thickness of the region is measured by sampling along the
+// normal.
 #include "inside/region_boundary.h"
 
 #include "base/parallel.h"
@@ -39,8 +42,8 @@ bool RegionBoundary::bounded_at(Index f, const Vec3& p) const
 
 bool RegionBoundary::bounded_at_corner(Index f, int k) const
 {
-  // Far enough inside the triangle to be clearly on one side of it, near enough to represent the
-  // corner.
+  // The test point is far enough inside the triangle to be clearly on one side of the triangle's
+  // edges, and near enough to the corner to represent it.
   constexpr double inwards = 0.02;
   const Vec3 center = (this->corner(f, 0) + this->corner(f, 1) + this->corner(f, 2)) / 3.0;
   return this->bounded_at(f, (1.0 - inwards) * this->corner(f, k) + inwards * center);
@@ -112,7 +115,8 @@ void spread(const RegionBoundary& region, Index f, double spacing, const Found& 
   const double area = 0.5 * a.cross(b).norm();
   for (double row = 0.0; row < rows; ++row)
   {
-    // The middle of the row's area: the point of a single row is the center of the triangle.
+    // The row's point is at the middle of the row's area. The point of a single row is the center
+    // of the triangle.
     const double t = rows > 1.0 ? (row + 0.5) / rows : 2.0 / 3.0;
     const double columns = std::clamp(std::ceil(t * least / spacing), 1.0, most);
     const double share = area * (2.0 * row + 1.0) / (rows * rows * columns);

@@ -1,5 +1,6 @@
-// The helper computes the mesh (mesher/remesh_job.cpp). This file checks the result, finds the
-// input's vertices in it by their coordinates, improves the worst tets, and measures the distance.
+// Delaunay refinement of the enclosed region in the helper executable (mesher/remesh_job.cpp). This
+// file checks the resulting mesh, finds the input's vertices in the mesh by their coordinates,
+// improves the worst tets, and measures the distance from the surface.
 #include "inside/remesh_tets.h"
 
 #include "base/number_text.h"
@@ -65,7 +66,8 @@ Status check_input(PointsView points, TrianglesView triangles, const RemeshOptio
 
 using Ids = std::map<std::array<double, 3>, Index>;
 
-/// Map coordinates to the lowest id of the vertices with these coordinates.
+/// Map coordinates to vertex ids. If several vertices have the same coordinates, the lowest id is
+/// used.
 Ids ids_of(PointsView points, TrianglesView triangles)
 {
   Ids ids;
@@ -108,7 +110,7 @@ bool improve(
   return whole;
 }
 
-/// Remove unused vertices and number the input's vertices first.
+/// Remove unused vertices and renumber the others so that the input's vertices come first.
 void number_vertices(const Ids& ids, const MesherData& data, RemeshResult& result)
 {
   constexpr Index unused = -2;

@@ -1,3 +1,5 @@
+// Labels of tets from their winding numbers, by a threshold or by a graph cut (Jacobson, Kavan,
+// Sorkine-Hornung 2013; graph_cut.h).
 #include "inside/segmentation.h"
 
 #include "inside/graph_cut.h"
@@ -90,8 +92,8 @@ Status segment_tets(PointsView points, TetsView tets, const Eigen::VectorXd& win
   result.energy = energy.of(result.inside);
   if (result.energy >= result.threshold_energy)
   {
-    // If the energies are equal, the threshold's labels are used: they match a map of the winding
-    // numbers.
+    // If both energies are equal, the labels of the threshold are used, because they agree with a
+    // map of the winding numbers.
     result.inside = above;
     result.energy = result.threshold_energy;
   }

@@ -1,5 +1,6 @@
-// The sites are stored in a tree of boxes. A box is skipped if its smallest length, grown by the
-// distance to the box, is at least the best value so far.
+// Evaluation of the sizing field by a tree of boxes over the sites. Each box stores the smallest
+// length of its sites. A box is skipped if this length plus growth * (distance to the box) is at
+// least the best value so far.
 #include "inside/sizing_field.h"
 
 #include <algorithm>
@@ -77,7 +78,7 @@ double SizingField::bound(const Node& node, const Vec3& p) const
 double SizingField::at(const Vec3& p) const
 {
   double best = this->largest_;
-  // Nodes are halved at the median, so no tree is deeper.
+  // Nodes are split at the median, so the stack is large enough.
   std::array<std::pair<Index, double>, 128> stack;
   std::size_t top = 0;
   if (!this->nodes_.empty())
@@ -104,7 +105,7 @@ double SizingField::at(const Vec3& p) const
     }
     const double left = this->bound(this->nodes_[at + 1], p);
     const double right = this->bound(this->nodes_[node.right], p);
-    // Push the better child last, so that it is visited first.
+    // Push the child with the smaller value last, so that it is visited first.
     stack[top++] = left <= right ? std::make_pair(node.right, right) : std::make_pair(at + 1, left);
     stack[top++] = left <= right ? std::make_pair(at + 1, left) : std::make_pair(node.right, right);
   }

@@ -9,14 +9,14 @@ namespace bindpose
 {
 
 /// Target edge length as a function of position: the smallest of (length of a site + growth *
-/// distance to the site) over all sites, and at most `largest`. At two points it differs by at most
-/// growth times their distance. Cost: O(n log n) to build, some microseconds per value at 100k
-/// sites.
+/// distance to the site) over all sites, and at most `largest`. The edge lengths at two points
+/// differ by at most growth times the distance of the points. Cost: O(n log n) to build, some
+/// microseconds per value at 100k sites.
 class SizingField
 {
 public:
-  /// Build the field from #S x 3 sites and #S lengths > 0. growth >= 0 (0.3: a neighbor is at most
-  /// a third larger).
+  /// Build the field from #S x 3 sites and #S lengths > 0. growth must be >= 0. (With 0.3,
+  /// neighboring edges differ by at most a third.)
   SizingField(const Points& sites, const Eigen::VectorXd& lengths, double growth, double largest);
 
   /// Return the edge length at p. Thread-safe.
@@ -32,8 +32,8 @@ private:
   struct Node
   {
     Box box;
-    double smallest = 0.0; ///< smallest length of its sites
-    Index begin = 0, end = 0; ///< range of its sites in order_
+    double smallest = 0.0; ///< smallest length of the node's sites
+    Index begin = 0, end = 0; ///< range of the node's sites in order_
     Index right = -1; ///< second child; the first child is the next node; -1: a leaf
   };
   void build(Index begin, Index end);
@@ -42,7 +42,7 @@ private:
   Points sites_;
   Eigen::VectorXd lengths_;
   double growth_, largest_;
-  double scale_ = 1.0; ///< factor of the lengths
+  double scale_ = 1.0; ///< factor by which the lengths of the sites are multiplied
   std::vector<Index> order_;
   std::vector<Node> nodes_;
 };

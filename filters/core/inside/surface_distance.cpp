@@ -1,3 +1,5 @@
+// Distance between the boundary of tets and a surface, measured in both directions from sample
+// points by nearest-point queries.
 #include "inside/surface_distance.h"
 
 #include "base/parallel.h"
@@ -19,7 +21,8 @@ struct Sample
   double weight = 0.0;
 };
 
-/// Collect each triangle's center and each vertex, with two thirds and one third of the area.
+/// Collect the center and the corners of each triangle as samples. The center represents two thirds
+/// of the triangle's area, and the three corners together represent one third.
 template <typename AtCenter, typename AtCorner>
 bool collect(PointsView points, TrianglesView triangles, const AtCenter& at_center,
   const AtCorner& at_corner, std::vector<Sample>& samples, ExecutionContext& context)
@@ -89,14 +92,14 @@ bool measure(const std::vector<Sample>& samples, const TriangleTree& tree,
   return whole;
 }
 
-/// Parts of the tets' boundary that close a hole of the surface.
+/// Finds the parts of the tets' boundary that close holes of the surface ("lids").
 class Lids
 {
 public:
   Lids(const RegionBoundary& region, const TriangleTree& tree) : region_(region), tree_(tree) {}
 
-  /// Report whether the region ends near p, along the normal n at most `reach` away, at no
-  /// triangle.
+  /// Report whether p is on a lid: the region ends within the distance `reach` of p along the
+  /// normal n, and there is no triangle at this end.
   bool contain(const Vec3& p, const Vec3& n, double reach) const
   {
     Vec3 end = p;
@@ -153,7 +156,8 @@ bool measure_distance(const TetMesh& mesh, const RegionBoundary& region, Surface
     const double size = std::sqrt(std::max((b - a).squaredNorm(), (c - a).squaredNorm()));
     return !lids.contain(center, (b - a).cross(c - a).normalized(), 0.5 * size);
   };
-  // A vertex is included if one of its triangles is. Where lid and surface meet, both are near.
+  // A vertex is included if one of its triangles is included. At the border between a lid and the
+  // surface, this is acceptable because the surface is near.
   return collect(
            mesh.points, skin, on_surface, [](Index, int, bool counts) { return counts; }, samples,
            context) &&

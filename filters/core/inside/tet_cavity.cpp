@@ -1,3 +1,5 @@
+// Cavities for the insertion of a vertex: the tets whose circumspheres contain it, reduced until
+// all new tets are good enough.
 #include "inside/tet_cavity.h"
 
 #include "base/tet_facets.h"
@@ -42,7 +44,8 @@ bool CavitySearch::in_sphere(const Tet& tet, const Vec3& p) const
              w = this->tets_.point(tet[3]) - a, q = p - a;
   const Vec3 vw = v.cross(w);
   const Vec3 center = u.squaredNorm() * vw + v.squaredNorm() * w.cross(u) +
-    w.squaredNorm() * u.cross(v); // times twice the determinant
+    // Center of the circumsphere relative to a, times twice the determinant.
+    w.squaredNorm() * u.cross(v);
   return q.squaredNorm() * u.dot(vw) < q.dot(center);
 }
 
@@ -108,8 +111,8 @@ CavitySearch::Facet CavitySearch::facet_inwards(Index t, int k) const
   return { tet[f[0]], tet[f[2]], tet[f[1]] };
 }
 
-/// Remove tets with a facet that makes too flat a tet with p, and check the neighbors of each
-/// removed tet again. @return false if the start is removed.
+/// Remove tets from the cavity whose facet would form too flat a tet with p. After each removal,
+/// check the neighbors of the removed tet again. @return false if `start` is removed.
 bool CavitySearch::shrink(const Vec3& p, Index start, double least)
 {
   for (std::size_t next = 0; next < this->queue_.size(); ++next)
@@ -170,7 +173,7 @@ void CavitySearch::collect_connected(Index start, TetCavity& cavity)
   }
 }
 
-/// Report whether the new tets fill the same volume and keep every vertex.
+/// Report whether the new tets fill the same volume as the cavity and use all its vertices.
 bool CavitySearch::keeps_all(const Vec3& p, const TetCavity& cavity) const
 {
   double new_volume = 0.0;

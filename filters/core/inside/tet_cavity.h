@@ -1,6 +1,8 @@
 #ifndef bindpose_inside_tet_cavity_h
 #define bindpose_inside_tet_cavity_h
 
+// Cavities: sets of tets that a new vertex replaces, bounded by facets that the vertex can see.
+
 #include "base/mesh.h"
 #include "inside/tet_complex.h"
 
@@ -12,7 +14,7 @@ namespace bindpose
 {
 
 /// Tets that will be replaced by tets from a new vertex, and the facets that bound them. A facet is
-/// oriented so that (facet, point) is a positive tet for a point inside.
+/// oriented such that (facet, point) is a positive tet if the point is inside the cavity.
 struct TetCavity
 {
   std::vector<Index> tets;
@@ -34,7 +36,7 @@ public:
   /// `least`. p must be inside `start`.
   /// @return false if no cavity remains.
   bool find(const Vec3& p, Index start, double least, TetCavity& cavity);
-  /// Return the number of computed qualities plus the number of collected tets.
+  /// Return the work so far: number of computed tet qualities plus number of collected tets.
   Index evaluations() const { return this->evaluations_; }
 
 private:
@@ -60,12 +62,12 @@ private:
   bool keeps_all(const Vec3& p, const TetCavity& cavity) const;
 
   const TetComplex& tets_;
-  /// Per tet: the number of the last search whose cavity contains it; negative if it is connected
-  /// to the start.
+  /// Per tet: the index of the last search whose cavity contained the tet. Negative if the tet is
+  /// connected to the start.
   std::vector<Index> cavity_;
   std::vector<Site> sites_; ///< sites of the current search
   std::vector<Index> site_ids_; ///< per tet: its index in sites_, if it is in the cavity
-  std::vector<Index> queue_; ///< tets that the current search has yet to visit
+  std::vector<Index> queue_; ///< tets that the current search will visit
   Index searches_ = 0;
   Index evaluations_ = 0;
 };

@@ -1,3 +1,4 @@
+// A tet mesh that is edited in place, with adjacency by the lists of tets per vertex.
 #include "inside/tet_complex.h"
 
 #include "base/tet_facets.h"
@@ -11,7 +12,8 @@ namespace bindpose
 
 namespace
 {
-/// Below this quality the sign of a volume in doubles is not trusted: 0.001 degrees.
+/// If the quality is below this, the sign of a volume in doubles is not reliable. Corresponds to an
+/// angle of 0.001 degrees.
 constexpr double doubtful = 3e-10;
 } // namespace
 
@@ -75,20 +77,22 @@ double TetComplex::quality(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
 {
   const Vec3 ab = b - a, ac = c - a, ad = d - a, bc = c - b, bd = d - b;
   const Vec3 nd = ac.cross(ab);
-  const double volume = -nd.dot(ad); // six times
+  const double volume = -nd.dot(ad); // six times the volume
   if (!(volume > 0.0))
   {
     return -1.0;
   }
-  // Outward normals of the sides, of lengths twice the sides' areas. The sine of the angle between
-  // two sides is 6 volume * length of their edge / product of these lengths.
+  // Outward normals of the facets, with lengths of twice the areas. The sine of the angle between
+  // two facets is 6 volume * (length of their shared edge) / (product of the lengths of the two
+  // normals).
   const Vec3 na = bc.cross(bd), nb = ad.cross(ac), nc = ab.cross(ad);
   const double la = na.squaredNorm(), lb = nb.squaredNorm(), lc = nc.squaredNorm(),
                ld = nd.squaredNorm();
   double least = 1.0;
   const auto add = [&](const Vec3& m, const Vec3& n, double edge, double lengths)
   {
-    if (m.dot(n) < 0.0 && !(edge >= least * lengths)) // an acute angle
+    // The dihedral angle is acute and its sine is the smallest so far.
+    if (m.dot(n) < 0.0 && !(edge >= least * lengths))
     {
       least = edge / lengths;
     }
@@ -245,7 +249,7 @@ bool TetComplex::find_ring(Index a, Index b, Ring& ring) const
   {
     sides.push_back(this->others(t, a, b));
   }
-  // Start at the side whose first vertex is not the end of another side, if there is one.
+  // Start at the ring edge whose first vertex is not the end of another ring edge, if there is one.
   std::size_t first = 0;
   for (std::size_t i = 0; i < sides.size(); ++i)
   {
@@ -283,7 +287,7 @@ bool TetComplex::find_ring(Index a, Index b, Ring& ring) const
 
 Index TetComplex::beyond(Index t, Index a, Index b, Index c) const
 {
-  // Search the shortest of the three lists.
+  // Search the shortest of the three lists of tets.
   if (this->at_[b].size() < this->at_[a].size())
   {
     std::swap(a, b);

@@ -1,10 +1,12 @@
+// Improvement of flat tets in passes of local modifications ("steps", tet_steps.h).
+//
 // Each pass visits the tets that are too flat, worst first. A tet is visited again only if the tets
 // at one of its vertices have changed. Steps for up to 64 tets are searched in parallel while the
-// mesh does not change (tet_steps.h), then applied in order. A step is searched again if an earlier
-// step changed a tet near it. The result does not depend on the number of threads.
+// mesh does not change. Then they are applied in order. A step is searched again if an earlier step
+// changed a tet that it uses. The result does not depend on the number of threads.
 //
-// In the last passes, held vertices of tets that are still too flat may move. Tets that are then
-// still too flat and have no neighbor are removed.
+// In the last passes, held (constrained) vertices of tets that are still too flat may move. Tets
+// that are still too flat after these passes and have no neighbor are removed.
 #include "inside/tet_improvement.h"
 
 #include "base/parallel.h"
@@ -43,8 +45,8 @@ public:
 
   bool run()
   {
-    constexpr Index last_passes = 4; // in which held vertices may move
-    constexpr Index first_passes = 3; // before vertices are added
+    constexpr Index last_passes = 4; // passes in which held vertices may move
+    constexpr Index first_passes = 3; // passes before vertices are inserted
     const Index passes = this->options_.passes - last_passes;
     bool whole = this->passes(this->options_.insert ? first_passes : passes, this->options_.angle);
     if (whole && this->options_.insert)
@@ -68,12 +70,13 @@ public:
   }
 
 private:
-  /// Small meshes get more evaluations per tet, large ones get fewer.
+  /// Constants of the limit for the computed tet qualities (evaluations). Small meshes get more
+  /// evaluations per tet than large meshes.
   static constexpr Index small = 1000; // tets
   static constexpr double large = 2.5e7; // evaluations
   static constexpr double per_tet_of_large = 400.0;
-  /// Tets whose steps are searched at the same time: enough for many threads, few enough that they
-  /// are rarely neighbors.
+  /// Number of tets whose steps are searched in parallel. It is large enough for many threads and
+  /// small enough that the tets are rarely neighbors.
   static constexpr std::size_t most_at_once = 64;
   static constexpr Index per_task = 2;
 
@@ -82,7 +85,7 @@ private:
     return static_cast<double>(this->evaluations_) > this->most_evaluations_;
   }
 
-  /// @return false when canceled.
+  /// Run up to `most` passes. @return false if canceled.
   bool passes(Index most, double angle)
   {
     const double enough = TetComplex::quality_of_angle(angle);
@@ -94,7 +97,7 @@ private:
         return false;
       }
       this->context_.progress(static_cast<double>(pass + 1) / static_cast<double>(most));
-      constexpr Index worth_a_pass = 60; // the passes end if at most one in 60 tets improves
+      constexpr Index worth_a_pass = 60; // the passes end if a pass improves at most one in 60 tets
       if (worth_a_pass * count.improved <= count.tried)
       {
         break;
@@ -112,10 +115,11 @@ private:
   bool pass(double enough, Count& count)
   {
     const std::vector<Index> flat = this->flat_tets(enough);
-    std::vector<Index> now; // tets of this batch
-    std::vector<Index> later; // tets of the next batches
+    std::vector<Index> now; // tets of the current batch
+    std::vector<Index> later; // tets of the following batches
     const auto is_due = [&](Index t)
-    { return this->tets_.quality(t) < enough && this->changed(t); }; // it may have improved
+    // An earlier step may have improved the tet.
+    { return this->tets_.quality(t) < enough && this->changed(t); };
     for (std::size_t next = 0; (next < flat.size() || !later.empty()) && !this->exhausted();)
     {
       const std::vector<Index> first = std::exchange(later, {});
@@ -160,8 +164,8 @@ private:
     return true;
   }
 
-  /// Reserve the tet's vertices for this batch, so that no two tets search a new position for the
-  /// same vertex. @return false if another tet has reserved a vertex that may move.
+  /// Reserve the tet's vertices for this batch, so that no two searches move the same vertex.
+  /// @return false if another tet has reserved a vertex that may move.
   bool claim(Index t)
   {
     this->claims_.resize(static_cast<std::size_t>(this->tets_.vertex_count()), 0);
@@ -179,7 +183,7 @@ private:
     return true;
   }
 
-  /// Search steps while nothing changes. @return false when canceled.
+  /// Search a step for each tet while the mesh does not change. @return false if canceled.
   bool look_at(const std::vector<Index>& tets)
   {
     this->tried_.resize(static_cast<std::size_t>(this->tets_.tet_ids()), 0);
@@ -210,7 +214,8 @@ private:
     return whole;
   }
 
-  /// Report whether a tet that the step uses has been removed or changed.
+  /// Report whether a tet that the step uses has been removed or changed since the change counter
+  /// was `before`.
   bool touched_since(std::uint64_t before, const TetStep& step) const
   {
     const auto touched = [&](Index t) { return !this->tets_.alive(t) || this->newest(t) > before; };
@@ -256,7 +261,7 @@ private:
     }
   }
 
-  /// Return the last change at a vertex of the tet.
+  /// Return the change counter at the last change of a vertex of the tet.
   std::uint64_t newest(Index t) const
   {
     std::uint64_t last = 0;
@@ -267,7 +272,7 @@ private:
     return last;
   }
 
-  /// Report whether a vertex of the tet has changed since the tet was tried.
+  /// Report whether a vertex of the tet has changed since the last search for the tet.
   bool changed(Index t) const
   {
     return t >= static_cast<Index>(this->tried_.size()) || this->tried_[t] < this->newest(t);
@@ -323,7 +328,7 @@ private:
   double most_evaluations_ = 0.0;
   Index evaluations_ = 0;
   std::vector<char> moved_;
-  /// Per tet: the newest change of the mesh when the tet was tried.
+  /// Per tet: the change counter of the mesh at the last search for the tet.
   std::vector<std::uint64_t> tried_;
   std::vector<Index> claims_; ///< per vertex: the last batch that reserved it
   Index turn_ = 0;

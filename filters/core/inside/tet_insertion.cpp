@@ -1,3 +1,5 @@
+// Splitting of long boundary edges and insertion of vertices into a tet mesh, by replacing cavities
+// (tet_cavity.h).
 #include "inside/tet_insertion.h"
 
 #include "base/parallel.h"
@@ -24,7 +26,7 @@ namespace
 {
 using Tet = TetComplex::Tet;
 
-constexpr Index often = 256; // steps between two checks for cancel
+constexpr Index often = 256; // number of insertions between two checks for a cancel request
 
 struct LongEdge
 {
@@ -48,19 +50,20 @@ std::vector<Vec3> as_vectors(const Points& points)
   return vectors;
 }
 
-constexpr Index first_round = 64; // places
+constexpr Index first_round = 64; // number of places in the first round
 
-/// Return an order of insertion, in rounds. Each round is twice as long as the previous one and
-/// spread over all places, so that cavities soon become small (Amenta, Choi, Rote, Incremental
-/// Constructions con BRIO, 2003). `near` is an order in which consecutive places are near each
-/// other. A round divides it into `tracks` pieces and takes one place of each piece in turn. Places
-/// that are inserted at the same time are therefore far apart. Each of them is near a place that
-/// was inserted shortly before, whose tets are still in the processor's caches.
+/// Return the order in which places (positions of new vertices) are inserted. The order consists of
+/// rounds. Each round is twice as long as the previous one and samples all places, so that cavities
+/// soon become small (Amenta, Choi, Rote, Incremental Constructions con BRIO, 2003). `near` is an
+/// order in which consecutive places are near each other. Each round is divided into `tracks`
+/// pieces of this order and takes one place of each piece in turn. Therefore places that are
+/// inserted in parallel are far apart. Each place is also near a place that was inserted shortly
+/// before, so that the tets there are still in the processor's caches.
 std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Index tracks)
 {
   const auto count = static_cast<Index>(near.size());
-  // Every second place is in the last round, every second of the remaining ones in the round before
-  // it, and so on.
+  // Every second place is in the last round, every second one of the remaining places in the round
+  // before, and so on.
   std::vector<std::vector<Index>> rounds(1);
   for (Index size = first_round; size < count; size *= 2)
   {
@@ -92,8 +95,8 @@ std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Ind
   return order;
 }
 
-/// Return the fraction of the work after the first `done` of `count` places. About half of the work
-/// is distributed equally over the rounds, because the few places of the first rounds have large
+/// Return the fraction of the total work for the first `done` of `count` places. About half of the
+/// work is the same for every round, because the few places of the first rounds have large
 /// cavities.
 double share_of_insertion(std::size_t done, std::size_t count)
 {
@@ -103,15 +106,16 @@ double share_of_insertion(std::size_t done, std::size_t count)
     (static_cast<double>(done) / static_cast<double>(count) + rounds(done) / rounds(count));
 }
 
-/// Finds the tets that contain given places while tets are being replaced. It uses a tree over the
-/// initial tets, the range of the successors of each replaced tet, and walks from tet to tet.
+/// Finds the tets that contain places while tets are being replaced. The search starts in a tree
+/// over the initial tets, continues with the tets that replaced the one found, and then walks from
+/// tet to tet.
 class PlaceFinder
 {
 public:
   explicit PlaceFinder(const TetComplex& tets) : tets_(tets) {}
 
-  /// Locate all places in the current tets. This must be called first. `near`: an order in which
-  /// consecutive places are usually near each other. @return false when canceled.
+  /// Locate all places in the current tets. Must be called before all other functions. `near`: an
+  /// order in which consecutive places are usually near each other. @return false if canceled.
   bool look_for(const TetMesh& mesh, const Points& places, const std::vector<std::int32_t>& near,
     ExecutionContext& context)
   {
@@ -132,7 +136,7 @@ public:
       });
   }
 
-  /// Return the tet that contains place i at p, or -1 if none is found. Thread-safe.
+  /// Return the tet that contains the position p of place i, or -1 if no tet is found. Thread-safe.
   Index find(Index i, const Vec3& p) const
   {
     Index t = this->first_[i];
@@ -157,11 +161,11 @@ public:
         }
       }
     }
-    return this->walk(t, p, few); // rounding may have selected a neighbor
+    return this->walk(t, p, few); // because of rounding, the tet may be a neighbor of the right one
   }
 
-  /// Locate the pending places again, so that replaced tets are no longer needed. The tets then get
-  /// new ids: see renumber(). @return false when canceled.
+  /// Locate the pending places in the current tets, so that the ids of replaced tets are no longer
+  /// needed. After that the tets get new ids: see renumber(). @return false if canceled.
   bool find_again(
     const Points& places, const std::vector<Index>& pending, ExecutionContext& context)
   {
@@ -176,7 +180,7 @@ public:
       });
   }
 
-  /// Update the ids of the tets.
+  /// Replace the stored tet ids by their new values, indexed by old id.
   void renumber(const std::vector<Index>& ids)
   {
     for (Index& t : this->first_)
@@ -186,7 +190,7 @@ public:
     this->replaced_.clear();
   }
 
-  /// Record that the tets have been replaced by those from `begin` to the last.
+  /// Record that `tets` have been replaced by the tets with ids from `begin` to the last id.
   void replace(const std::vector<Index>& tets, Index begin)
   {
     this->replaced_.resize(static_cast<std::size_t>(this->tets_.tet_ids()));
@@ -197,7 +201,7 @@ public:
   }
 
 private:
-  static constexpr int few = 50; // largest number of tets of a short walk
+  static constexpr int few = 50; // maximum number of tets in a short walk
   static constexpr int many = 500;
   struct Range
   {
@@ -223,21 +227,20 @@ private:
     return -1;
   }
 
-  /// Walk from a tet at the vertex for which these tets were created. The straight line from that
-  /// vertex to p was inside the cavity.
+  /// Walk to p, starting at a tet of the vertex for which the tets of `range` were created. The
+  /// straight line from that vertex to p was inside the cavity.
   Index walk_from(const Range& range, const Vec3& p) const
   {
     const std::vector<Index>& around = this->tets_.tets_at(this->tets_.tet(range.begin)[3]);
     return around.empty() ? -1 : this->walk(around.front(), p, many);
   }
 
-  /// Return the tet that contains p and is at most `longest` steps from t, or -1 if it is farther
-  /// away.
+  /// Return the tet that contains p, or -1 if a walk of `longest` steps from t does not find it.
   Index walk(Index t, const Vec3& p, int longest) const
   {
     for (int step = 0; step < longest && t >= 0; ++step)
     {
-      // Each step starts at another side, so that the walk does not cycle.
+      // Each step tests the sides in a different order, so that the walk does not cycle.
       const int side = this->side_toward(t, p, step);
       if (side < 0)
       {
@@ -251,12 +254,13 @@ private:
   }
 
   const TetComplex& tets_;
-  std::vector<Index> first_; ///< per place: the tet that contained it at first, or the nearest tet
-  std::vector<Range> replaced_; ///< per replaced tet
+  std::vector<Index> first_; ///< per place: the initial tet that contained it, or the nearest tet
+  std::vector<Range> replaced_; ///< per replaced tet: the range of the new tet ids
 };
 
-/// Cavities of up to 64 places are searched in parallel while the mesh does not change, then filled
-/// in order. A place is searched again if one of its tets has been replaced.
+/// Inserts vertices. Cavities for up to 64 places are searched in parallel while the mesh does not
+/// change. Then they are filled in order. A place is searched again if a tet of its cavity has been
+/// replaced.
 class Inserter
 {
 public:
@@ -267,11 +271,11 @@ public:
     this->quiet_.set_threads(context.threads());
   }
 
-  /// Insert vertices. mesh: the current tets.
+  /// Insert vertices at the places. `mesh` contains the current tets.
   bool insert(const TetMesh& mesh, const Points& places, std::vector<Index>& vertices)
   {
     const std::vector<std::int32_t> near = order_by_place(as_vectors(places));
-    constexpr double looked = 0.2; // fraction of the time
+    constexpr double looked = 0.2; // fraction of the time for locating the places
     {
       const ProgressRange range(this->context_, 0.0, looked);
       if (!this->finder_.look_for(mesh, places, near, this->context_))
@@ -283,8 +287,8 @@ public:
     const std::vector<Index> order = order_of_insertion(near, most_at_once);
     std::vector<Index> now;
     std::vector<Index> later;
-    // If all vertices are on one sphere, the first cavities are large and overlap. The number of
-    // places that are searched at the same time is therefore adapted.
+    // If all vertices are on one sphere, the first cavities are large and overlap. Therefore the
+    // number of places that are searched in parallel is adapted.
     std::size_t at_once = 1;
     for (std::size_t next = 0; next < order.size() || !later.empty();)
     {
@@ -323,7 +327,8 @@ public:
           later.push_back(now[i]);
         }
       }
-      constexpr std::size_t seldom = 4; // at most one in four places may be searched again
+      // The number is reduced if more than one in four places must be searched again.
+      constexpr std::size_t seldom = 4;
       const bool overlap = seldom * (later.size() - waiting) > now.size();
       at_once =
         overlap ? std::max<std::size_t>(1, at_once / 2) : std::min(most_at_once, 2 * at_once);
@@ -356,8 +361,8 @@ private:
     }
   };
 
-  /// Free the memory of replaced tets. pending: the places that are not yet inserted. @return false
-  /// when canceled.
+  /// Remove replaced tets to free memory. pending: the places that are not yet inserted. @return
+  /// false if canceled.
   bool drop_replaced(const Points& places, const std::vector<Index>& pending)
   {
     if (!this->finder_.find_again(places, pending, this->quiet_))
@@ -369,15 +374,15 @@ private:
     return true;
   }
 
-  /// Return the largest number of ids in use for this many tets. The memory of up to half as many
-  /// replaced tets is kept.
+  /// Return the number of tet ids above which replaced tets are removed, for this number of tets.
+  /// Memory for up to half as many replaced tets is allowed.
   static Index most_ids_of(Index tets)
   {
-    constexpr Index few = 100000; // these take little memory
+    constexpr Index few = 100000; // always allowed, because they take little memory
     return few + tets + tets / 2;
   }
 
-  /// @return false when canceled.
+  /// Search the sites of these places in parallel. @return false if canceled.
   bool look_at(const Points& places, const std::vector<Index>& now)
   {
     return parallel_for(this->quiet_, static_cast<Index>(now.size()), per_task,
@@ -394,9 +399,9 @@ private:
       });
   }
 
-  /// Search the site of place i at p. The first try is a cavity with tets of at least 1 degree. The
-  /// second try is a split of an edge that contains p up to rounding (points of a bone are
-  /// collinear). The last try is a cavity with any positive tets.
+  /// Search the tets that the vertex of place i at p replaces. The first try is a cavity with tets
+  /// of at least 1 degree. The second try is a split of an edge that contains p up to rounding
+  /// (points of a bone are collinear). The last try is a cavity with any positive tets.
   void look_at(Index i, const Vec3& p, CavitySearch& search, Site& site) const
   {
     site.kind = Site::Kind::none;
@@ -427,7 +432,7 @@ private:
   bool find_edge(const Vec3& p, Index t, Site& site) const
   {
     const Tet& tet = this->tets_.tet(t);
-    constexpr double rounding = 1e-9; // in edge lengths
+    constexpr double rounding = 1e-9; // relative to the length of the edge
     for (int i = 0; i < 4; ++i)
     {
       for (int j = 0; j < i; ++j)
@@ -446,7 +451,7 @@ private:
     return false;
   }
 
-  /// Insert the vertex. @return the new vertex, or -1 if there is no valid site.
+  /// Insert the vertex into its site. @return the new vertex, or -1 if the site is not valid.
   Index take(const Site& site, const Vec3& p)
   {
     const Index begin = this->tets_.tet_ids();
@@ -473,7 +478,8 @@ private:
   PerThread<CavitySearch> searches_;
   std::array<Site, most_at_once> sites_;
   const double thick_ = TetComplex::quality_of_angle(1.0);
-  Index most_ids_ = most_ids_of(tets_.tet_count()); ///< above this, replaced tets are dropped
+  /// Number of tet ids above which replaced tets are removed.
+  Index most_ids_ = most_ids_of(tets_.tet_count());
 };
 } // namespace
 
@@ -500,7 +506,7 @@ bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionC
     queue.pop();
     if (!tets.has_edge(edge.a, edge.b))
     {
-      continue; // it was in the queue twice
+      continue; // the edge was in the queue twice
     }
     const Index v =
       tets.split_edge(edge.a, edge.b, 0.5 * (tets.point(edge.a) + tets.point(edge.b)));

@@ -1,3 +1,5 @@
+// Dihedral angles, validity checks and cleanup of tet meshes. Small angles that the boundary
+// triangles force are counted separately.
 #include "inside/tet_quality.h"
 
 #include "base/disjoint_sets.h"
@@ -16,14 +18,14 @@ namespace bindpose
 
 double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 {
-  // Angles between outward normals are 180 degrees minus the dihedral angles.
+  // A dihedral angle is 180 degrees minus the angle between the outward normals of its two facets.
   const std::array<Vec3, 4> normals{ (c - b).cross(d - b), (d - a).cross(c - a),
     (b - a).cross(d - a), (c - a).cross(b - a) };
   const std::array<Vec3, 4> corners{ a, b, c, d };
-  const double volume = std::abs((b - a).cross(c - a).dot(d - a)); // six times
+  const double volume = std::abs((b - a).cross(c - a).dot(d - a)); // six times the volume
   constexpr double nearly_one = 0.9999;
   double largest_cosine = -1.0;
-  double least_sine = 1.0; // used for small angles, whose cosines are all rounded to 1
+  double least_sine = 1.0; // used for small angles, because their cosines are all rounded to 1
   for (int i = 0; i < 4; ++i)
   {
     for (int j = 0; j < i; ++j)
@@ -38,7 +40,7 @@ double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
       if (cosine > nearly_one)
       {
         const int k = i != 0 && j != 0 ? 0 : (i != 1 && j != 1 ? 1 : 2);
-        const int l = 6 - i - j - k; // the edge k-l is between the two sides
+        const int l = 6 - i - j - k; // the edge k-l is between facets i and j
         least_sine = std::min(least_sine, volume * (corners[l] - corners[k]).norm() / lengths);
       }
     }
@@ -84,8 +86,9 @@ namespace
 {
 using EdgeKey = std::array<Index, 2>;
 
-/// Report whether two boundary triangles meet at less than `angle` degrees, measured inside: their
-/// normals are nearly opposite, and the second triangle is behind the plane of the first.
+/// Report whether two boundary triangles form an angle of less than `angle` degrees, measured
+/// inside the tets: the normals are nearly opposite, and the second triangle is behind the plane of
+/// the first.
 bool is_wedge(PointsView points, const Triangles& boundary, const TriangleSide& one,
   const TriangleSide& other, double angle)
 {
@@ -102,11 +105,11 @@ bool is_wedge(PointsView points, const Triangles& boundary, const TriangleSide& 
     n.dot(corner(other, 2) - corner(one, 0)) < 0.0;
 }
 
-/// Report whether another boundary triangle is so near on the inside of this one that every tet on
-/// it has an angle of at most `angle` degrees. A tet with larger angles would contain the roof of
-/// that slope over the triangle. The test checks whether one of the roof's ridges meets another
-/// triangle. It also checks the segment from the center of the triangle's inscribed circle to the
-/// roof's top.
+/// Report whether another boundary triangle is so near to the inner side of triangle t that every
+/// tet at t has a dihedral angle of at most `angle` degrees. A tet with larger angles would contain
+/// the roof over the triangle: the pyramid whose three faces have this slope. The test checks
+/// whether another triangle intersects a ridge of the roof, or the segment from the center of the
+/// inscribed circle to the top of the roof.
 bool is_blocked(
   PointsView points, const Triangles& boundary, const TriangleTree& tree, Index t, double angle)
 {
@@ -125,7 +128,7 @@ bool is_blocked(
   }
   center /= around;
   const double radius = normal.norm() / around;
-  constexpr double within = 0.999; // fraction of the roof height, a margin for rounding
+  constexpr double within = 0.999; // fraction of the roof's height, with a margin for rounding
   const Vec3 top = center - within * std::tan(angle / degrees) * radius * normal.normalized();
   const auto others = [&](Index other)
   {
@@ -142,7 +145,7 @@ EdgeKey edge_key(Index a, Index b)
   return { std::min(a, b), std::max(a, b) };
 }
 
-/// Return the edges of tets below `angle`, sorted.
+/// Return the edges of the tets whose angle is below `angle`, sorted.
 std::vector<EdgeKey> edges_of_flat(TetsView tets, const Eigen::VectorXd& angles, double angle)
 {
   std::vector<EdgeKey> edges;
@@ -186,7 +189,7 @@ std::vector<char> blocked_triangles(PointsView points, const Triangles& boundary
   return blocked;
 }
 
-/// Return the edges at which tets cannot have good angles, sorted: see count_forced_tets().
+/// Return the edges at which the boundary forces small angles, sorted: see count_forced_tets().
 std::vector<EdgeKey> forced_edges(
   PointsView points, const Triangles& boundary, const std::vector<char>& blocked, double angle)
 {

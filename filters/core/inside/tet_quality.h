@@ -1,6 +1,8 @@
 #ifndef bindpose_inside_tet_quality_h
 #define bindpose_inside_tet_quality_h
 
+// Dihedral angles, validity checks and cleanup of tet meshes.
+
 #include "base/execution.h"
 #include "base/mesh.h"
 #include "base/tet_facets.h"
@@ -13,7 +15,7 @@ namespace bindpose
 
 /// Volume of a regular tet with edges of length 1.
 constexpr double regular_tet_volume = 0.11785113019775793;
-/// Tets with a smaller dihedral angle are counted as slivers, degrees.
+/// A tet is counted as a sliver if its smallest dihedral angle is below this, degrees.
 constexpr double sliver_angle = 5.0;
 
 /// Return the smallest of the six dihedral angles of a tet, degrees; 0 for a tet without volume.
@@ -23,18 +25,19 @@ double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
 double longest_edge(const Points& points, const Tets& tets, Index t);
 
 /// Number of tets with their smallest dihedral angle in [5 k, 5 (k + 1)) degrees. The largest
-/// possible value is 70.53 degrees, that of a regular tet.
+/// possible angle is 70.53 degrees, in a regular tet.
 struct DihedralHistogram
 {
   static constexpr double bin = 5.0;
   std::array<Index, 15> tets{};
 };
 
+/// Volume and smallest dihedral angles of a tet mesh.
 struct TetQuality
 {
-  double volume = 0.0; ///< sum over all tets
+  double volume = 0.0; ///< sum of the volumes of all tets
   double min_volume = 0.0;
-  double min_dihedral_angle = 0.0; ///< degrees, of the worst tet
+  double min_dihedral_angle = 0.0; ///< smallest dihedral angle of all tets, degrees
   Index below_5_degrees = 0; ///< tets whose smallest dihedral angle is below 5 degrees
   DihedralHistogram histogram;
 };
@@ -51,27 +54,29 @@ TetQuality measure_tets(PointsView points, TetsView tets);
 Index count_forced_tets(PointsView points, TetsView tets, const Eigen::VectorXd& angles,
   double angle, ExecutionContext& context);
 
-/// Check that tets are valid. Return internal_error, naming the first tet that is flat, inverted,
-/// duplicated, or that shares a facet with two others or with one on the same side. A valid mesh
-/// has a closed boundary. With may_branch a facet may have any number of tets. Ids must be in
-/// range.
+/// Check that tets are valid. Return internal_error with the id of the first tet that is flat,
+/// inverted or duplicated, or that shares a facet with two other tets or with a tet on the same
+/// side. A valid mesh has a closed boundary. With may_branch a facet may have any number of tets.
+/// Ids must be in range.
 Status check_tets(PointsView points, TetsView tets, bool may_branch = false);
-/// Check the same with precomputed tet_facets of the tets, which are most of the cost.
+/// Check the same as above, with precomputed tet_facets() of the tets, whose computation takes most
+/// of the time.
 Status check_tets(
   PointsView points, TetsView tets, const std::vector<TetFacet>& facets, bool may_branch = false);
 
-/// Remove groups of tets, connected by facets, with less than 1e-8 of the volume: they result from
-/// rounding. Also remove tets without a neighbor that have less than `lone` of the volume.
-/// `facets`: tet_facets of the tets, before and after. @return the number of removed tets.
+/// Remove groups of tets, connected by facets, whose volume is less than 1e-8 of the total. They
+/// result from rounding. Also remove tets without a neighbor that have less than `lone` of the
+/// volume. `facets` contains the tet_facets() of the tets and is updated. @return the number of
+/// removed tets.
 Index drop_crumbs(
   const Points& points, Tets& tets, std::vector<TetFacet>& facets, double lone = 1e-8);
 
 /// Remove tets at the boundary whose smallest height is below `height`, repeatedly, until none
-/// remains there. The boundary moves by less than `height`. `facets`: tet_facets of the tets,
-/// before and after. @return the number of removed tets.
+/// remains there. The boundary moves by less than `height`. `facets` contains the tet_facets() of
+/// the tets and is updated. @return the number of removed tets.
 Index peel_slivers(const Points& points, Tets& tets, std::vector<TetFacet>& facets, double height);
 
-/// Return the #T x 3 means of the four vertices.
+/// Return the #T x 3 centroids of the tets.
 Points centers_of(const Points& points, const Tets& tets);
 
 } // namespace bindpose

@@ -1,12 +1,14 @@
-// A tet is improved by the first of these steps that works:
-// 1. removing one of its edges: the tets around the edge are replaced by tets between its two ends
+// Search for local modifications that improve a tet. A tet is improved by the first of these steps
+// that lowers the cost:
+// 1. Remove one of its edges: the tets around the edge are replaced by tets between its two ends
 //    and a triangulation of the ring of their other vertices. The best triangulation is found by
-//    dynamic programming. A boundary edge that is nearly flat can be removed too; if it has a
+//    dynamic programming. A boundary edge that is nearly flat can also be removed; if it has a
 //    single tet, that tet is removed.
-// 2. removing one of its facets: two tets become three around a new edge;
-// 3. moving one of its vertices: a search in a few directions with shrinking steps;
-// 4. contracting one of its edges into one of its ends, if no vertex could be moved;
-// 5. inserting a vertex in the middle of the tet or of one of its edges, if insertion is allowed.
+// 2. Remove one of its facets: two tets are replaced by three tets around a new edge.
+// 3. Move one of its vertices: the position is searched in a few directions with decreasing step
+//    length.
+// 4. Contract one of its edges into one of its ends, if no vertex could be moved.
+// 5. Insert a vertex in the middle of the tet or of one of its edges, if insertion is allowed.
 #include "inside/tet_steps.h"
 
 #include "base/sort_unique.h"
@@ -21,11 +23,13 @@ namespace bindpose
 
 namespace
 {
-constexpr double better = 0.02; // smallest decrease of the cost: a fiftieth of a tet's angle
+// Minimum decrease of the cost. It corresponds to an increase of one tet's smallest angle by a
+// fiftieth.
+constexpr double better = 0.02;
 constexpr double never = std::numeric_limits<double>::infinity();
-// Cosines between the normals of boundary triangles.
-constexpr double flat_cosine = 0.966; // 15 degrees: an edge that may be swapped
-constexpr double crease_cosine = 0.766; // 40 degrees: a vertex that may not move
+// Cosines of limits for the angle between the normals of boundary triangles.
+constexpr double flat_cosine = 0.966; // 15 degrees: below this angle an edge may be swapped
+constexpr double crease_cosine = 0.766; // 40 degrees: above this angle a vertex may not move
 
 bool turned_less(const Vec3& one, const Vec3& other, double cosine)
 {
@@ -94,7 +98,8 @@ void TetStepSearch::find(Index t, TetStep& step)
       return;
     }
   }
-  // As a fraction of the longest edge. No move can compensate for an edge shorter than this.
+  // Fraction of the longest edge. If an edge is shorter than this, moving its vertices cannot
+  // improve the tet.
   constexpr double too_near = 0.01;
   if (this->contract_any(tet, too_near, step))
   {
@@ -127,7 +132,7 @@ double TetStepSearch::penalty(double quality) const
     return 0.0;
   }
   constexpr double least = 1e-24;
-  constexpr double half = 0.5; // the quality is a square
+  constexpr double half = 0.5; // because the quality is the square of the sine
   return half * std::log(this->good_ / std::max(quality, least));
 }
 
@@ -142,7 +147,7 @@ TetStepSearch::Cost TetStepSearch::cost(const std::vector<Index>& tets) const
   return cost;
 }
 
-/// Return the smallest allowed quality of tets that replace tets of this cost.
+/// Return the minimum quality of tets that replace tets with this cost.
 double TetStepSearch::least_after(const Cost& cost) const
 {
   return std::min(
@@ -231,8 +236,8 @@ bool TetStepSearch::remove_edge(Index a, Index b, TetStep& step)
   return true;
 }
 
-/// Report whether the boundary is flat enough at the edge and does not touch itself at the new
-/// edge.
+/// Report whether the boundary is flat enough at the edge a-b, and whether the new edge does not
+/// make the boundary touch itself.
 bool TetStepSearch::may_swap_boundary(Index a, Index b, const Ring& ring) const
 {
   if (this->rules_.options.keep_boundary && !(this->rules_.options.coplanar > 0.0))
@@ -254,7 +259,7 @@ bool TetStepSearch::may_swap_boundary(Index a, Index b, const Ring& ring) const
   if (this->rules_.options.keep_boundary)
   {
     const double largest = std::max({ one.norm(), other.norm(), new_one.norm(), new_other.norm() });
-    const double volume = std::abs(one.dot(this->point(last) - p)); // six times
+    const double volume = std::abs(one.dot(this->point(last) - p)); // six times the volume
     if (volume > this->rules_.options.coplanar * largest)
     {
       return false;
@@ -319,7 +324,7 @@ bool TetStepSearch::remove_facet(Index t, Index a, Index b, Index c, TetStep& st
 
 // ---- Vertices --------------------------------------------------------------------------------
 
-/// Return the patch of the boundary triangles `skin` with vertex `moved` at p.
+/// Return the patch of boundary triangles `skin` with vertex `moved` at the position p.
 TetStepSearch::Patch TetStepSearch::patch_of(
   const std::vector<Facet>& skin, Index moved, const Vec3& p) const
 {
@@ -373,7 +378,7 @@ bool TetStepSearch::move(Index v, TetStep& step)
   const double least = this->least_after(old);
   double value = old.sum;
   Vec3 at = start;
-  // Sort the most expensive tets first: they rule out most directions.
+  // Sort the most expensive tets first, because they exclude most directions.
   std::stable_sort(this->star_.begin(), this->star_.end(),
     [&](Index s, Index t) { return this->tets_.quality(s) < this->tets_.quality(t); });
   constexpr double first_step = 0.3;
@@ -414,8 +419,8 @@ bool TetStepSearch::move(Index v, TetStep& step)
   return true;
 }
 
-/// Return the cost of new tets, one per item. It is infinity if it exceeds `most` or if one of the
-/// tets is worse than `least`.
+/// Return the sum of the costs of new tets, one per item. The result is infinity if the sum exceeds
+/// `most` or if the quality of a tet is less than `least`.
 template <typename Items, typename QualityOf>
 double TetStepSearch::sum_of(
   const Items& items, const QualityOf& quality_of, double least, double most)
@@ -434,7 +439,7 @@ double TetStepSearch::sum_of(
   return sum;
 }
 
-/// Return the cost of the tets of star_ with v at p.
+/// Return the cost of the tets in star_ with vertex v at p.
 double TetStepSearch::sum_of_star(Index v, const Vec3& p, double least, double most)
 {
   return this->sum_of(
@@ -443,8 +448,9 @@ double TetStepSearch::sum_of_star(Index v, const Vec3& p, double least, double m
 
 // ---- New vertices ------------------------------------------------------------------------------
 
-/// Insert a vertex in the middle of the tet or of one of its edges. It replaces the tets around it
-/// whose circumspheres contain it, and is then moved to the position of least cost.
+/// Find a step that inserts a vertex in the middle of the tet or of one of its edges. It replaces
+/// the tets around it whose circumspheres contain it, and is then moved to the position of least
+/// cost.
 bool TetStepSearch::insert_near(Index t, TetStep& step)
 {
   const Tet& tet = this->tets_.tet(t);
@@ -487,10 +493,11 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
       shortest = std::min(shortest, (this->point(w) - p).norm());
     }
   }
-  constexpr double margin = 0.3; // a new vertex must reduce the cost by this much
+  constexpr double margin = 0.3; // minimum decrease of the cost by a new vertex
   const double enough = old.sum - margin;
-  // Largest cost, relative to the old cost, of the first position, and of the best position of the
-  // first search step.
+  // Limits relative to the old cost. If the cost of the first position exceeds the first limit, or
+  // the cost of the best position after the first search step exceeds the second limit, the search
+  // ends.
   constexpr double hopeful = 3.0;
   constexpr double promising = 1.5;
   double value = this->sum_of_cavity(step.cavity, p, least, never);
@@ -529,7 +536,7 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
   return true;
 }
 
-/// Return the cost of the tets from p to the cavity's facets.
+/// Return the cost of the tets between p and the cavity's facets.
 double TetStepSearch::sum_of_cavity(
   const TetCavity& cavity, const Vec3& p, double least, double most)
 {
@@ -542,7 +549,8 @@ double TetStepSearch::sum_of_cavity(
 
 // ---- Contraction -----------------------------------------------------------------------------
 
-/// Contract an edge that is at most `share` times as long as the longest edge of the tet.
+/// Find a step that contracts an edge of the tet. The edge is at most `share` times as long as the
+/// tet's longest edge.
 bool TetStepSearch::contract_any(const Tet& tet, double share, TetStep& step)
 {
   double longest = 0.0;
@@ -563,7 +571,8 @@ bool TetStepSearch::contract_any(const Tet& tet, double share, TetStep& step)
   return false;
 }
 
-/// Replace vertex a by b. The tets that contain both vertices are removed.
+/// Find the step that replaces vertex a by vertex b. The tets that contain both vertices are
+/// removed.
 bool TetStepSearch::contract(Index a, Index b, TetStep& step)
 {
   const bool on_boundary = this->tets_.on_boundary(a);
@@ -596,7 +605,7 @@ bool TetStepSearch::contract(Index a, Index b, TetStep& step)
   const auto has_b = [b](const Facet& f) { return std::find(f.begin(), f.end(), b) != f.end(); };
   if (on_boundary && std::none_of(skin.begin(), skin.end(), has_b))
   {
-    return false; // the boundary would move inwards
+    return false; // otherwise the boundary would move inwards
   }
   if (fresh.empty() || !this->keeps_shape(skin, a, b) || !this->keeps_topology(skin, a, b))
   {
@@ -607,12 +616,12 @@ bool TetStepSearch::contract(Index a, Index b, TetStep& step)
   return true;
 }
 
-/// Report whether boundary triangles at a stay nearly flat when a becomes b. A vertex of a crease
-/// may only be contracted along the crease. A vertex at which creases meet or end may not be
-/// contracted. skin: the boundary triangles at a.
+/// Report whether the normals of the boundary triangles at vertex a change little if a is replaced
+/// by b. A vertex of a crease may be contracted along the crease only. A vertex at which creases
+/// meet or end must not be contracted. skin: the boundary triangles at a.
 bool TetStepSearch::keeps_shape(const std::vector<Facet>& skin, Index a, Index b) const
 {
-  // (other end of an edge at a, normal of a triangle at the edge)
+  // Pairs of the other end of an edge at a and the normal of a triangle at that edge.
   std::vector<std::pair<Index, Vec3>> sides;
   for (const auto& f : skin)
   {
@@ -652,7 +661,8 @@ bool TetStepSearch::keeps_shape(const std::vector<Facet>& skin, Index a, Index b
 }
 
 /// Check the link condition: the intersection of the links of a and b must be the link of the edge
-/// a-b. The outside is treated as one more vertex that forms tets with the boundary triangles.
+/// a-b. The outside is represented by an additional vertex that forms tets with the boundary
+/// triangles.
 bool TetStepSearch::keeps_topology(const std::vector<Facet>& skin, Index a, Index b) const
 {
   const Link link_a = this->link_of(a, skin);

@@ -13,7 +13,7 @@
 namespace bindpose
 {
 
-/// A change of a few tets that lowers their cost.
+/// A local modification (step) of a tet mesh, which replaces a few tets and lowers their cost.
 struct TetStep
 {
   enum class Kind
@@ -30,13 +30,13 @@ struct TetStep
   Index vertex = -1;
   Vec3 place = Vec3::Zero();
   TetCavity cavity;
-  /// Vertices of the tet for which no better position was found.
+  /// Vertices of the tet for which the search found no better position.
   std::vector<Index> stay;
 
   void clear();
 };
 
-/// Limits for all steps.
+/// Limits that apply to all steps.
 struct TetStepRules
 {
   TetStepRules(const ImproveOptions& improve_options, const OntoSurface& onto)
@@ -46,25 +46,26 @@ struct TetStepRules
 
   const ImproveOptions& options;
   const OntoSurface& surface;
-  std::vector<char> held; ///< #V
-  /// Stamp of each vertex when the last search found no better position for it, #V; 0: no search
-  /// yet.
+  std::vector<char> held; ///< #V: 1 for held (constrained) vertices
+  /// #V: value of TetComplex::stamp() for each vertex at the last search that found no better
+  /// position for the vertex. 0: no such search.
   std::vector<std::uint64_t> stays;
-  bool release = false; ///< held vertices may move
-  bool insert = false; ///< vertices may be added
+  bool release = false; ///< whether held vertices may move
+  bool insert = false; ///< whether vertices may be inserted
 };
 
-/// Report whether a better position for v may be searched: a tet at v is too flat.
+/// Report whether a better position for vertex v may be searched, which requires that a tet at v is
+/// too flat.
 bool may_move(const TetComplex& tets, const TetStepRules& rules, Index v);
 
-/// Finds steps. Each thread needs a separate object. Tets and rules may change between two
-/// searches.
+/// Searches steps. Each thread needs a separate object. The tets and the rules may change between
+/// two searches.
 class TetStepSearch
 {
 public:
   TetStepSearch(const TetComplex& tets, const TetStepRules& rules);
 
-  /// Find the first step that improves tet t. Its kind is none if there is no such step.
+  /// Find the first step that improves tet t. If there is no such step, step.kind is `none`.
   void find(Index t, TetStep& step);
   /// Return the number of computed tet qualities.
   Index evaluations() const { return this->evaluations_ + this->cavities_.evaluations(); }
@@ -73,19 +74,21 @@ private:
   using Tet = TetComplex::Tet;
   using Facet = TetComplex::Facet;
   using Ring = TetComplex::Ring;
-  /// Cost of a set of tets: 0 if all are good enough.
+  /// Cost of a set of tets: 0 if all tets are good enough.
   struct Cost
   {
-    double sum = 0.0; ///< sum of log(required sine / sine of the smallest dihedral angle)
-    double worst = 1.0; ///< smallest quality
+    /// Sum over the tets of log(required sine / sine of the smallest dihedral angle).
+    double sum = 0.0;
+    double worst = 1.0; ///< smallest tet quality
   };
-  /// The boundary around a vertex.
+  /// The boundary triangles around a vertex.
   struct Patch
   {
     bool smooth = true;
     Vec3 normal = Vec3::Zero();
   };
-  /// The link of a vertex. The lists and the vertices of each simplex are sorted.
+  /// The link of a vertex. The vertices of each simplex are sorted, and so are the lists of
+  /// simplices.
   struct Link
   {
     std::vector<Index> vertices;
@@ -121,8 +124,8 @@ private:
 
   const TetComplex& tets_;
   const TetStepRules& rules_;
-  const double good_; ///< tets of at least this quality do not change
-  const double bad_; ///< vertices may be inserted near tets below this quality
+  const double good_; ///< tets whose quality is at least this are not improved
+  const double bad_; ///< vertices may be inserted near tets whose quality is below this
   CavitySearch cavities_;
   Ring ring_;
   std::vector<Index> star_;

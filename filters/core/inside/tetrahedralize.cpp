@@ -1,9 +1,11 @@
-// Method automatic tries cdt (cdt_tets.h), then remesh. remesh is Delaunay refinement
-// (remesh_tets.h) or, if that fails, a cut lattice (lattice_tets.h), which becomes finer if its
-// volume is wrong. The volume of each attempt (rung) is compared with the volume of {w >=
-// threshold}. If no volume fits, the tets with the smallest misfit are used, with a warning. The
-// methods embed (embedding_tets.h), wrap (wrap_surface.h, filled as in cdt) and ftetwild
-// (ftetwild_process.h) are not part of this sequence.
+// Choice of the meshing method and check of its result.
+//
+// Method automatic tries cdt (cdt_tets.h), then remesh. Method remesh is Delaunay refinement
+// (remesh_tets.h). If the refinement fails, a lattice is cut (lattice_tets.h) and made finer while
+// its volume is wrong. Each attempt is called a rung. The volume of its tets is compared with the
+// volume of {w >= threshold}. If no attempt has the right volume, the tets with the smallest misfit
+// are used, with a warning. The methods embed (embedding_tets.h), wrap (wrap_surface.h, filled as
+// in cdt) and ftetwild (ftetwild_process.h) are not part of this sequence.
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
@@ -30,10 +32,11 @@ namespace bindpose
 
 namespace
 {
-/// Fraction of the work of method cdt after which the surface is triangulated.
+/// Fraction of the work of method cdt for CdtTets::build(); the rest is for complete().
 constexpr double cdt_built = 0.45;
 
-/// Return the failure of both cdt and remesh. The message recommends embed, whatever the reason.
+/// Return the failure status if neither cdt nor remesh succeeds. The message recommends method
+/// embed for every reason.
 Status no_method_fits(Status status)
 {
   if (status.code == StatusCode::canceled)
@@ -66,7 +69,7 @@ public:
   {
     return this->make_and_check([this]() { return this->climb(); });
   }
-  /// Complete method embed with given tets.
+  /// Complete method embed with tets that were computed by the caller.
   Status run(EmbeddingTets embedding)
   {
     return this->make_and_check([&]() { return this->take(std::move(embedding)); });
@@ -109,7 +112,8 @@ private:
       : Status();
   }
 
-  // ---- Rungs -----------------------------------------------------------------------------------
+  // ---- Rungs: the attempts of the methods
+  // --------------------------------------------------------
 
   Status climb()
   {
@@ -148,7 +152,7 @@ private:
     Status status;
     {
       const Phase phase(this->context_, "cdt", 0.0, cdt_built);
-      constexpr double share = 0.75; // leave time for vertices inside
+      constexpr double share = 0.75; // the rest of the time is for inserting vertices inside
       status = cdt.build(share * this->time_limit_);
     }
     if (status.ok() || status.code == StatusCode::canceled)
@@ -171,7 +175,7 @@ private:
         return status;
       }
     }
-    // If no volume fits, use the tets with the smallest misfit.
+    // If no attempt has the right volume, use the tets with the smallest misfit.
     if (cdt.misfit() < worst_misfit && cdt.misfit() <= this->lattice_misfit_)
     {
       this->warn(wrong_volume(cdt.volume(), this->inside_).message);
@@ -210,7 +214,7 @@ private:
     return status;
   }
 
-  /// Find the vertices at the handles' points.
+  /// Find the vertices at the points of the handles.
   void find_handles()
   {
     const Points& handles = this->options_.handles.points;
@@ -235,8 +239,8 @@ private:
     this->report_.set("counts.handle_vertices", Report::Value(found));
   }
 
-  /// Take the lattice tets with the smallest misfit, with a warning. Return `status` if there are
-  /// none.
+  /// Use the lattice tets with the smallest misfit, with a warning. Return `status` if there are no
+  /// lattice tets.
   Status take_lattice(const Status& status)
   {
     if (this->lattice_misfit_ > worst_misfit || status.code == StatusCode::canceled)
@@ -259,8 +263,8 @@ private:
     return this->options_.quality == 0.0 || this->angle() >= this->options_.quality;
   }
 
-  /// Run another rung. Keep its tets only if their smallest angle is larger than that of the
-  /// present tets.
+  /// Run another attempt. Keep its tets only if their smallest dihedral angle is larger than the
+  /// smallest angle of the present tets.
   /// @return ok or canceled.
   template <typename Rung>
   Status improve_by(const Rung& rung)
@@ -283,7 +287,7 @@ private:
     return {};
   }
 
-  /// Replace the tets of cdt by those of remesh if these have a larger smallest angle.
+  /// Replace the tets of cdt by those of remesh if the smallest dihedral angle of remesh is larger.
   Status leave_cdt_for_quality()
   {
     const double angle = this->angle();
@@ -334,7 +338,7 @@ private:
       }
       else if (status = check_tets(mesh.points, mesh.tets); !status.ok())
       {
-        // status contains the reason
+        // check_tets() has written the reason to `status`
       }
       else if (!this->inside_.fits(volume))
       {
@@ -353,7 +357,7 @@ private:
       }
       const double finer_cubes = 8.0 * static_cast<double>(lattice.cubes[0]) *
         static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);
-      constexpr Index finest = 4; // times the first resolution
+      constexpr Index finest = 4; // in units of the first resolution
       if (!finer_when_needed || this->inside_.volume() <= 0.0 || finer_cubes > most_cubes ||
         resolution >= finest * this->remesh_resolution())
       {
@@ -368,8 +372,9 @@ private:
     return this->options_.resolution == 0 ? automatic : this->options_.resolution;
   }
 
-  /// Run the helper's Delaunay refinement. Its edges are as long as the surface's, within bounds
-  /// that depend on the resolution; by default 0.005 and 0.035 of the box's longest side.
+  /// Run the helper's Delaunay refinement. Edges are as long as the edges of the surface, within
+  /// bounds that depend on the resolution. By default the bounds are 0.005 and 0.035 of the box's
+  /// longest side.
   Status refine_inside()
   {
     const double start = this->context_.elapsed_seconds();
@@ -382,14 +387,15 @@ private:
     options.smallest_edge = shortest * cube;
     options.largest_edge = longest * cube;
     options.memory_limit = this->options_.memory_limit;
-    // The time that remains after method cdt, minus some time for the lattice.
+    // Time limit: the time that remains after method cdt, minus some time for the lattice.
     constexpr double least_share = 0.25;
     constexpr double lattice_share = 0.1;
     options.time_limit = std::max(
       this->time_left() - lattice_share * this->time_limit_, least_share * this->time_limit_);
     if (this->options_.method == TetMethod::automatic)
     {
-      // Several times the duration for most surfaces. A surface of needles takes minutes.
+      // This is several times the duration for most surfaces. A surface of needle-shaped triangles
+      // would take minutes.
       constexpr double patience = 8.0; // seconds
       constexpr double per_triangle = 1e-4;
       constexpr double most_patience = 14.0;
@@ -426,8 +432,8 @@ private:
     return {};
   }
 
-  /// Embed the input's own points and triangles, so that every input point is bound. The
-  /// orientation of the triangles matters only for the winding number.
+  /// Embed the points and triangles of the input itself, so that the tets contain every input
+  /// point. The orientation of the triangles affects only the winding number.
   Status embed()
   {
     const double start = this->context_.elapsed_seconds();
@@ -455,7 +461,7 @@ private:
     return this->keep_no_vertex(TetMethod::embed);
   }
 
-  /// Compute a closed surface around the surface and fill it as any clean surface.
+  /// Compute a closed surface that wraps the surface, and fill it like a clean surface.
   Status wrap()
   {
     RepairedSurface wrap;
@@ -475,7 +481,7 @@ private:
     CdtTets cdt(wrap, around, options, this->log_, this->context_);
     {
       const Phase phase(this->context_, "cdt", 0.5, 0.7);
-      constexpr double share = 0.75; // leave time for vertices inside
+      constexpr double share = 0.75; // the rest of the time is for inserting vertices inside
       status = cdt.build(share * options.time_limit);
     }
     if (status.ok())
@@ -507,7 +513,7 @@ private:
     options.alpha = this->options_.wrap_alpha;
     options.offset = this->options_.wrap_offset;
     options.memory_limit = this->options_.memory_limit;
-    constexpr double share = 0.75; // leave time to fill it
+    constexpr double share = 0.75; // the rest of the time is for filling the wrap
     options.time_limit = share * this->time_limit_;
     Points points;
     Triangles triangles;
@@ -608,14 +614,15 @@ private:
     return {};
   }
 
-  // ---- The end ---------------------------------------------------------------------------------
+  // ---- Check and result
+  // --------------------------------------------------------------------------
 
   Status check()
   {
     const TetMesh& mesh = this->result_.mesh;
     Status status;
     const bool embedded = this->options_.method == TetMethod::embed;
-    // The rungs of all other methods have checked their tets.
+    // All other methods have already checked their tets.
     if (embedded || this->options_.keep_outside)
     {
       status = check_tets(mesh.points, mesh.tets, embedded);
@@ -674,8 +681,8 @@ private:
                 : ""));
   }
 
-  /// Set labels and angles. With keep_outside, also report the number of tets inside and their
-  /// volume.
+  /// Set the labels and angles of the tets. With keep_outside, also report the number and the
+  /// volume of the tets inside.
   void label_tets()
   {
     const TetMesh& mesh = this->result_.mesh;
@@ -714,7 +721,7 @@ private:
 
   /// Largest misfit of a usable result: a factor of two in volume.
   static constexpr double worst_misfit = 0.6931471805599453;
-  /// A wrap winds once around its inside, for every surface.
+  /// The winding number of a wrap is 1 inside, for every surface.
   static constexpr double wrap_threshold = 0.5;
 
   PointsView points_;
@@ -730,10 +737,10 @@ private:
   static constexpr double time_limit_per_triangle = 1.2e-4;
   const double time_limit_;
   double climb_start_ = 0.0;
-  std::vector<char> inside_tets_; ///< used with keep_outside, else empty
+  std::vector<char> inside_tets_; ///< #T with keep_outside: 1 for tets inside; otherwise empty
   TetMesh lattice_mesh_; ///< lattice tets of remesh whose volume is wrong
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
-  const Report& diagnosis_; ///< the initial report_
+  const Report& diagnosis_; ///< report before the first attempt
   Report report_;
   RungLog log_;
   std::vector<std::string> warnings_;
@@ -833,7 +840,8 @@ const char* to_string(TetMethod method)
 
 namespace
 {
-/// Return a failure with the warnings and the report of the preparation, as Ladder does.
+/// Return a failure with the warnings and the report of the preparation, in the same form as
+/// Ladder.
 Status failed(Status status, const PreparedSurface& prepared)
 {
   status.warnings.insert(

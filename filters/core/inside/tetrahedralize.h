@@ -1,6 +1,8 @@
 #ifndef bindpose_inside_tetrahedralize_h
 #define bindpose_inside_tetrahedralize_h
 
+// Tets of the volume that any triangle mesh encloses: choice of the method, options and report.
+
 #include "base/execution.h"
 #include "base/mesh.h"
 #include "embedding/embedding_tets.h"
@@ -13,76 +15,82 @@
 namespace bindpose
 {
 
-/// Method of making tets. vtkTetrahedralizeSurface exposes the same order.
+/// Method of tetrahedralization. vtkTetrahedralizeSurface uses the same integer values.
 enum class TetMethod
 {
-  automatic, ///< cdt, then remesh
-  /// Constrained Delaunay tets of the convex hull, reduced to those that the surface winds around.
+  automatic, ///< cdt and, if that fails, remesh
+  /// Constrained Delaunay tets of the convex hull, reduced to the tets in which the winding number
+  /// reaches the threshold.
   cdt,
   remesh, ///< well-shaped, graded tets of the region that the winding number defines
   embed, ///< lattice tets that contain the surface; separate parts share no vertex
-  wrap, ///< cdt of a closed surface that wraps the surface
+  wrap, ///< method cdt, applied to a closed surface that wraps the input
   ftetwild ///< the program fTetWild, if it is installed
 };
 
 /// Return "auto", "cdt", "remesh", "embed", "wrap" or "ftetwild".
 const char* to_string(TetMethod method);
 
-/// Return the interior_edge that smooth weights need in a surface with this volume and this
-/// bounding-box diagonal. It is at most 0.04, and at most the length that gives about 10,000 tets.
-/// With fewer tets, weights differ by more than 0.015 rms from those of much finer tets.
+/// Return the value of `interior_edge` that smooth weights need in a surface with this volume and
+/// this bounding-box diagonal. It is at most 0.04, and small enough for about 10,000 tets. With
+/// fewer tets, the weights differ by more than 0.015 (root mean square) from the weights on much
+/// finer tets.
 double interior_edge_of_weights(double volume, double diagonal);
 
+/// Options of tetrahedralize().
 struct TetrahedralizeOptions
 {
   TetMethod method = TetMethod::automatic;
-  /// A point is inside if its winding number is at least this. 0.5 is half way through the surface.
-  /// Values up to 0.9 pull the lid of an opening inwards; 1.5 keeps the volume that is enclosed
-  /// twice.
+  /// A point is inside if its winding number is at least this. 0.5 is the mean of the values on the
+  /// two sides of the surface. With values up to 0.9, the boundary in openings moves inwards. With
+  /// 1.5, the result is the volume that is enclosed twice.
   double winding_threshold = 0.5;
   /// Used by cdt for open surfaces only: see SegmentationOptions. (The winding numbers of a closed
-  /// surface are integers between its triangles, so no choice remains.)
+  /// surface are integers between its triangles, so both segmentations are equal.)
   SegmentationMethod segmentation = SegmentationMethod::graph_cut;
   double cut_smoothness = 1.0; ///< >= 0
   double cut_sigma = 0.1; ///< > 0
   /// Lattice cubes along the longest side (remesh, embed), 4 … 1000. The number of tets grows with
-  /// the cube of the resolution. Edges of remesh are between 0.2 and 1.4 cubes long. 0: automatic,
-  /// which is 40 for remesh, and the resolution that gives about 30,000 tets for embed.
+  /// the cube of the resolution. The edges of method remesh are between 0.2 and 1.4 cubes long. 0:
+  /// automatic, which is 40 for remesh; for embed it is the resolution that gives about
+  /// `lattice_tets` tets.
   Index resolution = 0;
-  /// Approximate number of lattice tets of embed with resolution 0, >= 1.
+  /// For embed with resolution 0: approximate number of lattice tets, >= 1.
   Index lattice_tets = 30000;
-  /// Time limit for all work of the helper or of fTetWild in seconds, >= 0. 0: 120, or 120 per
-  /// million triangles if that is more.
+  /// Time limit for the helper executable or fTetWild in seconds, >= 0. 0: 120, or 120 per million
+  /// triangles if that is more.
   double time_limit = 0.0;
   Index memory_limit = 0; ///< largest address space of a helper process in MiB, 0: no limit
   /// Required smallest dihedral angle of every tet, degrees, 0 … 20. If the surface's triangles do
-  /// not allow it, method automatic gives them up (remesh reaches 10.7 on any surface). The status
-  /// is not_converged if the result misses the angle. 0: as large as the surface's triangles allow.
+  /// not allow this angle, method automatic uses remesh, which does not keep the triangles and
+  /// reaches 10.7 degrees on any surface. The status is not_converged if a tet of the result has a
+  /// smaller angle. 0: as large as the surface's triangles allow.
   double quality = 0.0;
-  /// For cdt and wrap only: no vertices are added inside and flat tets are not improved.
-  /// interior_edge and quality must be 0.
+  /// For cdt and wrap only: if true, no vertices are inserted inside and flat tets are not
+  /// improved. Then `interior_edge` and `quality` must be 0.
   bool bare = false;
-  /// For cdt and wrap: longest edges inside, in bounding-box diagonals, >= 0. Edges of the surface
-  /// that are more than three times as long are split. 0: automatic. Edges inside are then as long
-  /// as the surface's edges near them and grow with the distance to it. Vertices are added until
-  /// there are about 4.5 tets per triangle. A surface of few triangles is filled with about 1,500
-  /// tets, and its long edges are split for that. Smooth weights need vertices inside, in addition
-  /// to those on the surface. For ftetwild: the target edge length everywhere; 0: fTetWild's
-  /// default 0.05.
+  /// For cdt and wrap: maximum length of edges inside, in bounding-box diagonals, >= 0. Edges of
+  /// the surface that are more than three times as long are split. 0: automatic. In this case,
+  /// edges inside are as long as the surface's edges near them, and their length increases with the
+  /// distance to the surface. Vertices are inserted until there are about 4.5 tets per triangle. A
+  /// surface with few triangles is filled with about 1,500 tets, and its long edges are split for
+  /// this purpose. Smooth weights need vertices inside, in addition to those on the surface. For
+  /// ftetwild, `interior_edge` is the target edge length everywhere; 0: fTetWild's default 0.05.
   double interior_edge = 0.0;
   /// For cdt only: keep all segmented tets of the surface's convex hull (or of a box around it, if
   /// that was necessary). labels reports which tets are inside. No vertices are added, not even for
   /// handles.
   bool keep_outside = false;
   /// For wrap only, in bounding-box diagonals: radius of the carving ball (0.0001 … 1) and distance
-  /// of the wrap from the surface (0.000001 … 1). See WrapOptions.
+  /// of the wrap's vertices from the surface (0.000001 … 1). See WrapOptions.
   double wrap_alpha = 0.02;
   double wrap_offset = 0.001;
-  /// For ftetwild only: largest distance of the boundary from the surface, in bounding-box
+  /// For ftetwild only: maximum distance of the tets' boundary from the surface, in bounding-box
   /// diagonals, 0.00001 … 0.1.
   double ftetwild_epsilon = 1e-3;
-  /// For cdt and wrap: points inside become vertices. Segments and triangles get vertices at the
-  /// local edge length. (insert_handles() splits the tets of other methods.)
+  /// For cdt and wrap: each handle point that is inside becomes a vertex. Segments and triangles of
+  /// handles get vertices at the distance of the local edge length. (insert_handles() splits the
+  /// tets of the other methods.)
   HandlePlaces handles;
 };
 
@@ -96,20 +104,22 @@ enum class TetLabel
   inside_below = 2 ///< inside, though its winding number is below the threshold
 };
 
+/// Result of tetrahedralize().
 struct TetrahedralizeResult
 {
   TetMesh mesh; ///< positive tets, no unused vertices
   /// #V: id of the input vertex, ascending, then -1 for new vertices.
   std::vector<Index> original_vertices;
-  /// Winding numbers at the centers of the tets, #T. With keep_outside these are the numbers that
-  /// the segmentation used, which are means for large tets near the threshold.
+  /// Winding numbers at the centers of the tets, #T. With keep_outside, these are the winding
+  /// numbers that the segmentation used. For large tets near the threshold, these are the means of
+  /// four points.
   Eigen::VectorXd winding_numbers;
-  std::vector<TetLabel> labels; ///< #T; a tet of embed is inside if its center is
+  std::vector<TetLabel> labels; ///< #T; a tet of method embed is inside if its center is inside
   Eigen::VectorXd min_dihedral_angles; ///< #T, degrees
   std::vector<DefectPlace> defects; ///< defects of the surface with their locations
   std::vector<Index> handle_vertices; ///< for cdt, #H: vertex at the handle's point, or -1
-  /// For embed only, else empty: fraction of each tet that is inside, #T, and the positions of the
-  /// input's points in the tets.
+  /// For embed only, otherwise empty: the fraction of each tet that is inside, #T, and the
+  /// positions of the input points in the tets.
   Eigen::VectorXd inside_fractions;
   PointBinding binding;
 };
@@ -121,42 +131,44 @@ struct TetrahedralizeResult
 /// - **cdt** keeps the input's vertices and triangles. Triangles are cut along their crossings.
 ///   Clean surfaces are passed to TetGen unchanged. The helper executable bindpose-mesher does the
 ///   work.
-/// - **remesh** has good angles. The helper computes it by Delaunay refinement and grades edges by
-///   those of the surface. It keeps the surface's vertices if they are far enough from each other,
-///   but not its triangles (remesh_tets.h). A lattice is cut instead if there is no helper, if the
-///   helper fails or runs out of time, or if the volume is wrong. The lattice always succeeds, but
-///   keeps no vertex, and parts thinner than a lattice cube are lost.
+/// - **remesh** gives tets with good angles. The helper computes them by Delaunay refinement. Edge
+///   lengths are graded like the edges of the surface. The surface's vertices are kept if they are
+///   far enough from each other; its triangles are not kept (remesh_tets.h). A lattice is cut
+///   instead if there is no helper, if the helper fails or exceeds its time limit, or if the volume
+///   is wrong. The lattice always gives a mesh, but it keeps no vertex, and parts thinner than a
+///   lattice cube are lost.
 /// - **embed** computes a lattice around the inside; every point of the surface is in a tet. Parts
 ///   that are near each other but not connected share no vertex (embed_surface).
-/// - **wrap** is cdt of an alpha wrap (wrap_surface.h), which the helper computes. It is intended
-///   for surfaces with unusable orientation, for sheets and for loose triangles. The winding number
-///   does not affect the result. A part that is closed except for gaps of two alpha becomes solid.
-///   **An open part becomes a thin shell**, with a warning that contains both volumes. All of the
-///   surface is inside the tets or, at corners, on their boundary. No vertex is kept.
+/// - **wrap** applies cdt to an alpha wrap of the surface (wrap_surface.h), which the helper
+///   computes. It is intended for surfaces with unusable orientation, for sheets and for loose
+///   triangles. The winding number does not affect the result. A part whose gaps are narrower than
+///   two alpha becomes solid. **An open part becomes a thin shell**, with a warning that contains
+///   both volumes. The whole surface is inside the tets or, at corners, on their boundary. No input
+///   vertex is kept.
 /// - **ftetwild** runs the program fTetWild on the surface, if it is installed
-///   (ftetwild_process.h). winding_threshold must be 0.5. No vertex is kept.
+///   (ftetwild_process.h). winding_threshold must be 0.5. No input vertex is kept.
 ///
-/// Method auto never uses embed, wrap or ftetwild.
+/// Method automatic never uses embed, wrap or ftetwild.
 ///
-/// Orientation is repaired first (repair_surface); a warning reports the turned parts.
+/// Orientation is repaired first (repair_surface); a warning reports the flipped parts.
 ///
 /// Report:
 /// - method
 /// - rungs[].name, rungs[].seconds, rungs[].outcome: each attempt and its outcome
-/// - counts.* of the diagnosis
+/// - counts.* of the diagnosis of surface defects
 /// - counts.tets, counts.tet_vertices, counts.kept_vertices
-/// - volume: of the tets inside
-/// - winding_volume: of {w >= threshold}, exact for clean surfaces, sampled otherwise
+/// - volume: volume of the tets inside
+/// - winding_volume: volume of {w >= threshold}, exact for clean surfaces, sampled otherwise
 /// - winding_volume_error: relative standard error of winding_volume
 /// - min_dihedral_angle: degrees
 /// - counts.tets_below_5_degrees
-/// - counts.tets_below_5_degrees_forced: the number of these with an edge that the boundary forces
-///   (see count_forced_tets). Few of these tets can be better while the surface's triangles are
-///   kept.
-/// - quality[].dihedral_angle, quality[].tets: number of tets with their smallest dihedral angle
-///   from this many degrees to the next value
-/// - counts.handle_points, counts.handle_vertices: for cdt with handles, the number of their points
-///   and of those that are vertices
+/// - counts.tets_below_5_degrees_forced: the number of these tets that have an edge at which the
+///   boundary forces a small angle (see count_forced_tets). Most of them cannot be improved while
+///   the surface's triangles are kept.
+/// - quality[].dihedral_angle, quality[].tets: number of tets whose smallest dihedral angle is
+///   between dihedral_angle (degrees) and the next value of the list
+/// - counts.handle_points, counts.handle_vertices: for cdt with handles, the number of handle
+///   points and the number of these that are vertices of the mesh
 /// - segmentation: for cdt; if the volume of a graph cut is wrong, the threshold is used instead
 /// - energy, threshold_energy, counts.changed_by_cut: see Segmentation
 /// - resolution: for remesh and embed
@@ -165,24 +177,29 @@ struct TetrahedralizeResult
 ///   boundary and the part of the surface that bounds the inside, percent of its diagonal
 /// - counts.wrap_triangles: for wrap
 ///
-/// not_converged: a dihedral angle is below quality; the message contains the smallest angle.
-/// invalid_input: coordinates not finite; the surface is flat or encloses nothing (except for embed
-/// and wrap); keep_outside with another method than cdt. For method automatic also: neither cdt nor
-/// remesh gives a valid mesh; the message contains the last reason and recommends method embed.
-/// unavailable: method cdt or wrap without helper; ftetwild without fTetWild; or method remesh (or
-/// another) found no tet inside, because the enclosed region is too thin for its tets.
-/// internal_error: the requested method gave no valid mesh.
+/// Status codes:
+/// - not_converged: a dihedral angle is below `quality`; the message contains the smallest angle.
+/// - invalid_input: a coordinate is not finite; the surface is flat or encloses no volume (except
+///   for embed and wrap); keep_outside is used with another method than cdt; or, for method
+///   automatic, neither cdt nor remesh gives a valid mesh. In the last case, the message contains
+///   the last reason and recommends method embed.
+/// - unavailable: there is no helper for method cdt or wrap; there is no fTetWild for method
+///   ftetwild; or a method found no tet inside, because the enclosed region is too thin for its
+///   tets.
+/// - internal_error: the requested method gave no valid mesh.
+///
 /// Cost: about 0.1 ms per triangle, and up to 1 ms if many triangles are needles or cross.
 Status tetrahedralize(PointsView points, TrianglesView triangles,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);
 
-/// Compute the same for a surface from prepare_surface(), with the same points, triangles and
-/// winding threshold (another threshold: invalid_input).
+/// Compute the tets as above for a surface from prepare_surface(). The points, triangles and
+/// winding threshold must be the same as in the preparation; a different threshold gives
+/// invalid_input.
 Status tetrahedralize(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);
 
-/// Compute the result of method embed from tets that embed_surface() has computed for the prepared
-/// surface: winding numbers, labels, angles and the report. Cost: one winding number per tet.
+/// Complete method embed from tets that embed_surface() has computed for the prepared surface: set
+/// winding numbers, labels, angles and the report. Cost: one winding number per tet.
 Status take_embedding(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
   EmbeddingTets embedding, TetrahedralizeResult& result, ExecutionContext& context);
 

@@ -1,3 +1,6 @@
+// Closed surfaces of a given resolution around thin or open triangles. The winding number and a
+// layer around thin parts define a region, from which isosurface stuffing computes tets; their
+// boundary is the result.
 #include "inside/thick_solid.h"
 
 #include "base/parallel.h"
@@ -13,11 +16,12 @@ namespace bindpose
 
 namespace
 {
-/// Return the number of cubes along the longest side that gives a surface of this area about the
-/// wanted number of triangles.
+/// Return the number of lattice cubes along the longest side for which a surface of this area gives
+/// about `triangles` triangles.
 Index resolution_for(const Box& box, double area, Index triangles)
 {
-  // Stuffing creates 3.8 triangles per surface area of one cube face, measured on a sphere.
+  // Isosurface stuffing creates 3.8 triangles for each surface area of one cube face, measured on a
+  // sphere.
   constexpr double triangles_per_face = 3.8;
   constexpr double fewest = 16.0;
   constexpr double most = 400.0;
@@ -35,9 +39,9 @@ Index resolution_for(const Box& box, double area, Index triangles)
   return static_cast<Index>(std::lround(std::max(resolution, fewest)));
 }
 
-/// Return the triangles that the lattice vertices inside miss. The test points of a triangle are at
-/// most half a cube apart. A triangle is missed if no vertex of the cube around one of them is
-/// inside.
+/// Return the triangles that are too far from the lattice vertices inside. The test points of a
+/// triangle are at most half a cube apart. A triangle is returned if the cube around one of its
+/// test points has no vertex inside.
 Triangles missed_triangles(PointsView points, TrianglesView triangles, const Lattice& lattice,
   const std::vector<char>& inside)
 {
@@ -119,7 +123,8 @@ Status thick_solid(PointsView points, TrianglesView triangles, const WindingNumb
       region.inside[v] = w[v] >= threshold ? 1 : 0;
     }
   }
-  // Every point is within 0.559 cubes of a lattice vertex, so the layer has no gaps.
+  // Every point is within 0.559 cubes of a lattice vertex. Therefore a layer of this thickness has
+  // no gaps.
   constexpr double layer = 0.6;
   const double thickness = layer * lattice.spacing;
   const Triangles thickened = options.join_near_parts

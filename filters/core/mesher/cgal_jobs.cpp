@@ -1,21 +1,22 @@
 // Exact refinement of a triangle soup, and plain Delaunay tets.
 //
-// A round of refinement:
-// 1. Exact predicates find the pairs of triangles that meet in more than shared vertices and edges,
-//    among those whose boxes meet.
-// 2. For each such pair the exact intersection (points and segments) is recorded for both
-//    triangles.
+// A round of refinement has four steps:
+// 1. Exact predicates find the pairs of triangles whose intersection contains more than shared
+//    vertices and edges, among the pairs with overlapping boxes.
+// 2. The exact intersection of each such pair (points and segments) is recorded for both triangles.
 // 3. Each triangle with recorded intersections is projected along its largest normal component. An
 //    exact constrained Delaunay triangulation of its edges and intersections cuts it, and new
 //    vertices are lifted back.
 // 4. New vertices are rounded to doubles. The same exact point has the same rounding in every
-//    triangle that contains it, so neighbors still fit. Equal vertices are welded; triangles
-//    without area and duplicates are dropped.
-// Rounding moves vertices by an ulp and can make triangles cross again, so rounds are repeated
-// until no triangles cross. If sheets coincide except for the rounding of the program that computed
-// them, every round leaves more crossings than it found. Then the job starts again with the input's
-// vertices rounded to a grid in which such sheets coincide. This grid is far coarser than doubles
-// and far finer than shapes.
+//    triangle that contains it, so neighbors still fit. Equal vertices are welded. Triangles
+//    without area and duplicates are removed.
+//
+// Rounding moves vertices by a unit in the last place, so that triangles may cross again. Therefore
+// rounds are repeated until no triangles cross. If sheets coincide except for the rounding of the
+// program that computed them, the number of crossings increases in every round. In this case the
+// job starts again with the input's vertices rounded to a grid in which such sheets coincide. The
+// spacing of this grid is far larger than the resolution of doubles and far smaller than the
+// details of shapes.
 #include "mesher/jobs.h"
 
 #include "base/stopwatch.h"
@@ -51,7 +52,7 @@ struct Soup
 {
   std::vector<Coordinates> points;
   std::vector<Face> faces;
-  std::map<Coordinates, Index> ids; // ids of all points by coordinates
+  std::map<Coordinates, Index> ids; // id of each point, by coordinates
 
   Inexact::Point_3 inexact(Index v) const
   {
@@ -83,7 +84,7 @@ struct Soup
     return f[0] == f[1] || f[1] == f[2] || f[2] == f[0] ||
       CGAL::collinear(this->inexact(f[0]), this->inexact(f[1]), this->inexact(f[2]));
   }
-  /// Weld vertices by coordinates. Drop faces without area and faces that repeat another one.
+  /// Weld vertices with equal coordinates. Remove faces without area and duplicate faces.
   void tidy()
   {
     std::set<Face> seen;
@@ -105,11 +106,11 @@ struct Soup
   }
 };
 
-/// Report whether two triangles with positive area meet in more than the vertices and edges that
-/// they share.
+/// Report whether the intersection of two triangles with positive area contains more than the
+/// vertices and edges that they share.
 bool cross(const Soup& soup, const Face& f, const Face& g)
 {
-  // Rotate shared vertices to the front of both.
+  // Move shared vertices to the front of both triangles.
   Face a = f;
   Face b = g;
   int shared = 0;
@@ -133,8 +134,8 @@ bool cross(const Soup& soup, const Face& f, const Face& g)
   }
   if (shared == 1)
   {
-    // The intersection is convex and contains the vertex. If it contains more, it reaches an
-    // opposite edge.
+    // The intersection is convex and contains the shared vertex. If it contains another point, it
+    // contains a point of the edge opposite to the vertex in one of the triangles.
     return CGAL::do_intersect(Inexact::Segment_3(point(a[1]), point(a[2])), soup.inexact(g)) ||
       CGAL::do_intersect(Inexact::Segment_3(point(b[1]), point(b[2])), soup.inexact(f));
   }
@@ -147,7 +148,8 @@ bool cross(const Soup& soup, const Face& f, const Face& g)
   return true;
 }
 
-/// Return the pairs of crossing triangles, sorted. If there are more than `most`, some are missing.
+/// Return the pairs of crossing triangles, sorted. If there are more than `most` pairs, the list is
+/// incomplete.
 std::vector<Pair> crossing_pairs(const Soup& soup, std::size_t most)
 {
   using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
@@ -211,9 +213,9 @@ void note_pair(const Soup& soup, const Face& f, const Face& g, Cuts& at_f, Cuts&
     note(Exact::Segment_3(a.vertex(k), a.vertex(k + 1)), b, points, segments);
     note(Exact::Segment_3(b.vertex(k), b.vertex(k + 1)), a, points, segments);
   }
-  // For triangles in different planes, there are at most two points, the ends of the common
-  // segment. For triangles in one plane, the segments are the outline of the common polygon, and
-  // every point is an end of a segment or the whole intersection.
+  // For triangles in different planes, there are at most two points, the ends of the intersection
+  // segment. For triangles in one plane, the segments are the outline of the intersection polygon,
+  // and every point is an end of a segment or the whole intersection.
   if (segments.empty() && points.size() == 2)
   {
     segments.emplace_back(points[0], points[1]);
@@ -231,8 +233,8 @@ using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Planar =
   CGAL::Constrained_Delaunay_triangulation_2<Exact, Structure, CGAL::Exact_intersections_tag>;
 
-/// Return the exact value's rounding. The rounding of an interval would depend on how it was
-/// computed.
+/// Return the exact value, rounded to double. The result must not depend on the interval
+/// approximation of x, which depends on how x was computed.
 double rounded(const Exact::FT& x)
 {
   return CGAL::to_double(CGAL::exact(x));
@@ -252,7 +254,7 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
       axis = k;
     }
   }
-  if (normal[axis] == 0) // to_double may have rounded tiny components to 0
+  if (normal[axis] == 0) // to_double() may have rounded tiny components to 0
   {
     axis = normal[0] != 0 ? 0 : (normal[1] != 0 ? 1 : 2);
   }
@@ -273,8 +275,8 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
   {
     planar.insert_constraint(ends[k], ends[(k + 1) % 3]);
   }
-  // Recorded points are known in space. Only vertices where segments cross each other must be
-  // lifted.
+  // The positions of the recorded points in space are known. Only the vertices at which segments
+  // cross each other must be lifted from the plane.
   std::map<Planar::Vertex_handle, Exact::Point_3> known;
   const auto insert = [&](const Exact::Point_3& p)
   {
@@ -341,7 +343,8 @@ std::string too_long(double limit)
     "still splitting crossing triangles after " + std::to_string(static_cast<int>(limit)) + " s");
 }
 
-/// Cut the triangles of the crossing pairs once. @return empty, or the reason for giving up.
+/// Cut all triangles of the crossing pairs (one round of refinement). @return empty, or the reason
+/// for giving up.
 std::string split(Soup& soup, const std::vector<Pair>& pairs, const Stopwatch& clock,
   const RefineOptions& options, std::size_t face_limit)
 {
@@ -404,7 +407,7 @@ Soup soup_of(const MesherData& data)
   return soup;
 }
 
-/// Round the points to a grid of about 2^-42 (2e-13) of the diagonal.
+/// Round the points to a grid of about 2^-42 (2e-13) of the bounding-box diagonal.
 void round_points(MesherData& data)
 {
   constexpr double fraction = 0x1p-42;
@@ -419,23 +422,26 @@ std::string refine(MesherData& data, const RefineOptions& options)
   const Stopwatch clock;
   Soup soup = soup_of(data);
   // A few hundred large triangles can be cut into tens of thousands of pieces and still be meshed.
+  // Therefore the limit is at least a multiple of this number.
   constexpr std::size_t small = 10000;
   const auto face_limit = static_cast<std::size_t>(
     options.growth_limit * static_cast<double>(std::max(soup.faces.size(), small)));
-  constexpr std::size_t few = 64; // pairs; fewer do not count as growth
-  constexpr int patience = 3; // rounds
-  // More pairs than this take too long or make too many pieces, which are two more per pair.
+  constexpr std::size_t few = 64; // number of pairs below which an increase is ignored
+  constexpr int patience = 3; // number of rounds with more crossings after which the job gives up
+  // Maximum number of crossing pairs. More pairs would exceed the time limit or the growth limit,
+  // because each pair adds at least two triangles.
   constexpr double seconds_per_pair = 2.5e-4;
   const auto pair_limit = std::min(static_cast<std::size_t>(options.time_limit / seconds_per_pair),
     face_limit / 2 - std::min(face_limit, soup.faces.size()) / 2);
   bool rounded = false;
   std::size_t before = std::numeric_limits<std::size_t>::max();
-  int growing = 0; // rounds with more crossings than the round before
+  int growing = 0; // number of rounds with more crossings than the round before
   int round = 0;
   for (; round < options.round_limit; ++round)
   {
     const std::vector<Pair> pairs = crossing_pairs(soup, pair_limit);
-    constexpr double first_found = 0.4; // fraction of the time, if few triangles cross
+    // Fraction of the total time for the first search, if few triangles cross.
+    constexpr double first_found = 0.4;
     tell_progress(first_found);
     if (pairs.size() > pair_limit)
     {

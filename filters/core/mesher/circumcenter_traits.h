@@ -16,10 +16,11 @@ using RobustTraits = CGAL::Robust_weighted_circumcenter_filtered_traits_3<
   CGAL::Exact_predicates_inexact_constructions_kernel>;
 using RobustCircumcenter = RobustTraits::Construct_weighted_circumcenter_3;
 
-/// Constructs circumcenters that are equally far from all corners. Mesh_3 accepts any point within
-/// the circumsphere as the center. For a flat cell (four points on a circle, as in every square of
-/// a grid) rounding may return such a point. The segments between centers then cross the surface at
-/// a wrong position, and refinement splits there again and again, down to 1e-7 of the diagonal.
+/// Constructs circumcenters that have the same distance from all corners. Without it, Mesh_3
+/// accepts any point within the circumsphere as the center. For a flat cell (four points on a
+/// circle, as in every square of a grid) rounding may give a point far from the exact center. Then
+/// the segments between centers of neighboring cells cross the surface at a wrong position, and
+/// refinement repeatedly splits there, down to edges of 1e-7 of the bounding-box diagonal.
 class Circumcenter : public RobustCircumcenter
 {
 public:
@@ -37,8 +38,8 @@ public:
   }
 
 private:
-  /// Report whether the center is accurate enough. Near the cell, a segment that ends at such a
-  /// center is off by less than a millionth of an edge.
+  /// Report whether the center is accurate enough: near the cell, a segment that ends at the center
+  /// deviates from the exact one by less than a millionth of an edge.
   static bool good(const Point& center, const WeightedPoint& p, const WeightedPoint& q,
     const WeightedPoint& r, const WeightedPoint& s)
   {
@@ -58,7 +59,7 @@ private:
 
 struct CircumcenterTraits : RobustTraits
 {
-  using Construct_weighted_circumcenter_3 = Circumcenter; // CGAL's name
+  using Construct_weighted_circumcenter_3 = Circumcenter; // name that CGAL requires
   Circumcenter construct_weighted_circumcenter_3_object() const
   {
     return Circumcenter(RobustTraits::construct_weighted_circumcenter_3_object());

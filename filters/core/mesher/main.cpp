@@ -1,5 +1,6 @@
-// bindpose-mesher JOB [options] < mesh > mesh runs one job of CGAL or TetGen in a separate process,
-// because both may crash, hang or take all memory on bad input. Bindpose runs it, not a user.
+// bindpose-mesher JOB [options] < mesh > mesh
+// runs one job of CGAL or TetGen in a separate process, because CGAL and TetGen may crash, hang or
+// take all memory on bad input. Bindpose starts this program; users do not call it.
 #include "mesher/jobs.h"
 
 #include <cstdio>
@@ -37,8 +38,8 @@ namespace
   std::_Exit(1);
 }
 
-/// Make this process die with its parent. If the parent died before this request, the parent id
-/// differs and the job fails.
+/// Make this process end when its parent ends. If the parent ended before this request, the parent
+/// id is different and the job fails.
 void die_with(pid_t parent)
 {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -50,7 +51,7 @@ void die_with(pid_t parent)
 
 void set_limits(double memory_mib)
 {
-  // A crash is expected here, so no core files are written.
+  // Crashes are expected in this process, so no core files are written.
   const rlimit none{ 0, 0 };
   ::setrlimit(RLIMIT_CORE, &none);
   if (memory_mib > 0.0)
@@ -62,8 +63,8 @@ void set_limits(double memory_mib)
   std::set_new_handler([] { fail("out of memory"); });
 }
 
-/// Change to a folder in which no file can be created. CGAL writes input that it could not mesh
-/// ("dump-bug.mesh") to the working folder, which belongs to the user.
+/// Change to a folder in which no file can be created. CGAL writes input that it cannot mesh to the
+/// working folder ("dump-bug.mesh"), and the working folder may belong to the user.
 void leave_working_folder()
 {
   if (::chdir("/proc") != 0 && ::chdir("/") != 0)
@@ -149,8 +150,8 @@ int main(int argc, char* argv[])
   die_with(static_cast<pid_t>(number(options, "--parent", 0.0)));
   set_limits(number(options, "--memory", 0.0));
   leave_working_folder();
-  // Libraries print to standard output. It is redirected to standard error, so that the original
-  // receives only the result.
+  // Libraries print to standard output. It is redirected to standard error, so that only the result
+  // is written to the original standard output.
   const int result = ::dup(1);
   ::dup2(2, 1);
   try
@@ -175,11 +176,11 @@ int main(int argc, char* argv[])
     std::string text = error.what();
     for (char& c : text)
     {
-      c = c == '\n' ? ' ' : c; // CGAL's messages have many lines
+      c = c == '\n' ? ' ' : c; // join the lines of CGAL's messages
     }
     fail(text);
   }
-  catch (int code) // TetGen throws its exit codes
+  catch (int code) // TetGen throws its exit code as an int
   {
     fail(code == 1  ? "TetGen ran out of memory"
         : code == 3 ? "TetGen found intersecting triangles"
@@ -187,7 +188,7 @@ int main(int argc, char* argv[])
         : code == 5 ? "TetGen found two facets that nearly coincide"
                     : "TetGen failed with code " + std::to_string(code));
   }
-  // Exit without destructors, because those of TetGen are unreliable after an error.
+  // Exit without calling destructors, because TetGen's destructors are unreliable after an error.
   std::fflush(stderr);
   std::_Exit(0);
 }

@@ -1,15 +1,17 @@
 // Curves in the plane: exact arrangement, and quality triangles of a region.
 //
 // Arrangement: all points and segments are inserted into a constrained Delaunay triangulation with
-// exact coordinates, which splits segments where they cross, overlap or meet a point. New vertices
-// are rounded to doubles. Rounding bends the pieces by an ulp and can make them cross again, so the
-// pieces are inserted again until no new vertex appears. Curves that almost touch leave gaps that
-// are too narrow for refinement. Then points are rounded to a coarser grid, and edges are bent to
-// the points that they pass (snap rounding: Hobby; Guibas and Marimont), in the same rounds.
+// exact coordinates, which splits segments where they cross, overlap or contain a point. New
+// vertices are rounded to doubles. Rounding moves vertices by a unit in the last place, so that the
+// parts of segments may cross again. Therefore they are inserted again until no new vertex appears.
+// Curves that almost touch leave gaps that are too narrow for refinement. In this case points are
+// rounded to a coarser grid in the same rounds, and an edge that passes close to a point is
+// replaced by two edges through the point (snap rounding: Hobby; Guibas and Marimont).
 //
-// Filling: Delaunay refinement (Ruppert, Shewchuk; CGAL's Delaunay_mesher_2), step by step, with a
-// limit on the number of points. Angles up to 20.6 degrees can always be reached, except for angles
-// of the outline itself. 30 degrees can usually be reached.
+// Filling: Delaunay refinement (Ruppert, Shewchuk; CGAL's Delaunay_mesher_2), one point at a time,
+// with a limit on the number of points. A minimum angle of up to 20.6 degrees can always be
+// reached, except at smaller angles of the outline itself. A minimum angle of 30 degrees can
+// usually be reached.
 #include "mesher/jobs.h"
 
 #include "base/stopwatch.h"
@@ -37,10 +39,10 @@ namespace
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Inexact = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Pair = std::pair<Index, Index>;
-using Pairs = std::set<Pair>; // unordered edges: the lower id first
+using Pairs = std::set<Pair>; // edges without direction: the lower id first
 using Coordinates = std::array<double, 2>;
 
-/// Id of a vertex. A default-constructed one has no id (-1).
+/// Id of a vertex; -1: no id.
 struct VertexId
 {
   Index value = -1;
@@ -54,7 +56,8 @@ using Arrangement = CGAL::Constrained_Delaunay_triangulation_2<Exact,
 struct Plane
 {
   std::vector<Coordinates> points;
-  std::map<Coordinates, Index> ids; // ids of all points by coordinates; the first of equal points
+  // Id of each point, by coordinates; if several points are equal, id of the first one.
+  std::map<Coordinates, Index> ids;
 
   Index add(const Coordinates& p)
   {
@@ -72,8 +75,8 @@ Pair edge_of(Index a, Index b)
   return { std::min(a, b), std::max(a, b) };
 }
 
-/// Return the exact value's rounding. The rounding of an interval would depend on how it was
-/// computed.
+/// Return the exact value, rounded to double. The result must not depend on the interval
+/// approximation of x, which depends on how x was computed.
 double rounded(const Exact::FT& x)
 {
   return CGAL::to_double(CGAL::exact(x));
@@ -85,8 +88,8 @@ double snapped(double x, double grid)
   return grid > 0.0 ? std::round(x / grid) * grid : x;
 }
 
-/// Bend edges through vertices that they pass at less than half of the grid. @return whether an
-/// edge was bent.
+/// If an edge passes a vertex at less than half of the grid spacing, replace it by two edges
+/// through the vertex. @return whether an edge was replaced.
 bool bend(const Arrangement& arrangement, const Plane& plane, double grid, Pairs& edges)
 {
   bool any = false;
@@ -165,21 +168,22 @@ using FillFace = CGAL::Delaunay_mesh_face_base_2<Inexact>;
 using Filling = CGAL::Constrained_Delaunay_triangulation_2<Inexact,
   CGAL::Triangulation_data_structure_2<FillVertex, FillFace>, CGAL::Exact_predicates_tag>;
 
-/// Bounds of angles and lengths. Triangles with a side below the floor are not refined for their
-/// angles. Otherwise refinement would continue to the last bit where bounds above 20.6 degrees have
-/// no solution.
+/// Quality criteria for the refinement: bounds for angles and lengths. Triangles with a side
+/// shorter than the floor are not refined for their angles. Otherwise refinement could continue
+/// down to the resolution of doubles where a bound above 20.6 degrees cannot be satisfied.
 class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Filling>
 {
 public:
   using Base = CGAL::Delaunay_mesh_size_criteria_2<Filling>;
 
   Criteria(double sine_squared, double longest_edge, double floor)
-    : CGAL::Delaunay_mesh_criteria_2<Filling>(sine_squared), // a virtual base
-      Base(sine_squared, longest_edge), floor_(floor)
+    // Required because it is a virtual base.
+    : CGAL::Delaunay_mesh_criteria_2<Filling>(sine_squared), Base(sine_squared, longest_edge),
+      floor_(floor)
   {
   }
 
-  class Is_bad : public Base::Is_bad // NOLINT(readability-identifier-naming): as CGAL calls it
+  class Is_bad : public Base::Is_bad // NOLINT(readability-identifier-naming): required by CGAL
   {
   public:
     using BaseIsBad = Base::Is_bad;
@@ -223,7 +227,7 @@ private:
 /// Triangulate the region and mark the faces inside it.
 std::string build(const MesherData& data, Filling& filling)
 {
-  // Sides of triangles without a neighbor, in their direction: the inside is to their left.
+  // Sides of triangles without a neighbor. They are directed, with the inside to the left.
   std::set<Pair> outline;
   std::set<Index> used;
   for (Index t = 0; t < data.triangles.rows(); ++t)
@@ -315,8 +319,8 @@ double area_of(const MesherData& data)
   return 0.5 * twice;
 }
 
-/// Refine the triangulation. @return whether the bounds hold everywhere, with no more vertices than
-/// the limit.
+/// Refine the triangulation. @return whether the bounds are satisfied everywhere with at most
+/// `limit` vertices.
 bool refine(Filling& filling, double min_angle, const FillOptions& options, std::size_t limit,
   const Stopwatch& clock)
 {
@@ -429,7 +433,7 @@ std::string arrange(MesherData& data, double grid)
     {
       const Index a = e->first->vertex(Arrangement::ccw(e->second))->info().value;
       const Index b = e->first->vertex(Arrangement::cw(e->second))->info().value;
-      if (a != b) // rounding may merge both ends
+      if (a != b) // rounding may have merged the two ends
       {
         edges.insert(edge_of(a, b));
       }
@@ -472,7 +476,8 @@ std::string arrange(MesherData& data, double grid)
 std::string fill_plane(MesherData& data, const FillOptions& options)
 {
   const Stopwatch clock;
-  // An equilateral triangle with half the longest edge is smaller than the triangles of refinement.
+  // Estimate of the number of triangles. It assumes equilateral triangles with half the longest
+  // edge, which are smaller than the triangles that refinement creates.
   const double triangles = options.longest_edge > 0.0
     ? area_of(data) / (0.4 * 0.25 * options.longest_edge * options.longest_edge)
     : 0.0;
@@ -480,7 +485,7 @@ std::string fill_plane(MesherData& data, const FillOptions& options)
   constexpr double growth = 30.0;
   const auto limit =
     static_cast<std::size_t>(many + triangles + growth * static_cast<double>(data.points.rows()));
-  constexpr double always = 20.6; // degrees
+  constexpr double always = 20.6; // degrees; this bound can always be satisfied
   Filling filling;
   double angle = options.min_angle;
   bool done = false;

@@ -1,15 +1,17 @@
 // Curve skeletons by mean curvature flow (Tagliasacchi, Alhashim, Olson, Zhang, Mean Curvature
-// Skeletons, Computer Graphics Forum 31(5), 2012) by CGAL, one closed component at a time.
+// Skeletons, Computer Graphics Forum 31(5), 2012), as implemented in CGAL. Closed components are
+// processed one at a time.
 //
 // 1. The triangles become closed manifold meshes: sheets are separated at edges where more than two
-//    triangles meet. Hollows (components of negative volume) are omitted, because they have no
+//    triangles meet. Components of negative volume ("hollow") are omitted, because they have no
 //    inside.
-// 2. Each component is remeshed to some thousands of even triangles. In every step the flow solves
-//    a linear system of the vertices, and coarse parts have no vertices along which to contract.
-// 3. The flow contracts the surface and pulls it to its medial axis. Short edges collapse, flat
-//    triangles are split, and vertices that cannot shrink further are fixed, until the area hardly
-//    changes.
-// 4. The result is as thin as a thread; its edges collapse until no triangle is left.
+// 2. Each component is remeshed to some thousands of triangles of even size. In every step the flow
+//    solves a linear system whose unknowns are the vertices, so coarse parts would have too few
+//    vertices to contract along.
+// 3. The flow contracts the surface and pulls it to its medial axis. Short edges are collapsed,
+//    flat triangles are split, and vertices that cannot shrink further are fixed. The flow ends
+//    when the area is almost constant.
+// 4. The edges of the resulting thin surface are collapsed until no triangle remains.
 #include "mesher/jobs.h"
 #include "mesher/triangle_soup.h"
 
@@ -48,7 +50,8 @@ using Flow = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
 Mesh to_manifold(const MesherData& data)
 {
   TriangleSoup<Kernel::Point_3> soup(data);
-  // Sheets are separated where they are not manifold, and each one is stitched again.
+  // orient_polygon_soup() separates sheets where they are not manifold. Each sheet is then stitched
+  // along its borders.
   pmp::orient_polygon_soup(soup.points, soup.triangles);
   Mesh mesh;
   pmp::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, mesh);
@@ -56,7 +59,7 @@ Mesh to_manifold(const MesherData& data)
   return mesh;
 }
 
-/// A closed component.
+/// A closed component of the surface.
 struct Part
 {
   Mesh mesh;
@@ -95,7 +98,7 @@ std::vector<Part> closed_parts(const Mesh& mesh, Index& open, Index& hollow)
   return parts;
 }
 
-/// Remesh to even triangles, about as many as `triangles`.
+/// Remesh to about `triangles` triangles of even size.
 void even_out(Mesh& mesh, double triangles)
 {
   constexpr double edges_per_triangle = 1.5;
@@ -108,14 +111,15 @@ void even_out(Mesh& mesh, double triangles)
         .get_placement(simplification::LindstromTurk_placement<Mesh>()));
     mesh.collect_garbage();
   }
-  // Edge of an equilateral triangle with this fraction of the area.
+  // Edge length of an equilateral triangle whose area is the area of the mesh divided by
+  // `triangles`.
   const double edge =
     std::sqrt(4.0 / std::sqrt(3.0) * CGAL::to_double(pmp::area(mesh)) / triangles);
   pmp::isotropic_remeshing(mesh.faces(), edge, mesh, CGAL::parameters::number_of_iterations(2));
   mesh.collect_garbage();
 }
 
-/// Append the skeleton of a closed mesh.
+/// Contract a closed mesh to its skeleton, and append the skeleton to `points` and `segments`.
 void contract(const Mesh& mesh, const SkeletonJobOptions& options, double begin, double end,
   Index& iterations, std::vector<Vec3>& points, std::vector<std::array<Index, 2>>& segments)
 {
@@ -137,7 +141,8 @@ void contract(const Mesh& mesh, const SkeletonJobOptions& options, double begin,
     {
       break;
     }
-    // The change decreases about as a power of the step number, so its logarithm measures progress.
+    // The change in area decreases approximately as a power of the step number, so its logarithm is
+    // used as progress.
     furthest =
       std::max(furthest, std::log(std::min(change, 1.0)) / std::log(flow.area_variation_factor()));
     tell_progress(begin + (end - begin) * std::min(furthest, 1.0));
@@ -191,7 +196,7 @@ std::string skeleton(MesherData& data, const SkeletonJobOptions& options)
   for (Part& part : parts)
   {
     const double share = CGAL::to_double(pmp::area(part.mesh)) / area;
-    // A small component needs enough triangles for its shape, too.
+    // A small component needs a minimum number of triangles to represent its shape.
     constexpr double least = 1000.0;
     even_out(part.mesh, std::max(least, share * options.triangles));
     triangles += static_cast<Index>(part.mesh.number_of_faces());

@@ -1,6 +1,6 @@
-// TetGen on a surface. TetGen drops vertices that are unused or nearly coincide and renumbers the
-// rest, but it never moves a vertex. Therefore input vertices are identified by their exact
-// coordinates.
+// Tetrahedralization of a surface by TetGen. TetGen removes vertices that are unused or nearly
+// coincide and renumbers the other vertices, but it never moves a vertex. Therefore input vertices
+// are identified by their exact coordinates.
 #include "mesher/jobs.h"
 
 #include <tetgen.h>
@@ -24,7 +24,7 @@ struct KeyHash
     std::uint64_t h = 0x9e3779b97f4a7c15ull;
     for (double x : key)
     {
-      x = x == 0.0 ? 0.0 : x; // -0 is 0
+      x = x == 0.0 ? 0.0 : x; // replace -0 by 0
       std::uint64_t bits = 0;
       std::memcpy(&bits, &x, sizeof(bits));
       h = (h ^ bits) * 0xff51afd7ed558ccdull;
@@ -90,10 +90,10 @@ void add_box(Points& points, Triangles& triangles)
   }
 }
 
-/// Run the steps of ::tetrahedralize() except one. After the boundary has been recovered, the
-/// omitted step would list all facets, in a third of the peak memory, and flip tets back to
-/// Delaunay tets where possible. It gains nothing, because vertices are inserted and tets are
-/// improved later.
+/// Run the steps of TetGen's ::tetrahedralize() except one. The omitted step follows the recovery
+/// of the boundary. It would list all facets, which takes a third of the peak memory, and flip tets
+/// to restore the Delaunay property where possible. The step is not needed, because vertices are
+/// inserted and tets are improved later.
 void run_steps(tetgenbehavior& behavior, tetgenio& in, tetgenio& out)
 {
   clock_t unused = 0;
@@ -104,7 +104,7 @@ void run_steps(tetgenbehavior& behavior, tetgenio& in, tetgenio& out)
   mesh.transfernodes();
   exactinit(behavior.verbose, behavior.noexact, behavior.nostaticfilter, mesh.xmax - mesh.xmin,
     mesh.ymax - mesh.ymin, mesh.zmax - mesh.zmin);
-  // Fractions of the time on scans and models for 3D printing.
+  // Fractions of the total time, measured on scans and models for 3D printing.
   constexpr double triangulated = 0.3, facets_found = 0.4, recovered = 0.7, carved = 0.85;
   mesh.incrementaldelaunay(unused);
   tell_progress(triangulated);
@@ -157,11 +157,11 @@ std::string tetgen(MesherData& data, const TetgenOptions& options)
   std::string switches = options.switches + "Q";
   tetgenbehavior behavior;
   behavior.parse_commandline(switches.data());
-  // Only exactly coplanar triangles are one facet; within other facets edges could be flipped.
+  // Only exactly coplanar triangles form one facet, because TetGen may flip edges within a facet.
   behavior.facet_ang_tol = 180.0;
   run_steps(behavior, in, out);
 
-  // Renumber the vertices: those of the input keep their ids, the others follow in TetGen's order.
+  // Renumber the vertices: input vertices keep their ids, new vertices follow in TetGen's order.
   std::unordered_map<Key, Index, KeyHash> ids;
   ids.reserve(static_cast<std::size_t>(points.rows()));
   for (Index v = 0; v < points.rows(); ++v)
@@ -195,8 +195,8 @@ std::string tetgen(MesherData& data, const TetgenOptions& options)
       data.tets(t, k) = id_of[out.tetrahedronlist[t * out.numberofcorners + k]];
     }
   }
-  // Exact predicates give all tets the same orientation. In doubles the volume of a sliver may have
-  // the wrong sign.
+  // All tets have the same orientation because TetGen uses exact predicates. The sum of the volumes
+  // is tested, because the volume of a single sliver may have the wrong sign in doubles.
   if (tet_volumes(data.points, data.tets).sum() < 0.0)
   {
     data.tets.col(0).swap(data.tets.col(1));

@@ -1,8 +1,9 @@
 // Alpha wrapping (Portaneri, Rouxel-Labbé, Hemmer, Cohen-Steiner, Alliez, Alpha Wrapping with an
-// Offset, ACM Transactions on Graphics 41(4), 2022) by CGAL. A Delaunay triangulation is carved
-// from outside, through every facet that a ball of radius alpha fits through. If the cell behind a
-// facet touches the surface, a vertex is added at the distance `offset` from the surface instead.
-// The method uses only distances to triangles, so it ends for any input, and its result is closed.
+// Offset, ACM Transactions on Graphics 41(4), 2022) by CGAL. Starting from outside, tets are
+// removed from a Delaunay triangulation through every facet that is large enough for a ball of
+// radius alpha. If the tet behind a facet touches the surface, a vertex is inserted at the distance
+// `offset` from the surface instead. The method uses only distances to triangles. Therefore it ends
+// for any input, and its result is closed.
 #include "mesher/jobs.h"
 #include "mesher/triangle_soup.h"
 
@@ -21,8 +22,8 @@ namespace
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// Reports progress by counting the added vertices, whose final number is unknown. Progress is
-/// about half when there is one vertex per square of side alpha of the surface's area.
+/// Reports progress from the number of inserted vertices. The final number is unknown. Progress is
+/// about 1/2 when the number of vertices is the area of the surface divided by alpha^2.
 class Progress : public CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor
 {
 public:

@@ -13,21 +13,21 @@ namespace bindpose
 
 constexpr Index largest_anderson_window = 50;
 
-/// Anderson acceleration of an iteration x <- g(x) whose fixed point is sought. The next x is g(x)
-/// minus a linear combination of the last changes of g. The coefficients are those whose
-/// combination of the last changes of the residual g(x) - x is closest to g(x) - x. The
-/// coefficients of the iterates sum to one, so the extrapolated x satisfies the same linear
-/// constraints as the iterates.
-/// The caller decides whether an extrapolated x is acceptable, for example by an energy that must
-/// not rise. If it is not, the caller continues from g(x) and calls forget(). Peng et al. 2018,
-/// Anderson acceleration for geometry optimization and physics simulation.
+/// Anderson acceleration of a fixed-point iteration x <- g(x). The next x is g(x) minus a linear
+/// combination of the last differences between successive values of g. The coefficients minimize
+/// the distance between the residual g(x) - x and the same combination of the differences of the
+/// residual. The coefficients of the iterates sum to one, so the extrapolated x satisfies the same
+/// linear constraints as the iterates. The caller decides whether an extrapolated x is acceptable,
+/// for example by an energy that must not rise. If it is not acceptable, the caller continues from
+/// g(x) and calls forget(). Method: Peng et al. 2018, Anderson acceleration for geometry
+/// optimization and physics simulation.
 ///
-/// Numbers that are linear functions of x (such as a gradient) can be carried along. They follow x
-/// in memory and are combined like x, but they are not part of the residual.
+/// Values that are linear functions of x (such as a gradient) can be carried along: they are stored
+/// behind x in memory and combined like x, but they are not part of the residual.
 ///
 /// Scalar: float or double.
 ///
-/// Cost of next(): window + 1 inner products, and as many multiply-adds for each number carried.
+/// Cost of next(): window + 1 inner products, and window + 1 multiply-adds for each carried value.
 template <typename Scalar>
 class Anderson
 {
@@ -38,7 +38,7 @@ public:
   /// @param window number of previous iterates to combine, 0 (no acceleration) to
   /// largest_anderson_window.
   /// @param size number of entries of x.
-  /// @param carried number of values that follow x in memory.
+  /// @param carried number of carried values, which are stored behind x in memory.
   Anderson(Index window, Index size, Index carried, Dot dot);
 
   Index window() const { return this->window_; }
@@ -46,13 +46,13 @@ public:
   /// Discard the previous iterates.
   void forget() { this->count_ = 0; }
 
-  /// Compute the extrapolated iterate x from g = g(x); both arrays include the carried numbers.
+  /// Compute the extrapolated iterate x from g = g(x); both arrays include the carried values.
   /// Return false and leave x unchanged if there are no previous iterates or the coefficients are
   /// not finite.
   bool next(const Scalar* g, Scalar* x);
 
-  /// Sum of the absolute values of the last coefficients: the factor by which the round-off of the
-  /// carried numbers may exceed that of a plain iterate.
+  /// Sum of the absolute values of the last coefficients. The round-off of the carried values may
+  /// exceed that of a plain iterate by this factor.
   double reach() const { return this->reach_; }
 
 private:
@@ -60,12 +60,12 @@ private:
 
   Index window_, size_, length_;
   Dot dot_;
-  Index count_ = 0; ///< number of iterates passed to next() since forget()
+  Index count_ = 0; ///< number of calls of next() since forget()
   double reach_ = 0.0;
   AlignedVector<Scalar> changes_g_, changes_f_; ///< ring buffers of `window` rows
   AlignedVector<Scalar> last_g_, last_f_;
-  Eigen::MatrixXd products_; ///< inner products of the changes of the residual
-  Eigen::VectorXd right_; ///< inner products of each change with the last residual
+  Eigen::MatrixXd products_; ///< inner products of the differences of the residual
+  Eigen::VectorXd right_; ///< inner products of each difference with the last residual
   std::vector<double> factor_; ///< Cholesky factor, in rows of largest_anderson_window
 };
 

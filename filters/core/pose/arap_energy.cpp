@@ -1,10 +1,13 @@
-// Every energy here is a sum over elements, over the groups of each element with their fractions of
-// it, and over the element's edges with their cotangent weights.
-// - Elements: one group has the whole element.
-// - Spokes and rims: the group of each vertex has one third (triangle) or one quarter (tet) of the
-//   element; the fractions of equal groups are added first.
-// - Spokes: the sum runs over the edges of the mesh with their weights from the stiffness matrix;
-//   the group of either end has half of the edge.
+// As-rigid-as-possible energies for groups of vertices or elements that share a rotation.
+//
+// Every energy is a sum over elements, over the groups that contribute to an element, and over the
+// element's edges with their cotangent weights. Each group contributes with a fraction of the
+// element:
+// - Elements: one group contributes with the fraction 1.
+// - Spokes and rims: the group of each vertex contributes with one third (triangle) or one quarter
+//   (tet). The fractions of equal groups are added first.
+// - Spokes: the sum runs over the edges of the mesh, with their weights from the stiffness matrix.
+//   The groups of the two ends contribute with one half each.
 #include "pose/arap_energy.h"
 
 #include "base/most_frequent.h"
@@ -30,7 +33,7 @@ constexpr const int (&edges_of(const TetsView&))[6][2]
   return tet_edges;
 }
 
-/// The groups of an element or edge and their fractions of it, which sum to one.
+/// The groups that contribute to an element or edge, and their fractions, which sum to one.
 template <int Corners>
 struct Shares
 {
@@ -70,12 +73,12 @@ Shares<Corners> shares_of(const Elements& elements, Index e, const RotationGroup
   return shares;
 }
 
-/// Return for each vertex the label that most of its elements have; -1 if it has no element.
+/// Return for each vertex the most frequent label among its elements; -1 if it has no element.
 template <typename Elements>
 std::vector<Index> labels_around(
   const Elements& elements, const std::vector<Index>& of_element, std::size_t vertices)
 {
-  // Start of each vertex's labels, shifted by two entries.
+  // Start of each vertex's labels. The array is shifted by two entries for the counting sort.
   std::vector<Index> begin(vertices + 2, 0);
   for (Index e = 0; e < elements.rows(); ++e)
   {
@@ -138,15 +141,15 @@ RotationGroups make_groups(
   return groups;
 }
 
-/// An edge of the mesh and the sum of its elements' cotangent weights, which is positive.
+/// An edge of the mesh with the sum of its elements' cotangent weights, which must be positive.
 struct Spoke
 {
   Index i, j;
   double weight;
 };
 
-/// A weight below this fraction of the diagonal entries of its vertices is round-off, whatever its
-/// sign.
+/// If the weight of an edge is below this fraction of the diagonal entries of its vertices, it is
+/// round-off and ignored.
 constexpr double no_weight = 1e-12;
 
 std::vector<Spoke> spokes_of(const SparseMatrix& stiffness, Index* left_out)
@@ -266,7 +269,8 @@ SparseMatrix make_covariance(
   entries.reserve(static_cast<std::size_t>(elements.rows()) * Corners * 4);
   for (Index e = 0; e < elements.rows(); ++e)
   {
-    // b_i = sum_j c_ij (v_i - v_j): the contribution of vertex i of this element to S.
+    // b_i = sum_j c_ij (v_i - v_j): the contribution of vertex i in this element to the covariance
+    // S.
     Vec3 b[Corners];
     std::fill(b, b + Corners, Vec3::Zero());
     for (Index k = 0; k < c.cols(); ++k)

@@ -1,11 +1,17 @@
-// Given vertices are eliminated from the system. A part of the mesh without a given vertex would
-// leave the system singular. One of its vertices is therefore grounded (its x is 0), and the part
-// as a whole moves by a separate shift t. This is exact because the forces within a part sum to
-// zero. Held points A x = b then lead to a small dense system for their multipliers m and the
-// shifts t,
+// Solution of a stiffness system with prescribed vertices ("given") and constrained mesh points
+// ("held").
+//
+// Given vertices are eliminated from the system. A connected part of the mesh without a given
+// vertex would make the system singular. Therefore one vertex of such a part is grounded (its x is
+// 0), and an additional unknown shift t translates the part. This is exact because the forces
+// within a part sum to zero. The constraints A x = b of the held points then lead to a small dense
+// system for their Lagrange multipliers m and the shifts t:
+//
 //     A L^-1 A^T m - A 1 t = A L^-1 force - b,    (A 1)^T m = 0.
-// The second equation states that the multipliers' forces sum to zero in each part. A pivoted QR of
-// A selects the independent points beforehand, so that the small system can be solved.
+//
+// The second equation states that the multipliers' forces sum to zero in each part. A pivoted QR
+// decomposition of A first selects linearly independent points, so that the small system is
+// regular.
 #include "pose/constrained_stiffness.h"
 
 #include <Eigen/QR>
@@ -17,7 +23,8 @@ namespace bindpose
 
 namespace
 {
-/// Held points whose pivot is below this fraction of the largest pivot are redundant.
+/// A held point is redundant if its pivot in the QR decomposition is below this fraction of the
+/// largest pivot.
 constexpr double held_rank = 1e-9;
 } // namespace
 
@@ -114,8 +121,8 @@ Status ConstrainedStiffness::prepare(const SparseMatrix& stiffness,
   return {};
 }
 
-/// Scale the held points, select the independent ones and compute how their targets follow from the
-/// targets of all.
+/// Scale the rows of the held points, select independent rows, and compute the matrix that maps the
+/// targets of all held points to the targets of the selected points.
 void ConstrainedStiffness::choose_independent(const std::vector<char>& is_given)
 {
   const auto count = static_cast<Index>(this->held_.size());
@@ -165,8 +172,8 @@ void ConstrainedStiffness::choose_independent(const std::vector<char>& is_given)
   {
     (i < rank ? this->kept_ : this->redundant_).push_back(qr.colsPermutation().indices()[i]);
   }
-  // All points are combinations of the kept ones. Targets that contradict this are met in the
-  // least-squares sense.
+  // All points are linear combinations of the kept points. Targets that contradict this dependence
+  // are satisfied in the least-squares sense.
   const Eigen::MatrixXd r = qr.matrixR().topRows(rank);
   Eigen::MatrixXd combination = Eigen::MatrixXd::Identity(count, rank);
   if (rank < count)
@@ -211,7 +218,8 @@ void ConstrainedStiffness::factor_held(double unit)
   {
     return;
   }
-  // Scale the stiffness to ones on the diagonal (on average).
+  // Scale the stiffness so that the mean of its diagonal entries is 1, by multiplying its inverse
+  // by `unit`.
   this->response_ = this->unknowns_.empty() ? right : Eigen::MatrixXd(this->solver_.solve(right));
   this->response_ *= unit;
   Eigen::MatrixXd& small = this->held_system_;
@@ -279,8 +287,9 @@ void ConstrainedStiffness::solve(
         }
       }
     }
-    // One step of iterative refinement. Held points close to each other give an inverse with few
-    // correct digits, and the energy does not distinguish a missed point from an improvement.
+    // One step of iterative refinement. If held points are close to each other, the inverse has few
+    // correct digits. The resulting violation of a constraint could lower the energy, so the caller
+    // could take it for an improvement.
     Eigen::MatrixXd answer = this->multipliers_ * small;
     answer += this->multipliers_ * (small - this->held_system_ * answer);
     inner.noalias() -= this->response_ * answer.topRows(kept);

@@ -1,6 +1,9 @@
 #ifndef bindpose_pose_constrained_stiffness_h
 #define bindpose_pose_constrained_stiffness_h
 
+// Solver for a sparse stiffness system in which some vertices are prescribed and some other points
+// of the mesh are constrained.
+
 #include "base/laplacian.h"
 #include "base/sparse_solver.h"
 
@@ -10,12 +13,12 @@
 namespace bindpose
 {
 
-/// A point of a mesh: vertices and their barycentric weights, which sum to one.
+/// A point of a mesh, as vertex ids with barycentric weights that sum to one.
 using MeshPoint = std::vector<std::pair<Index, double>>;
 
-/// Minimizes 1/2 <x, L x> - <force, x> for a stiffness matrix L. The values of some vertices are
-/// given, and some points of the mesh are held at target values. The system is factored once for a
-/// choice of vertices and points and solved for any values.
+/// Minimizes 1/2 <x, L x> - <force, x> for a stiffness matrix L. x is prescribed at some vertices
+/// ("given") and at some other points of the mesh ("held"). The system is factored once for a
+/// choice of given vertices and held points. Then it can be solved for any prescribed values.
 ///
 /// L may be singular, because a connected part without a given vertex can translate freely. Held
 /// points in such a part determine its translation; without held points its mean is zero. Held
@@ -26,16 +29,16 @@ class ConstrainedStiffness
 public:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  /// @param part_of_vertex connected part of L's graph of each vertex, #V; -1: x is 0 at this
+  /// @param part_of_vertex #V: for each vertex its connected part of the mesh; -1: x is 0 at this
   /// vertex.
-  /// @param given vertices in ascending order, each once.
+  /// @param given ids of the given vertices, ascending, without duplicates.
   /// @return invalid_input if L cannot be factored: elements are too distorted for double
   /// precision.
   Status prepare(const SparseMatrix& stiffness, const std::vector<Index>& part_of_vertex,
     Index part_count, std::vector<Index> given, std::vector<MeshPoint> held);
 
-  /// Compute x (#V x k) for a force (#V x k), values at the given vertices (#given x k, in their
-  /// order) and values at the held points (#held x k).
+  /// Compute x (#V x k) from a force (#V x k), the values at the given vertices (#given x k, in the
+  /// order of their ids) and the values at the held points (#held x k).
   void solve(const Rows& force, const Rows& given, const Rows& held, Rows& x) const;
 
   /// Held points that depend linearly on other held points.
@@ -47,24 +50,27 @@ private:
 
   std::vector<Index> given_;
   std::vector<MeshPoint> held_;
-  std::vector<Index> unknowns_; ///< vertices of the factored matrix
+  std::vector<Index> unknowns_; ///< ids of the vertices in the factored matrix
   std::vector<Index> row_of_; ///< #V: index in unknowns_ or -1
-  SparseMatrix border_; ///< #unknowns x #given
+  /// #unknowns x #given: block of the stiffness between unknowns and given vertices.
+  SparseMatrix border_;
   SparseSolver solver_;
 
-  // Held points: the weights of the vertices that are not given, scaled to unit length.
+  // Rows of the held points: weights of the vertices that are not given, scaled to unit length.
   std::vector<double> scale_;
-  std::vector<Index> kept_; ///< independent held points
+  std::vector<Index> kept_; ///< indices of linearly independent held points
   std::vector<Index> redundant_;
-  /// #kept x #held: targets of the kept points from those of all held points.
+  /// #kept x #held: maps the targets of all held points to the targets of the kept points.
   Eigen::MatrixXd least_squares_;
   Eigen::MatrixXd response_; ///< #unknowns x #kept: L^-1 A^T
-  Eigen::MatrixXd held_system_; ///< A L^-1 A^T, bordered by the shifts of the parts
+  Eigen::MatrixXd held_system_; ///< A L^-1 A^T, bordered by the columns of the shifts
   Eigen::MatrixXd multipliers_; ///< inverse of held_system_
 
-  std::vector<Index> floating_; ///< #V: index among the parts without a given vertex, or -1
-  std::vector<Index> shift_; ///< per floating part: its column in multipliers_; -1: no held point
-  std::vector<double> size_; ///< per floating part: its number of vertices
+  /// #V: index of the vertex's part among the parts without a given vertex, or -1.
+  std::vector<Index> floating_;
+  /// Per part without a given vertex: its column in multipliers_; -1: no held point.
+  std::vector<Index> shift_;
+  std::vector<double> size_; ///< per part without a given vertex: number of vertices
 };
 
 } // namespace bindpose

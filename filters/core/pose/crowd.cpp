@@ -1,5 +1,5 @@
-// All instances use one space and one solver. The rotations of an instance are moved into the
-// solver and copied back.
+// Poses of many instances. All instances use one ReducedSpace and one ReducedSolver. The rotations
+// of an instance are moved into the solver before its solve and copied back afterward.
 #include "pose/crowd.h"
 
 namespace bindpose
@@ -55,7 +55,8 @@ Status Crowd::solve(
       context, this->space_, { this->space_.stiffness, this->no_load_ }, poses[i], options, d);
     if (!status.usable())
     {
-      // The transforms of the last successful pose remain; the next solve starts without rotations.
+      // The transforms of the last successful solve remain. The next solve of this instance starts
+      // without previous rotations.
       this->rotations_[i].clear();
       if (status.code != StatusCode::canceled)
       {

@@ -9,18 +9,18 @@ namespace bindpose
 
 /// Many instances of one shape, each with its own pose, deformed by reduced as-rigid-as-possible.
 /// The bind-time data of ReducedArap is stored once; each instance stores the rotations of its last
-/// pose. Jacobson et al. 2012, Fast automatic skinning transformations (its crowd).
+/// pose. Application in Jacobson et al. 2012, Fast automatic skinning transformations.
 ///
 ///     Crowd crowd;
 ///     crowd.bind(context, points, triangles, weights, handles, options);
 ///     crowd.solve(context, poses);               // one pose per instance
 ///     crowd.deform(context, points, posed);      // all instances, in single precision
 ///
-/// Cost: a solve costs as much as one ReducedArap solve per instance, one after another, and a
-/// change of modes for each instance whose modes differ from those of the instance before it.
-/// deform() reads weights and points once for all instances. Memory: 72 bytes per cluster and
-/// instance. The result has the same bits for any number of threads. The result of an instance has
-/// the same bits as ReducedArap for the same sequence of poses.
+/// Cost: a solve takes as long as one ReducedArap solve per instance, one after another. If the
+/// modes of an instance differ from the modes of the previous instance, the cost of a change of
+/// modes is added. deform() reads weights and points once for all instances. Memory: 72 bytes per
+/// cluster and instance. The result has the same bits for any number of threads. For the same
+/// sequence of poses, the result of an instance is bit-identical to that of ReducedArap.
 class Crowd
 {
 public:
@@ -30,11 +30,11 @@ public:
   Status bind(ExecutionContext& context, PointsView points, TetsView tets, WeightsView weights,
     const Handles& handles, const ReducedArapOptions& options = {});
 
-  /// Find the transforms of a pose for each instance. An instance that was part of the last solve
-  /// starts with its last rotations. Return not_converged if any instance did not converge; all
-  /// results are usable. Any other code is the first failure, and its message names the instance.
-  /// Report: counts.instances, counts.not_converged, iterations (of all instances). Warnings are
-  /// those of the first instance that has any.
+  /// Find the transforms of a pose for each instance. An instance of the last solve starts with its
+  /// last rotations. Return not_converged if any instance did not converge; all results are usable.
+  /// Any other code is the first failure, and its message contains the instance. The report
+  /// contains counts.instances, counts.not_converged and iterations (sum over all instances). The
+  /// warnings are those of the first instance with warnings.
   Status solve(ExecutionContext& context, const std::vector<Pose>& poses,
     const ReducedSolveOptions& options = {});
 
@@ -42,10 +42,10 @@ public:
   /// @param placements one affine map per instance, applied after its pose; empty: none.
   Status deform(ExecutionContext& context, PointsView rest, std::vector<FloatPoints>& posed,
     const std::vector<Affine>& placements = {}) const;
-  /// Write the vertices into the caller's memory, #V x 3 for each instance, row by row.
+  /// Write the vertices to arrays that the caller allocates, #V x 3 for each instance, row by row.
   Status deform(ExecutionContext& context, PointsView rest, const std::vector<float*>& posed,
     const std::vector<Affine>& placements = {}) const;
-  /// Compute the normals of all instances, of unit length.
+  /// Compute the normals of all instances, scaled to unit length.
   Status deform_normals(ExecutionContext& context, PointsView rest_normals,
     std::vector<FloatPoints>& posed, const std::vector<Affine>& placements = {}) const;
 
@@ -60,7 +60,8 @@ private:
   ReducedSpace space_;
   ReducedSpace::Rows no_load_;
   ReducedSolver solver_;
-  std::vector<std::vector<double>> rotations_; ///< per instance, see ReducedSpace
+  /// Last rotations of each instance, stored in planes as in ReducedSpace.
+  std::vector<std::vector<double>> rotations_;
   std::vector<std::vector<Affine>> transforms_;
 };
 

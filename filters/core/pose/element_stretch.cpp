@@ -1,13 +1,15 @@
+// Singular values of the deformation gradient of each element.
+//
 // The gradient of a tet is (posed edges) (rest edges)^-1. One-sided Jacobi rotates its columns
-// until they are orthogonal; their lengths are then the singular values. This is accurate to
-// round-off for collapsed tets, too.
+// until they are orthogonal; their lengths are then the singular values. This is also accurate to
+// round-off for collapsed tets.
 //
 // The gradient of a triangle is 3 x 2, in a frame of its plane at rest, and its singular values
 // have a closed form.
 //
-// Eight elements are processed together, one per lane. Their inverses at rest are stored. For a tet
-// these are nine numbers and the sign of its volume. For a triangle with edges a and b and height h
-// over a these are
+// Eight elements are processed in parallel, one per lane. The inverses of the rest edges are
+// stored. For a tet, the data is a 3 x 3 matrix and the sign of the volume. For a triangle with
+// edges a and b and height h over a, the data is
 //     1 / |a|,   a.b / |a|^2,   1 / h,   the sign of its area in the plane z = const.
 #include "pose/element_stretch.h"
 
@@ -24,18 +26,18 @@ namespace bindpose
 namespace
 {
 constexpr Index block_size = 4096;
-/// An element is degenerate if its volume (area) at rest is at most this fraction of that of a cube
-/// (square) with its edge lengths: its shape is then round-off.
+/// An element is degenerate if its volume (area) at rest is at most this fraction of the volume of
+/// a cube (area of a square) with its edge lengths. Its shape is then round-off.
 constexpr double degenerate_share = 1e-12;
-/// Fraction of the bounding-box diagonal: a shape at most this thick in z is flat.
+/// A shape is flat if its thickness in z is at most this fraction of the bounding-box diagonal.
 constexpr double flat_tolerance = 1e-9;
-/// Elements that are processed together; block_size is a multiple.
+/// Number of elements that are processed in parallel; block_size is a multiple of it.
 constexpr Index lanes = 8;
-/// Numbers stored per element at rest. The last one is a sign; all are zero for a degenerate
-/// element.
+/// Number of values stored per element at rest. The last value is a sign. All values of a
+/// degenerate element are zero.
 constexpr Index triangle_numbers = 4, tet_numbers = 10;
-/// Squared cosine between two columns above which another sweep follows. Each sweep squares the
-/// remaining cosine.
+/// Jacobi sweeps are repeated while the squared cosine between two columns exceeds this. Each sweep
+/// squares the remaining cosine.
 constexpr double right_angle = 1e-16;
 constexpr int most_sweeps = 12;
 
@@ -55,7 +57,7 @@ struct alignas(64) Batch
 struct alignas(64) BatchValues
 {
   double largest[lanes], smallest[lanes];
-  double area[lanes]; ///< negative: turned over, or inside out
+  double area[lanes]; ///< negative: the triangle is flipped
 };
 
 /// Rotate columns p and q of each lane until they are orthogonal. Return the largest value of
@@ -149,7 +151,7 @@ Vec3 edge(PointsView points, Index from, Index to)
   return Vec3(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
 }
 
-/// Add the values of one element; `flipped`: it is inside out.
+/// Add the singular values of one element to a block. `flipped`: the element is inside out.
 void count(Block& block, double limit, Index element, double largest, double smallest, bool flipped,
   ElementStretch& stretch)
 {
@@ -165,7 +167,7 @@ void count(Block& block, double limit, Index element, double largest, double sma
   }
 }
 
-/// Load the edges of posed elements, from their first corner: edge, coordinate, lane.
+/// Load the edges of posed elements from their first corners. Index order: edge, coordinate, lane.
 template <int corners>
 BINDPOSE_ALWAYS_INLINE void load_edges(
   const double* posed, const Index* ids, double (&edges)[corners - 1][3][lanes])
@@ -235,7 +237,8 @@ BINDPOSE_SIMD_CLONES void measure_triangles(
   }
 }
 
-/// Write the numbers of an element at rest into a lane; a degenerate element writes none.
+/// Write the stored values of an element at rest into a lane. Nothing is written for a degenerate
+/// element.
 void shape_of(PointsView rest, const Index* v, TetsView, double* shape)
 {
   const Vec3 a = edge(rest, v[0], v[1]), b = edge(rest, v[0], v[2]), c = edge(rest, v[0], v[3]);
@@ -284,7 +287,8 @@ Status check(const ElementStretchOptions& options, Index rest, PointsView posed)
   return {};
 }
 
-/// Call measure(begin, end, block) for all elements and sum the blocks into a status.
+/// Call measure(begin, end, block) for blocks of elements, sum the results of the blocks, and
+/// return them in the report of a status.
 template <typename Measure>
 Status over_elements(
   ExecutionContext& context, Index elements, const char* what, const Measure& measure)
@@ -293,7 +297,7 @@ Status over_elements(
   const bool done = parallel_for(context, elements, block_size,
     [&](Index begin, Index end)
     {
-      Block block; // on this thread's stack: avoids false sharing of cache lines
+      Block block; // each thread has a local block, to avoid false sharing of cache lines
       measure(begin, end, block);
       blocks[static_cast<std::size_t>(begin / block_size)] = block;
     });
@@ -389,7 +393,7 @@ Status RestElements::stretch(ExecutionContext& context, const ElementStretchOpti
   }
   prepare(options, this->count_, stretch);
   const bool tets = this->corners_ == 4;
-  // Triangles in space have no sign.
+  // Triangles in space have no orientation sign.
   const bool sign = tets || (this->flat_ && in_a_plane(posed));
   const Index numbers = tets ? tet_numbers : triangle_numbers;
   return over_elements(context, this->count_, tets ? "tets" : "triangles",

@@ -9,17 +9,18 @@
 namespace bindpose
 {
 
+/// Options of RestElements::stretch().
 struct ElementStretchOptions
 {
-  /// An element is badly stretched if some direction in it becomes more than `limit` times as long,
-  /// or less than 1 / limit times as long. At least 1; 2 by default.
+  /// An element is badly stretched if the length of some direction in it is multiplied by more than
+  /// `limit` or by less than 1 / limit. At least 1; 2 by default.
   double limit = 2.0;
-  /// Whether to fill ElementStretch::largest and smallest; otherwise only the report is made.
+  /// Whether to fill ElementStretch::largest and smallest. If false, only the report is computed.
   bool values = false;
 };
 
-/// Factors by which a pose lengthens the directions in each element. 1 at rest; NaN for an element
-/// that is degenerate at rest.
+/// Largest and smallest factor by which a pose changes the length of a direction in each element. 1
+/// at rest; NaN for an element that is degenerate at rest.
 struct ElementStretch
 {
   std::vector<double> largest;
@@ -28,15 +29,16 @@ struct ElementStretch
 
 /// Computes the singular values of the deformation gradient of each element, from rest to posed.
 ///
-/// A tet whose gradient has a negative determinant is inverted: it is turned inside out, which no
-/// motion of a solid does. Triangles in space have no such sign. Triangles of a flat shape (z =
-/// const at rest and posed) are inverted if their orientation changes.
+/// A tet whose gradient has a negative determinant is inverted (inside out), which is impossible
+/// for a solid. Triangles in space have no such sign. Triangles of a flat shape (z = const at rest
+/// and posed) are inverted if their orientation changes.
 ///
-/// Report: counts.elements, counts.inverted_elements, counts.stretched_elements, largest_stretch,
-/// smallest_stretch (the singular values, never negative). If there are degenerate elements,
-/// counts.degenerate_elements is their number; they have no volume or area at rest and are left
-/// out. If an element is inverted, a warning states the numbers. invalid_input for a limit out of
-/// range, or if the numbers of posed and rest points differ; elements must be valid (check_mesh).
+/// The report contains counts.elements, counts.inverted_elements, counts.stretched_elements, and
+/// largest_stretch and smallest_stretch (singular values, never negative). Degenerate elements,
+/// which have no volume or area at rest, are skipped; their number is counts.degenerate_elements.
+/// If an element is inverted, a warning contains the number of inverted elements. Return
+/// invalid_input if the limit is out of range, or if the numbers of posed and rest points differ.
+/// Elements must be valid (check_mesh).
 ///
 /// The data of the rest shape is computed once, for many poses:
 ///
@@ -64,8 +66,8 @@ private:
   Index count_ = 0;
   bool flat_ = false; ///< whether the rest shape is in a plane z = const
   // Tiles of 8 elements, one element per lane.
-  std::vector<Index> ids_; ///< indexed by corner, lane within a tile
-  std::vector<double> shape_; ///< indexed by number, lane within a tile
+  std::vector<Index> ids_; ///< vertex ids, indexed by corner, then by lane within a tile
+  std::vector<double> shape_; ///< rest shapes, indexed by value, then by lane within a tile
 };
 
 /// Compute the stretch for a single pose.

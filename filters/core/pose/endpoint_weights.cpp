@@ -1,6 +1,6 @@
-// This file solves nothing itself. The methods `joints` and `bounded` use bounded biharmonic
-// weights of other handles: the ends of all bones as points, or the two ends of one bone joined by
-// a cage edge.
+// Endpoint weights of bones. This file solves no optimization problem itself. The methods `joints`
+// and `bounded` use bounded biharmonic weights of auxiliary handles: the ends of all bones as
+// points, or the two ends of one bone joined by a cage edge.
 #include "pose/endpoint_weights.h"
 
 #include "weights/bone_projection.h"
@@ -15,7 +15,7 @@ namespace bindpose
 
 namespace
 {
-/// Weight of the projection in the ratio of the joints' weights.
+/// Weight of the projection relative to the weights of the joints (method `joints`).
 constexpr double share_of_projection = 1e-4;
 
 Handle end_of_bone(const std::string& name, HandleKind kind, const Vec3& at)
@@ -27,8 +27,8 @@ Handle end_of_bone(const std::string& name, HandleKind kind, const Vec3& at)
   return handle;
 }
 
-/// Merge a step's status: its warnings, each once, and its code and message if no earlier step
-/// failed to converge.
+/// Merge the status of one solve into the total status: add new warnings, and copy the code and
+/// message if all previous solves were ok.
 void add_words(const Status& step, Status& status)
 {
   if (status.ok())
@@ -45,7 +45,7 @@ void add_words(const Status& step, Status& status)
   }
 }
 
-/// The ends of all bones, each position once.
+/// The ends of all bones without duplicate positions.
 struct Joints
 {
   Handles handles;

@@ -1,6 +1,9 @@
 #ifndef bindpose_pose_endpoint_weights_h
 #define bindpose_pose_endpoint_weights_h
 
+// Endpoint weights of bones, which are 0 at the head and 1 at the tail, for stretchable, twistable
+// bones (Jacobson and Sorkine 2011).
+
 #include "base/execution.h"
 #include "weights/handles.h"
 
@@ -15,26 +18,28 @@ enum class EndpointMethod : int
 {
   /// Projection onto the bone, clamped (projected_endpoint); independent of the shape.
   projection = 0,
-  /// W_tail / (W_head + W_tail) of bounded biharmonic weights with the ends of all bones as points:
-  /// one problem for all bones.
+  /// W_tail / (W_head + W_tail), where W are bounded biharmonic weights of point handles at the
+  /// ends of all bones. One problem is solved for all bones.
   joints = 1,
-  /// Minimal biharmonic energy between 0 and 1, linear along the bone: one problem per bone. This
-  /// is the weight of the tail in an open cage of one edge.
+  /// The function with minimum biharmonic energy between 0 and 1 that is linear along the bone. It
+  /// is the weight of the tail in an open cage of one edge. One problem is solved per bone.
   bounded = 2
 };
 
 /// Return "projection", "joints" or "bounded".
 const char* to_string(EndpointMethod method);
 
-/// Compute bounded biharmonic weights of the handles at the points; the rows sum to one.
+/// Function that computes bounded biharmonic weights of handles at the points. The rows must sum to
+/// one.
 using BoundedSolve = std::function<Status(const Handles&, ExecutionContext&, Weights&)>;
 
 /// Compute endpoint weights of stretchable, twistable bones (Jacobson and Sorkine 2011), see
-/// Skinning. In the method `joints`, the projection is blended in with a weight of 1e-4. Where the
-/// weights of both ends vanish, the result is therefore the projection, without a jump.
-/// @param endpoints #V x #handles, 0 to 1; NaN in the columns of handles that are not bones.
+/// Skinning. In the method `joints`, the projection is blended in with a weight of 1e-4. Therefore
+/// the result changes continuously to the projection where the weights of both ends vanish.
+/// @param endpoints #V x #handles, values from 0 to 1; NaN in the columns of handles that are not
+/// bones.
 /// @return invalid_input if there is no bone; otherwise the status of `solve`, with each warning
-/// once. Report: method, counts.bones, counts.problems (solved).
+/// once. The report contains method, counts.bones and counts.problems (number of solved problems).
 Status endpoint_weights(PointsView points, const Handles& handles, EndpointMethod method,
   const BoundedSolve& solve, ExecutionContext& context, Weights& endpoints);
 

@@ -1,3 +1,5 @@
+// Modes of automatic handles for methods that compute rotations themselves. The choice depends on
+// the transforms in the world and relative to the parent.
 #include "pose/found_rotations.h"
 
 #include "pose/handle_hierarchy.h"
@@ -7,7 +9,8 @@ namespace bindpose
 
 namespace
 {
-// Above the rounding of a relative transform, far below any motion that a user gives.
+// This is above the round-off of a relative transform and far below any motion that a user
+// specifies.
 constexpr double tolerance = 1e-12;
 
 bool is_translation(const Affine& transform)
@@ -15,7 +18,8 @@ bool is_translation(const Affine& transform)
   return (transform.leftCols<3>() - Eigen::Matrix3d::Identity()).norm() < tolerance;
 }
 
-/// @param size magnitude of the lengths in the scene
+/// Report whether a transform is the identity up to round-off. @param size magnitude of the lengths
+/// in the scene
 bool is_identity(const Affine& transform, double size)
 {
   return is_translation(transform) && transform.col(3).norm() <= tolerance * size;

@@ -1,18 +1,22 @@
-// Pose time of full as-rigid-as-possible.
+// Pose time of full as-rigid-as-possible: the alternation of local and global steps (bind time:
+// full_arap_bind.cpp).
 //
 // With displacements D from rest and Q = R - I for the rotations, the energy is
-//     E(D, Q) = 1/2 <D, L D> - <Q, S0 + K D>,
-// because rest with R = I is a minimum: all constant and linear terms cancel. S0 + K D are the
+//
+//     E(D, Q) = 1/2 <D, L D> - <Q, S0 + K D>.
+//
+// There are no constant and linear terms, because rest with R = I is a minimum. S0 + K D are the
 // covariances, K^T Q is the force on the vertices. The local step fits R to the covariances. The
 // global step solves L D = K^T Q under the handles' constraints.
 //
-// Anderson acceleration treats both steps as one function g of D whose fixed point is sought. All
-// iterates satisfy the constraints, so the extrapolated iterates do, too. An extrapolated iterate
-// is accepted if its energy, with the best rotations for it, is at most that of the plain g(D).
+// Anderson acceleration treats a local and a global step together as one function g of D and
+// searches its fixed point. All iterates satisfy the constraints, so extrapolated iterates also
+// satisfy them. An extrapolated iterate is accepted if its energy, with the best rotations for it,
+// is at most the energy of the plain iterate g(D).
 //
 // In exact arithmetic no step raises the energy. If the handles' constraints are nearly dependent,
-// the accuracy of the global step is limited by their condition. If it raises the energy by more
-// than rounding does, the points before it are kept and the iterations end.
+// their condition limits the accuracy of the global step. If a global step raises the energy by
+// more than round-off, the points before this step are kept and the iterations end.
 #include "pose/full_arap.h"
 
 #include "base/number_text.h"
@@ -30,11 +34,13 @@ namespace bindpose
 
 namespace
 {
-/// Below this fraction of the rest energy an energy counts as zero for the tolerance.
+/// If the energy is below this fraction of the rest energy, it counts as zero in the convergence
+/// test.
 constexpr double nothing_bends = 1e-6;
-/// A rise of the energy by less than this fraction of its terms is rounding.
+/// A rise of the energy is round-off if it is below this fraction of the sum of the energy's terms.
 constexpr double rounding = 1e-12;
-/// Items per block. The block sizes determine the bits of the sums; the number of threads does not.
+/// Number of items per block. The block sizes affect the round-off of the sums; the number of
+/// threads does not.
 constexpr Index groups_at_once = 512;
 constexpr Index vertices_at_once = 1024;
 constexpr Index numbers_at_once = 16384;
@@ -61,9 +67,9 @@ Status FullArap::prepare(const Pose& pose)
   return status;
 }
 
-/// Compute initial rotations without history. The linear parts of full handles' transforms, and for
-/// position handles the rotation that best fits all pivots, are spread over the mesh by Laplace's
-/// equation and then projected to rotations.
+/// Compute initial rotations from the pose only. Laplace's equation extends two types of values
+/// over the mesh: the linear parts of full handles' transforms, and at position handles the
+/// rotation that best fits all pivots. The results are projected to rotations.
 void FullArap::start_rotations(const Pose& pose)
 {
   const Eigen::Matrix3d common = pivot_rotation(this->handles_, pose, 0.3 * this->radius_);
@@ -115,7 +121,7 @@ void FullArap::start_rotations(const Pose& pose)
   }
 }
 
-/// Compute the covariances of D, the rotations that fit them best, and the energy term `turned_`.
+/// Compute the covariances of D, the rotations that best fit them, and the energy term `turned_`.
 bool FullArap::local_step(ExecutionContext& context, const Rows& d)
 {
   const Index count = this->groups_.count, stride = this->stride_;
@@ -270,8 +276,8 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   {
     this->start_rotations(pose);
   }
-  this->warm_ = false; // until this solve has succeeded
-  double terms = 0.0; // sum of the terms whose small difference is the last energy
+  this->warm_ = false; // true again when this solve has succeeded
+  double terms = 0.0; // sum of the absolute terms whose difference is the last energy
   const auto energy_after_global = [&](const Rows& g)
   {
     const double bent = this->quadratic(context, g);

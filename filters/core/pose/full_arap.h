@@ -9,6 +9,7 @@
 namespace bindpose
 {
 
+/// Options of FullArap::bind().
 struct FullArapOptions
 {
   ArapEnergy energy = ArapEnergy::automatic;
@@ -16,8 +17,9 @@ struct FullArapOptions
   std::vector<Index> region_ids;
 };
 
-/// As-rigid-as-possible deformation of every vertex, without weights and without reduction. Sorkine
-/// and Alexa 2007, As-rigid-as-possible surface modeling; Liu et al. 2008; Chao et al. 2010.
+/// As-rigid-as-possible deformation in which every vertex is an unknown, without weights. Methods:
+/// Sorkine and Alexa 2007, As-rigid-as-possible surface modeling; Liu et al. 2008; Chao et al.
+/// 2010.
 ///
 ///     FullArap arap;
 ///     arap.bind(context, points, tets, handles, options);  // once
@@ -34,28 +36,30 @@ struct FullArapOptions
 /// Constraints by the mode of a handle:
 /// - `full`: the transform moves the handle's vertices. These are the vertex at a point or cage
 ///   vertex, the vertices along a bone, or the vertices with the label of a region.
-/// - `position`: the pivot moves to its transformed position. The pivot of a region is the mean of
-///   its vertices.
+/// - `position`: the pivot is constrained to its transformed position. The pivot of a region is the
+///   mean of its vertices.
 /// - `free`: no constraint.
-/// If there is no vertex at a handle, the point of the element at that position is held exactly. If
-/// the handle is not on the mesh, the nearest point of the mesh is held. A vertex of several full
-/// handles moves to the mean of their targets.
+///
+/// If there is no vertex at the position of a handle, the point of the element at this position is
+/// constrained exactly. If the handle is not on the mesh, the nearest point of the mesh is
+/// constrained. A vertex that several full handles constrain moves to the mean of their targets.
 ///
 /// The unknowns are displacements from rest, so the rest pose is reproduced exactly. A connected
-/// part without constraints does not move, and neither do unused vertices. A vertex that only
-/// elements without area use moves with a neighbor.
+/// part without constraints does not move, and neither do unused vertices. A vertex whose elements
+/// all have no area moves with a neighboring vertex.
 ///
-/// Cost: bind O(#V). A solve after a change of modes needs one sparse factorization and 8 bytes per
-/// vertex for each held point that is not a vertex. An iteration needs one solve with the factor
-/// for three right-hand sides and one rotation fit per vertex or element. The result has the same
-/// bits for any number of threads.
+/// Cost: bind O(#V). A solve after a change of modes needs one sparse factorization, and 8 bytes
+/// per vertex for each constrained point that is not a vertex. An iteration needs one solve with
+/// the factor for three right-hand sides and one rotation fit per vertex or element. The result has
+/// the same bits for any number of threads.
 class FullArap
 {
 public:
-  /// Report: counts.vertices, counts.triangles or counts.tets, counts.handles, counts.rotations,
-  /// method (the energy). Warnings: handles that are not on the mesh, elements too thin to have an
-  /// energy, edges that spokes leave out, parts without a handle. invalid_input for numbers that
-  /// are not finite, if no element has an area, and for a region without label or vertices.
+  /// Bind a mesh and its handles. The report contains counts.vertices, counts.triangles or
+  /// counts.tets, counts.handles, counts.rotations and method (the energy). Warnings report handles
+  /// that are not on the mesh, elements that are too thin to have an energy, edges that the energy
+  /// `spokes` omits, and parts without a handle. Return invalid_input if a value is not finite, no
+  /// element has an area, or a region has no label or no vertices.
   Status bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
     const Handles& handles, const FullArapOptions& options = {});
   Status bind(ExecutionContext& context, PointsView points, TetsView tets, const Handles& handles,
@@ -64,39 +68,41 @@ public:
   /// Initial rotations of a solve.
   enum class Start
   {
-    /// Rotations of the last solve (a guess in the first solve): few iterations, twists accumulate.
+    /// Rotations of the last solve (`guess` in the first solve). Few iterations are needed, and
+    /// twists of more than half a turn can accumulate.
     last,
-    /// Rotations of full handles, spread over the mesh by a Laplace equation; depends on the pose
+    /// Rotations of full handles, extended over the mesh by Laplace's equation. Depends on the pose
     /// only.
     guess,
-    rest ///< identity
+    rest ///< identity matrices
   };
   struct SolveOptions
   {
-    /// The solve ends if an iteration lowers the energy by at most this fraction of the energy (or
-    /// of 1e-6 of the rest energy, which is a strain of a few 1e-6). 0: run all iterations; the
-    /// result is never not_converged.
+    /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. If
+    /// the energy is below 1e-6 of the rest energy (a strain of a few 1e-6), that value is used
+    /// instead of the energy. 0: run all iterations; the result is never not_converged.
     double tolerance = 1e-6;
     Index max_iterations = 500;
     Start start = Start::last;
-    /// Number of previous iterates that acceleration combines; 0: no acceleration.
+    /// Number of previous iterates that Anderson acceleration combines; 0: no acceleration.
     Index anderson_window = 5;
   };
 
-  /// Find the vertices of a pose, which has one entry per handle. Return not_converged if
+  /// Compute the vertices for a pose, which has one entry per handle. Return not_converged if
   /// max_iterations were not enough, or if an iteration raised the energy by more than the
   /// tolerance. The energy can rise if the handles' constraints are nearly dependent; the points
-  /// before that iteration are kept, and a warning is added. The result of not_converged is usable.
-  /// Report: energy, iterations, microseconds_per_iteration, constraint_residual (largest violation
-  /// of a constraint, in bounding-box diagonals), counts.constrained (vertices and points held).
-  /// Warnings name redundant position handles and contradictory handles.
+  /// before that iteration are kept, and a warning is added. After not_converged the vertices are
+  /// usable. The report contains energy, iterations, microseconds_per_iteration,
+  /// constraint_residual (largest violation of a constraint, in bounding-box diagonals) and
+  /// counts.constrained (number of constrained vertices and points). Warnings contain the names of
+  /// redundant position handles and of contradictory handles.
   Status solve(ExecutionContext& context, const Pose& pose, const SolveOptions& options);
   Status solve(ExecutionContext& context, const Pose& pose)
   {
     return this->solve(context, pose, SolveOptions());
   }
 
-  /// Make the next solve start from a guess.
+  /// Discard the last rotations, so that the next solve starts with `guess`.
   void forget() { this->warm_ = false; }
 
   /// The vertices in the last solved pose.
@@ -104,9 +110,10 @@ public:
   /// Rotations of the last solve, one per group.
   std::vector<Eigen::Matrix3d> rotations() const;
   const RotationGroups& groups() const { return this->groups_; }
-  /// Energy after each half-step of the last solve: start, local, global, local, global, …
+  /// Energy after each local and global step of the last solve: start, local, global, local,
+  /// global, …
   const std::vector<double>& energies() const { return this->energies_; }
-  /// 1/2 tr(V^T L V): the scale of round-off in an energy.
+  /// 1/2 tr(V^T L V), used as the scale of round-off in energies.
   double rest_energy() const { return this->rest_energy_; }
   /// Number of factorizations: one for each choice of modes.
   Index factorizations() const { return this->factorizations_; }
@@ -114,13 +121,13 @@ public:
 private:
   using Rows = ConstrainedStiffness::Rows;
 
-  /// Sparse terms of sums of b d^T over (item, b). They map vertices to the covariance of a group,
-  /// and groups to the force on a vertex.
+  /// A sparse matrix whose entries are vectors b with three coordinates. One matrix maps vertices
+  /// to the covariance of a group, another maps groups to the force on a vertex.
   struct Terms
   {
-    std::vector<Index> begin; ///< offsets
+    std::vector<Index> begin; ///< first entry of each row
     std::vector<int> item;
-    std::vector<double> b; ///< three per term
+    std::vector<double> b; ///< three coordinates per entry
   };
 
   template <typename Elements>
@@ -137,12 +144,13 @@ private:
   Handles handles_;
   Points rest_;
   RotationGroups groups_;
-  /// Vertices whose mean guess initializes each group.
+  /// Per group: the vertices whose mean initial value gives the initial rotation.
   std::vector<std::array<int, 4>> group_vertices_;
   SparseMatrix stiffness_;
   Terms of_group_, of_vertex_;
-  Components parts_; ///< connected parts of the elements that have an energy
-  std::vector<Index> leader_; ///< #V: the vertex that a vertex of flat elements follows, or -1
+  Components parts_; ///< connected parts of the mesh, counting only elements that have an energy
+  /// #V: for a vertex that only flat elements use, the neighbor that it moves with; else -1.
+  std::vector<Index> leader_;
   MeshGrips grips_;
   double radius_ = 0.0; ///< root mean square distance of the vertices from their centroid
   double rest_energy_ = 0.0;
@@ -153,15 +161,16 @@ private:
   Index factorizations_ = 0;
 
   // ---- per pose
-  Rows given_, held_; ///< target displacements of given vertices and held points
+  /// Target displacements of constrained vertices (given) and constrained points (held).
+  Rows given_, held_;
 
   // ---- state; entry (i, j) of matrix k is at (3 i + j) * stride_ + k
   Index stride_ = 0;
   std::vector<double> rest_covariance_, covariance_, rotations_;
   std::vector<double> turn_; ///< R - I, nine per group, row by row
   Rows force_; ///< K^T Q of the last global step, #V x 3
-  double turned_ = 0.0; ///< <R - I, S> of the last local step
-  double rest_turned_ = 0.0; ///< <R - I, S at rest>
+  double turned_ = 0.0; ///< <R - I, S> after the last local step
+  double rest_turned_ = 0.0; ///< <R - I, S of the rest pose>
   bool warm_ = false;
   Points posed_;
   std::vector<double> energies_;

@@ -11,7 +11,8 @@ namespace bindpose
 
 namespace
 {
-/// An element is flat if its largest cotangent exceeds this value: its energy would be round-off.
+/// An element is flat if its largest cotangent exceeds this value. It has no energy, because its
+/// energy would be round-off.
 constexpr double steepest = 1e7;
 
 /// Return the unit of an element's cotangent weights: 1 for triangles, a length for tets.
@@ -48,7 +49,8 @@ const char* element_word(const TrianglesView&)
   return "triangle";
 }
 
-/// Return for each vertex that only flat elements use a neighbor that it follows.
+/// Return for each vertex that only flat elements use the neighbor that it moves with; -1 for other
+/// vertices.
 template <typename Elements>
 std::vector<Index> leaders(const Elements& elements, const std::vector<Index>& part_of_vertex)
 {
@@ -91,7 +93,7 @@ void FullArap::take_covariance(const SparseMatrix& covariance)
     t->item.resize(terms);
     t->b.resize(3 * terms);
   }
-  // A column stores the first coordinates of its groups, then the second, then the third.
+  // A column of the covariance matrix stores the x coordinates for all groups, then y, then z.
   Index at = 0;
   for (Index v = 0; v < n; ++v)
   {
@@ -149,7 +151,7 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   this->handles_ = handles;
   this->rest_ = points;
 
-  // Elements that are not flat, in their order.
+  // Keep the elements that are not flat, in their input order.
   auto kept = owned(elements);
   Index count = 0;
   {

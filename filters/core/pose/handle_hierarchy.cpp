@@ -1,3 +1,5 @@
+// Transforms that handles inherit from their parents, and conversion between world and
+// parent-relative poses.
 #include "pose/handle_hierarchy.h"
 
 #include "pose/transform_parts.h"

@@ -1,4 +1,5 @@
-// The points of the mesh that handles can constrain are found once, and selected when modes change.
+// Constraints of handles at mesh points. The mesh points of all handles are found once; the
+// constraints are selected again whenever the modes of the handles change.
 #include "pose/mesh_grips.h"
 
 #include "base/simplex_locator.h"
@@ -12,15 +13,16 @@ namespace bindpose
 
 namespace
 {
-/// Handles within this distance of a vertex, in diagonals, constrain the vertex.
+/// A handle constrains a vertex if their distance is at most this, in bounding-box diagonals.
 constexpr double same_place = 1e-9;
-/// Handles within this distance of the mesh, in diagonals, are on the mesh.
+/// A handle is on the mesh if its distance is at most this, in bounding-box diagonals.
 constexpr double on_mesh = 1e-6;
-/// A point is a vertex if its barycentric weight there is at least this.
+/// A mesh point is treated as a vertex if its barycentric weight at the vertex is at least this.
 constexpr double whole = 1.0 - 1e-9;
-/// Largest number of intervals between points along a bone without vertices.
+/// Maximum number of intervals between the constrained points of a bone that has no vertices.
 constexpr double most_places = 16.0;
-/// Constraints violated by more than this fraction of the diagonal are reported as contradictory.
+/// Constraints violated by more than this fraction of the bounding-box diagonal are reported as
+/// contradictory.
 constexpr double contradiction = 1e-9;
 
 MeshPoint vertex_point(Index v)
@@ -192,8 +194,9 @@ Vec3 MeshGrips::at_rest(const MeshPoint& point) const
   return sum;
 }
 
-/// Return the target displacement of a constrained point. The points of a full handle rotate with
-/// it; a mesh point that represents a pivot next to the mesh has the displacement of the pivot.
+/// Return the target displacement of a constrained point. The points of a full handle are
+/// transformed with the handle. If the pivot is not on the mesh, its nearest mesh point has the
+/// displacement of the pivot.
 Vec3 MeshGrips::wanted(const Hold& hold, const HandlePose& pose) const
 {
   const Eigen::Matrix3d linear = pose.transform.leftCols<3>() - Eigen::Matrix3d::Identity();
@@ -236,8 +239,9 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
       }
     }
   }
-  // If full handles constrain a vertex, a position handle there is redundant. If several position
-  // handles are at one vertex, all but the first are redundant, but all count in the mean.
+  // A position handle at a vertex that a full handle constrains is redundant. If several position
+  // handles are at one vertex, all except the first are redundant, but the target is the mean of
+  // all.
   std::map<Index, bool> given; // vertex -> whether a full handle constrains it
   for (const Hold& hold : this->holds_)
   {
@@ -292,7 +296,8 @@ void MeshGrips::targets(const Pose& pose, Rows& given, Rows& held) const
     const Vec3 move = this->wanted(hold, pose[hold.handle]);
     if (hold.given >= 0)
     {
-      // A running mean: if all handles agree, the target is exact to the bit.
+      // Update the mean incrementally. If all handles have the same target, the result is exact to
+      // the bit.
       owners[hold.given] += 1.0;
       given.row(hold.given) += (move.transpose() - given.row(hold.given)) / owners[hold.given];
     }

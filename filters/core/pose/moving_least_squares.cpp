@@ -1,16 +1,20 @@
+// Rigid moving least squares (Schaefer et al. 2006) with analytic weights for points and integrals
+// for bones.
+//
 // At a vertex v each position p of a handle has the weight w = (r / |p - v|)^(2 exponent), where r
 // is the distance of the nearest handle. The factor r avoids overflow and underflow. Let p* and q*
-// be the weighted means of rest and posed positions. The rotation R maximizes the sum of
-// w (q - q*) . R (p - p*), and v' = R (v - p*) + q*.
+// be the weighted means of rest and posed positions. The rotation R maximizes the sum of w (q - q*)
+// . R (p - p*), and v' = R (v - p*) + q*.
 //
-// Along a bone p(t) and q(t) are linear, so a warp needs three integrals of w(t) only: its amount,
-// mean and variance. They depend on the rest pose only and are computed by bind(). Near the bone w
-// has a sharp peak. The integral is therefore split at the position nearest to v into pieces. The
-// first piece on either side is as long as the distance, and each next piece is twice as long. Each
-// piece has eight Gauss points, which gives nine digits at any distance of v.
+// Along a bone p(t) and q(t) are linear, so a warp needs only three integrals of w(t): its amount
+// (total weight), mean and variance. They depend only on the rest pose and are computed by bind().
+// Near the bone w has a sharp peak. The integral is therefore split at the position nearest to v
+// into pieces. The first piece on either side is as long as the distance, and each next piece is
+// twice as long. Each piece has eight Gauss points, which gives nine correct digits for any
+// distance between v and the bone.
 //
-// A vertex on a handle is treated as if it were 1e-12 of the handles' extent away. It then follows
-// that handle to twelve digits, and no division by zero occurs.
+// If a vertex is on a handle, the distance is set to 1e-12 of the handles' extent. Then the vertex
+// moves with this handle to twelve digits, and no division by zero occurs.
 #include "pose/moving_least_squares.h"
 
 #include "base/parallel.h"
@@ -26,9 +30,10 @@ namespace bindpose
 namespace
 {
 constexpr Index block_size = 512;
-/// Smallest distance, as a fraction of the handles' extent.
+/// Smallest distance used, as a fraction of the handles' extent.
 constexpr double nearest_distance = 1e-12;
-/// Fraction of the diagonal: heights that differ by less are one plane.
+/// Points are in one plane if their z coordinates differ by less than this fraction of the
+/// bounding-box diagonal.
 constexpr double flat_tolerance = 1e-9;
 
 constexpr double gauss_at[4] = { 0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
@@ -36,7 +41,7 @@ constexpr double gauss_at[4] = { 0.1834346424956498, 0.5255324099163290, 0.79666
 constexpr double gauss_weight[4] = { 0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
   0.1012285362903763 };
 
-/// Return the parameter of the point of the segment that is nearest to v; 0 for a point.
+/// Return the parameter of the segment's point that is nearest to v; 0 if the handle is a point.
 double nearest_parameter(const Handle& handle, const Vec3& v)
 {
   const Vec3 along = handle.tail - handle.head;
@@ -55,8 +60,8 @@ double falloff(double squared_ratio, double exponent)
 }
 
 /// Compute the integrals of w(t), t w(t), t^2 w(t) over a bone, as amount, mean and variance.
-/// Parameters are relative to the point nearest to v, where the numbers are small. A bone as long
-/// as the handles' extent counts as one point.
+/// Parameters are relative to the point nearest to v, where the values are small. The amount is
+/// scaled so that a bone as long as the handles' extent has the same weight as a point handle.
 /// @param nearest distance of v to the nearest handle.
 /// @param own distance of v to this bone.
 MovingLeastSquares::Share bone_share(const Handle& bone, const Vec3& v, double nearest, double own,
@@ -85,8 +90,8 @@ MovingLeastSquares::Share bone_share(const Handle& bone, const Vec3& v, double n
         sums[1] += w * s;
         sums[2] += w * s * s;
       }
-      // The last piece ends exactly at the end: rounding could otherwise leave a piece of no
-      // length.
+      // The last piece ends exactly at `end`, because rounding could otherwise leave a remaining
+      // piece of length zero.
       from = width >= end - from ? end : from + width;
     }
   }
@@ -100,7 +105,7 @@ bool is_flat(PointsView points, double tolerance)
   return points.rows() == 0 || points.col(2).maxCoeff() - points.col(2).minCoeff() <= tolerance;
 }
 
-/// Return the ends of all handles, heads first, 2 #handles x 3.
+/// Return the heads of all handles, then the tails, 2 #handles x 3.
 Points places(const Handles& handles, const std::vector<Affine>* transforms)
 {
   const auto count = static_cast<Index>(handles.size());
@@ -135,7 +140,7 @@ double largest_distance(const Points& points)
   return std::sqrt(squared);
 }
 
-/// Return the head and tail rows of the listed handles.
+/// Return the head and tail rows of the handles in the list.
 Points rows_of(const Points& places, const std::vector<Index>& counting)
 {
   const Index count = places.rows() / 2;
@@ -227,7 +232,8 @@ Status MovingLeastSquares::warp(
   {
     return status;
   }
-  status.warnings.clear(); // the warnings about free handles: here a free handle has no effect
+  // Remove the warnings about free handles: in this method free handles have no effect.
+  status.warnings.clear();
   if (counting.empty())
   {
     posed = this->rest_;
@@ -251,7 +257,7 @@ Status MovingLeastSquares::warp(
       const Index size = end - begin;
       Points rest_means(size, 3);
       Points posed_means(size, 3);
-      // Matrices in planar layout, as fit_rotations() expects them; the fits start from the
+      // Matrices are stored in planes, as fit_rotations() requires. The fits start from the
       // identity.
       Eigen::MatrixXd s = Eigen::MatrixXd::Zero(size, 9);
       Eigen::MatrixXd rotations = Eigen::MatrixXd::Zero(size, 9);
@@ -274,7 +280,7 @@ Status MovingLeastSquares::warp(
                         .transpose());
         };
         // Means are computed relative to the position with the largest weight. If no other handle
-        // counts, they equal this position exactly, and no rotation results from rounding.
+        // has an effect, the means equal this position exactly, and rounding causes no rotation.
         Index main = counting[0];
         double amount = 0.0;
         for (const Index j : counting)

@@ -8,33 +8,36 @@
 namespace bindpose
 {
 
+/// Options of MovingLeastSquares::bind().
 struct MovingLeastSquaresOptions
 {
-  /// Handles are weighted by 1 / distance^(2 exponent): a larger exponent makes the surroundings of
-  /// a handle more rigid. 1 to 8, 1 by default. (Below 1 a bone would not constrain the points on
-  /// it.)
+  /// Handles are weighted by 1 / distance^(2 exponent): with a larger exponent, the surroundings of
+  /// a handle are more rigid. 1 to 8, 1 by default. (With an exponent below 1, a bone would not
+  /// constrain the points on it.)
   double exponent = 1.0;
 };
 
 /// Rigid warp by moving least squares (Schaefer, McPhail, Warren: Image Deformation Using Moving
 /// Least Squares, 2006). Every point of space moves by the rigid motion that best fits the motion
-/// of the handles, with larger weights for near handles. The warp needs no mesh and no weights and
-/// does not depend on the shape: near points move along, whether they are connected or not.
+/// of the handles, with larger weights for near handles. The warp needs no mesh and no weights. It
+/// does not depend on the shape: all points near a handle move with it, even if they are not
+/// connected to it.
 ///
 ///     MovingLeastSquares warp;
 ///     warp.bind(context, options, rest, handles);
 ///     warp.warp(context, handles, pose, posed);
 ///
-/// Points, cage vertices and the pivots of regions count with their positions; their rotations are
-/// ignored. Bones count with their segments (as lines of section 3 of the paper). The weight of a
-/// bone is an integral over the bone, scaled so that a bone as long as the handles' extent (the
-/// largest distance between two ends) counts as one point. A rotation about the bone itself has no
-/// effect. A handle in mode free does not count. If a pose moves all handles by one rigid motion,
-/// everything moves by it, provided that the handles determine the motion: two points in a plane,
-/// or three points not on a line. Otherwise the smallest of the possible rotations is used.
+/// Points, cage vertices and pivots of regions contribute with their positions; their rotations are
+/// ignored. Bones contribute as line segments (section 3 of the paper). The weight of a bone is an
+/// integral over the bone, scaled so that a bone as long as the handles' extent (the largest
+/// distance between two ends) has the same weight as a point. A rotation about the bone itself has
+/// no effect. A handle in mode free has no effect. If a pose moves all handles by one rigid motion,
+/// all points move by this motion, provided that the handles determine it: two points in a plane,
+/// or three points in space that are not on a line. Otherwise the smallest of the possible
+/// rotations is used.
 ///
-/// If the rest shape is flat (z = const), the handles are at one z, and the posed handles are at
-/// one z, the rotation is within the plane. Otherwise it is in space.
+/// If the rest shape, the handles at rest and the posed handles are each in a plane z = const, the
+/// rotation is within the plane. Otherwise the rotation is in space.
 ///
 /// Memory: 24 bytes for each vertex and handle. Cost: a bind needs one integral for each vertex and
 /// bone, a warp one rotation fit per vertex. The result has the same bits for any number of
@@ -42,13 +45,13 @@ struct MovingLeastSquaresOptions
 class MovingLeastSquares
 {
 public:
-  /// Compute the weights of the handles at each vertex and copy the points. invalid_input for an
-  /// exponent out of range, and for the reasons of check_handles().
+  /// Compute the weights of the handles at each vertex and copy the points. Return invalid_input if
+  /// the exponent is out of range or check_handles() fails.
   Status bind(ExecutionContext& context, const MovingLeastSquaresOptions& options, PointsView rest,
     const Handles& handles);
 
-  /// Compute the posed positions of the bound points. Report: planar (1 or 0). A warning is added
-  /// if all handles are free.
+  /// Compute the posed positions of the bound points. The report contains planar (1 or 0). A
+  /// warning is added if all handles are free.
   Status warp(
     ExecutionContext& context, const Handles& handles, const Pose& pose, Points& posed) const;
 

@@ -7,9 +7,9 @@
 namespace bindpose
 {
 
-/// Return the rotation that best fits the motion of all constrained pivots and tails and the linear
-/// parts of full handles, each weighted as a frame of size `reach`. Return the identity if nothing
-/// determines the rotation.
+/// Return one rotation for the whole pose. It best fits the motion of all constrained pivots and
+/// tails and the linear parts of full handles, each of which is weighted as a frame of axes of
+/// length `reach`. Return the identity if no handle determines the rotation.
 Eigen::Matrix3d pivot_rotation(const Handles& handles, const Pose& pose, double reach);
 
 } // namespace bindpose

@@ -1,21 +1,28 @@
-// With v = -Laplacian u, w = -Laplacian v the equations of order 3 contain first derivatives only,
-// so piecewise linear elements suffice:
+// Polyharmonic equations on triangle meshes by mixed finite elements (Jacobson, Tosun, Sorkine,
+// Zorin 2010).
+//
+// With v = -Laplacian u and w = -Laplacian v, the equations of order 3 contain only first
+// derivatives, so piecewise linear elements are sufficient:
+//
 //     M v = K u - f,    M w = K v,    K_i w = M_i load  at free vertices i,
-// where f is the flux through the edge of the patch. Order 2 ends with K_i v = M_i load; order 1 is
-// K_i u = M_i load.
+//
+// where f is the flux through the edge of the patch. For order 2, the last equation is K_i v = M_i
+// load; for order 1 it is K_i u = M_i load.
 //
 // The mass M is lumped, so v and w can be eliminated: K M^-1 K M^-1 K u = M load + K M^-1 K M^-1 f.
 // This condensed matrix is symmetric and positive definite and needs one Cholesky factorization.
-// Its rounding errors grow as h^(-2 k). Those of the mixed system grow as h^-2 per step only, but
-// the mixed system is indefinite, three times as large, and needs an LU with pivoting. Both are
-// therefore combined: the condensed matrix is factored, and a few steps of refinement use the
-// residual of the mixed equations, which gives their accuracy.
+// Its rounding errors grow as h^(-2 k). The rounding errors of the mixed system grow only as h^-2
+// per equation, but the mixed system is indefinite, three times as large, and needs an LU
+// factorization with pivoting. Therefore the two systems are combined: the condensed matrix is
+// factored, and a few steps of iterative refinement use the residual of the mixed equations. The
+// result has the accuracy of the mixed system.
 //
-// The boundary conditions determine the triangles that count and the vertices with an unknown v.
-// Region: u is known in a band of k one-ring layers, and v at those vertices of the band whose
-// triangles are all present. Curve: v (and w) are defined on free vertices only and are zero at
-// given ones. Tangent: only triangles of the patch count, v is also defined on its edge, and f is
-// given.
+// The boundary conditions determine the triangles that are used and the vertices with an unknown v.
+// - Region: u is given in a band of k one-ring layers; v is unknown at the vertices of the band
+//   whose triangles are all present.
+// - Curve: v (and w) are defined only at free vertices and are zero at given vertices.
+// - Tangent: only triangles of the patch are used, v is also defined on the edge of the patch, and
+//   f is given.
 #include "pose/polyharmonic.h"
 
 #include "base/side_flux.h"
@@ -29,17 +36,18 @@ namespace bindpose
 
 namespace
 {
-/// A triangle whose cotangents exceed this is flat.
+/// A triangle is flat if one of its cotangents exceeds this value.
 constexpr double steepest = 1e7;
-/// Refinement ends if a step is at most this fraction of the solution, or does not get smaller. The
-/// size of a step is about the fraction of the error that remains.
+/// Refinement ends if a correction is at most this fraction of the solution, or does not get
+/// smaller. The relative size of a correction is about the ratio by which the error decreases per
+/// step.
 constexpr int most_refinements = 8;
 constexpr double enough = 1e-9;
-/// Number of power iterations for the condition.
+/// Number of power iterations for the estimate of the condition number.
 constexpr int power_steps = 12;
 
-/// Return the one-ring layer of each vertex, counted from the free vertices, up to `most`; -1:
-/// farther.
+/// Return the one-ring layer of each vertex, counted from the free vertices, up to `most`; -1: the
+/// vertex is farther away.
 std::vector<int> layers_from_free(
   const Triangles& triangles, const std::vector<char>& is_free, int most)
 {
@@ -111,7 +119,7 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
     this->is_free_[v] = 0;
   }
 
-  // Select the triangles that count.
+  // Select the triangles that the boundary condition uses.
   const bool region = this->boundary_ == PatchBoundary::region;
   const std::vector<int> layer =
     layers_from_free(this->triangles_, this->is_free_, region ? this->order_ : 1);
@@ -125,8 +133,8 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
       counts[t] = counts[t] || (at >= 0 && at <= deepest);
     }
   }
-  // Ears of a patch, such as the corners of a square, have no free vertex, but all their neighbors
-  // belong to the patch.
+  // Add the ears of a patch, such as the triangles at the corners of a square. They have no free
+  // vertex, but all their neighboring triangles belong to the patch.
   const std::vector<TriangleSide> sides = sides_by_edge(this->triangles_);
   if (this->boundary_ == PatchBoundary::tangent)
   {
@@ -151,7 +159,7 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
     }
   }
 
-  // Reject invalid patches, and collect the sides of the patch's edge.
+  // Reject invalid patches, and collect the triangle sides along the patch's edge.
   std::vector<TriangleSide> edge, across;
   this->layers_ = this->order_;
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
@@ -259,9 +267,9 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
   return context.canceled() ? Status::canceled() : status;
 }
 
-/// Estimate the largest and the smallest eigenvalue of the system, with ones on its diagonal, by
-/// power iterations. The iterations use D^-1 A, where D is the diagonal of A; D^-1 A is symmetric
-/// in D's inner product.
+/// Estimate the largest and the smallest eigenvalue of the system, scaled to ones on its diagonal,
+/// by power iterations. The iterations use D^-1 A, where D is the diagonal of A; D^-1 A is
+/// symmetric in D's inner product.
 void Polyharmonic::estimate_condition(Report& report) const
 {
   const Index n = this->parameters_.rows();
@@ -307,12 +315,12 @@ double Polyharmonic::solve(
   const Rows& given, const Rows& held, const Rows& flux, const Rows& load, Rows& x) const
 {
   const Index n = this->parameters_.rows();
-  Rows weights = Rows::Zero(n, given.cols()); // M load
+  Rows weights = Rows::Zero(n, given.cols()); // the product M load
   if (load.size() > 0)
   {
     weights = (std::pow(this->unit_, this->order_) * this->mass_).asDiagonal() * load;
   }
-  // Residual of the chain of mixed equations at free vertices.
+  // Return the residual of the last mixed equation at free vertices, with v and w computed from u.
   const auto residual = [&](const Rows& u)
   {
     Rows v = this->stiffness_ * u;

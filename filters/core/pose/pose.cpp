@@ -1,3 +1,5 @@
+// Checks and properties of poses: posed positions of pivots and tails, unused stretch and twist,
+// validity of pose and mesh.
 #include "pose/pose.h"
 
 #include <algorithm>
@@ -82,7 +84,7 @@ Status check_bendable(PointsView points, TetsView tets, const Handles& handles)
 std::string unused_stretch(const Pose& pose, StretchUse use)
 {
   constexpr double same_length = 1e-6;
-  constexpr double same_angle = 1e-4; // degrees
+  constexpr double same_angle = 1e-4; // degrees; smaller twists count as zero
   const bool unused = std::any_of(pose.begin(), pose.end(),
     [use](const HandlePose& posed)
     {

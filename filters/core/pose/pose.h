@@ -1,6 +1,8 @@
 #ifndef bindpose_pose_pose_h
 #define bindpose_pose_pose_h
 
+// A pose of a shape: one transform and one mode per handle, and checks of poses.
+
 #include "weights/handles.h"
 
 #include <vector>
@@ -8,15 +10,16 @@
 namespace bindpose
 {
 
-/// The constraint that the user puts on a handle. The integers are those of the cell array Mode.
+/// The constraint of a handle, chosen by the user. The integers are those of the cell array Mode.
 enum class HandleMode : int
 {
-  full = 0, ///< the whole transform
-  position = 1, ///< position of the pivot; rotation and scale are found
+  full = 0, ///< the whole transform is constrained
+  position = 1, ///< the position of the pivot is constrained; rotation and scale are computed
   free = 2, ///< no constraint
-  tail = 3, ///< bones: position of the tail
-  ends = 4, ///< bones: positions of both ends
-  /// Full; methods that find rotations use the mode that with_found_rotations() chooses.
+  tail = 3, ///< bones: the position of the tail is constrained
+  ends = 4, ///< bones: the positions of both ends are constrained
+  /// Like `full`, but methods that compute rotations use the mode that with_found_rotations()
+  /// chooses.
   automatic = 5
 };
 
@@ -26,7 +29,8 @@ inline constexpr const char* handle_mode_words[] = { "full", "position", "free",
 /// Return one of handle_mode_words.
 const char* to_string(HandleMode mode);
 
-/// x -> linear * x + translation as 3 x 4, rest to posed, absolute.
+/// Affine map x -> linear * x + translation as a 3 x 4 matrix, from rest to posed positions, in
+/// world coordinates.
 using Affine = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 inline Affine identity_affine()
 {
@@ -41,7 +45,7 @@ struct HandlePose
   HandleMode mode = HandleMode::automatic;
   Affine transform = identity_affine();
   double stretch = 1.0; ///< bones: posed length / rest length
-  Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< bones: degrees at head and tail
+  Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< bones: twist at head and tail, degrees
 };
 
 /// Report whether a mode constrains the whole transform.
@@ -49,7 +53,8 @@ inline bool holds_transform(HandleMode mode)
 {
   return mode == HandleMode::full || mode == HandleMode::automatic;
 }
-/// Report whether a mode other than full constrains the pivot, or the tail.
+/// Report whether the mode constrains the pivot but not the whole transform. The next function
+/// reports the same for the tail.
 inline bool holds_pivot(HandleMode mode)
 {
   return mode == HandleMode::position || mode == HandleMode::ends;
@@ -59,8 +64,8 @@ inline bool holds_tail(HandleMode mode)
   return mode == HandleMode::tail || mode == HandleMode::ends;
 }
 
-/// Return the posed position of a handle's pivot, or of its tail. The tail is at the end of the
-/// stretched bone.
+/// Return the posed position of a handle's pivot. The next function returns that of the tail, which
+/// is at the end of the stretched bone.
 Vec3 posed_pivot(const Handle& handle, const HandlePose& pose);
 Vec3 posed_tail(const Handle& handle, const HandlePose& pose);
 
@@ -68,31 +73,32 @@ Vec3 posed_tail(const Handle& handle, const HandlePose& pose);
 using Pose = std::vector<HandlePose>;
 
 /// Return invalid_input if the numbers of entries and handles differ or are zero. Return
-/// invalid_input, naming the handle, for numbers that are not finite and for a mode of bone ends at
-/// a handle that is not a bone.
+/// invalid_input with the name of the handle if a value is not finite, or if a handle that is not a
+/// bone has mode tail or ends.
 Status check_pose(const Handles& handles, const Pose& pose);
 
-/// Check whether a mesh and its handles can be bound. Return invalid_input for the reasons of
-/// check_mesh() and check_handles(), for a point that is not finite, and if there is no element.
+/// Check whether a mesh and its handles can be bound. Return invalid_input if check_mesh() or
+/// check_handles() fails, if a point is not finite, or if there is no element.
 Status check_bendable(PointsView points, TrianglesView triangles, const Handles& handles);
 Status check_bendable(PointsView points, TetsView tets, const Handles& handles);
 
-/// Use of the stretch and the twist of a bone by a method. Every method uses the stretch of a bone
-/// in mode tail.
+/// Values of a bone's stretch and twist that a method uses. Every method uses the stretch in mode
+/// tail.
 enum class StretchUse : int
 {
-  tails, ///< only that: skinning with one transform per bone
-  ends, ///< also the stretch in mode ends: methods that find transforms
-  all ///< stretch and twist: stretchable bones
+  tails, ///< only the stretch in mode tail: skinning with one transform per bone
+  ends, ///< also the stretch in mode ends: methods that compute transforms
+  all ///< stretch and twist in all modes: stretchable, twistable bones
 };
 
-/// Return a sentence if the pose has a stretch or a twist that the method does not use; else empty.
-/// A stretch within 1e-6 of 1 and a twist of at most 1e-4 degrees are roundoff of posed ends. The
-/// sentence has no names, so that the frames of a sequence repeat one sentence.
+/// Return a warning of one sentence if the pose has a stretch or a twist that the method does not
+/// use, otherwise an empty string. A stretch within 1e-6 of 1 and a twist of at most 1e-4 degrees
+/// are treated as round-off. The sentence contains no names, so that it is the same for all frames
+/// of a sequence.
 std::string unused_stretch(const Pose& pose, StretchUse use);
 
 std::vector<HandleMode> modes_of(const Pose& pose);
-/// Report whether these are the modes of the pose.
+/// Report whether the handles' modes in the pose equal `modes`.
 bool same_modes(const std::vector<HandleMode>& modes, const Pose& pose);
 
 } // namespace bindpose

@@ -1,7 +1,9 @@
+// Reader and writer of pose files (POSE.json).
+//
 // The JSON library parses the text. This file rejects everything that the library would accept
-// silently (unknown keys, duplicate keys, numbers out of range), because a pose that is partly
-// understood would move the wrong handles. Names are resolved during reading. Transforms are built
-// afterward, parents first, so the order of handles in the file does not matter.
+// silently (unknown keys, duplicate keys, numbers out of range), because ignoring a part of a pose
+// would move the wrong handles. Names of handles are replaced by indices during reading. Transforms
+// are computed afterward, parents first, so the order of handles in the file does not matter.
 #include "pose/pose_file.h"
 
 #include "base/number_text.h"
@@ -24,7 +26,8 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-/// One sentence about an error in the file; becomes invalid_input in parse_pose_file().
+/// An error in the file, with a message of one sentence. parse_pose_file() returns it as
+/// invalid_input.
 struct PoseFileError : std::runtime_error
 {
   using std::runtime_error::runtime_error;
@@ -116,7 +119,7 @@ Eigen::Matrix<double, Size, 1> numbers(const Json& value, const std::string& whe
   return result;
 }
 
-/// Return the index of the value in a list of words.
+/// Return the index of a string value in the list of allowed words.
 template <std::size_t Count>
 std::size_t word(const Json& value, const std::string& where, const char* const (&known)[Count])
 {
@@ -146,7 +149,8 @@ Eigen::Matrix3d read_rotation(const Json& value, const std::string& where)
   {
     fail(where, ".axis has length zero");
   }
-  axis = (axis / largest).normalized(); // divide by the largest first: squares of 1e-200 are zero
+  // Divide by the largest coordinate first, because the squares of tiny coordinates would be zero.
+  axis = (axis / largest).normalized();
   return Eigen::AngleAxisd(degrees * (EIGEN_PI / 180.0), axis).toRotationMatrix();
 }
 
@@ -227,21 +231,21 @@ HandleEdit read_handle(
   return edit;
 }
 
-/// Report whether a value in a handle's entry is an expression: any string except those of "mode"
-/// and "space".
+/// Report whether a value in a handle's entry is an expression. All strings are expressions, except
+/// the values of "mode" and "space".
 bool is_expression(const std::string& key, const Json& value)
 {
   return value.is_string() && key != "mode" && key != "space";
 }
 
-/// Evaluates expressions at one time and records whether there were any.
+/// Evaluates the expressions of a file at one time, and records whether the file has any.
 struct Expressions
 {
   const PoseExpression& value_of;
   double time;
   bool found = false;
 
-  /// Replace strings by numbers.
+  /// Replace expressions in a value by numbers.
   void replace(Json& value, const std::string& key, const std::string& where)
   {
     if (is_expression(key, value) && this->value_of)
@@ -328,8 +332,8 @@ PoseEdits read_pose(const Json& value, const std::string& where,
   return edits;
 }
 
-/// Report whether version 2 would pose a handle differently: a pose moves a parent and has no
-/// "space" for a child.
+/// Report whether version 2 would pose a handle of a version 1 file differently. This is the case
+/// if a pose moves a parent and has no "space" for a child.
 bool leaves_a_child(const Json& root, const Handles& handles)
 {
   const auto leaves = [&](const Json& pose)
@@ -351,7 +355,8 @@ bool leaves_a_child(const Json& root, const Handles& handles)
   return std::any_of(root["frames"].begin(), root["frames"].end(), leaves);
 }
 
-/// Parse JSON and reject duplicate keys; the library alone would silently keep the last of them.
+/// Parse JSON and reject duplicate keys. The library alone would silently use the last of several
+/// equal keys.
 Json parse_without_doubled_keys(const std::string& text)
 {
   std::vector<std::set<std::string>> keys;
@@ -443,8 +448,8 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
   catch (const nlohmann::json::exception& error)
   {
     sequence = PoseSequence();
-    // Example: "[json.exception.parse_error.101] parse error at line 1, …". Drop the technical
-    // prefix.
+    // Remove the technical prefix. Example: "[json.exception.parse_error.101] parse error at line
+    // 1, …".
     const std::string what = error.what();
     const std::size_t end = what.find("] ");
     return Status::invalid_input("the pose file is not valid JSON: " +
@@ -509,7 +514,7 @@ Eigen::Matrix3d minimal_arc(const Vec3& from, const Vec3& to)
   const Vec3 half = a + b;
   if (half.norm() > 1e-12)
   {
-    // The product of two reflections: about a, then about the bisector.
+    // The rotation is the product of two reflections: about `a`, then about the bisector.
     const Vec3 h = half.normalized();
     return (2.0 * h * h.transpose() - Eigen::Matrix3d::Identity()) *
       (2.0 * a * a.transpose() - Eigen::Matrix3d::Identity());
@@ -543,8 +548,8 @@ void place_handle(const HandleEdit& edit, const Handle& rest, const Affine& up, 
   const Vec3 carried = carried_tail - carried_head;
   const Vec3 head = edit.head.value_or(carried_head);
   const Vec3 bone = edit.tail.value_or(carried_tail) - head;
-  // Both ends may coincide up to rounding, because one of them follows the parent. The bone then
-  // has no direction and keeps the inherited one.
+  // Both ends may coincide up to round-off, because one of them moves with the parent. Then the
+  // bone has no direction and keeps the inherited direction.
   constexpr double round_off = 1e-13;
   const double least =
     edit.head && edit.tail ? 0.0 : round_off * (head.stableNorm() + carried.stableNorm());
@@ -558,7 +563,7 @@ void place_handle(const HandleEdit& edit, const Handle& rest, const Affine& up, 
   posed.transform = affine_about(rest.head, linear, head - rest.head);
 }
 
-/// Pose one handle. Its parent must have its final pose.
+/// Pose one handle. The pose of its parent must be final.
 void pose_handle(const HandleEdit* edit, bool children_follow, const Handles& handles,
   const Pose& base, Index handle, Pose& pose)
 {
@@ -579,12 +584,13 @@ void pose_handle(const HandleEdit* edit, bool children_follow, const Handles& ha
   if (with_parent && !children_follow)
   {
     const auto parent = static_cast<std::size_t>(rest.parent);
-    posed.transform = composed(pose[parent].transform, posed.transform); // version 1
+    // In version 1, the parent's transform is applied afterward.
+    posed.transform = composed(pose[parent].transform, posed.transform);
   }
   if (edit)
   {
-    // The mode depends on the keys, not on the values: an expression for a rotation may be zero at
-    // this time.
+    // The mode depends on the presence of keys, not on their values, because an expression for a
+    // rotation may be zero at this time.
     const bool turns =
       edit->rotation || edit->scale || edit->head || edit->tail || edit->stretch || edit->twist;
     const bool full = turns && posed.mode == HandleMode::automatic;
@@ -623,16 +629,18 @@ Json list(const Eigen::VectorXd& values)
   return result;
 }
 
-/// The numbers of a transform in a pose file.
+/// The values by which a pose file describes a transform.
 struct TransformNumbers
 {
   TransformParts parts;
-  double scale = 1.0; ///< the same for all axes
-  bool exact = true; ///< false: a shear, a non-uniform scale or a reflection is left out
+  double scale = 1.0; ///< uniform scale
+  bool exact = true; ///< false if a shear, a non-uniform scale or a reflection cannot be written
 };
 
-/// Transforms from glTF files are products of single-precision matrices: their misfit is some 1e-6.
-/// At this limit a vertex that is one diagonal away from the pivot is off by 1e-5 diagonals.
+/// Largest relative difference between a transform and its description in the file. Transforms from
+/// glTF files are products of single-precision matrices and differ by about 1e-6. At this limit, a
+/// vertex at the distance of one bounding-box diagonal from the pivot has an error of 1e-5
+/// diagonals.
 constexpr double pose_file_misfit = 1e-5;
 
 TransformNumbers numbers_of(const Affine& transform, const Vec3& pivot)
@@ -647,7 +655,8 @@ TransformNumbers numbers_of(const Affine& transform, const Vec3& pivot)
   return numbers;
 }
 
-/// @param exact set to false if only the nearest rotation and scale were written.
+/// Return the entry of handle h. @param exact is set to false if the transform could only be
+/// written as its nearest rotation and scale.
 Json format_handle(const Pose& pose, const Handles& handles, std::size_t h, bool& exact)
 {
   const HandlePose& posed = pose[h];
@@ -696,7 +705,7 @@ Json format_handle(const Pose& pose, const Handles& handles, std::size_t h, bool
   return entry;
 }
 
-/// Add one warning for all handles and poses.
+/// Add one warning for all handles and poses that could not be written exactly.
 void warn_of_inexact(const Handles& handles, const std::vector<char>& is_exact, Index inexact_poses,
   std::size_t pose_count, Status& status)
 {
@@ -744,7 +753,7 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
     frame["handles"] = Json::object();
     for (std::size_t h = 0; h < handles.size(); ++h)
     {
-      // JSON cannot represent infinity or NaN, and the text must be readable.
+      // Reject infinity and NaN, which JSON cannot represent; otherwise the text could not be read.
       const Vec3 pivot = pose[h].transform * handles[h].head.homogeneous();
       if (!pose[h].transform.allFinite() || !pivot.allFinite() || !std::isfinite(pose[h].stretch) ||
         !pose[h].twist.allFinite())

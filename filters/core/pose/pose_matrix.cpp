@@ -1,5 +1,5 @@
-// The size determines the layout: transforms in a plane have two columns, transforms in space
-// three, rotations one.
+// Poses from matrices in the layout of libigl. The layout follows from the size: transforms in a
+// plane have two columns, transforms in space three columns, and rotations one column.
 #include "pose/pose_matrix.h"
 
 #include "pose/handle_hierarchy.h"
@@ -14,7 +14,7 @@ namespace bindpose
 
 namespace
 {
-/// Read transposed transforms, one below the other.
+/// Read transposed transforms that are stored one below the other.
 void take_transforms(WeightsView matrix, Pose& pose)
 {
   const Index d = matrix.cols();
@@ -27,8 +27,8 @@ void take_transforms(WeightsView matrix, Pose& pose)
   }
 }
 
-/// Return the parent of a bone, or -1. A bone without a parent gets the first bone whose tail is at
-/// its head.
+/// Return the parent of a bone, or -1. If a bone has no parent, the first bone whose tail is at its
+/// head is used.
 Index parent_of(const Handles& handles, std::size_t h)
 {
   if (handles[h].parent >= 0 || handles[h].kind != HandleKind::bone)
@@ -41,8 +41,8 @@ Index parent_of(const Handles& handles, std::size_t h)
   return above != handles.end() ? above - handles.begin() : -1;
 }
 
-/// Compute the transform of a bone, followed by the transforms of its parents. In a cycle of bones,
-/// the bone of the first call counts as the root.
+/// Compute the transform of a bone: its rotation, followed by the transform of its parent. If the
+/// parents form a cycle, the bone of the first call is treated as the root.
 const Affine& follow(const std::vector<Eigen::Matrix3d>& rotations, const Handles& handles,
   std::size_t h, std::vector<char>& done, Pose& pose)
 {
@@ -105,7 +105,7 @@ Status pose_of_matrix(WeightsView matrix, const Handles& handles, Pose& pose)
       continue;
     }
     Eigen::Quaterniond q;
-    q.coeffs() = matrix.col(0).segment<4>(4 * bone++); // x, y, z, w
+    q.coeffs() = matrix.col(0).segment<4>(4 * bone++); // quaternion in the order x, y, z, w
     const double length = q.coeffs().stableNorm();
     if (!(length > 0.0))
     {

@@ -1,6 +1,6 @@
 // Rotations at point handles from their dragged positions (Jacobson et al. 2011, Bounded Biharmonic
-// Weights, section 5). The user drags points. Virtual edges between them, which do not deform the
-// shape, determine the rotations of their ends.
+// Weights, section 5). The user moves points. Virtual edges between the points do not deform the
+// shape; they only determine the rotations of their ends.
 #include "pose/pseudo_edges.h"
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace bindpose
 
 namespace
 {
-/// Adjacency of the vertices: the neighbors of v are to[start[v]] to to[start[v + 1] - 1].
+/// Adjacency lists of the vertices: the neighbors of v are to[start[v]] to to[start[v + 1] - 1].
 struct Neighbors
 {
   std::vector<Index> start, to;
 };
 
-/// List each edge once per element that uses it; duplicates do not change shortest paths.
+/// List each edge once per element that uses it. Duplicates do not affect shortest paths.
 template <typename Elements>
 Neighbors neighbors_of(Index vertices, const Elements& elements)
 {
@@ -70,7 +70,7 @@ Index nearest_vertex(PointsView points, const Neighbors& neighbors, const Vec3& 
   return nearest;
 }
 
-/// A path between two handles, ordered by its length first.
+/// A path between two handles: length and the two handles. Paths are sorted by length.
 using Way = std::tuple<double, Index, Index>;
 
 Way way(double length, Index a, Index b)
@@ -78,7 +78,7 @@ Way way(double length, Index a, Index b)
   return { length, std::min(a, b), std::max(a, b) };
 }
 
-/// Return the shortest paths that join all handles that can be joined (Kruskal).
+/// Return the pseudo-edges of the minimum spanning forest, by Kruskal's algorithm.
 PseudoEdges spanning_tree(std::vector<Way> ways, std::size_t handles)
 {
   std::sort(ways.begin(), ways.end());
@@ -137,7 +137,7 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
     const auto at = static_cast<std::size_t>(v);
     if (owner[at] >= 0)
     {
-      if (owner[at] != handle) // two handles at one vertex, or their paths meet
+      if (owner[at] != handle) // a path between two different handles
       {
         ways.push_back(way(distance[at] + length, owner[at], handle));
       }
@@ -186,11 +186,11 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
   return status;
 }
 
-/// Sums over the edges at a handle.
+/// Sums over the pseudo-edges at a handle.
 struct Turn
 {
-  Eigen::Vector4d quaternion = Eigen::Vector4d::Zero(); // sum
-  double ratio = 0.0; // sum
+  Eigen::Vector4d quaternion = Eigen::Vector4d::Zero(); // sum of the edges' rotations
+  double ratio = 0.0; // sum of the edges' length ratios
   Index edges = 0;
 
   void add(const Vec3& rest, const Vec3& posed)
@@ -265,7 +265,8 @@ Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to)
     }
     axis = Vec3::Unit(farthest) - u[farthest] * u;
   }
-  // The cosine and sine of half the angle are half the lengths of the sum and of the difference.
+  // The cosine and sine of half the angle are half the lengths of the sum and of the difference of
+  // the unit vectors.
   Eigen::Quaterniond q;
   q.w() = 0.5 * sum.norm();
   q.vec() = 0.5 * (u - v).norm() * axis.stableNormalized();
@@ -299,7 +300,8 @@ void turn_by_pseudo_edges(
     {
       continue;
     }
-    // The sum is not zero, because all quaternions are within a right angle of the first.
+    // The sum is not zero, because the angle between each quaternion and the first one is at most a
+    // right angle.
     const Eigen::Quaterniond q(Eigen::Vector4d(turn.quaternion.normalized()));
     Eigen::Matrix3d linear = q.toRotationMatrix();
     linear *= stretch ? turn.ratio / static_cast<double>(turn.edges) : 1.0;

@@ -1,6 +1,9 @@
 #ifndef bindpose_pose_pseudo_edges_h
 #define bindpose_pose_pseudo_edges_h
 
+// Rotations of point handles from their positions, by virtual edges between the points (Jacobson et
+// al. 2011, Bounded Biharmonic Weights, section 5).
+
 #include "base/execution.h"
 #include "pose/pose.h"
 #include "weights/handles.h"
@@ -11,47 +14,49 @@
 namespace bindpose
 {
 
-/// Two point handles (columns) joined by a virtual edge. The rotation of the edge determines the
-/// rotation of its ends.
+/// A pair of point handles (columns) that are joined by a virtual edge, called a pseudo-edge. The
+/// rotation of the edge determines the rotation of its ends.
 using PseudoEdge = std::array<Index, 2>;
 using PseudoEdges = std::vector<PseudoEdge>;
 
-/// Return invalid_input, naming the first offender, unless each edge joins two different point
-/// handles.
+/// Check that each edge joins two different point handles. Otherwise return invalid_input with the
+/// first invalid edge.
 Status check_pseudo_edges(const Handles& handles, const PseudoEdges& edges);
 
 /// Compute the minimum spanning tree of all point handles by their distances along the mesh's
-/// edges. This is the tree that a person would draw. It joins each point to its nearest neighbors
-/// through the shape, in a row along an arm, and never across a gap between two arms. Straight
-/// distances and Delaunay edges would cross such gaps. The tree has no long edges, whose rotation
-/// would be a poor estimate for their ends. Each connected part of the mesh gets its own tree.
+/// edges. Users expect this tree: it joins each point to its nearest neighbors inside the shape,
+/// for example in a row along an arm, and never across a gap between two arms. Edges chosen by
+/// straight distances, and Delaunay edges, would cross such gaps. The tree avoids long edges, whose
+/// rotation is a poor estimate of the rotation at their ends. Each connected part of the mesh has a
+/// separate tree.
 ///
 /// Each vertex belongs to the nearest point handle (one Dijkstra run from all handles). Mesh edges
 /// between vertices of two handles give paths between these handles, and the shortest paths form a
 /// minimum spanning tree (Mehlhorn 1988). Cost: O(#V log #V) for any number of handles. The edges
-/// are the same for any number of threads. invalid_input for points that are not finite. If fewer
-/// than two points can be joined, there are no edges, and a warning is added.
+/// are the same for any number of threads. Return invalid_input if a point is not finite. If fewer
+/// than two points can be joined, `edges` is empty and a warning is added.
 Status automatic_pseudo_edges(ExecutionContext& context, PointsView points, TetsView tets,
   const Handles& handles, PseudoEdges& edges);
 Status automatic_pseudo_edges(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const Handles& handles, PseudoEdges& edges);
 
-/// Return the smallest rotation that takes the direction of `from` to that of `to`. For opposite
-/// directions it is half a turn about an axis perpendicular to them. The axis is the projection of
-/// the coordinate axis with the largest angle to them. Of several such axes the last is used, so
-/// that flat shapes (z = const) turn in their plane. Return the identity for a vector of length
-/// zero.
+/// Return the rotation by the smallest angle that maps the direction of `from` to the direction of
+/// `to`. For opposite directions it is half a turn about an axis perpendicular to them. This axis
+/// is the projection of the coordinate axis with the largest angle to the directions. If several
+/// coordinate axes have the same angle, the last one is used, so that flat shapes (z = const)
+/// rotate within their plane. Return the identity for a vector of length zero.
 Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to);
 
 /// Add to each handle with pseudo-edges the rotation that the posed positions of the handles imply.
 /// This is the mean of the smallest rotations that take the handle's edges from rest to their posed
-/// directions (the quaternions are added with the sign of the first one and normalized). The
-/// handle's new linear part is rotation * its own linear part, about its posed pivot. A handle in
-/// mode position contributes its translation only, and gets mode full. A free handle stays at rest.
-/// Handles without edges keep their transforms.
+/// directions (the quaternions are aligned in sign to the first one, added and normalized). The
+/// handle's new linear part is rotation * its own linear part, about its posed pivot. The handle's
+/// mode becomes full. If it was position, only the translation of its transform is used. A free
+/// handle stays at rest. Handles without edges keep their transforms.
 ///
-/// A rigid motion that moves all pivots is found exactly if the handles are in a plane and turn
-/// within it. In space, a rotation about an edge itself does not show in the edge.
+/// If a rigid motion moves all pivots, the result is exact if the handles are in a plane and the
+/// rotation is within that plane. In space, a rotation about an edge does not change the edge and
+/// cannot be detected.
 ///
 /// @param stretch whether to also scale handles by the mean ratio of their edges' lengths.
 void turn_by_pseudo_edges(

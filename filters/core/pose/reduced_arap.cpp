@@ -1,4 +1,5 @@
-// Combines a space made at bind time, a solver for it, and the resulting transforms.
+// Reduced as-rigid-as-possible: combines a ReducedSpace computed at bind time, a ReducedSolver, and
+// the resulting transforms.
 #include "pose/reduced_arap.h"
 
 #include "pose/rotation_fit.h"
@@ -48,8 +49,8 @@ Status ReducedArap::deform(ExecutionContext& context, PointsView rest, Points& p
 
 Status ReducedArap::weights(ExecutionContext& context, Weights& weights) const
 {
-  // A unit translation of one column's transform moves a vertex at the origin by its weight. Three
-  // columns are read per blend, one per coordinate.
+  // Read the weights back from the blend: a unit translation of one column's transform moves a
+  // vertex at the origin by its weight. Three columns are read per blend, one per coordinate.
   const Index columns = this->space_.columns;
   const Points origin = Points::Zero(this->space_.skinning.vertex_count(), 3);
   Points moved;

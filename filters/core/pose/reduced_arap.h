@@ -8,8 +8,8 @@ namespace bindpose
 {
 
 /// As-rigid-as-possible deformation in the space of skinning transforms. The transforms that the
-/// user does not constrain are those of least deformation energy. Jacobson et al. 2012, Fast
-/// automatic skinning transformations.
+/// user does not constrain are computed by minimizing the deformation energy. Method: Jacobson et
+/// al. 2012, Fast automatic skinning transformations.
 ///
 ///     ReducedArap arap;
 ///     arap.bind(context, points, tets, weights, handles, options);  // seconds, once
@@ -21,28 +21,29 @@ namespace bindpose
 /// step) and the best transforms (global step). The global step is two products with a dense matrix
 /// that is computed once for each choice of modes. Neither step can raise the energy. Between the
 /// steps, Anderson acceleration extrapolates from the last iterates. If the extrapolated iterate
-/// would raise the energy, the plain iterate is used.
-/// A handle in mode `full` gets its transform. In mode `position` its pivot moves to its
-/// transformed position. In mode `free` it has no constraint. If every handle is full, the result
-/// is linear blend skinning.
+/// would raise the energy, the plain iterate is used. In mode `full` the transform of a handle is
+/// constrained. In mode `position` its pivot is constrained to its transformed position. In mode
+/// `free` there is no constraint. If every handle is full, the result is linear blend skinning.
 ///
-/// The unknowns are displacements from rest, so the rest pose is exact for ill-conditioned,
-/// duplicate or empty weight columns, too. Directions that affect neither the energy nor a
-/// constraint stay at rest. A pivot on a vertex or inside an element is constrained as that point
-/// of the mesh. Any other pivot, and the pivot of a region, is constrained by the transform of its
-/// own handle.
+/// The unknowns are displacements from rest, so the rest pose is reproduced exactly, even for
+/// ill-conditioned, duplicate or empty weight columns. Directions that affect neither the energy
+/// nor a constraint stay at rest. If a pivot is on a vertex or inside an element, that point of the
+/// mesh is constrained. Otherwise, and for a region, the pivot is treated as a point that moves
+/// with the handle's own transform.
 ///
-/// Cost: bind O(#V (4 m)^2), m = handles and extra weights. The first solve is O((4 m)^3). A solve
-/// after a change of modes is O((4 m + 3 r) 4 m c) for c constrained positions and given unknowns,
-/// see reduced_basis.h. An iteration is 72 m r multiply-adds for r clusters, and r rotation fits,
-/// for a mesh of any size. The result has the same bits for any number of threads.
+/// Cost: bind O(#V (4 m)^2), where m is the number of handles and extra weights. The first solve is
+/// O((4 m)^3). A solve after a change of modes is O((4 m + 3 r) 4 m c) for c constrained positions
+/// and given unknowns, see reduced_basis.h. An iteration takes 72 m r multiply-adds and r rotation
+/// fits for r clusters, for a mesh of any size. The result has the same bits for any number of
+/// threads.
 class ReducedArap
 {
 public:
-  /// Lengths are relative to the diagonal of the used points. Report: counts.vertices,
-  /// counts.triangles or counts.tets, counts.handles, counts.clusters, counts.extra_weights, method
-  /// (the energy), row_sum_error. Warnings: rows that do not sum to one, handles without weight.
-  /// invalid_input for inconsistent sizes or numbers that are not finite.
+  /// Bind a mesh, its weights and its handles. Tolerances are relative to the bounding-box diagonal
+  /// of the used points. The report contains counts.vertices, counts.triangles or counts.tets,
+  /// counts.handles, counts.clusters, counts.extra_weights, method (the energy) and row_sum_error.
+  /// Warnings report rows that do not sum to one and handles without weight. Return invalid_input
+  /// if sizes are inconsistent or a value is not finite.
   Status bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
     WeightsView weights, const Handles& handles, const ReducedArapOptions& options = {});
   Status bind(ExecutionContext& context, PointsView points, TetsView tets, WeightsView weights,
@@ -51,35 +52,36 @@ public:
   using Start = ReducedStart;
   using SolveOptions = ReducedSolveOptions;
 
-  /// Find the transforms of a pose, which has one entry per handle. Return not_converged if
-  /// max_iterations or the time budget were not enough; the result is usable. Report: energy,
-  /// iterations, single_precision_iterations (number of iterations in single precision), residual
-  /// (fraction of the energy by which the last iteration lowered it), microseconds_per_iteration,
-  /// constraint_residual (largest violation of a position, in bounding-box diagonals). Warnings
-  /// name redundant position handles and contradictory ones, which are met in the least-squares
-  /// sense.
+  /// Compute the transforms for a pose, which has one entry per handle. Return not_converged if
+  /// max_iterations or the time budget were not enough; in this case the transforms are usable. The
+  /// report contains energy, iterations, single_precision_iterations (number of iterations in
+  /// single precision), residual (relative decrease of the energy in the last iteration),
+  /// microseconds_per_iteration and constraint_residual (largest violation of a position, in
+  /// bounding-box diagonals). Warnings contain the names of redundant position handles and of
+  /// contradictory ones, which are satisfied in the least-squares sense.
   Status solve(ExecutionContext& context, const Pose& pose, const SolveOptions& options = {});
 
-  /// Make the next solve start from a guess.
+  /// Discard the last rotations, so that the next solve starts with `guess`.
   void forget() { this->solver_.forget(); }
 
-  /// Compute the vertices in the last solved pose: V' = V + M D.
+  /// Compute the vertices in the last solved pose, V' = V + M D (see ReducedSpace).
   Status deform(ExecutionContext& context, PointsView rest, Points& posed) const;
   Status deform_normals(
     ExecutionContext& context, PointsView rest_normals, Points& posed_normals) const;
-  /// Return the weights that deform() blends with, #V x (handles and extra weights). Use them to
-  /// transfer the weights to other points of the shape, which then follow transforms(), too.
+  /// Return the weights that deform() uses, #V x (handles and extra weights). They can be
+  /// transferred to other points of the shape, which then also move with transforms().
   Status weights(ExecutionContext& context, Weights& weights) const;
 
-  /// Transforms of the last solve: those of the handles, then those of the extra weights. All are
-  /// the identity at rest.
+  /// Return the transforms of the last solve: first those of the handles, then those of the extra
+  /// weights. At rest all are the identity.
   const std::vector<Affine>& transforms() const { return this->transforms_; }
   /// Rotations of the last solve, one per cluster.
   std::vector<Eigen::Matrix3d> rotations() const;
   const RotationGroups& groups() const { return this->space_.groups; }
-  /// Energy after each half-step of the last solve: start, local, global, local, global, …
+  /// Energy after each local and global step of the last solve: start, local, global, local,
+  /// global, …
   const std::vector<double>& energies() const { return this->solver_.energies(); }
-  /// 1/2 tr(V^T L V): the scale of round-off in an energy.
+  /// 1/2 tr(V^T L V), used as the scale of round-off in energies.
   double rest_energy() const { return this->space_.rest_energy; }
 
 private:

@@ -1,21 +1,29 @@
-// Robust method. For positions A D = g, a pivoted QR of A^T finds the redundant ones, and the tail
-// Z of its orthogonal factor spans the displacements that they leave open. B = Z L^-T with L L^T =
-// Z^T H Z. If L is ill-conditioned, B is made from the eigenvectors of nonzero energy instead.
+// Basis of the displacements that a choice of modes leaves undetermined, by a robust and a quick
+// method (see ReducedBasis for the notation). H is the stiffness, K the covariance, and the rows of
+// A are the constrained positions.
 //
-// Quick method. H does not depend on the modes. With L L^T = H once for all unknowns, D = E z, E =
-// L^-T, and the energy is |z|^2 / 2. A choice of modes then affects only its constraints G z = g,
-// with G = A E. The rows of A are the constrained positions and the unknowns of full handles. The
-// tail Z of the orthogonal factor of G^T gives B = E Z and C = (K E) Z, a product of reflections
-// with K E. A common translation u has no energy: H u = 0 and K u = 0. One unknown is left out for
-// it, so that D = u t + E z. Because t has no energy, the constraints determine it: a reflection of
-// the constraints leaves t in the first constraint only, and the others are constraints of z.
+// Robust method. The constraints are A D = g. A pivoted QR decomposition of A^T detects redundant
+// positions. The last columns Z of its orthogonal factor span the displacements that satisfy A D =
+// 0. The basis is B = Z L^-T with L L^T = Z^T H Z. If L is ill-conditioned, B consists of scaled
+// eigenvectors of nonzero energy instead.
 //
-// The quick method returns false unless all of the following holds; the robust method is used then.
-// - L is well-conditioned. A basis in fewer unknowns, or under constraints, is then
-//   well-conditioned, too: the robust method would drop no direction either.
-// - A A^T of the positions has a condition of at most 1e6. No diagonal entry of a triangular factor
-//   is smaller than the smallest singular value. All pivots of the robust method's QR would
-//   therefore exceed a thousandth of the first one, so no position is redundant.
+// Quick method. H does not depend on the modes. It is factored once for all unknowns: L L^T = H, D
+// = E z with E = L^-T, and the energy is |z|^2 / 2. A choice of modes then affects only its
+// constraints G z = g, with G = A E, where A also contains the unknowns of full handles as rows.
+// The last columns Z of the orthogonal factor of G^T give B = E Z and C = (K E) Z, which is
+// computed by applying reflections to K E. A translation u of the whole shape has no energy: H u =
+// 0 and K u = 0. Therefore one unknown is omitted, and D = u t + E z with an additional unknown t.
+// Because t has no energy, the constraints determine it: a reflection of the constraints removes t
+// from all constraints except the first one, and the others are constraints of z.
+//
+// The quick method returns false unless all of the following conditions hold; then the robust
+// method is used.
+// - L is well-conditioned. Then a basis in fewer unknowns, or under constraints, is also
+//   well-conditioned, so the robust method would not remove a direction either.
+// - The condition number of A A^T for the positions is at most 1e6. No diagonal entry of a
+//   triangular factor is smaller than the smallest singular value. Therefore all pivots in the QR
+//   decomposition of the robust method would exceed a thousandth of the first pivot, and no
+//   position is redundant.
 // - The triangular factor of G^T is well-conditioned, and the component of u in the constraints is
 //   not small.
 #include "pose/reduced_basis.h"
@@ -33,15 +41,16 @@ namespace bindpose
 
 namespace
 {
-/// Directions whose eigenvalue is below this fraction of the largest one have no energy.
+/// A direction has no energy if its eigenvalue is below this fraction of the largest eigenvalue.
 constexpr double energy_rank = 1e-12;
-/// Positions whose pivot is below this fraction of the largest one are redundant.
+/// A position is redundant if its pivot is below this fraction of the largest pivot.
 constexpr double position_rank = 1e-9;
-/// Reciprocal conditions of A A^T and of R above which the quick method accepts a matrix.
+/// The quick method requires that the reciprocal condition numbers of A A^T and of R are above this
+/// value.
 constexpr double beyond_doubt = 1e-6;
 /// The robust method is faster if there is more than one constraint per this many unknowns.
 constexpr Index unknowns_per_constraint = 4;
-/// Number of columns of a triangular factor that are multiplied together.
+/// Number of columns of a triangular matrix that are multiplied per block.
 constexpr Index triangle_columns = 192;
 
 double norm_of_rows(const Eigen::MatrixXd& m)
@@ -117,8 +126,9 @@ void ReducedBasis::factor_whole(const ReducedSpace& space, const Eigen::MatrixXd
       whole.rows.push_back(i);
     }
   }
-  // The weights of handles sum to one, and extra weights are added to them. The unknown that a
-  // translation changes most is left out.
+  // The translation u has equal entries in the translation rows of all handles and 0 in the rows of
+  // extra weights, because the weights of the handles sum to one. The unknown that u changes most
+  // is omitted.
   const auto handles = static_cast<Index>(space.handles.size());
   const auto shift_of = [&](Index i)
   { return i % 4 == 3 && i < 4 * handles ? 1.0 / space.basis_scale[i] : 0.0; };
@@ -268,13 +278,15 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
   this->quick_ = false;
   this->open_ = open;
   this->redundant_.clear();
-  // Unknowns are in units in which a column of M has size one; an empty column has scale 0.
+  // Unknowns are scaled so that each column of M has root mean square one. An empty column has
+  // scale 0.
   const auto size = static_cast<Index>(open.size()), asked = held.rows();
   const Eigen::VectorXd scale = space.basis_scale(open);
   Eigen::MatrixXd reduced = scale.asDiagonal() * stiffness(open, open) * scale.asDiagonal();
   Eigen::MatrixXd covariance = space.covariance(Eigen::all, open) * scale.asDiagonal();
 
-  // Positions: D = particular b + Z y with rows Z = 0; Z is the tail of the orthogonal factor.
+  // Constrained positions: D = particular b + Z y with rows Z = 0. Z consists of the last columns
+  // of the orthogonal factor.
   this->particular_ = Eigen::MatrixXd::Zero(size, asked);
   Eigen::MatrixXd free_space;
   Index rank = 0;
@@ -293,13 +305,13 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
     {
       Eigen::MatrixXd range = Eigen::MatrixXd::Identity(size, rank);
       range.applyOnTheLeft(qr.householderQ());
-      const Eigen::MatrixXd met = rows * range; // full column rank
+      const Eigen::MatrixXd met = rows * range; // has full column rank
       this->particular_ =
         range * met.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(asked, asked));
       const Reflections reflections(qr.matrixQR(), qr.hCoeffs(), rank);
       free_space = reflections.tail();
       covariance = reflections.times_tail(covariance);
-      // H is symmetric
+      // both factors are applied in the same way because H is symmetric
       reduced = reflections.times_tail(reflections.times_tail(reduced).transpose());
     }
   }
@@ -307,8 +319,7 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
   {
     free_space = Eigen::MatrixXd::Identity(size, size);
   }
-  // B = Z L^-T, C = K B. Single precision would suffice for C, but not for nearly parallel
-  // directions.
+  // B = Z L^-T, C = K B. Double precision is needed for C if directions are nearly parallel.
   this->basis_.resize(size, 0);
   if (reduced.rows() > 0)
   {
@@ -323,7 +334,7 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
     {
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
       const double largest = std::max(eigen.eigenvalues().maxCoeff(), 0.0);
-      // Eigenvalues are in ascending order, so these directions are the last ones.
+      // Eigenvalues are in ascending order, so directions with energy are the last ones.
       const Index seen = (eigen.eigenvalues().array() > energy_rank * largest).count();
       const Eigen::MatrixXd directions = eigen.eigenvectors().rightCols(seen) *
         eigen.eigenvalues().tail(seen).cwiseSqrt().cwiseInverse().asDiagonal();
@@ -362,8 +373,8 @@ ReducedBasis::Unturned ReducedBasis::unturned_sturdily(const ReducedSpace& space
   const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
   const Coordinates& missing) const
 {
-  // First meet the positions with the given blocks, then respond to the resulting force and the
-  // load.
+  // First satisfy the positions with the given blocks, then add the response to the resulting force
+  // and the load.
   Unturned result;
   result.given = given;
   Coordinates& star = result.given;
@@ -371,7 +382,7 @@ ReducedBasis::Unturned ReducedBasis::unturned_sturdily(const ReducedSpace& space
   const Coordinates bent = thin_product(stiffness, star);
   const Coordinates force = bent - load;
   const Coordinates answer = transposed_thin_product(this->basis_, force(this->open_, Eigen::all));
-  // The response lowers the energy by half its square, because B^T H B = I.
+  // The response lowers the energy by half its squared norm, because B^T H B = I.
   result.energy = 0.5 * (star.array() * bent.array()).sum() - (star.array() * load.array()).sum() -
     0.5 * answer.squaredNorm();
   this->add_open(-thin_product(this->basis_, answer), star);
@@ -393,8 +404,9 @@ ReducedBasis::Unturned ReducedBasis::unturned(const ReducedSpace& space,
   {
     return this->unturned_sturdily(space, stiffness, load, given, missing);
   }
-  // z = Q (part that meets the constraints, part that responds to the given blocks and the load).
-  // The first part is orthogonal to the directions of B, so it causes no response.
+  // z is Q times a vector with two parts. The first part satisfies the constraints; the second part
+  // is the response to the given blocks and the load. The first part is orthogonal to the
+  // directions of B, so it causes no response.
   const Whole& whole = this->whole_;
   const Index unknowns = whole.directions.rows(), rank = this->reflections_.rank();
   const bool shifts = rank < this->constraints_;

@@ -1,6 +1,9 @@
 #ifndef bindpose_pose_reduced_basis_h
 #define bindpose_pose_reduced_basis_h
 
+// Basis of the displacements that the constraints of a choice of modes leave undetermined, for the
+// global step of reduced as-rigid-as-possible (reduced_solver.cpp).
+
 #include "base/dense_cholesky.h"
 #include "base/thin_product.h"
 #include "pose/reduced_space.h"
@@ -10,79 +13,82 @@
 namespace bindpose
 {
 
-/// The orthogonal factor Q = I - V T V^T of a QR decomposition, stored as its reflections
-/// (Schreiber and Van Loan 1989). Z is the columns of Q after the first `rank`: they span the
+/// The orthogonal factor Q = I - V T V^T of a QR decomposition, stored as reflections (Schreiber
+/// and Van Loan 1989). Z denotes the columns of Q after the first `rank` columns. They span the
 /// orthogonal complement of the decomposed matrix's range.
 class Reflections
 {
 public:
   Reflections() = default;
-  /// @param packed lower triangle as LAPACK and Eigen return it.
-  /// @param factors factors as LAPACK and Eigen return them.
-  /// @param rank number of columns to use, at most all of `packed`.
+  /// @param packed Householder vectors in the lower triangle, as LAPACK and Eigen return them.
+  /// @param factors Householder coefficients, as LAPACK and Eigen return them.
+  /// @param rank number of columns of `packed` to use.
   Reflections(const Eigen::MatrixXd& packed, const Eigen::VectorXd& factors, Index rank);
 
   Index rank() const { return this->v_.cols(); }
-  /// Compute product = M Z.
+  /// Compute the product M Z.
   void times_tail(const Eigen::MatrixXd& m, Eigen::Ref<Eigen::MatrixXd> product) const;
   Eigen::MatrixXd times_tail(const Eigen::MatrixXd& m) const;
-  /// Return Z.
+  /// Return the matrix Z.
   Eigen::MatrixXd tail() const;
-  /// Return Q X or Q^T X.
+  /// Return Q X. The next function returns Q^T X.
   Coordinates turned(const Coordinates& x) const;
   Coordinates turned_back(const Coordinates& x) const;
 
 private:
   Eigen::MatrixXd v_, t_;
-  Eigen::MatrixXd tail_; ///< T times the rows of V^T for the columns of Z
+  Eigen::MatrixXd tail_; ///< T times those columns of V^T that correspond to Z
 };
 
-/// The displacements D of a ReducedSpace that a choice of modes leaves open, D = D* + B Y. D* has
-/// the given blocks and moves the constrained positions to their targets. The columns of B span the
-/// displacements that change neither. They are orthonormal in the stiffness H (B^T H B = I).
+/// The displacements D of a ReducedSpace that are possible for a choice of modes: D = D* + B Y with
+/// coordinates Y. D* contains the given blocks of full handles and moves the constrained positions
+/// to their targets. The columns of B span the displacements that change neither the given blocks
+/// nor the constrained positions. They are orthonormal in the stiffness H (B^T H B = I).
 ///
-/// There are two methods. The robust method (make_sturdily) determines the ranks of any input and
-/// factors the open part, O(#open^3). The quick method (make_quickly) factors H as a whole once.
-/// After each choice of modes it only rotates the columns of that factor,
-/// O((#columns + #clusters) #columns #constraints). It requires that all ranks are numerically
-/// certain; otherwise it returns false.
+/// There are two methods. The robust method (make_sturdily) determines the ranks for any input and
+/// factors the part of H for the open rows, which no full handle prescribes: O(#open^3). The quick
+/// method (make_quickly) factors the whole matrix H once. After each choice of modes it only
+/// applies reflections to that factor: O((#columns + #clusters) #columns #constraints). The quick
+/// method requires that all ranks are numerically certain; otherwise it returns false.
 class ReducedBasis
 {
 public:
-  /// Use the quick method, and the robust method if the quick one returns false.
+  /// Compute B by the quick method, or by the robust method if the quick method returns false.
   /// @param stiffness H; it must be the same matrix in every call.
-  /// @param open rows of D that no full handle gives, ascending.
-  /// @param held maps D to the displacements of the constrained positions: #positions x #rows of D.
+  /// @param open indices of the rows of D that no full handle prescribes, ascending.
+  /// @param held matrix that maps D to the displacements of the constrained positions: #positions x
+  /// #rows of D.
   void make(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
     const std::vector<Index>& open, const Eigen::MatrixXd& held);
 
-  /// Use one of the two methods. make_quickly returns false if a rank is not certain or if the
-  /// robust method would be faster.
+  /// Compute B by one of the two methods. make_quickly returns false if a rank is not certain or if
+  /// the robust method would be faster.
   bool make_quickly(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
     const std::vector<Index>& open, const Eigen::MatrixXd& held);
   void make_sturdily(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
     const std::vector<Index>& open, const Eigen::MatrixXd& held);
 
-  /// Constrained positions that depend linearly on other positions.
+  /// Return the indices of constrained positions that depend linearly on other positions.
   const std::vector<Index>& redundant() const { return this->redundant_; }
 
-  /// Number of columns of B.
+  /// Return the number of columns of B.
   Index coordinates() const { return this->coordinates_; }
-  /// Move the covariance C = K B out; call once after make().
+  /// Move the covariance C = K B to `covariance`. Call this once after make().
   void take_covariance(Eigen::Ref<Eigen::MatrixXd> covariance);
 
-  /// D* for one pose: the minimizer of 1/2 <D, H D> - <P, D> among all D that have the given blocks
-  /// and meet the positions in the least-squares sense.
+  /// D* for one pose: the minimizer of 1/2 <D, H D> - <P, D> among all D that contain the given
+  /// blocks and satisfy the constrained positions in the least-squares sense.
   struct Unturned
   {
-    double energy = 0.0; ///< that minimum
-    Coordinates covariance; ///< K D*
-    Coordinates given; ///< D*; in the quick method the given blocks only
-    Coordinates z; ///< quick method: coordinates z of D*
-    Eigen::RowVector3d first; ///< target of the constraint that determines t
+    double energy = 0.0; ///< value of the minimized expression at D*
+    Coordinates covariance; ///< covariances K D*
+    Coordinates given; ///< D*; for the quick method the given blocks only
+    Coordinates z; ///< coordinates z of D*, for the quick method
+    Eigen::RowVector3d first; ///< target of the constraint that determines the translation t
   };
+  /// Compute D* for one pose.
   /// @param load P
-  /// @param given a D with the given blocks; 0 in all other rows.
+  /// @param given contains the given blocks of D; 0 in all other rows.
   /// @param missing differences between the targets of the constrained positions and those of
   /// `given`.
   Unturned unturned(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
@@ -91,24 +97,25 @@ public:
   Coordinates displacement(const Unturned& from, const Coordinates& y) const;
 
 private:
-  /// H = L L^T for the unknowns that affect the energy, in units in which a column of M has size
-  /// one. If a common translation u does not affect H, one unknown is left out, and D = u t + E z.
+  /// Factorization H = L L^T for the unknowns that affect the energy, scaled so that each column of
+  /// M has root mean square one. If a translation u of the whole shape has no energy, one unknown
+  /// is omitted, and D = u t + E z.
   struct Whole
   {
     bool tried = false, good = false;
-    std::vector<Index> rows; ///< rows of D; the last one may be left out
-    Eigen::VectorXd scale; ///< scale of these rows
-    Eigen::VectorXd shift; ///< u, of size one; empty if it affects H
-    DenseCholesky cholesky; ///< L
+    std::vector<Index> rows; ///< indices of the rows of D; the last one may be omitted
+    Eigen::VectorXd scale; ///< scale of each row
+    Eigen::VectorXd shift; ///< u, of norm one; empty if u has an energy
+    DenseCholesky cholesky; ///< Cholesky factor L
     Eigen::MatrixXd directions; ///< E = L^-T
-    Eigen::MatrixXd covariance; ///< K E
+    Eigen::MatrixXd covariance; ///< covariances K E
   };
   void factor_whole(const ReducedSpace& space, const Eigen::MatrixXd& stiffness);
   Unturned unturned_sturdily(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
     const Coordinates& load, const Coordinates& given, const Coordinates& missing) const;
-  /// Return t for z, given the target of the first constraint.
+  /// Return the translation t for z and the target of the first constraint.
   Eigen::RowVector3d shift_of(const Coordinates& z, const Eigen::RowVector3d& first) const;
-  /// Add `change` to the open rows of d.
+  /// Add `change` to the rows of d that no full handle prescribes.
   void add_open(const Coordinates& change, Coordinates& d) const;
 
   std::vector<Index> open_;
@@ -117,20 +124,22 @@ private:
   bool quick_ = false;
 
   // ---- robust method
-  Eigen::MatrixXd particular_; ///< open x positions: smallest change that meets the positions
+  /// Open x positions: maps differences of positions to the smallest change that corrects them.
+  Eigen::MatrixXd particular_;
   Eigen::MatrixXd basis_; ///< B, open x coordinates
   Eigen::MatrixXd covariance_; ///< C, until take_covariance()
 
-  // ---- quick method. The constraints are A D = g, positions first. After a reflection that leaves
-  // t in the first constraint only, they are rho t + lever z = g_0 and R^T (Q^T z) = the other g.
+  // ---- quick method. The constraints are A D = g, positions first. A reflection removes t from
+  // all constraints except the first one. The constraints are then rho t + lever z = g_0 and R^T
+  // (Q^T z) = the other entries of g.
   Whole whole_;
-  std::vector<Index> reached_; ///< indices of open unknowns in whole_.rows
+  std::vector<Index> reached_; ///< indices in whole_.rows of the open unknowns
   Index constraints_ = 0;
-  Eigen::VectorXd mirror_; ///< the reflection is I - mirror mirror^T
+  Eigen::VectorXd mirror_; ///< the reflection of the constraints is I - mirror mirror^T
   Eigen::VectorXd lever_;
   double rho_ = 1.0;
-  Reflections reflections_; ///< Q
-  Eigen::MatrixXd inverse_; ///< R^-T
+  Reflections reflections_; ///< orthogonal factor Q of the constraints
+  Eigen::MatrixXd inverse_; ///< inverse transpose of the constraints' triangular factor, R^-T
 };
 
 } // namespace bindpose

@@ -1,10 +1,13 @@
-// One step of implicit Euler. With mass matrix M, displacement D_n and velocity V_n the next
-// displacement D minimizes
+// Reduced dynamics by implicit Euler steps. For the mass matrix M, the displacement D_n and the
+// velocity V_n, the next displacement D minimizes
+//
 //     E(D) + u / (2 h^2) |D - D_n - h V_n|^2_M + u c / (2 h) |D - D_n|^2_M - u <M g, D>,
-// where u = density / stiffness, h is the time step, c the damping, g the gravity. The energy's
-// quadratic form L becomes L + u (1 / h^2 + c / h) M, and the other terms are a load. The constant
-// is chosen so that the solver's energies contain the energy and small terms only, and no squares
-// of the distance that the body has traveled.
+//
+// where u = density / stiffness, h is the time step, c is the damping and g is the gravity.
+// Therefore the quadratic form L of the energy is replaced by L + u (1 / h^2 + c / h) M, and the
+// other terms are a load. The constant is chosen such that the solver's energies contain only the
+// deformation energy and small terms, but no squares of the distance that the body has moved since
+// the start.
 #include "pose/reduced_dynamics.h"
 
 #include "pose/rotation_fit.h"
@@ -175,7 +178,7 @@ double ReducedDynamics::elastic_energy() const
     {
       for (Index k = 0; k < space.groups.count; ++k)
       {
-        // Row i of S is paired with column i of the rotations.
+        // Entry (i, j) of S is multiplied by entry (j, i) of the rotations.
         const double q = this->state_.rotations[(3 * j + i) * space.stride + k] - (i == j ? 1 : 0);
         turned += q *
           (space.rest_covariance[(3 * i + j) * space.stride + k] +

@@ -1,6 +1,9 @@
 #ifndef bindpose_pose_reduced_dynamics_h
 #define bindpose_pose_reduced_dynamics_h
 
+// Reduced as-rigid-as-possible deformation with mass and gravity (Jacobson et al. 2012, section on
+// dynamics).
+
 #include "pose/reduced_solver.h"
 #include "pose/reduced_space.h"
 
@@ -17,17 +20,18 @@ struct ReducedDynamicsOptions
   /// Energy per volume (area) of a strain of one; greater than 0. The speed of waves is
   /// sqrt(stiffness / density) in lengths per second.
   double stiffness = 1.0;
-  double damping = 0.0; ///< 1 / s: the drag is damping times mass times velocity; 0 or more
+  /// Damping rate in 1 / s, 0 or more: the drag force is damping times mass times velocity.
+  double damping = 0.0;
   /// Options of the minimization in each step.
   ReducedSolveOptions solve;
 };
 
-/// Return invalid_input, with the option's name, if an option is out of range.
+/// Return invalid_input with the option's name if an option is out of range.
 Status check_options(const ReducedDynamicsOptions& options);
 
-/// Reduced as-rigid-as-possible deformation of a body with mass. The parts that handles do not
-/// constrain swing and fall, and they keep their velocity when a handle becomes free. Jacobson et
-/// al. 2012, Fast automatic skinning transformations; section on dynamics.
+/// Reduced as-rigid-as-possible deformation of a body with mass. Unconstrained parts of the body
+/// swing and fall, and they keep their velocity when the mode of a handle changes to free. Method:
+/// Jacobson et al. 2012, Fast automatic skinning transformations; section on dynamics.
 ///
 ///     ReducedDynamics body;
 ///     body.bind(context, points, tets, weights, handles, options);
@@ -35,11 +39,11 @@ Status check_options(const ReducedDynamicsOptions& options);
 ///     body.step(context, pose, options);     // microseconds per step
 ///     body.deform(context, points, posed);
 ///
-/// A step is implicit Euler. The next displacement minimizes the energy, plus the inertia
-/// 1/2 |D - D_n - h V_n|^2 / h^2 in the reduced mass, plus drag, minus the work of gravity. This is
-/// ReducedArap's problem with another quadratic form, so an iteration costs the same. It is stable
-/// for any time step. It damps fast oscillations, and damps them more for longer steps. Modes of
-/// handles may change at any step.
+/// A step uses implicit Euler. The next displacement minimizes the energy, plus the inertia term
+/// 1/2 |D - D_n - h V_n|^2 / h^2 in the norm of the reduced mass, plus drag, minus the work of
+/// gravity. This is the problem of ReducedArap with a different quadratic form, so an iteration
+/// takes the same time. The method is stable for any time step. It damps fast oscillations, more
+/// strongly for longer steps. The modes of handles may change at any step.
 ///
 /// The result has the same bits for any number of threads, and for the same state, poses and
 /// options.
@@ -54,18 +58,19 @@ public:
   Status bind(ExecutionContext& context, PointsView points, TetsView tets, WeightsView weights,
     const Handles& handles, const ReducedArapOptions& options = {});
 
-  /// Set the body to the result of reduced as-rigid-as-possible for this pose, without velocity, at
-  /// time zero. The state depends on the pose only.
+  /// Set the body to the result of reduced as-rigid-as-possible for this pose, with velocity zero,
+  /// at time zero. The state depends only on the pose.
   Status start(
     ExecutionContext& context, const Pose& pose, const ReducedSolveOptions& options = {});
 
-  /// Advance by one time step, with the handles in this pose at its end. Without start(), the first
-  /// step begins at rest. Return not_converged if the minimum was not found; the result is usable.
-  /// Report: energy (elastic), kinetic_energy, time, iterations, residual,
-  /// microseconds_per_iteration, constraint_residual. invalid_input for options out of range.
+  /// Advance by one time step. `pose` applies to the end of the step. If start() was not called,
+  /// the first step begins at rest. Return not_converged if the minimum was not found; in this case
+  /// the result is usable. The report contains energy (elastic), kinetic_energy, time, iterations,
+  /// residual, microseconds_per_iteration and constraint_residual. Return invalid_input if an
+  /// option is out of range.
   Status step(ExecutionContext& context, const Pose& pose, const ReducedDynamicsOptions& options);
 
-  /// All data that the next step depends on in addition to its arguments.
+  /// State of the body. The next step depends only on this state and on the arguments of step().
   struct State
   {
     double time = 0.0;
@@ -81,11 +86,12 @@ public:
   Status deform(ExecutionContext& context, PointsView rest, Points& posed) const;
   Status deform_normals(
     ExecutionContext& context, PointsView rest_normals, Points& posed_normals) const;
-  /// Transforms of all columns, handles first.
+  /// Return the transforms of all columns of the weights, handles first.
   const std::vector<Affine>& transforms() const { return this->state_.transforms; }
   std::vector<Eigen::Matrix3d> rotations() const;
 
-  /// Energies and momentum for density 1 and stiffness 1.
+  /// Return the elastic energy for stiffness 1. The next functions return the kinetic energy and
+  /// the momentum for density 1.
   double elastic_energy() const;
   double kinetic_energy() const;
   Vec3 momentum() const;
@@ -100,7 +106,7 @@ private:
   ReducedSpace space_;
   ReducedSolver solver_;
   Eigen::MatrixXd system_; ///< stiffness + inertia_ * mass
-  double inertia_ = -1.0; ///< factor of the mass in system_
+  double inertia_ = -1.0; ///< factor by which the mass is multiplied in system_
   State state_;
 };
 

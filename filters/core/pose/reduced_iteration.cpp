@@ -1,13 +1,18 @@
-// Y and S are computed in one pass over C. While four columns are in the first-level cache, they
-// are multiplied by Q, which gives four rows of Y, and these rows are applied to S. An iterate
-// carries S along, so an extrapolated Y needs no product, unless the extrapolation is so large that
-// S would be mostly round-off.
+// The alternation of local and global steps, in single or double precision (notation:
+// reduced_solver.cpp).
 //
-// With E* for the terms that do not depend on Q, the energies are
+// Y and S are computed in one pass over C. While a group of four columns is in the first-level
+// cache, it is multiplied by Q, which gives four rows of Y, and these rows are multiplied by the
+// group and added to S. Iterates consist of Y and S, so an extrapolated iterate needs no product.
+// The exception is an extrapolation that is so large that S would be mostly round-off.
+//
+// Let E* be the terms that do not depend on Q. The energies are
+//
 //     after a local step   E* + 1/2 |Y|^2 - <Q, S>,
 //     after a global step  E* - 1/2 |Y|^2 - <Q, S*>.
-// In single precision both have an error of about a millionth of |Y|^2 and <Q, S*>; a smaller
-// change is not significant.
+//
+// In single precision both energies have an error of about a millionth of |Y|^2 and <Q, S*>.
+// Smaller changes of the energy are not significant.
 #include "pose/reduced_iteration.h"
 
 #include "base/packs.h"
@@ -21,17 +26,19 @@ namespace bindpose
 
 namespace
 {
-/// Relative error of energies in single precision, as a fraction of their terms.
+/// Relative error of energies, as a fraction of the sum of their absolute terms.
 template <typename Scalar>
 constexpr double energy_noise = sizeof(Scalar) == 4 ? 2e-7 : 0.0;
 
-/// Largest sum of |coefficients| for which the carried S is accurate enough.
+/// Largest sum of absolute coefficients (Anderson::reach()) for which the extrapolated S is
+/// accurate enough.
 template <typename Scalar>
 constexpr double farthest_reach = sizeof(Scalar) == 4 ? 3.0 : 1e4;
 
 constexpr Index columns_at_once = 4;
 
-/// Rows are padded to whole tiles: one pack of AVX-512, two of AVX2 or four of SSE.
+/// Number of rows per tile; matrices are padded to whole tiles. A tile is one pack of AVX-512, two
+/// of AVX2 or four of SSE.
 template <typename Scalar>
 constexpr Index tile_rows = 64 / sizeof(Scalar);
 
@@ -74,7 +81,7 @@ template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void multiply_both(Index rows, Index columns, const Scalar* covariance,
   const Scalar* q, const Scalar* star, Scalar* y, Index length, Scalar* s)
 {
-  constexpr Index count = bytes / 16; // twelve registers of sums
+  constexpr Index count = bytes / 16; // the sums need twelve registers
   std::copy_n(star, 3 * rows, s);
   for (Index c = 0; c < columns; c += columns_at_once)
   {
@@ -129,8 +136,8 @@ void ReducedIteration<Scalar>::set_size(Index clusters, Index columns)
   this->rows_ = padded(3 * clusters, tile);
   this->anderson_.reset();
   this->length_ = padded(columns, tile);
-  // Only the padding is set to zero, because zeroing everything would take much of a change of
-  // modes.
+  // Only the padding is set to zero. Zeroing the whole matrix would take a large part of the time
+  // of a change of modes.
   this->covariance_.resize(
     static_cast<std::size_t>(this->rows_ * padded(columns, columns_at_once)));
   Scalar* to = this->covariance_.data() + 3 * clusters;
@@ -261,8 +268,8 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
   {
     energies.push_back(star_energy + unit * this->global_step(this->plain_));
   }
-  // A single iteration, the usual case in double precision, has no previous iterate to extrapolate
-  // from.
+  // If there is only one iteration, the usual case in double precision, there is no previous
+  // iterate for the extrapolation.
   const bool accelerates = window > 0 && limits.iterations > 1;
   if (accelerates && (!this->anderson_ || this->anderson_->window() != window))
   {
@@ -315,7 +322,7 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
       energies.resize(first);
       return false;
     }
-    // The first energy after a change of precision cannot be compared with the one before it.
+    // After a change of precision, the first energy cannot be compared with the energy before it.
     if (iterations > 1 || !this->has_iterate_)
     {
       progress.change = energy_before - energy;
@@ -323,7 +330,8 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
       progress.converged = limits.tolerance > 0.0 && can_see &&
         progress.change <= limits.tolerance * std::max(energy, limits.least_energy);
     }
-    // Reading the clock costs as much as fitting some rotations.
+    // Reading the clock takes as long as some rotation fits, so the clock is read only if there is
+    // a deadline.
     progress.in_time = limits.deadline == limits.deadline.max() ||
       std::chrono::steady_clock::now() < limits.deadline;
   }

@@ -1,22 +1,30 @@
-// Pose time of reduced as-rigid-as-possible.
+// Pose time of reduced as-rigid-as-possible (Jacobson et al. 2012; bind time: reduced_space.cpp).
 //
 // With displacements D from rest (V' = V + M D) and Q = R - I for the rotations, the solver
 // minimizes
-//     E(D, Q) = 1/2 <D, H D> - <P, D> - <Q, S0 + K D>,   H, K, S0 projected at bind time,
-// because rest with R = I is a minimum of the energy: all its constant and linear terms cancel. The
-// given unknowns are the blocks of full handles. The open ones are D = D* + B Y. D* is the best
-// displacement that meets the positions with Q = 0. The columns of B span the displacements that
-// keep the positions met. They are orthonormal in H (B^T H B = I). With C = K B one iteration is
+//
+//     E(D, Q) = 1/2 <D, H D> - <P, D> - <Q, S0 + K D>,
+//
+// where H, K and S0 are projected at bind time. There are no constant and linear terms, because
+// rest with R = I is a minimum of the energy. The blocks of full handles are given. The other
+// unknowns are D = D* + B Y. D* is the displacement of minimum energy that satisfies the
+// constrained positions with Q = 0. The columns of B span the displacements that do not change the
+// constrained positions. They are orthonormal in H (B^T H B = I). With C = K B one iteration is
+//
 //     S = S* + C Y                   covariances
 //     Q = best rotations of S - I    the local step
 //     Y = C^T Q                      the global step
-// S and Y are one product each with the same dense matrix. The energies after both half-steps are
+//
+// S and Y are each computed by one product with the same dense matrix C. The energies after the two
+// steps are
+//
 //     after a local step   E = E* + 1/2 |Y|^2 - <Q, S>,
 //     after a global step  E = E* - 1/2 |Y|^2 - <Q, S*>,   E* = 1/2 <D*, H D*> - <P, D*>.
 //
 // Anderson acceleration extrapolates Y, whose squared length is in units of the energy. C Y is
-// carried along, so an extrapolated Y needs no product. It is accepted if its energy, with the best
-// rotations for it, is at most that of the plain Y. The last iterate is a plain one.
+// extrapolated, too, so an extrapolated Y needs no product. The extrapolated Y is accepted if its
+// energy, with the best rotations for it, is at most the energy of the plain Y. The last iterate is
+// always a plain iterate.
 //
 // reduced_basis.cpp computes B. Directions that affect neither the energy nor a constraint stay at
 // rest.
@@ -37,12 +45,14 @@ namespace
 {
 using Rows = ReducedSpace::Rows;
 
-/// Positions missed by more than this fraction of the diagonal are reported as contradictory.
+/// Positions whose violation exceeds this fraction of the bounding-box diagonal are reported as
+/// contradictory.
 constexpr double contradiction = 1e-9;
-/// Below this fraction of the rest energy an energy counts as zero for the tolerance.
+/// If the energy is below this fraction of the rest energy, it counts as zero in the convergence
+/// test.
 constexpr double nothing_bends = 1e-6;
 
-/// Energies that differ by at most this fraction of the rest energy are equal up to round-off.
+/// Energies whose difference is at most this fraction of the rest energy are equal up to round-off.
 constexpr double same_energy = 1e-15;
 } // namespace
 
@@ -103,12 +113,12 @@ void ReducedSolver::factor(
   }
 }
 
-/// Compute initial rotations without history. The rotation of a cluster is a blend of those of the
-/// full handles near it. Near other handles it is the rotation that best fits all pivots and the
-/// frames of full handles.
+/// Compute initial rotations from the pose only. The rotation of a cluster is a blend of the
+/// rotations of the full handles near it. For the influence of other handles, the rotation that
+/// best fits all pivots and the frames of full handles is used.
 void ReducedSolver::start_rotations(const ReducedSpace& space, const Pose& pose)
 {
-  const double reach = 0.3 * space.radius; // the size of a full handle's frame
+  const double reach = 0.3 * space.radius; // size of the frame that represents a full handle
   const Eigen::Matrix3d common = pivot_rotation(space.handles, pose, reach);
   for (Index k = 0; k < space.groups.count; ++k)
   {
@@ -147,7 +157,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
       quoted_names(space.handles, this->redundant_));
   }
 
-  // The constraints of this pose: blocks of full handles, targets of positions.
+  // The constraints of this pose are the blocks of full handles and the targets of positions.
   const Index clusters = space.groups.count, stride = space.stride;
   d = Rows::Zero(4 * space.columns, 3);
   for (std::size_t h = 0; h < pose.size(); ++h)
@@ -220,11 +230,12 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
       this->iteration_.go_on(this->single_iteration_);
       single_iterations = progress.iterations;
     }
-    progress.in_time = true; // in time for one iteration in double precision
+    progress.in_time = true; // always allow one iteration in double precision
   }
   if (!progress.canceled)
   {
-    // A converged result needs one more iteration for its last digits.
+    // A result that converged in single precision needs one more iteration in double precision for
+    // its last digits.
     const bool converged = progress.converged;
     limits.iterations = converged ? 1 : options.max_iterations - progress.iterations;
     this->iteration_.run(context, limits, options.anderson_window, star_energy, progress);

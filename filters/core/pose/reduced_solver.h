@@ -1,6 +1,8 @@
 #ifndef bindpose_pose_reduced_solver_h
 #define bindpose_pose_reduced_solver_h
 
+// Solver of reduced as-rigid-as-possible for one pose (Jacobson et al. 2012).
+
 #include "pose/reduced_basis.h"
 #include "pose/reduced_iteration.h"
 #include "pose/reduced_space.h"
@@ -11,43 +13,45 @@ namespace bindpose
 /// Initial rotations of a solve.
 enum class ReducedStart
 {
-  /// Rotations of the last solve (a guess in the first solve): few iterations, twists accumulate.
+  /// Rotations of the last solve (`guess` in the first solve). Few iterations are needed, and
+  /// twists of more than half a turn can accumulate.
   last,
-  /// Rotations of the full handles nearby, elsewhere the rotation that best fits all pivots;
-  /// depends on the pose only.
+  /// Rotations of the full handles nearby; elsewhere the rotation that best fits all pivots.
+  /// Depends on the pose only.
   guess,
-  rest ///< identity
+  rest ///< identity matrices
 };
 
+/// Options of ReducedSolver::solve().
 struct ReducedSolveOptions
 {
-  /// The solve ends if an iteration lowers the energy by at most this fraction of the energy (or of
-  /// 1e-6 of the rest energy, which is a strain of a few 1e-6). 0: run all iterations; the result
-  /// is never not_converged.
+  /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. If
+  /// the energy is below 1e-6 of the rest energy (a strain of a few 1e-6), that value is used
+  /// instead of the energy. 0: run all iterations; the result is never not_converged.
   double tolerance = 1e-6;
   Index max_iterations = 100;
   ReducedStart start = ReducedStart::last;
-  /// Number of previous iterates that acceleration combines, at most largest_anderson_window; 0: no
-  /// acceleration.
+  /// Number of previous iterates that Anderson acceleration combines, at most
+  /// largest_anderson_window; 0: no acceleration.
   Index anderson_window = 5;
-  /// The solve ends after the iteration in which this much time has passed; 0: no limit. The number
-  /// of iterations then depends on the machine. A solve with this number as max_iterations gives
-  /// the same bits.
+  /// The solve ends after the iteration in which this time is exceeded; 0: no limit. With a limit,
+  /// the number of iterations depends on the machine. A solve with the same number as
+  /// max_iterations gives bit-identical results.
   double budget_microseconds = 0.0;
-  /// If true, iterate in single precision until its round-off hides whether the energy still falls.
-  /// Then continue in double precision for at least one iteration. If false, use double precision
-  /// only.
+  /// If true, iterate in single precision until the decrease of the energy is smaller than the
+  /// round-off. Then continue in double precision for at least one iteration. If false, use only
+  /// double precision.
   bool mixed_precision = true;
 };
 
 /// Minimizes 1/2 <D, H D> - <P, D> - <Q, S0 + K D> over displacements D of a ReducedSpace and
 /// rotations R = I + Q of its clusters, under the constraints of a pose. In reduced
-/// as-rigid-as-possible H is the stiffness and P is zero. In a time step, masses are added to H and
-/// their momentum to P.
+/// as-rigid-as-possible H is the stiffness and P is zero. In a time step of ReducedDynamics, H also
+/// contains masses and P contains their momentum.
 class ReducedSolver
 {
 public:
-  /// The terms of the minimization that do not depend on rotations.
+  /// H, P and a constant: the terms of the minimization that do not depend on rotations.
   struct Quadratic
   {
     const Eigen::MatrixXd& stiffness; ///< H, 4 #columns x 4 #columns
@@ -55,22 +59,23 @@ public:
     double constant = 0.0; ///< added to all energies
   };
 
-  /// Discard the factors. Call it if H or the space has changed.
+  /// Discard the factorization. Call this function after a change of H or of the space.
   void reset();
 
-  /// Solve as ReducedArap::solve() does; the result is D.
+  /// Solve as described at ReducedArap::solve(). The result is D.
   Status solve(ExecutionContext& context, const ReducedSpace& space, const Quadratic& quadratic,
     const Pose& pose, const ReducedSolveOptions& options, ReducedSpace::Rows& d);
 
-  /// Make the next solve start from a guess.
+  /// Discard the last rotations, so that the next solve starts with `guess`.
   void forget() { this->warm_ = false; }
 
-  /// Rotations of the last solve in the space's planes. The caller can store them and restore them
-  /// later.
+  /// Rotations of the last solve, stored in planes as in ReducedSpace. The caller can store and
+  /// restore them.
   const std::vector<double>& rotations() const { return this->rotations_; }
   void set_rotations(std::vector<double> rotations);
 
-  /// Energy after each half-step of the last solve: start, local, global, local, global, …
+  /// Energy after each local and global step of the last solve: start, local, global, local,
+  /// global, …
   const std::vector<double>& energies() const { return this->energies_; }
 
 private:
@@ -79,16 +84,18 @@ private:
 
   // ---- per choice of modes
   std::vector<HandleMode> modes_;
-  std::vector<Index> positions_; ///< constrained pivots and tails: rows of pivot_rows
+  std::vector<Index> positions_; ///< constrained pivots and tails, as row indices of pivot_rows
   std::vector<Index> redundant_;
-  Eigen::MatrixXd position_rows_; ///< positions x 4 #columns: displacements of the positions
-  ReducedBasis basis_; ///< B
-  ReducedIteration<double> iteration_; ///< uses C = K M B
-  ReducedIteration<float> single_iteration_; ///< valid if single precision can represent C
+  /// #positions x 4 #columns: maps D to the displacements of the positions.
+  Eigen::MatrixXd position_rows_;
+  ReducedBasis basis_; ///< basis B of the displacements
+  ReducedIteration<double> iteration_; ///< alternation with C = K B in double precision
+  /// Alternation in single precision; valid if single precision can represent C.
+  ReducedIteration<float> single_iteration_;
   bool has_single_ = false;
 
   // ---- state
-  std::vector<double> rotations_; ///< planes, see ReducedSpace
+  std::vector<double> rotations_; ///< stored in planes, see ReducedSpace
   bool warm_ = false;
   std::vector<double> energies_;
 };

@@ -1,8 +1,8 @@
 // Bind time of reduced as-rigid-as-possible: the mesh's stiffness L and covariance sums K are
-// projected once on the skinning space V' = V + M D. Column block j of M is
-// w_j ((x - c_j) / s_j, 1), in a separate frame per column. In a common frame the coordinates would
-// be nearly constant over a handle that moves a small part of the mesh, which would spoil the
-// conditioning.
+// projected once on the skinning space V' = V + M D. Column block j of M is w_j ((x - c_j) / s_j,
+// 1), with a separate coordinate frame per column of weights. In a shared frame, the coordinates
+// would be nearly constant over the vertices of a handle that moves a small part of the mesh, and
+// the matrices would be ill-conditioned.
 #include "pose/reduced_space.h"
 
 #include "base/dense_product.h"
@@ -20,13 +20,13 @@ namespace bindpose
 
 namespace
 {
-/// Strips whose partial sums are added in order. Their number determines the bits of the sums; the
-/// number of threads does not.
+/// Number of row ranges ("strips") of the mesh whose partial sums are added in order. It affects
+/// the round-off of the sums; the number of threads does not.
 constexpr Index strips = 16;
 constexpr Index rows_at_once = 256;
-/// A pivot within this distance of a vertex, in diagonals, is the vertex.
+/// A pivot is treated as a vertex if their distance is at most this, in bounding-box diagonals.
 constexpr double same_place = 1e-9;
-/// A pivot within this distance of a triangle, in diagonals, is on it.
+/// A pivot is on a triangle if their distance is at most this, in bounding-box diagonals.
 constexpr double on_surface = 1e-6;
 
 /// Compute barycentric coordinates in a tet. Return false if the point is outside or the tet is
@@ -49,8 +49,8 @@ bool locate(
   return lambda.allFinite() && lambda.minCoeff() >= -1e-9;
 }
 
-/// Compute barycentric coordinates of the foot point in a triangle. Return false if it is outside
-/// or the distance is too large.
+/// Compute the barycentric coordinates of p's perpendicular foot in a triangle. Return false if the
+/// foot is outside or the distance is too large.
 bool locate(PointsView points, const TrianglesView& triangles, Index e, const Vec3& p,
   double diagonal, Eigen::Vector4d& lambda)
 {
@@ -110,13 +110,14 @@ void ReducedSpace::find_pivots(PointsView points, const Elements& elements, Weig
     {
       continue;
     }
-    // The default, used if the position is not on the mesh: the handle's own transform.
+    // Default, used if the pivot is not on the mesh: the pivot moves with the handle's own
+    // transform.
     Eigen::VectorXd unit = Eigen::VectorXd::Unit(this->columns, end % count);
     this->basis_row(unit.data(), place(end), row.data());
     this->pivot_rows.row(end) = row;
     if (handle.kind == HandleKind::region)
     {
-      continue; // the vertices of a region move as one, so its pivot needs no point of the mesh
+      continue; // a region moves as one body, so its pivot needs no point of the mesh
     }
     Index nearest = 0;
     const double distance = std::sqrt(
@@ -168,7 +169,8 @@ bool ReducedSpace::project_stiffness(ExecutionContext& context, PointsView point
   const Index strip = (n + strips - 1) / strips;
   std::vector<Weights> sums(static_cast<std::size_t>(strips));
   std::vector<Eigen::VectorXd> squares(static_cast<std::size_t>(strips));
-  // M is computed in pieces, because the whole of it would be the largest object in memory.
+  // M is computed in blocks of rows, because the whole matrix would be the largest object in
+  // memory.
   const bool done = parallel_for(context, strips, 1,
     [&](Index s, Index)
     {
@@ -214,7 +216,8 @@ bool ReducedSpace::project_stiffness(ExecutionContext& context, PointsView point
     square += squares[s];
   }
   this->stiffness = Eigen::MatrixXd(sums[0].selfadjointView<Eigen::Lower>());
-  // A column is empty if its effect is invisible: at most 1e-12 diagonals (root mean square).
+  // A column is empty if the displacements that it causes are invisible: their root mean square is
+  // at most 1e-12 bounding-box diagonals.
   const double count = static_cast<double>(std::max<Index>(n, 1));
   this->basis_scale =
     (square / count)
@@ -250,7 +253,7 @@ void ReducedSpace::project_covariance(
   const Index clusters = this->groups.count;
   this->stride = (clusters + 7) / 8 * 8;
   this->covariance = Eigen::MatrixXd::Zero(3 * clusters, 4 * this->columns);
-  // The vertex loop adds to whole rows, so the product is row-major until the end.
+  // The product is row-major until the end, because the loop over vertices adds to whole rows.
   Weights product = Weights::Zero(3 * clusters, 4 * this->columns);
   this->cluster_weights = Eigen::MatrixXd::Zero(clusters, handle_count);
   this->rest_covariance.assign(static_cast<std::size_t>(9 * this->stride), 0.0);
@@ -270,8 +273,8 @@ void ReducedSpace::project_covariance(
         this->rest_covariance[static_cast<std::size_t>((3 * i + j) * this->stride + k)] +=
           it.value() * (p[j] - middle[j]);
       }
-      // The squared edge sums measure the influence of a vertex on a cluster in any coordinate
-      // frame.
+      // The sum of squared entries measures the influence of a vertex on a cluster, independently
+      // of the coordinate frame.
       const double square = it.value() * it.value();
       this->cluster_weights.row(k) += square * weights.row(v).head(handle_count).cwiseAbs();
       cluster_mass[k] += square;

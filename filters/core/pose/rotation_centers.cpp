@@ -1,12 +1,15 @@
-// Similarity is a sum over pairs of handles. The term of a pair depends smoothly on two weights
-// only. Elements in which these two weights are nearly the same are therefore one term of the
-// pair's sum, whatever their other weights are. The plane of both weights is halved, along the
-// weight with the larger range, until no box is larger than the group size. With twenty handles of
-// global influence, hardly two elements have similar rows of weights, but hundreds of elements are
-// similar in each plane.
+// Optimized centers of rotation (Le and Hodgins 2016), accelerated by grouping elements.
 //
-// The groups of each pair are contiguous. A vertex that has both handles of the pair loops over
-// them, eight per step. The groups of a pair are computed from all elements that have both handles.
+// The similarity of weights is a sum over pairs of handles. The term of a pair is a smooth function
+// of only two weights. Therefore elements whose two weights are nearly equal are grouped, and each
+// group is one term of the pair's sum. Their other weights do not matter. Groups are formed in the
+// plane of the two weights: ranges are halved along the weight with the larger range until they are
+// at most as large as the group size. With twenty handles of global influence, almost no two
+// elements have similar rows of weights, but hundreds of elements have similar pairs of weights.
+//
+// The groups of each pair are contiguous. The groups of a pair are computed from all elements in
+// which both handles have a weight. A vertex at which both handles have a weight loops over the
+// groups, eight per step.
 #include "pose/rotation_centers.h"
 
 #include "base/parallel.h"
@@ -22,20 +25,21 @@ namespace bindpose
 
 namespace
 {
-constexpr Index block_size = 16; // vertices; small, for a quick response to a cancel
+// Number of vertices per block; small, so that a cancel request is noticed quickly.
+constexpr Index block_size = 16;
 constexpr Index element_block = 4096;
 constexpr Index lanes = 8;
 
-/// An element that has both handles of a pair.
+/// An element in which both handles of a pair have a weight.
 struct PairElement
 {
-  double weights[2]; ///< means over the corners
+  double weights[2]; ///< mean weights of the two handles over the corners
   double amount; ///< size * weights[0] * weights[1]
   Index element;
 };
 
-/// The groups of elements that have both handles of a pair. The arrays are padded to whole lanes
-/// with groups of amount zero.
+/// The groups of elements in which both handles of a pair have a weight. The arrays are padded to
+/// whole lanes with groups of amount zero.
 struct PairGroups
 {
   std::vector<double> first, second; ///< mean weights, divided by the width
@@ -62,7 +66,7 @@ struct PairGroups
   }
 };
 
-/// Sums of amount and moment, weighted by similarity.
+/// Sums of the groups' amounts and moments, weighted by similarity.
 struct Sums
 {
   double amount = 0.0;
@@ -74,7 +78,8 @@ BINDPOSE_ALWAYS_INLINE double decay(double u)
 {
   constexpr double log2_e = 1.4426950408889634, ln2_high = 6.93145751953125e-1,
                    ln2_low = 1.42860682030941723212e-6;
-  constexpr double rounder = 0x1.8p52; // adding it leaves the nearest integer in the low bits
+  // Adding this constant rounds to the nearest integer, which is then in the low bits.
+  constexpr double rounder = 0x1.8p52;
   const double x = u < 690.0 ? -u : -690.0;
   const double shifted = x * log2_e + rounder;
   const double whole = shifted - rounder;
@@ -100,8 +105,8 @@ BINDPOSE_ALWAYS_INLINE double decay(double u)
   return u < 690.0 ? p * scale : 0.0;
 }
 
-/// Add the groups of a pair of handles, weighted by their similarity to the weights a and b of a
-/// vertex. The groups' weights are divided by the width.
+/// Add the groups of a pair of handles to `sums`. They are weighted by the similarity of their
+/// weights to the weights a and b of a vertex. The groups' weights are divided by the width.
 BINDPOSE_SIMD_CLONES void add_similar(
   const PairGroups& groups, double a, double b, double factor, Sums& sums)
 {
@@ -137,7 +142,7 @@ double size_of(PointsView points, const Index* v, int corners)
 }
 
 /// Halve a range along the weight with the larger range, and return the start of the second half.
-/// Return `begin` if the range is one group.
+/// Return `begin` if the range is not split further and forms one group.
 std::size_t split(
   std::vector<PairElement>& elements, std::size_t begin, std::size_t end, double limit)
 {
@@ -156,8 +161,8 @@ std::size_t split(
   {
     return begin;
   }
-  // If both ends are adjacent numbers, the mean may equal the upper end. The cut is below it, so
-  // that each half has an element.
+  // If the two ends are adjacent floating-point numbers, the mean may equal the upper end. Then the
+  // cut is below the upper end, so that each half has an element.
   const double half = 0.5 * (lower[axis] + upper[axis]);
   const double cut = half < upper[axis] ? half : lower[axis];
   const auto first = elements.begin();
@@ -226,7 +231,7 @@ Status check(const RotationCentersOptions& options, PointsView points, WeightsVi
   return weights.allFinite() ? Status() : Status::invalid_input("a weight is not a finite number");
 }
 
-/// Return the index of the pair of handles j < k.
+/// Return the index of the pair of handles j < k in an array of all pairs.
 Index pair_of(Index j, Index k, Index handles)
 {
   return j * handles - j * (j + 1) / 2 + k - j - 1;
@@ -268,7 +273,7 @@ Status find_centers(ExecutionContext& context, const RotationCentersOptions& opt
       return Status::canceled();
     }
   }
-  // The elements in which each handle has a weight.
+  // For each handle: the elements in which it has a weight.
   std::vector<std::vector<Index>> felt(static_cast<std::size_t>(handles));
   for (Index e = 0; e < count; ++e)
   {
@@ -342,7 +347,7 @@ Status find_centers(ExecutionContext& context, const RotationCentersOptions& opt
             own.push_back(j);
           }
         }
-        // The largest product is that of the two largest weights.
+        // The largest product is the product of the two largest weights.
         double most = 0.0, second_most = 0.0;
         for (const Index j : own)
         {

@@ -1,18 +1,20 @@
-// Horn's form: tr(R S) of the rotation with unit quaternion q is q^T N q, where N is a symmetric
+// Best rotations of many 3 x 3 matrices by Horn's quaternion method.
+//
+// For the rotation R with the unit quaternion q, tr(R S) = q^T N q, where N is a symmetric
 // traceless 4x4 matrix of S. The best rotation is therefore the eigenvector of N's largest
 // eigenvalue.
 //
-// The fast path has no branches, so that several matrices are processed together. The largest
+// The fast path has no branches, so that several matrices are processed in parallel. The largest
 // eigenvalue is the largest root of N's characteristic quartic, whose roots are all real.
-// Laguerre's iteration converges to it from above, starting from an upper bound, with third order.
-// The eigenvector is a column of the adjugate of N - lambda, which for a simple eigenvalue is
-// p'(lambda) q q^T. One more step with the Rayleigh quotient removes the error of the quartic's
-// rounding.
+// Laguerre's iteration converges to this root from above with third order, starting from an upper
+// bound. The eigenvector is a column of the adjugate of N - lambda, which for a simple eigenvalue
+// is p'(lambda) q q^T. One more step with the Rayleigh quotient removes the error due to round-off
+// in the coefficients of the quartic.
 //
-// p'(lambda) is the product of the gaps to the other eigenvalues. If it is small, the best rotation
-// is nearly not unique (S of rank 1, a reflection with equal singular values). An eigenvalue solver
-// then finds the whole eigenspace of the largest eigenvalue, and the previous quaternion is
-// projected on it.
+// p'(lambda) is the product of the differences between lambda and the other eigenvalues. If
+// p'(lambda) is small, the best rotation is not unique or almost not unique (S has rank 1, or is a
+// reflection with equal singular values). An eigenvalue solver then finds the whole eigenspace of
+// the largest eigenvalue, and the previous quaternion is projected on it.
 #include "pose/rotation_fit.h"
 
 #include "base/simd.h"
@@ -27,21 +29,24 @@ namespace bindpose
 
 namespace
 {
-/// Eigenvalues within this fraction of |S| of the largest one count as equal to it.
+/// An eigenvalue counts as equal to the largest eigenvalue if their difference is at most this
+/// fraction of |S|.
 constexpr double same_eigenvalue = 1e-12;
 
-/// Parameters of the fast path in a precision.
+/// Parameters of the fast path for a precision.
 template <typename Scalar>
 struct Fast;
 template <>
 struct Fast<double>
 {
-  static constexpr int lanes = 8; ///< matrices that are processed together
-  static constexpr int steps = 5; ///< iterations of Laguerre's method
-  static constexpr double last_step = 1e-5; ///< a longer last step has not converged
-  static constexpr double slope = 1e-3; ///< smallest trusted p'(lambda) / |S|^3
-  static constexpr double tiny = 1e-300; ///< keeps quotients finite
-  static constexpr double least = 1e-200, most = 1e200; ///< limits of |S|^2
+  static constexpr int lanes = 8; ///< number of matrices that are processed in parallel
+  static constexpr int steps = 5; ///< number of iterations of Laguerre's method
+  /// If the last step is longer than this, the iteration has not converged.
+  static constexpr double last_step = 1e-5;
+  /// Smallest p'(lambda) / |S|^3 for which the result is trusted.
+  static constexpr double slope = 1e-3;
+  static constexpr double tiny = 1e-300; ///< added to denominators, to keep quotients finite
+  static constexpr double least = 1e-200, most = 1e200; ///< range of |S|^2 for the fast path
 };
 template <>
 struct Fast<float>
@@ -54,7 +59,7 @@ struct Fast<float>
   static constexpr float least = 1e-25F, most = 1e25F;
 };
 
-/// The symmetric matrix N over (w, x, y, z).
+/// The ten entries of the symmetric matrix N over (w, x, y, z).
 template <typename Scalar>
 struct Horn
 {
@@ -94,7 +99,7 @@ BINDPOSE_ALWAYS_INLINE Quaternion<Scalar> eigenvector(const Horn<Scalar>& n, Sca
   const Scalar yy = a * (b * d - t * t) - p * (p * d - t * r) + r * pt;
   const Scalar yz = -(a * (b * u - s * t) - p * (p * u - s * r) + q * pt);
   const Scalar zz = a * (b * c - s * s) - p * (p * c - s * q) + q * (p * s - b * q);
-  // Conditional moves, no branches.
+  // Conditional moves are used instead of branches.
   Scalar w0 = ww, x0 = wx, y0 = wy, z0 = wz, size = std::abs(ww);
   const bool use_x = std::abs(xx) > size;
   w0 = use_x ? wx : w0;
@@ -132,25 +137,26 @@ BINDPOSE_ALWAYS_INLINE Scalar rayleigh(const Horn<Scalar>& n, const Quaternion<S
     square_of(v);
 }
 
-/// Groups of lanes that go through each step of the fast path together. The latency of one group's
-/// roots and quotients overlaps with the work on the others.
+/// Number of groups of lanes that each step of the fast path processes together. The latency of
+/// square roots and divisions of one group overlaps with the work on the other groups.
 constexpr int groups_at_once = 4;
 
-/// Data that one step passes to the next.
+/// Data that one step of the fast path passes to the next step.
 template <typename Scalar>
 struct FitBlock
 {
   static constexpr int lanes = Fast<Scalar>::lanes;
   int groups; ///< number of groups in use
   Index begin[groups_at_once]; ///< first matrix of each group
-  /// Leading lanes of each group that another group has already processed.
+  /// Number of leading lanes in each group that another group has already processed.
   int skipped[groups_at_once];
   Scalar horn[10][groups_at_once * lanes];
   /// Coefficients of the quartic.
   Scalar linear[groups_at_once * lanes], constant[groups_at_once * lanes];
   Scalar norm2[groups_at_once * lanes];
   Scalar eigenvalue[groups_at_once * lanes];
-  Scalar slope[groups_at_once * lanes]; ///< reliability of a lane: p'(lambda), or 0
+  /// P'(lambda) if the result of a lane can be trusted, otherwise 0.
+  Scalar slope[groups_at_once * lanes];
   Scalar rotation[9][groups_at_once * lanes];
 
   BINDPOSE_ALWAYS_INLINE Horn<Scalar> horn_of(int k) const
@@ -220,7 +226,8 @@ BINDPOSE_ALWAYS_INLINE void find_eigenvalues(FitBlock<Scalar>& __restrict block)
     for (int k = g * Limits::lanes; k < (g + 1) * Limits::lanes; ++k)
     {
       const Scalar c1 = block.linear[k], c0 = block.constant[k], norm2 = block.norm2[k];
-      // Upper bound: the sum of the three singular values for |S| = 1.
+      // Upper bound of the root: the sum of the three singular values is at most sqrt(3) for |S| =
+      // 1.
       Scalar x = Scalar(1.7320508075688772);
       Scalar step = 0;
       for (int i = 0; i < Limits::steps; ++i)
@@ -235,7 +242,7 @@ BINDPOSE_ALWAYS_INLINE void find_eigenvalues(FitBlock<Scalar>& __restrict block)
         x -= step;
       }
       // A lane is not trusted if the iteration has not converged (convergence to a double root is
-      // slow), or if |S|^2 is out of range. fit_carefully() then handles it.
+      // slow), or if |S|^2 is out of range. fit_carefully() processes such lanes.
       const Scalar slope = (4 * x * x - 4) * x + c1;
       block.slope[k] =
         std::abs(step) < Limits::last_step && norm2 > Limits::least && norm2 < Limits::most
@@ -287,7 +294,7 @@ BINDPOSE_ALWAYS_INLINE void make_rotations(Scalar diagonal, FitBlock<Scalar>& __
 }
 
 /// Write the rotations that can be trusted.
-/// @return the number of the others.
+/// @return the number of rotations that cannot be trusted.
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE int put_rotations(
   const MatrixPlanes<Scalar>& rotations, FitBlock<Scalar>& __restrict block)
@@ -301,7 +308,7 @@ BINDPOSE_ALWAYS_INLINE int put_rotations(
     {
       const int k = g * lanes + i;
       block.slope[k] = i < block.skipped[g] ? Scalar(1) : block.slope[k];
-      // NaN also counts as not trusted
+      // NaN compares as not trusted
       careful += block.slope[k] > Fast<Scalar>::slope ? 0 : 1;
       take[i] = i >= block.skipped[g] && block.slope[k] > Fast<Scalar>::slope;
     }
@@ -340,13 +347,14 @@ BINDPOSE_SIMD_CLONES int fit_block(const MatrixPlanes<const float>& s,
   return fit_groups(s, rotations, diagonal, block);
 }
 
-/// Compute the best rotation nearest to the previous one, for any S.
+/// Compute the best rotation of any S. If it is not unique, choose the one that is nearest to the
+/// previous rotation.
 void fit_carefully(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotation)
 {
   const double largest = matrix.cwiseAbs().maxCoeff();
   if (!(largest > 0.0) || !matrix.allFinite())
   {
-    return; // S has no information
+    return; // S does not determine a rotation
   }
   const Eigen::Matrix3d s = (matrix / largest).normalized();
   const Horn n =
@@ -371,7 +379,7 @@ void fit_carefully(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotation)
   rotation = Eigen::Quaterniond(best[0], best[1], best[2], best[3]).toRotationMatrix();
 }
 
-/// Fit the matrices of a block that the fast path could not fit, one by one.
+/// Fit the matrices of a block that the fast path could not fit, one after the other.
 template <typename Scalar>
 void fit_rest(const FitBlock<Scalar>& block, const MatrixPlanes<const Scalar>& s,
   const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
@@ -400,7 +408,8 @@ void fit_rest(const FitBlock<Scalar>& block, const MatrixPlanes<const Scalar>& s
   }
 }
 
-/// Fit all matrices. The result is R - I with `diagonal` added to its diagonal: 0, or 1 for R.
+/// Fit all matrices. The result is R - I with `diagonal` added to its diagonal entries: R - I for
+/// 0, R for 1.
 template <typename Scalar>
 void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
@@ -416,7 +425,7 @@ void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   };
   if (count < lanes)
   {
-    // Pad with leading zeros to a whole group.
+    // Pad with leading zero matrices to a whole group.
     const Index missing = lanes - count;
     Scalar in[9 * lanes] = {}, out[9 * lanes] = {};
     for (int e = 0; e < 9; ++e)
@@ -438,7 +447,7 @@ void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   {
     for (block.groups = 0; block.groups < groups_at_once && done < count; ++block.groups)
     {
-      // The last group overlaps the one before it and skips the lanes that are done.
+      // The last group overlaps the previous group and skips the matrices that are already done.
       const Index begin = std::min(done, count - lanes);
       block.begin[block.groups] = begin;
       block.skipped[block.groups] = static_cast<int>(done - begin);

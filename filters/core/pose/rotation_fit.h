@@ -1,6 +1,8 @@
 #ifndef bindpose_pose_rotation_fit_h
 #define bindpose_pose_rotation_fit_h
 
+// Rotations that best map rest edges to posed edges, for one or many 3 x 3 covariance matrices.
+
 #include "base/mesh.h"
 
 #include <vector>
@@ -10,11 +12,11 @@ namespace bindpose
 
 /// Replace `rotation` by the rotation R (det +1) that maximizes tr(R S).
 ///
-/// With S = sum of c e e'^T over rest edges e and posed edges e' this is the rotation that best
-/// maps the rest edges to the posed ones (Kabsch, Horn): for S = U diag(s) V^T it is
-/// V diag(1, 1, det(V U^T)) U^T. If the best rotation is not unique (rank 0 or 1, some
-/// reflections), the result is the best rotation nearest to the previous one. S = 0 therefore keeps
-/// the previous rotation exactly. S must be finite; its scale does not matter.
+/// For S = sum of c e e'^T over rest edges e and posed edges e', R is the rotation that best maps
+/// the rest edges to the posed edges (Kabsch, Horn). For S = U diag(s) V^T, R is V diag(1, 1, det(V
+/// U^T)) U^T. If the best rotation is not unique (rank 0 or 1, some reflections), the result is the
+/// best rotation that is nearest to the previous value of `rotation`. Therefore S = 0 keeps the
+/// previous rotation exactly. S must be finite; its scale does not affect the result.
 void fit_rotation(const Eigen::Matrix3d& s, Eigen::Matrix3d& rotation);
 
 /// Fit many rotations. Matrices are stored in planes: entry (row i, column j) of matrix k is
@@ -24,7 +26,7 @@ void fit_rotation(const Eigen::Matrix3d& s, Eigen::Matrix3d& rotation);
 /// rare matrices near rank 1.
 void fit_rotations(Index count, Index stride, const double* s, double* rotations);
 
-/// Entry (i, j) of matrix k is planes[i * by_row + j * by_column + k].
+/// Matrices stored in planes: entry (i, j) of matrix k is planes[i * by_row + j * by_column + k].
 template <typename Scalar>
 struct MatrixPlanes
 {
@@ -38,10 +40,10 @@ struct MatrixPlanes
 
 /// Fit many rotations and store R - I instead of R.
 void fit_turns(Index count, MatrixPlanes<const double> s, MatrixPlanes<double> turns);
-/// Fit in single precision, with an error of about 1e-6 and half the cost.
+/// Fit in single precision, with an error of about 1e-6 and half the computing time.
 void fit_turns(Index count, MatrixPlanes<const float> s, MatrixPlanes<float> turns);
 
-/// Return the first `count` matrices of such planes.
+/// Return the first `count` matrices that are stored in planes.
 std::vector<Eigen::Matrix3d> rotation_matrices(
   Index count, Index stride, const std::vector<double>& planes);
 

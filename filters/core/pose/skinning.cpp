@@ -1,9 +1,11 @@
-// Weights are stored in tiles of vertices, without the columns that are zero in the whole tile. A
-// vertex blends the handles' 3x4 matrices (or dual quaternions) first and is moved once. The cost
-// of a weight is therefore 12 (or 8) multiply-adds, for as many vertices together as a register
-// contains.
+// Skinning by tiles of vertices (weight_tiles.h).
 //
-// Linear blending uses T - identity: a handle that does not move adds exactly zero.
+// Weights are stored in tiles of vertices, without the columns that are zero in the whole tile. The
+// 3x4 matrices (or dual quaternions) of the handles are blended first, and then each vertex is
+// transformed once. Therefore a weight costs 12 (or 8) multiply-adds, which are computed in
+// parallel for as many vertices as fit in a register.
+//
+// Linear blending uses T - identity, so that a handle that does not move contributes exactly zero.
 #include "pose/skinning.h"
 
 #include "base/parallel.h"
@@ -19,8 +21,8 @@ namespace bindpose
 
 namespace
 {
-constexpr Index block_size = 2048; // a multiple of the tile sizes
-/// A row sum with a larger difference from one causes a warning.
+constexpr Index block_size = 2048; // vertices per block; a multiple of the tile sizes
+/// If a row sum differs from one by more than this, there is a warning.
 constexpr double row_sum_tolerance = 1e-6;
 
 /// Return the transforms minus the identity, for points relative to the center.
@@ -42,8 +44,8 @@ BlendValues<Scalar, 12> displacements(const std::vector<Affine>& transforms, con
   return moves;
 }
 
-/// Return a point near the middle of the points, the mean of a few of them. Floats relative to it
-/// are most accurate.
+/// Return a point near the middle of the points: the mean of a few of them. Single precision is
+/// most accurate for coordinates relative to such a point.
 Vec3 center_of(PointsView points)
 {
   const Index few = std::min<Index>(points.rows(), 64);
@@ -55,7 +57,7 @@ Vec3 center_of(PointsView points)
   return few > 0 ? Vec3(sum / static_cast<double>(few)) : sum;
 }
 
-/// to += what
+/// Add the coordinates of `what` to `to`.
 template <typename Scalar>
 void add(const TilePoints<Scalar>& what, TilePoints<Scalar>& to)
 {
@@ -80,7 +82,7 @@ Affine affine_of(const BlendedTile<Scalar, 12>& blended, Index lane)
   return a;
 }
 
-/// Return adj(A)^T: it transforms normals (areas) if A transforms points.
+/// Return adj(A)^T. It transforms normals (area vectors) if A transforms points.
 Eigen::Matrix3d cofactors(const Eigen::Matrix3d& a)
 {
   Eigen::Matrix3d c;
@@ -96,9 +98,10 @@ Vec3 unit_or(const Vec3& n, const Vec3& fallback)
   return length > 1e-300 ? Vec3(n / length) : fallback;
 }
 
-/// Return the unit normal under a linear map, or the old normal if it collapses. Only the map's
-/// direction matters. The map is scaled exactly, by a power of two, so that squares of huge and
-/// tiny entries neither overflow nor underflow.
+/// Transform a normal by a linear map and return it with unit length, or return the old normal if
+/// the result has no direction. The scale of the map has no effect. The map is first scaled by a
+/// power of two, which is exact, so that squares of huge and tiny entries neither overflow nor
+/// underflow.
 Vec3 turned_normal(const Eigen::Matrix3d& linear, const Vec3& n)
 {
   const double largest = linear.cwiseAbs().maxCoeff();
@@ -110,7 +113,7 @@ Vec3 turned_normal(const Eigen::Matrix3d& linear, const Vec3& n)
   return unit_or(cofactors(scaled) * n, n);
 }
 
-/// A rigid motion as a dual quaternion: real part, dual part, each (x, y, z, w).
+/// A rigid motion as a dual quaternion: a real and a dual part, each in the order (x, y, z, w).
 struct DualQuaternion
 {
   Eigen::Vector4d real, dual;
@@ -120,7 +123,7 @@ DualQuaternion dual_quaternion_of(const Eigen::Matrix3d& rotation, const Vec3& t
 {
   Eigen::Quaterniond q(rotation);
   q.normalize();
-  // A fixed sign, so that equal rotations have equal quaternions.
+  // The sign of the quaternion is fixed, so that equal rotations have equal quaternions.
   Eigen::Vector4d real = q.coeffs();
   for (int i = 3; i >= 0; --i)
   {
@@ -138,12 +141,12 @@ DualQuaternion dual_quaternion_of(const Eigen::Matrix3d& rotation, const Vec3& t
   return d;
 }
 
-/// A linear map as a shear followed by a rotation; without shear the rotation equals the map, bit
-/// for bit.
+/// A linear map as the product of a shear (with scale) and a rotation. If there is no shear, the
+/// rotation equals the map bit for bit.
 struct SplitMap
 {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d shear; ///< minus the identity
+  Eigen::Matrix3d shear; ///< shear matrix minus the identity
 };
 
 SplitMap split(const Eigen::Matrix3d& linear)
@@ -159,7 +162,8 @@ SplitMap split(const Eigen::Matrix3d& linear)
   return map;
 }
 
-/// Set the signs that align each quaternion to each reference; empty if all agree.
+/// Set the signs that align the quaternion of each handle to the quaternion of each reference
+/// handle. The list is empty if no sign is negative.
 template <typename Scalar>
 void set_signs(const std::vector<DualQuaternion>& motions, BlendValues<Scalar, 8>& quaternions)
 {
@@ -179,7 +183,7 @@ void set_signs(const std::vector<DualQuaternion>& motions, BlendValues<Scalar, 8
   }
 }
 
-/// The kept weights of a row, and the factor that they are multiplied by.
+/// The weights of a row that are kept, and the factor that compensates for the dropped weights.
 class KeptRow
 {
 public:
@@ -259,7 +263,8 @@ const WeightTiles<double>& Skinning::tiles() const
   return this->doubles_;
 }
 
-/// Copy the kept weights into tiles: first the columns of each tile, then the weights.
+/// Copy the kept weights to tiles. The first pass finds the columns of each tile, the second pass
+/// copies the weights.
 template <typename Scalar>
 bool Skinning::pack(ExecutionContext& context, WeightsView weights, const SkinningOptions& options,
   WeightTiles<Scalar>& tiles)
@@ -533,7 +538,8 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
     {
       return status;
     }
-    // P (v + sum w (T v - v)) = P v + sum w L (T v - v), where L is the linear part of P.
+    // The placement P is applied to the transforms: P (v + sum w (T v - v)) = P v + sum w L (T v -
+    // v), where L is the linear part of P.
     std::vector<Affine> placed = transforms[i];
     for (std::size_t j = 0; !placements.empty() && j < placed.size(); ++j)
     {
@@ -647,7 +653,8 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
   const Vec3 center = normals ? Vec3::Zero() : center_of(rest);
-  // x -> L x + t is the scale and shear x -> c + P (x - c), followed by the rigid y -> R y + u.
+  // Each transform x -> L x + t is split: first the scale and shear x -> c + P (x - c) about the
+  // pivot c, then the rigid motion y -> R y + u.
   std::vector<Affine> shears(transforms.size());
   std::vector<DualQuaternion> motions(transforms.size());
   BlendValues<Scalar, 8> quaternions;
@@ -677,7 +684,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
       BlendedTile<Scalar, 12> sheared;
       BlendedTile<Scalar, 8> blended;
       TilePoints<Scalar> points, moved, first;
-      Points turned; // normals after the shears
+      Points turned; // normals after scale and shear
       for (Index v = begin; v < end; v += lanes)
       {
         const Index count = std::min(lanes, end - v);
@@ -701,7 +708,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
         }
         if (normals)
         {
-          // Directions do not translate.
+          // Set the dual parts to zero, because directions are not translated.
           std::fill(&blended.sums[4][0], &blended.sums[4][0] + 4 * lanes, Scalar(0));
         }
         load_points(from, count, center, points);
@@ -751,7 +758,8 @@ Status Skinning::dual_quaternion_normals(ExecutionContext& context, PointsView r
   return done ? status : Status::canceled();
 }
 
-/// @param centers null: `rest` contains normals.
+/// Blend rotations about centers. @param centers if null, `rest` contains normals instead of
+/// points.
 template <typename Scalar>
 bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
   const std::vector<Affine>& transforms, const PointsView* centers, Points& posed) const
@@ -762,7 +770,7 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
   const auto moves = displacements<Scalar>(transforms, middle);
   std::vector<Affine> shears;
   std::vector<DualQuaternion> motions;
-  BlendValues<Scalar, 8> quaternions; // the dual parts are zero
+  BlendValues<Scalar, 8> quaternions; // the dual parts are zero because only rotations are blended
   bool any_shear = false;
   for (const Affine& transform : transforms)
   {
@@ -813,7 +821,8 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
             posed.row(v + i) = turned_normal(linear, Vec3(rest.row(v + i))).transpose();
             continue;
           }
-          // Only displacements are added: a handle that does not move adds exactly zero.
+          // Only displacements are added, so that a handle that does not move contributes exactly
+          // zero.
           const Vec3 center = centers->row(v + i);
           const Affine move = affine_of(moved, i);
           const Vec3 arm = rest.row(v + i).transpose() - center;

@@ -1,9 +1,15 @@
-// For free vertices only, with S = M^(1/2) and a small shift s, L w = lambda M w is
+// Skinning eigenmodes by a shift-and-invert Lanczos method (Spectra).
+//
+// The equation L w = lambda M w is restricted to free vertices. With S = M^(1/2) and a small shift
+// s, it is equivalent to
+//
 //     S (L + s M)^-1 S x = x / (lambda + s),   x = S w.
-// The operator is symmetric, the largest eigenvalues are the required ones, and each product is one
-// solve with a sparse factor. The shift makes L + s M definite if a part has no fixed vertex. It is
-// far below any eigenvalue of a bending mode. Lanczos' method (Spectra) always starts from the same
-// vector, so the result is reproducible.
+//
+// The operator on the left is symmetric, its largest eigenvalues correspond to the smallest lambda,
+// and each product needs one solve with a sparse factor. The shift makes L + s M positive definite
+// if a connected part has no vertex at which modes are zero. The shift is far below any eigenvalue
+// of a nonconstant mode. The Lanczos method always starts with the same vector, so the result is
+// reproducible.
 #include "pose/skinning_eigenmodes.h"
 
 #include "base/sparse_solver.h"
@@ -20,11 +26,11 @@ namespace bindpose
 
 namespace
 {
-/// The shift as a fraction of the mean eigenvalue.
+/// Shift s, as a fraction of the mean eigenvalue.
 constexpr double shift_share = 1e-9;
-/// Rows of weights within this distance are one point in weight space.
+/// Rows of weights are equal if their distance is at most this.
 constexpr double same_place = 1e-9;
-/// If there are at most this many free vertices, the dense solver is used.
+/// Maximum number of free vertices for which a dense eigenvalue solver is used.
 constexpr Index dense_size = 100;
 constexpr double tolerance = 1e-10;
 constexpr Index most_restarts = 300;

@@ -1,5 +1,5 @@
-// The rotation R nearest to L maximizes tr(R L^T). At the maximum R^T L is symmetric, because
-// otherwise a small rotation would increase the trace.
+// Polar decomposition of transforms. The rotation R nearest to L maximizes tr(R L^T). At the
+// maximum R^T L is symmetric, because otherwise a small rotation would increase the trace.
 #include "pose/transform_parts.h"
 
 #include "pose/rotation_fit.h"
@@ -22,7 +22,7 @@ TransformParts parts_of(const Affine& transform, const Vec3& pivot)
   const Eigen::Matrix3d linear = transform.leftCols<3>();
   TransformParts parts;
   parts.translation = linear * pivot + transform.col(3) - pivot;
-  if (linear != Eigen::Matrix3d::Identity()) // the identity must be returned without round-off
+  if (linear != Eigen::Matrix3d::Identity()) // for the identity, the result must be exact
   {
     fit_rotation(linear.transpose(), parts.rotation);
     parts.scale = parts.rotation.transpose() * linear;

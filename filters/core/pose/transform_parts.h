@@ -1,6 +1,8 @@
 #ifndef bindpose_pose_transform_parts_h
 #define bindpose_pose_transform_parts_h
 
+// Affine maps about a pivot, and their decomposition into translation, rotation and scale.
+
 #include "pose/pose.h"
 
 namespace bindpose
@@ -21,7 +23,7 @@ struct TransformParts
 TransformParts parts_of(const Affine& transform, const Vec3& pivot);
 Affine affine_of(const TransformParts& parts, const Vec3& pivot);
 
-/// Return the axis of a rotation times its angle in degrees, 0 to 180.
+/// Return the rotation axis times the rotation angle in degrees, 0 to 180.
 Vec3 rotation_vector(const Eigen::Matrix3d& rotation);
 
 } // namespace bindpose

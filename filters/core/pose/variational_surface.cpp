@@ -1,7 +1,8 @@
-// The patch consists of the vertices that no handle and no flag constrains. Positions or
-// displacements at given vertices are passed to Polyharmonic coordinate by coordinate. Tangents are
-// passed as its flux; for displacements, as the difference of the required flux and the flux at
-// rest.
+// Smooth surfaces by polyharmonic equations (polyharmonic.h). The patch consists of the free
+// vertices, which neither a handle nor a flag constrains. The positions or displacements of the
+// constrained vertices are passed to Polyharmonic as one column per coordinate. Tangents are passed
+// as a flux. If the unknowns are displacements, this is the difference between the required flux
+// and the flux at rest.
 #include "pose/variational_surface.h"
 
 #include <cmath>
@@ -12,7 +13,8 @@ namespace bindpose
 
 namespace
 {
-/// A last correction above this fraction leaves fewer than six correct digits.
+/// If the last correction is above this fraction of the solution, fewer than six digits are
+/// correct.
 constexpr double uncertain = 1e-6;
 
 Status check_length(const char* what, Index count, Index vertices)
@@ -164,7 +166,7 @@ Status VariationalSurface::prepare(ExecutionContext& context, const Pose& pose)
   return status;
 }
 
-/// Return #V rows with the given rows at given vertices and zero elsewhere.
+/// Return a #V x 3 matrix with the rows of `given` at the given vertices and zero elsewhere.
 VariationalSurface::Rows VariationalSurface::known(const Rows& given) const
 {
   Rows all = Rows::Zero(this->rest_.rows(), 3);

@@ -8,73 +8,78 @@
 namespace bindpose
 {
 
-/// Source of the derivatives across the edge of a patch, for PatchBoundary::tangent. The integers
-/// are those of vtkVariationalSurface.
+/// Derivatives across the edge of a patch that are prescribed for PatchBoundary::tangent. The
+/// integers are those of vtkVariationalSurface.
 enum class PatchTangents : int
 {
-  surroundings = 0, ///< the triangles across the edge; zero where the mesh ends
-  given = 1, ///< VariationalSurfaceOptions::tangents
-  clamped = 2 ///< zero: displacements keep the tangents at rest, positions get a cusp
+  /// Derivatives on the triangles on the other side of the edge; zero where the mesh ends.
+  surroundings = 0,
+  given = 1, ///< the values of VariationalSurfaceOptions::tangents
+  clamped = 2 ///< zero. Displacements keep the tangents at rest; positions get a cusp.
 };
 
+/// Options of VariationalSurface::bind().
 struct VariationalSurfaceOptions
 {
-  /// 1: Laplacian = 0, a membrane; 2: its square, a thin plate; 3: its cube.
+  /// Exponent of the Laplacian in the equation. 1: the Laplacian, a membrane; 2: its square, a thin
+  /// plate; 3: its cube.
   int order = 2;
   PatchBoundary boundary = PatchBoundary::region;
   PatchTangents tangent_source = PatchTangents::surroundings;
-  /// The unknowns: displacements from rest (details are kept) if false, or positions (the patch is
-  /// replaced by a surface that fits its surroundings) if true.
+  /// Type of the unknowns. false: displacements from rest, so that details are kept. true:
+  /// positions, so that the patch is replaced by a smooth surface that continues its surroundings.
   bool fair = false;
   /// #V x 3 positions of the vertices in the parameter domain; empty: the rest positions.
   Points parameters;
-  /// #V flags of fixed vertices, in addition to those that handles constrain; empty: none.
+  /// #V flags: 1 for vertices that are fixed in addition to those that handles constrain; empty:
+  /// none.
   std::vector<char> fixed;
-  /// #V x 3 derivatives of the position across the edge, outwards, per unit of the parameter
-  /// domain. A unit vector that points away from the patch makes it isometric. Used by
-  /// PatchTangents::given.
+  /// #V x 3 derivatives of the position in the direction perpendicular to the edge, outwards, per
+  /// unit length of the parameter domain. With unit vectors that point away from the patch, the
+  /// patch is isometric to the parameter domain at the edge. Used by PatchTangents::given.
   Points tangents;
-  /// #V x 3: required values of (-Laplacian)^order of the position (fair) or displacement; empty:
-  /// zero.
+  /// #V x 3 right-hand side: required values of (-Laplacian)^order of the position (if `fair`) or
+  /// of the displacement; empty: zero.
   Points load;
   /// #V labels of the vertices (Handle::region_id; 0: none). Required if a handle is a region.
   std::vector<Index> region_ids;
 };
 
-/// Smooth surfaces between constraints. Each coordinate of the free vertices solves Laplace's
-/// equation of order 1, 2 or 3, with the operator frozen on a parameter domain. Jacobson, Tosun,
-/// Sorkine, Zorin 2010, Mixed finite elements for variational surface modeling.
+/// Smooth surfaces between constraints. Each coordinate of the free vertices solves a polyharmonic
+/// equation of order 1, 2 or 3. The Laplacian is that of a constant parameter domain. Method:
+/// Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite elements for variational surface modeling.
 ///
 ///     VariationalSurface surface;
 ///     surface.bind(context, points, triangles, handles, options);  // once
 ///     surface.solve(context, pose);            // factors if modes change, then solves
 ///     surface.posed();
 ///
-/// Handles constrain the mesh as in FullArap (see MeshGrips); there may be no handle. The method is
-/// linear: large rotations shear details, and nothing is kept rigid.
+/// Handles constrain the mesh as in FullArap (see MeshGrips); handles are optional. The method is
+/// linear: large rotations shear details, and no part remains rigid.
 ///
-/// A connected part without constraints does not move if displacements are solved for. It is an
-/// error if positions are solved for, because the part has no shape then.
+/// If the unknowns are displacements, a connected part without constraints does not move. If the
+/// unknowns are positions, such a part is an error, because its shape is undetermined.
 ///
 /// Cost: bind O(#V). A solve after a change of modes needs one sparse factorization of the free
-/// vertices' matrix (7, 19 or 37 entries per row). Every solve needs a few solves with the factor
-/// for three right-hand sides.
+/// vertices' matrix (about 7, 19 or 37 entries per row for order 1, 2 or 3). Every solve needs a
+/// few solves with the factor for three right-hand sides.
 class VariationalSurface
 {
 public:
-  /// Report: counts.vertices, counts.triangles, counts.handles, method, order, boundary. A warning
-  /// names handles that are not on the mesh. invalid_input for numbers that are not finite, arrays
-  /// of the wrong length, an order other than 1 to 3, no triangle, and a region without label or
-  /// vertices.
+  /// Bind a mesh and its handles. The report contains counts.vertices, counts.triangles,
+  /// counts.handles, method, order and boundary. A warning contains the names of handles that are
+  /// not on the mesh. Return invalid_input if a value is not finite, an array has the wrong length,
+  /// the order is not 1 to 3, there is no triangle, or a region has no label or no vertices.
   Status bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
     const Handles& handles, const VariationalSurfaceOptions& options = {});
 
-  /// Find the vertices of a pose, which has one entry per handle. Report: counts.free,
-  /// counts.constrained (vertices and points held), condition (a lower bound of the condition
-  /// number of the factored matrix with ones on its diagonal), refinement (the last correction, as
-  /// a fraction of the largest coordinate), constraint_residual (in bounding-box diagonals).
-  /// Errors: see Polyharmonic::prepare; in addition, positions without any constraint. Warnings
-  /// name contradictory or redundant handles, a refinement that leaves few correct digits, and
+  /// Compute the vertices for a pose, which has one entry per handle. The report contains
+  /// counts.free, counts.constrained (number of constrained vertices and points), condition (a
+  /// lower bound of the condition number of the factored matrix, scaled to ones on its diagonal),
+  /// refinement (the last correction, as a fraction of the largest coordinate) and
+  /// constraint_residual (in bounding-box diagonals). Errors are those of Polyharmonic::prepare;
+  /// another error is a part without constraints if the unknowns are positions. Warnings report
+  /// contradictory or redundant handles, a refinement after which few digits are correct, and
   /// boundary conditions that have less effect than expected.
   Status solve(ExecutionContext& context, const Pose& pose);
 
@@ -100,7 +105,9 @@ private:
   bool prepared_ = false;
   std::vector<HandleMode> modes_;
   Polyharmonic system_;
-  Status prepared_status_; ///< its report and warnings are part of every solve's status
+  /// Status of the last preparation; its report and warnings are copied to the status of every
+  /// solve.
+  Status prepared_status_;
   Index factorizations_ = 0;
 
   Points posed_;

@@ -1,5 +1,6 @@
-// Distances are computed as |x|^2 - 2 x.c + |c|^2, with one matrix product per block of rows. Every
-// step that could depend on the order of threads (means, ties, empty clusters) runs in row order.
+// Clusters of vertices with similar weights, by k-means. Distances are computed as |x|^2 - 2 x.c +
+// |c|^2, with one matrix product per block of rows. All steps whose result could depend on the
+// order of threads (means, ties, empty clusters) are processed in row order.
 #include "pose/weight_clusters.h"
 
 #include "base/dense_product.h"
@@ -15,9 +16,10 @@ namespace
 {
 constexpr Index block_size = 512;
 constexpr Index lloyd_rounds = 100;
-/// Number of sampled rows per cluster for the means; all rows are assigned at the end.
+/// Number of sampled rows per cluster from which the means are computed. At the end all rows are
+/// assigned to the means.
 constexpr Index rows_a_cluster = 25;
-/// Rows within this distance are one point of weight space.
+/// Rows are equal if their distance is at most this.
 constexpr double same_row = 1e-12;
 
 /// Return a pseudo-random number that is the same on every machine (splitmix64).
@@ -29,7 +31,8 @@ std::uint64_t scramble(std::uint64_t x)
   return x ^ (x >> 31);
 }
 
-/// Label rows by the nearest mean (the lowest of equally near ones). Return false if canceled.
+/// Label each row by its nearest mean (the lowest label if several means are equally near). Return
+/// false if canceled.
 bool assign_rows(
   ExecutionContext& context, WeightsView rows, const Weights& means, std::vector<Index>& labels)
 {
@@ -144,8 +147,8 @@ bool cluster_rows(ExecutionContext& context, WeightsView rows, Index count, Clus
   Weights sample((rows.rows() + step - 1) / step, rows.cols());
   for (Index i = 0; i < sample.rows(); ++i)
   {
-    // One random row of each `step` rows, because the numbering of meshes repeats at regular
-    // strides.
+    // Sample one random row from each `step` consecutive rows. Sampling at a constant stride is
+    // avoided, because the vertex order of meshes is often periodic.
     const auto offset = static_cast<Index>(scramble(static_cast<std::uint64_t>(i)) %
       static_cast<std::uint64_t>(std::min(step, rows.rows() - i * step)));
     sample.row(i) = rows.row(i * step + offset);

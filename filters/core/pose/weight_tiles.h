@@ -12,24 +12,24 @@ namespace bindpose
 
 /// Weights in tiles of consecutive vertices. A tile stores, for each column that any of its
 /// vertices has, one weight per vertex, including zeros. A tile is as wide as the widest registers,
-/// so a blend multiplies whole registers by a few numbers per column.
-/// Scalar: float (tiles of 16) or double (tiles of 8).
+/// so a blend multiplies whole registers by the few values of a handle. Scalar: float (tiles of 16)
+/// or double (tiles of 8).
 template <typename Scalar>
 struct WeightTiles
 {
   static constexpr Index lanes = 64 / sizeof(Scalar);
 
-  std::vector<Index> start{ 0 }; ///< #tiles + 1, into columns
-  std::vector<std::int32_t> columns; ///< ascending within a tile
+  std::vector<Index> start{ 0 }; ///< #tiles + 1: index in `columns` of each tile's first column
+  std::vector<std::int32_t> columns; ///< handle of each column, ascending within a tile
   std::vector<Scalar> weights; ///< `lanes` weights for each column
 
-  /// Tile of a vertex, and its position in the tile.
+  /// Return the tile of a vertex. The next function returns its lane in the tile.
   static Index tile_of(Index vertex) { return vertex / lanes; }
   static Index lane_of(Index vertex) { return vertex % lanes; }
   Index weight_of(Index k, Index lane) const { return k * lanes + lane; }
 };
 
-/// The values that the vertices of a tile blend: `entries` numbers per handle.
+/// The values that are blended: `entries` values per handle, such as the entries of a matrix.
 template <typename Scalar, int entries>
 struct BlendValues
 {
@@ -37,13 +37,13 @@ struct BlendValues
   /// The sign bit of a Scalar.
   static constexpr Bits sign_bit = std::numeric_limits<Bits>::min();
 
-  std::vector<Scalar> values; ///< `entries` numbers for each handle
-  /// One entry for each pair of handles, the column and the vertex's reference: sign_bit if the
-  /// weight counts with the opposite sign, else 0. Empty: all 0.
+  std::vector<Scalar> values; ///< `entries` values for each handle
+  /// For each pair of a column's handle and a vertex's reference handle: sign_bit if the handle's
+  /// values are negated in the sum, else 0. Empty: all 0.
   std::vector<Bits> signs;
 };
 
-/// The sums of a tile: one row per entry, one lane per vertex.
+/// The blended values of a tile: one row per entry, one lane per vertex.
 template <typename Scalar, int entries>
 struct alignas(64) BlendedTile
 {
@@ -51,8 +51,8 @@ struct alignas(64) BlendedTile
 };
 
 /// Compute sum_j w_j values_j for each vertex of the tile, in the order of the columns.
-/// @param references reference handle of each vertex of the tile, for the signs; null without
-/// signs.
+/// @param references reference handle of each vertex of the tile, which selects the signs; null if
+/// there are no signs.
 template <typename Scalar, int entries>
 void blend_tile(const WeightTiles<Scalar>& weights, Index tile,
   const BlendValues<Scalar, entries>& values, const std::int32_t* references,
@@ -65,7 +65,7 @@ struct alignas(64) TilePoints
   Scalar at[3][WeightTiles<Scalar>::lanes];
 };
 
-/// Load points relative to the center; lanes beyond `count` repeat the first point.
+/// Load the points of a tile, relative to the center. Lanes beyond `count` repeat the first point.
 template <typename Scalar>
 void load_points(const double* rest, Index count, const Vec3& center, TilePoints<Scalar>& points);
 
@@ -75,8 +75,9 @@ template <typename Scalar>
 void affine_moves(const BlendedTile<Scalar, 12>& blended, const TilePoints<Scalar>& points,
   TilePoints<Scalar>& moves);
 
-/// Compute the displacements of points by rigid motions. These are sums of dual quaternions (real
-/// x, y, z, w, then dual), divided by their length; a sum of length zero gives no displacement.
+/// Compute the displacements of points by rigid motions. The blended values are sums of dual
+/// quaternions (real part x, y, z, w, then dual part), which are divided by their length. If the
+/// length is zero, there is no displacement.
 template <typename Scalar>
 void dual_quaternion_moves(const BlendedTile<Scalar, 8>& blended, const TilePoints<Scalar>& points,
   TilePoints<Scalar>& moves);

@@ -1,11 +1,11 @@
-// At every vertex as many open edges enter as leave, so a walk along open edges always returns. If
-// a walk reaches a vertex for the second time, the loop since the first visit is cut off and
-// capped.
+// An open edge is one whose directions do not cancel. As many open edges enter a vertex as leave
+// it, so a walk along open edges always returns. When the walk reaches a vertex for the second
+// time, the loop since the first visit is removed from the walk and capped.
 //
-// A loop is capped by bisection: the chord between its ends and the vertex half way between them
-// form a triangle, and both halves are capped in the same way. Most triangles are then as small as
-// the edges and close to the boundary. Trees and cells handle them faster than the many long
-// triangles of a fan.
+// A loop is capped by bisection: the chord between its ends and the middle vertex of the loop form
+// a triangle. Then both halves of the loop are capped in the same way. Most triangles are then as
+// small as the edges and close to the boundary. WindingTree and WindingCells process them faster
+// than the many long triangles of a fan.
 #include "winding/boundary_caps.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct DirectedEdge
   Index from, to;
 };
 
-/// Add the triangles between the chord first-last and the vertices of the path between them.
+/// Add the triangles that fill the region between the path first … last and its chord.
 void cap_path(const std::vector<Index>& path, std::size_t first, std::size_t last,
   std::vector<std::array<Index, 3>>& caps)
 {
@@ -52,7 +52,7 @@ Triangles boundary_caps(const std::vector<Edge>& edges)
   // Vertices are numbered by rank, so that the arrays have the size of the boundary, not of the
   // mesh.
   std::vector<Index> vertices;
-  std::vector<std::size_t> next; // first unvisited edge of each vertex
+  std::vector<std::size_t> next; // index of the first unvisited edge at each vertex
   for (std::size_t i = 0; i < open.size(); ++i)
   {
     if (i == 0 || open[i].from != open[i - 1].from)
@@ -68,7 +68,7 @@ Triangles boundary_caps(const std::vector<Edge>& edges)
   };
   std::vector<std::array<Index, 3>> caps;
   constexpr std::size_t not_on_path = ~std::size_t{ 0 };
-  std::vector<std::size_t> place(vertices.size(), not_on_path); // index on the path
+  std::vector<std::size_t> place(vertices.size(), not_on_path); // index of each vertex on the path
   std::vector<Index> path;
   for (std::size_t start = 0; start < vertices.size(); ++start)
   {
@@ -108,8 +108,8 @@ Triangles boundary_caps(const std::vector<Edge>& edges)
 
 Triangles smaller_caps(const Points& points, const Triangles& triangles, const Triangles& caps)
 {
-  // The vertices of a cap belong to one component, because a walk along the boundary cannot leave
-  // it.
+  // All vertices of a cap belong to one component, because a walk along the boundary cannot leave
+  // the component.
   const Components parts = connected_components(points.rows(), triangles);
   const auto part_of = [&](const auto& triangle) { return parts.of_vertex[triangle[0]]; };
   const auto squared_length = [&](const auto& triangle)
@@ -122,7 +122,8 @@ Triangles smaller_caps(const Points& points, const Triangles& triangles, const T
     }
     return longest;
   };
-  // Size of the caps minus size of the component, for each component.
+  // For each component: the sum of the squared longest edges of its caps, minus the same sum for
+  // its triangles.
   std::vector<double> excess(static_cast<std::size_t>(parts.count), 0.0);
   for (Index t = 0; t < caps.rows(); ++t)
   {

@@ -1,19 +1,24 @@
+// Exact winding numbers of curves in the plane, by ray crossings for closed loops plus the angles
+// of chords for open ends.
+//
 // The build merges equal vertices and walks along the segments until each one is used. Walks start
 // at vertices with more outgoing than incoming segments, then at all others. A walk that ends at
 // its start is a closed curve. Any other walk is closed by a chord from its end to its start. Thus
-// the segments become loops, with one chord per pair of open ends, the smallest possible number.
+// the segments become loops. There is one chord per pair of open ends, which is the minimum.
 //
-// The winding number of the curve is that of the loops, an integer, plus 1/(2 pi) times the angles
-// of the chords, seen from start to end. The loops contain the chords in the other direction.
+// The winding number of the curve is the integer winding number of the loops plus 1/(2 pi) times
+// the angles of the chords from start to end, as seen from the point. (The loops contain each chord
+// in the direction from end to start.)
 //
 // The winding number of a loop is the signed number of times it crosses the ray from the point
-// toward -x. A vertex at the ray's height counts as above it, and an exact predicate decides
-// whether a segment passes left of the point. Therefore no crossing is missed or counted twice.
+// toward -x. A vertex at the height of the ray counts as above the ray, and an exact predicate
+// decides whether a segment passes left of the point. Therefore no crossing is missed or counted
+// twice.
 //
 // Crossings are counted in a tree over the pieces of the loop. If the point is outside a piece's
 // box, the piece crosses the ray as often as the straight line between its ends, because both
-// together do not wind around the point. The loops form a tree of boxes, too; outside its box a
-// loop has the winding number 0.
+// together do not wind around the point. The loops are also sorted into a tree of boxes; outside
+// its box a loop has the winding number 0.
 //
 // If the point touches a segment, the angles of the other segments are summed instead, in the same
 // tree. Outside its box, a piece has the angle of the straight line between its ends.
@@ -36,10 +41,11 @@ namespace bindpose
 namespace
 {
 using Id = std::int32_t;
-/// Pieces of at most this many segments are not split further (measured: 4 … 12 have nearly the
-/// same speed).
+/// Pieces with at most this many segments are not split further. (Measured: limits from 4 to 12
+/// have nearly the same speed.)
 constexpr Id most_in_leaf = 6;
-/// Beyond this distance, in units of the curve, the winding number is 0 in double precision.
+/// Beyond this distance from the origin, in units of the curve's size, the winding number is 0 in
+/// double precision.
 constexpr double far_away = 1e20;
 constexpr double pi = 3.14159265358979323846;
 constexpr double two_pi = 2.0 * pi;
@@ -52,7 +58,7 @@ bool is_above(const Vec2& a, const Vec2& p)
 }
 
 /// Return how often the segment a, b crosses the ray from p toward -x: +1 downwards, -1 upwards. A
-/// segment through p crosses the ray.
+/// segment through p counts as crossing the ray.
 int crossing(const Vec2& a, const Vec2& b, const Vec2& p)
 {
   const int downwards = static_cast<int>(is_above(a, p)) - static_cast<int>(is_above(b, p));
@@ -162,8 +168,8 @@ struct Segment
 
 struct Welded
 {
-  std::vector<Vec2> points; ///< in the frame, equal points once
-  std::vector<Segment> segments; ///< without those from a vertex to itself
+  std::vector<Vec2> points; ///< in the exact frame; equal points are merged
+  std::vector<Segment> segments; ///< without segments from a vertex to itself
   Index merged_vertices = 0;
 };
 
@@ -215,7 +221,7 @@ bool weld(PlanePointsView points, SegmentsView segments, const ExactFrame& frame
   return true;
 }
 
-/// Count the segments that join the same two vertices as an earlier one, in either direction.
+/// Count the segments that join the same two vertices as an earlier segment, in either direction.
 /// Return false if canceled.
 bool count_duplicates(
   const std::vector<Segment>& segments, ExecutionContext& context, Index& duplicates)
@@ -243,14 +249,14 @@ struct Degree
   Id in = 0, out = 0;
 };
 
-/// A closed curve of segments and at most one chord.
+/// A closed curve of segments, which may end with a chord.
 struct Loop
 {
-  Id first, last; ///< indices on the path; both are the same vertex
+  Id first, last; ///< indices on the path; both refer to the same vertex
   bool open; ///< whether the last segment is a chord
 };
 
-/// Write the vertices along the loops to `path`, one loop after the other.
+/// Write the vertices of all loops to `path`, one loop after the other.
 void walk(const std::vector<Segment>& segments, const std::vector<Degree>& degrees,
   std::vector<Id>& path, std::vector<Loop>& loops)
 {
@@ -312,9 +318,10 @@ struct Chord
 /// A piece of a loop, a loop, or several loops.
 struct Node
 {
-  Vec2 lower, upper; ///< box with a margin: a point that touches the node is inside
-  double first_y, last_y; ///< y of a piece's ends; equal for loops
-  Id first, last; ///< indices on the path of a piece's ends; equal for several loops
+  Vec2 lower, upper; ///< box with a margin, so that it contains every point that touches the node
+  double first_y, last_y; ///< y coordinates of the ends of a piece; equal for loops
+  /// Indices on the path of the ends of a piece; equal if the node has several loops.
+  Id first, last;
   Id skip; ///< index of the node after this node's descendants
   bool leaf;
   bool ends_with_chord; ///< whether the last segment of a leaf is a chord
@@ -357,7 +364,7 @@ public:
 private:
   bool stopped(Id size)
   {
-    constexpr Id large = 1 << 14; // takes about a millisecond
+    constexpr Id large = 1 << 14; // building a piece of this size takes about a millisecond
     this->stopped_ = this->stopped_ || (size >= large && this->context_.canceled());
     return this->stopped_;
   }
@@ -441,7 +448,7 @@ private:
     this->nodes_[node].last_y = this->path_[last].y();
   }
 
-  /// Complete a node after its children.
+  /// Compute the box of a node and its `skip` index after its children are complete.
   void finish(std::size_t node)
   {
     if (this->stopped_)
@@ -467,7 +474,8 @@ private:
   bool stopped_ = false;
 };
 
-/// Return the area, by the shoelace formula about the first point of each loop.
+/// Return the area of the inside, multiplied by the winding number, by the shoelace formula about
+/// the first point of each loop.
 double area_of(const std::vector<Vec2>& path, const std::vector<Loop>& loops)
 {
   double two_areas = 0.0;
@@ -536,7 +544,8 @@ Status CurveWindingNumber::build(
   if (done)
   {
     std::vector<Degree> degrees(welded.points.size());
-    Triangles flat(static_cast<Index>(welded.segments.size()), 3); // for connected_components
+    // Segments as triangles, for connected_components().
+    Triangles flat(static_cast<Index>(welded.segments.size()), 3);
     for (std::size_t e = 0; e < welded.segments.size(); ++e)
     {
       const Segment& segment = welded.segments[e];
@@ -581,7 +590,7 @@ Status CurveWindingNumber::build(
     }
     report.set("area", area_of(parts.path, loops) / parts.frame.scale / parts.frame.scale);
     const ProgressRange range(context, 0.7, 1.0);
-    // Twice the tolerance, because boxes are rounded.
+    // Twice the tolerance, because box coordinates are rounded.
     done = TreeBuilder(
       parts.path, loops, 2.0 * parts.frame.tolerance, context, parts.nodes, parts.chords)
              .run();
@@ -691,7 +700,7 @@ double CurveWindingNumber::Parts::at_touching(const Vec2& p) const
     }
     ++n;
   }
-  // The sum does not contain the chords of leaves whose segments were summed one by one.
+  // Cancel the chords in the sum. They belong to leaves that were not summed segment by segment.
   for (const Chord& chord : this->chords)
   {
     if (outside(this->nodes[chord.leaf]))
@@ -702,10 +711,10 @@ double CurveWindingNumber::Parts::at_touching(const Vec2& p) const
   return angles / two_pi;
 }
 
-/// Up to full turns, the angle from s to t seen from p is arg(t - p) - arg(s - p). Let
-/// (X, Y) = v - p. Then d arg(v - p) = (X dY - Y dX) / (X^2 + Y^2) and (dX, dY) = -dp, so the
-/// derivative of arg(v - p) along p is (Y, -X) / (X^2 + Y^2). Only open ends contribute, because
-/// the contributions of all other vertices cancel.
+/// Return the gradient of the winding number. Up to full turns, the angle from s to t seen from p
+/// is arg(t - p) - arg(s - p). Let (X, Y) = v - p. Then d arg(v - p) = (X dY - Y dX) / (X^2 + Y^2)
+/// and (dX, dY) = -dp, so the derivative of arg(v - p) along p is (Y, -X) / (X^2 + Y^2). Only open
+/// ends contribute, because the contributions of all other vertices cancel.
 Vec2 CurveWindingNumber::Parts::gradient_at(const Vec2& query) const
 {
   if (!query.allFinite())

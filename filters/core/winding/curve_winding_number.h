@@ -1,6 +1,8 @@
 #ifndef bindpose_winding_curve_winding_number_h
 #define bindpose_winding_curve_winding_number_h
 
+// Winding numbers of curves in the plane (Jacobson, Kavan, Sorkine-Hornung 2013).
+
 #include "base/execution.h"
 #include "base/mesh.h"
 
@@ -18,18 +20,19 @@ using Segments = Eigen::Matrix<Index, Eigen::Dynamic, 2, Eigen::RowMajor>;
 using PlanePointsView = MatrixView<PlanePoints>;
 using SegmentsView = MatrixView<Segments>;
 
-/// Winding number of curves in the plane, given as oriented segments (Jacobson, Kavan,
+/// Winding number of curves in the plane, represented by oriented segments (Jacobson, Kavan,
 /// Sorkine-Hornung, 2013). It is 1/(2 pi) times the sum of the signed angles of all segments, seen
 /// from the point.
 ///
 /// The segments may form closed, open, intersecting, duplicated or branching curves, in any order.
-/// Their orientation determines the sign: counter-clockwise gives +1 inside. Closed curves give
-/// exact integers; the values of open curves vary smoothly through their gaps.
+/// Their orientation determines the sign: a counter-clockwise curve has the winding number +1
+/// inside. Closed curves give exact integers; the values of open curves vary smoothly through their
+/// gaps.
 ///
-/// - **On the curve**: segments that touch the point count 0 (the principal value): 1/2 on an edge
-///   and 1/4 at a corner of a square. A segment touches a point within a few units in the last
-///   place of the largest coordinate (2^-49 of it).
-/// - **Segments without length** count 0 and are counted in the report. Equal vertices are merged.
+/// - **On the curve**: segments that touch the point contribute 0 (the principal value). For
+///   example, the value is 1/2 on an edge of a square and 1/4 at its corner. A segment touches a
+///   point within a few units in the last place of the largest coordinate (2^-49 of it).
+/// - **Segments without length** contribute 0; their number is reported. Equal vertices are merged.
 /// - **Precision**: double. Coordinates are shifted and scaled without rounding. Values of closed
 ///   curves are exact; the error is about 1e-16 per pair of open ends.
 /// - **Cost**: build O(#E log #E), 30 ms for 100k segments, about 40 bytes per segment. A point
@@ -49,16 +52,17 @@ public:
   CurveWindingNumber& operator=(CurveWindingNumber&&) noexcept;
 
   /// Build from copies of #V x 2 points and #E x 2 ids. There are no options, because one method is
-  /// the fastest and exact for all curves.
-  /// invalid_input: a coordinate is not finite, an id is out of range, or there are 2^29 segments
-  /// or more. A curve without segments is valid and has the winding number 0 everywhere; a warning
-  /// reports it.
-  /// The status reports method ("crossings"), counts.vertices, .segments, .boundary_vertices (of
-  /// one segment), .nonmanifold_vertices (of three or more segments), .open_ends (vertices with
-  /// different numbers of incoming and outgoing segments, which make the winding number
-  /// fractional), .components, .merged_vertices, .degenerate_segments, .duplicate_segments, and
-  /// area (of the inside, multiplied by the winding number; open curves are closed by straight
-  /// lines between their ends).
+  /// the fastest and exact for all curves. Return invalid_input if a coordinate is not finite, an
+  /// id is out of range, or there are 2^29 segments or more. A curve without segments is valid and
+  /// has the winding number 0 everywhere; a warning reports it. The status reports
+  /// - method ("crossings"),
+  /// - counts.vertices, .segments, .boundary_vertices (used by one segment), .nonmanifold_vertices
+  ///   (used by three or more segments), .components, .merged_vertices, .degenerate_segments,
+  ///   .duplicate_segments,
+  /// - counts.open_ends: vertices with different numbers of incoming and outgoing segments, which
+  ///   make the winding number fractional,
+  /// - area: the area of the inside, multiplied by the winding number. Open curves are closed by
+  ///   straight lines between their ends.
   Status build(PlanePointsView points, SegmentsView segments, ExecutionContext& context);
 
   /// Return the status of the last build.
@@ -66,18 +70,18 @@ public:
   /// Return the memory in use, in bytes.
   Index memory() const;
 
-  /// Write the winding numbers of #Q x 2 points to `out`, memory of the caller. Unless it is null,
-  /// `on_curve` gets 1 for every point that touches a segment, else 0. A point that is not finite
-  /// gets NaN and causes a warning. The status reports counts.queries, counts.on_surface and, if it
-  /// is not 0, counts.not_finite.
-  /// canceled: `out` is incomplete.
+  /// Write the winding numbers of #Q x 2 points to `out`, which the caller allocates. If `on_curve`
+  /// is not null, set its entries to 1 for points that touch a segment, otherwise to 0. A point
+  /// that is not finite gets NaN and causes a warning. The status reports counts.queries,
+  /// counts.on_surface and, if it is not 0, counts.not_finite. If the result is canceled, `out` is
+  /// incomplete.
   Status evaluate(PlanePointsView queries, ExecutionContext& context, double* out,
     unsigned char* on_curve = nullptr) const;
   Status evaluate(PlanePointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
-  /// Compute the derivatives along x and y, #Q x 2 numbers. The jump across the curve is excluded.
-  /// The derivatives of closed curves are 0. They have no limit at an open end; an open end that
-  /// the point touches adds 0.
-  /// canceled: `out` is incomplete.
+  /// Compute the derivatives of the winding number along x and y, #Q x 2. The jump across the curve
+  /// is excluded, so the derivatives of closed curves are 0. The derivatives have no limit at an
+  /// open end; an open end that touches the point contributes 0. If the result is canceled, `out`
+  /// is incomplete.
   Status evaluate_gradient(PlanePointsView queries, ExecutionContext& context, double* out) const;
 
   /// Return the winding number at one point, or NaN if the point is not finite. Thread-safe, does
@@ -89,8 +93,8 @@ private:
   std::unique_ptr<Parts> parts_;
 };
 
-/// Return the plain sum of angles over all segments, without a build and with the same principal
-/// values. This is the reference implementation. Ids must be in range and coordinates finite; the
+/// Return the plain sum of angles over all segments, without a build and with the same value on the
+/// curve. This is the reference implementation. Ids must be in range and coordinates finite; the
 /// result is 0 without segments. Cost: ~25 ns x #E.
 double curve_winding_number_direct(
   PlanePointsView points, SegmentsView segments, const Vec2& point, bool* on_curve = nullptr);

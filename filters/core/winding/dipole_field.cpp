@@ -1,6 +1,7 @@
-// A point in the cells evaluates the polynomial of its leaf and the triangles of the leaf's near
-// list. A point outside sums the multipoles of groups that are far enough, and the triangles of the
-// other groups. dipole_field_build.cpp builds the cells.
+// Evaluation of the multipole approximation of the winding number. In a cell, the value is the
+// polynomial of the leaf plus the sum over the triangles in the leaf's near list. Outside the
+// cells, the value is the sum of the multipoles of the groups that are far enough away, plus the
+// sum over the triangles of the other groups. dipole_field_build.cpp builds the cells.
 #include "winding/dipole_field.h"
 
 #include "winding/local_polynomial.h"
@@ -34,7 +35,7 @@ Index DipoleField::block_count() const
   return static_cast<Index>(this->ids_.size()) / triangle_lanes;
 }
 
-/// Sums exactly the triangles that the fast formula rejects.
+/// Computes the exact solid angles of the triangles that the fast formula rejects.
 class DipoleField::Careful : public CarefulSum
 {
 public:
@@ -142,7 +143,8 @@ DipoleField::Leaf DipoleField::leaf_at(const Vec3& point) const
     Place{ this->place(point[0], 0), this->place(point[1], 1), this->place(point[2], 2) });
 }
 
-/// Return the result of `use` for the numbers of a leaf's expansion, floats or doubles.
+/// Return the result of `use` for the coefficients of a leaf's expansion, which are floats or
+/// doubles.
 template <typename Use>
 auto DipoleField::with_numbers(Id leaf, const Use& use) const
 {
@@ -173,8 +175,8 @@ double DipoleField::evaluate(const Vec3& point, bool* on_surface) const
   return value;
 }
 
-/// Most of the time is memory latency. Therefore the data of all points in a batch is prefetched
-/// before the first one uses it.
+/// Memory latency dominates the cost. Therefore the data of all points in a batch is prefetched
+/// before the first point is evaluated.
 void DipoleField::evaluate(const Vec3* points, Index count, double* out, bool* on_surface) const
 {
   constexpr Index at_once = 16;

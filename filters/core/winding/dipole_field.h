@@ -17,10 +17,10 @@ namespace bindpose
 ///
 /// Space is divided into fixed cells. A cell stores one polynomial for the triangles far from it
 /// and a list of the triangles near it, whose solid angles are summed. A value therefore depends
-/// only on its point. It costs a descent, a polynomial and 1-5 ns per near triangle. Points outside
-/// the cells sum a few multipoles.
+/// only on its point. The cost of a value is a descent in the tree, a polynomial, and 1-5 ns per
+/// near triangle. Outside the cells, a value is the sum of a few multipoles.
 ///
-/// Triangles that touch a point count 0 (the principal value).
+/// Triangles that touch a point contribute 0 (the principal value).
 class DipoleField
 {
 public:
@@ -28,29 +28,29 @@ public:
   {
     /// Largest error of a value, 1e-8 … 0.1. The build reduces the error on a sample to half of it.
     double tolerance = 1e-3;
-    /// Region that contains most query points; the box of the triangles is added. Points outside
-    /// cost more.
+    /// Region that contains most query points; the build enlarges it by the box of the triangles.
+    /// Points outside the region take more time.
     Box region;
-    /// Cells are split down to this many times the size of a group of eight triangles, 0.2 … 10.
-    /// Smaller cells are faster near the triangles and take more memory.
+    /// Smallest cell size, in units of the size of a group of eight triangles, 0.2 … 10. Smaller
+    /// cells are faster near the triangles and take more memory.
     double finest_cell = 0.0; ///< 0: chosen from the tolerance
     /// Degree of the polynomials, 2 … 14. 0: chosen from the tolerance.
     int order = 0;
     /// Number of points that will be evaluated, most of them in the region; 0: very many. A cell is
-    /// split only if this saves the expected points more time than it takes. For up to some
-    /// thousand points no cells are made; each point sums all triangles.
+    /// split only if this saves the expected points more time than it takes. For up to a few
+    /// thousand points no cells are made, and every value is the sum over all triangles.
     Index expected_points = 0;
   };
 
-  /// Report whether so few points are expected (0: very many) that all triangles are summed.
+  /// Report whether the expected number of points (0: very many) is so small that every value is
+  /// computed as the sum over all triangles.
   static bool sums_all(Index expected_points);
 
   /// Build the field. Points must be centered and scaled to a size of about 1, with ids below 2^31,
   /// and must outlive the field. There is one multiplicity per triangle. A triangle touches a point
-  /// within touch_tolerance.
-  /// Cost: O(#F log #F); on one thread 20 us per triangle at a tolerance of 1e-3, and 50 us for the
-  /// caps of few patches. Memory: 0.8 to 3 kB per triangle, the most for fields of few triangles,
-  /// which have finer cells.
+  /// within touch_tolerance. Cost: O(#F log #F); on one thread 20 us per triangle at a tolerance of
+  /// 1e-3, and 50 us for the caps of few patches. Memory: 0.8 to 3 kB per triangle; fields of few
+  /// triangles need the most, because their cells are finer.
   /// @return false if canceled; the field is then empty.
   bool build(const Points& points, const Triangles& triangles,
     const std::vector<int>& multiplicities, double touch_tolerance, const Options& options,
@@ -59,13 +59,15 @@ public:
   /// Return the value at a finite point. It is a pure function of the point. Thread-safe, does not
   /// allocate.
   double evaluate(const Vec3& point, bool* on_surface = nullptr) const;
-  /// Compute the values of many points, with the same bits as one by one. This is faster, because
-  /// their memory accesses overlap, and fastest if consecutive points are near each other.
+  /// Compute the values of many points, bit-identical to the single evaluations. This is faster,
+  /// because the memory accesses of several points overlap, and fastest if consecutive points are
+  /// near each other.
   void evaluate(const Vec3* points, Index count, double* out, bool* on_surface) const;
 
-  /// Compute the values of a row of points that share y and z, with the same bits as one by one.
-  /// The polynomials are contracted to polynomials in x, which take a few nanoseconds per point.
-  /// This is fastest if x is sorted. `on_surface` gets 0 or 1 per point unless it is null.
+  /// Compute the values of a row of points with equal y and z, bit-identical to the single
+  /// evaluations. The polynomials are contracted to polynomials in x, which take a few nanoseconds
+  /// per point. This is fastest if x is sorted. If `on_surface` is not null, its entries are set to
+  /// 1 for points that touch a triangle, otherwise to 0.
   void evaluate_row(const double* x, double y, double z, Index count, double* out,
     unsigned char* on_surface = nullptr) const;
   /// Compute the values at the points first + i * step.
@@ -76,8 +78,9 @@ public:
   /// but ~30 ns per near triangle.
   Vec3 gradient(const Vec3& point) const;
 
-  /// Return the largest error on the sample of the build: corners of the cells with the largest
-  /// estimated errors, points near the triangles, and points in and around the cells.
+  /// Return the largest error that the build measured on its sample points: corners of the cells
+  /// with the largest estimated errors, points near the triangles, and points in and around the
+  /// cells.
   double measured_error() const { return this->measured_error_; }
   /// Return the degree of the polynomials.
   int order() const { return this->order_; }
@@ -103,9 +106,9 @@ private:
   struct Leaf
   {
     Id id;
-    int shift; ///< a Place in the leaf, shifted right by it, gives the leaf's coordinates on its
-               ///< level
-    double inverse; ///< 1 / (half its size)
+    /// Shifting a Place in the leaf right by this gives the coordinates of the leaf on its level.
+    int shift;
+    double inverse; ///< 2 / (size of the leaf)
     Vec3 center;
   };
   struct Build;
@@ -124,7 +127,8 @@ private:
   /// Return the sum over all triangles, each as exact as possible.
   double exact_sum(const Vec3& point) const;
   double outer_sum(const Vec3& point, bool& on_surface) const;
-  /// Call see(moments, offset) for nodes that are far from the point, and all(run) for the others.
+  /// Call see(moments, offset) for nodes that are far from the point, and all(run) for the
+  /// triangles of the other nodes.
   template <typename See, typename All>
   void visit_outer(const Vec3& point, const See& see, const All& all) const;
 
@@ -132,12 +136,13 @@ private:
   std::vector<Vec3> extra_points_; ///< vertices of cut triangles; their ids follow those of points_
   std::vector<std::array<Id, 3>> ids_; ///< vertex ids of every lane of every block
   double touch_tolerance_ = 0.0;
-  double outer_threshold_ = 0.0; ///< largest error of a multipole outside the cells
+  double outer_threshold_ = 0.0; ///< largest allowed error of a multipole outside the cells
   double measured_error_ = 0.0;
   int order_ = 0;
   bool fine_ = false; ///< whether blocks and cells use doubles instead of floats
 
-  // One vector of each pair is empty.
+  // Blocks and coefficients are stored either as floats or as doubles, so one vector of each pair
+  // is empty.
   std::vector<TriangleBlock<float>> float_blocks_;
   std::vector<TriangleBlock<double>> double_blocks_;
   std::vector<float> float_locals_;

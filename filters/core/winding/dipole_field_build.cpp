@@ -1,19 +1,22 @@
-// Sources: the triangles are sorted into a binary tree whose leaves are blocks of up to eight. The
-// multipoles of a block are integrals over its triangles of the derivative of the regular harmonics
-// along the normal. These integrands are polynomials, and the quadrature is exact for them. The
-// multipoles of a node are the shifted multipoles of its children.
+// Construction of the cells of DipoleField (a fast multipole method; citations in dipole_field.h).
+//
+// Sources: the triangles are sorted into a binary tree. Its leaves are blocks of up to eight
+// triangles. The multipoles of a block are integrals over its triangles of the derivative of the
+// regular harmonics along the normal. These integrands are polynomials, and the quadrature is exact
+// for them. The multipoles of a node are the shifted multipoles of its children.
 //
 // Cells: an octree over a cube around the triangles and the region. From the top down, each cell
-// tests the nodes that its parent could not settle. A node far enough away is added to the local
-// expansion of the cell (harmonic polynomials). A large node is replaced by its children. The
-// remaining nodes are passed to the children of the cell. A cell is not split further if few blocks
-// remain or if it is small compared with them; these blocks are its near list. Only leaves are
-// stored.
+// tests the nodes that are not yet part of its parent's expansion. A node that is far enough away
+// is added to the local expansion of the cell, which consists of harmonic polynomials. A large node
+// is replaced by its two children. The remaining nodes are passed to the children of the cell. A
+// cell is not split further if few blocks remain or if the cell is small compared with them. The
+// remaining blocks are its near list. Only leaves are stored.
 //
-// "Far enough": the omitted terms are estimated from the powers of the node's multipoles (Dehnen
-// 2014, equation 15) and must stay below a threshold. The finished field is compared with the plain
-// sum on a sample, up to half of it where the estimated errors are largest. If an error exceeds
-// half the tolerance, the cells are built again with a lower threshold.
+// "Far enough" means: the sum of the omitted terms is estimated from the powers of the node's
+// multipoles (Dehnen 2014, equation 15), and the estimate is below a threshold. The finished field
+// is compared with the plain sum on sample points; up to half of them are located where the
+// estimated errors are largest. If an error exceeds half the tolerance, the cells are built again
+// with a lower threshold.
 #include "winding/dipole_field.h"
 
 #include "base/parallel.h"
@@ -31,7 +34,7 @@ namespace bindpose
 namespace
 {
 constexpr double four_pi = 12.566370614359172954;
-/// A near list of at most this many blocks is no reason to split a cell.
+/// A cell whose near list has at most this many blocks is not split.
 constexpr Index few_blocks = 2;
 struct Tuning
 {
@@ -39,37 +42,40 @@ struct Tuning
   int order;
   double finest_cell;
 };
-/// Measured values. Up to order 7 every polynomial costs as much as one of order 7.
+/// Measured values. All polynomials up to order 7 have the same cost.
 constexpr Tuning tunings[] = { { 1e-2, 4, 0.8 }, { 2e-3, 6, 0.8 }, { 1e-3, 7, 0.8 },
   { 1e-4, 7, 0.8 }, { 1e-5, 9, 0.8 }, { 1e-6, 11, 0.8 }, { 0.0, 13, 1.0 } };
-/// Cells that are finer by the factor `finer` take 1.2 times less time and twice the memory. They
-/// are used for fields of up to `small_field` blocks.
+/// Cells that are smaller by the factor `finer` take 1.2 times less time and twice the memory. They
+/// are used for fields with up to `small_field` blocks.
 constexpr Index small_field = 2048;
 constexpr double finer = 0.75;
-/// Threshold for the error estimate of an interaction, in tolerances. The estimates are upper
-/// bounds and the errors of many interactions rarely add up. The sample detects the cases in which
-/// they do.
+/// First threshold for the error estimate of an interaction, in units of the tolerance. The
+/// estimates are upper bounds, and the errors of many interactions rarely add up. If they do add
+/// up, the comparison on the sample points detects it.
 constexpr double first_threshold = 1.2;
-/// Threshold outside the cells, relative to the current threshold. There are few interactions, and
-/// the estimate does not contain the radius of a cell, which makes other estimates too large.
+/// Threshold outside the cells, relative to the current threshold. It is smaller, because each
+/// point has few interactions and their estimates are tighter: they do not contain the radius of a
+/// cell.
 constexpr double outer_share = 0.2;
-/// Largest accepted error on the sample, in tolerances. The rest is a margin for points not in the
-/// sample.
+/// Largest accepted error on the sample, in units of the tolerance. The other half is a margin for
+/// points not in the sample.
 constexpr double wanted_error = 0.5;
-/// Measured nanoseconds: to sum a block, to make a cell, and to test an inherited node in a cell.
-/// The last two are for order 7 and grow with the cube of the order. Splitting halves the near
-/// list.
+/// Measured nanoseconds to sum a block, to make a cell, and to test one inherited node in a cell.
+/// The last two costs apply to order 7 and grow with the cube of the order. Splitting a cell halves
+/// its near list.
 constexpr double block_cost = 10.0;
 constexpr double cell_cost = 2000.0;
 constexpr double node_cost = 150.0;
-/// Up to this many points all triangles are summed; multipoles alone would cost about as much.
+/// Up to this many expected points, every value is the sum over all triangles, because building the
+/// multipoles alone would cost about as much.
 constexpr Index few_points = 3000;
-/// Expected points per sample of the comparison with the plain sum, and the fewest samples.
+/// Number of expected points per sample point of the comparison with the plain sum, and minimum
+/// number of sample points.
 constexpr Index points_per_sample = 512;
 constexpr Index fewest_samples = 48;
-/// At or above this tolerance single precision is accurate enough, unless float sums have errors
-/// above the fraction `largest_float_error` of the tolerance. A thousand triangles at one position
-/// cause such errors.
+/// At or above this tolerance single precision is accurate enough, unless the errors of float sums
+/// exceed `largest_float_error` times the tolerance. A thousand triangles at one position cause
+/// such errors.
 constexpr double float_tolerance = 9e-5;
 constexpr double largest_float_error = 0.1;
 
@@ -104,8 +110,8 @@ void gauss_legendre(int count, std::vector<double>& nodes, std::vector<double>& 
   }
 }
 
-/// Return (n - m)! (n + m)!, the weight of a coefficient in the power of a multipole. For m > 0 it
-/// is doubled to include -m.
+/// Return (n - m)! (n + m)!, the weight of a coefficient in the power of a multipole. For m > 0 the
+/// weight is doubled to include the coefficient (n, -m).
 double power_weight(int n, int m)
 {
   return (m ? 2.0 : 1.0) * std::tgamma(n - m + 1.0) * std::tgamma(n + m + 1.0);
@@ -118,9 +124,10 @@ struct DipoleField::Build
   {
     Vec3 center = Vec3::Zero();
     double radius = 0.0;
-    Id first = 0, count = 0; ///< range of triangles in `order` while building, then of blocks
+    /// Range in `order` of the triangles; after the blocks are built, range of the blocks.
+    Id first = 0, count = 0;
     Id left = -1, right = -1;
-    double block_radius = 0.0; ///< mean radius of its blocks
+    double block_radius = 0.0; ///< mean radius of the blocks
     double share = 1.0; ///< fraction of the allowed error that the node may cause
     int height = 0;
   };
@@ -135,7 +142,7 @@ struct DipoleField::Build
   {
     Doubt doubt;
     Vec3 center;
-    double half; ///< half of its size
+    double half; ///< half the size of the leaf
   };
   /// The cells and leaves of one top cell.
   struct Subtree
@@ -160,7 +167,7 @@ struct DipoleField::Build
     int batched = 0;
     Doubt doubt;
     std::vector<Id> stack;
-    std::vector<std::vector<Id>> lists; ///< unsettled nodes, per level
+    std::vector<std::vector<Id>> lists; ///< nodes not yet part of an expansion, per level
     std::vector<std::vector<double>> locals; ///< expansions of the eight children, per level
   };
 
@@ -211,8 +218,8 @@ struct DipoleField::Build
   ExecutionContext& context;
   const Options& options;
   double finest_cell = 1.0;
-  double threshold = 0.0; // for the estimate of an interaction
-  Box region; // region of the expected points
+  double threshold = 0.0; // largest allowed error estimate of an interaction
+  Box region; // region that contains most expected points
   double density = 0.0; // expected points per volume; 0: very many
   std::vector<std::array<Id, 3>> ids;
   std::vector<int> multiplicities_of;
@@ -220,11 +227,12 @@ struct DipoleField::Build
   std::vector<Vec3> centers; // centroids of the triangles
   std::vector<Id> order;
   std::vector<Node> nodes;
-  std::vector<double> moments; // real and imaginary part of each (n, m), node after node
-  std::vector<double> bounds; // order + 2 numbers per node
+  // Real and imaginary part of each coefficient (n, m), node after node.
+  std::vector<double> moments;
+  std::vector<double> bounds; // order + 2 error bounds per node
   std::vector<double> nodes_of_quadrature, weights_of_quadrature;
   std::vector<DoubtfulLeaf> doubtful; // leaves with their error estimates
-  double float_error = 0.0; // largest error of sums in floats
+  double float_error = 0.0; // largest error of single-precision sums
 };
 
 void DipoleField::Build::take(const Triangles& triangles, const std::vector<int>& multiplicities)
@@ -240,9 +248,9 @@ void DipoleField::Build::take(const Triangles& triangles, const std::vector<int>
   }
 }
 
-// A long sliver among short triangles is near all cells along it. Its halves are near fewer cells,
-// and together they are the same triangle. The longest triangles are cut first, while this adds few
-// triangles.
+// Cut long slivers among short triangles. A sliver is near all cells along it; its two halves are
+// each near fewer cells and have the same sum. The longest triangles are cut first, as long as this
+// adds few triangles.
 void DipoleField::Build::cut_long_triangles()
 {
   const std::size_t count = this->ids.size();
@@ -260,12 +268,12 @@ void DipoleField::Build::cut_long_triangles()
       { (c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm() }));
   }
   const double shortest_cut = 2.5 * std::sqrt(2.0 * area / static_cast<double>(count));
-  // Make fewer pieces for fewer points.
+  // Allow fewer pieces if fewer points are expected.
   const std::size_t factor = this->options.expected_points == 0 ? 8
     : this->options.expected_points < 500000                    ? 2
                                                                 : 4;
   const std::size_t most = std::max(2 * count, std::min<std::size_t>(factor * count, 8192));
-  // A triangle of length x becomes about x / limit pieces.
+  // A triangle whose longest edge has length x is cut into about x / limit pieces.
   double limit = *std::max_element(longest.begin(), longest.end());
   const auto pieces = [&](double length)
   {
@@ -337,7 +345,7 @@ bool DipoleField::Build::sort_triangles()
     {
       for (int i = 0; i < triangle_lanes; ++i)
       {
-        // Empty lanes repeat the last triangle with weight 0.
+        // An empty lane repeats the last triangle with weight 0.
         const Id t = this->order[node.first + std::min<Id>(i, node.count - 1)];
         this->field.ids_.push_back(this->ids[t]);
         this->weights.push_back(i < node.count ? this->multiplicities_of[t] : 0);
@@ -364,8 +372,8 @@ bool DipoleField::Build::sort_triangles()
           (a.center - node.center).norm() + a.radius, (b.center - node.center).norm() + b.radius));
     }
   }
-  // A child almost as large as its parent affects a point like the parent. The errors of such
-  // children add up to that of the parent, so they share its allowed error.
+  // A child almost as large as its parent causes an error similar to the error of the parent. The
+  // errors of two such children add up, so the allowed error is divided between them.
   for (const Node& node : this->nodes)
   {
     for (const Id id : { node.left, node.right })
@@ -381,7 +389,8 @@ bool DipoleField::Build::sort_triangles()
   return true;
 }
 
-// Split where the groups become small: minimize the sum over both sides of (blocks x squared size).
+// Split the node where the two groups become small: minimize the sum over both groups of (number of
+// blocks x squared size).
 std::int32_t DipoleField::Build::split(Id first, Id count)
 {
   Box box, box_of_centers;
@@ -506,7 +515,7 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
       }
     }
     cut = cut ? cut : count / 2;
-    // Put whole blocks on the left if this moves few triangles.
+    // Round the left count down to whole blocks if this moves few triangles.
     const Id whole = cut / triangle_lanes * triangle_lanes;
     cut = whole > 0 && count > 512 ? whole : cut;
     std::nth_element(begin, begin + cut, begin + count, before);
@@ -529,7 +538,7 @@ void DipoleField::Build::fill_blocks(std::vector<TriangleBlock<Real>>& blocks)
       continue;
     }
     TriangleBlock<Real>& block = blocks[node.first];
-    // The limit keeps the cubes of scaled lengths within the range of floats.
+    // The lower limit keeps the cubes of scaled lengths within the range of floats.
     block.inverse_size = 1.0 / std::max(node.radius, 1e-6);
     for (int k = 0; k < 3; ++k)
     {
@@ -696,9 +705,9 @@ bool DipoleField::Build::find_multipoles()
 }
 
 // Bounds for the first omitted total degree, N = order + 2: binomial(N, n) x power of degree n, for
-// n = 1 … N. The power of degree N is unknown. It is estimated from the two powers before it: the
-// larger one of the last power times the node's radius and the one before times the squared radius
-// (in a symmetric group every other power is 0).
+// n = 1 … N. The power of degree N is unknown. It is estimated as the maximum of two values: the
+// power of degree N - 1 times the node's radius, and the power of degree N - 2 times the squared
+// radius. Both are needed because every second power is 0 in a symmetric group.
 void DipoleField::Build::find_bounds()
 {
   const int top = this->field.order_ + 2;
@@ -742,8 +751,8 @@ void DipoleField::Build::find_bounds()
   }
 }
 
-/// Return the error estimate divided by the node's share, for a cell of radius `radius` whose
-/// center has the distance `distance` from the node's center.
+/// Return the error estimate of an interaction, divided by the node's `share`. `distance` is the
+/// distance between the center of the node and the center of a cell of radius `radius`.
 double DipoleField::Build::error(Id node, double distance, double radius) const
 {
   const int top = this->field.order_ + 2;
@@ -756,7 +765,7 @@ double DipoleField::Build::error(Id node, double distance, double radius) const
     sum = sum * radius + bound[n];
     power *= inverse;
   }
-  // The higher degrees are included as a geometric series.
+  // The higher degrees are estimated by a geometric series.
   const Node& of = this->nodes[node];
   return sum * power / ((1.0 - (radius + of.radius) * inverse) * of.share);
 }
@@ -787,7 +796,7 @@ void DipoleField::Build::place_cells()
   {
     const int level = expected < 2e4 ? 0 : expected < 2e5 ? 1 : 2;
     this->field.top_level_ = std::min(this->field.top_level_, level);
-    // A flat region gets a thickness, because its points can be anywhere in its cells.
+    // Thicken a flat region, because its points can be anywhere in the cells that it crosses.
     this->region = box;
     for (int k = 0; k < 3; ++k)
     {
@@ -812,15 +821,16 @@ void DipoleField::Build::sum_all()
   f.fine_ ? f.double_locals_.assign(numbers, 0.0) : f.float_locals_.assign(numbers, 0.0F);
   OuterNode all;
   all.blocks = f.runs_[0];
-  all.radius = 1e300; // always near
+  all.radius = 1e300; // every point counts as near
   all.leaf = true;
   all.skip = 1;
   f.outer_.assign(1, all);
   f.outer_moments_.assign(static_cast<std::size_t>(this->count_of_moments()), 0.0);
 }
 
-/// Report whether splitting a cell saves its points more time than it takes. The cell has `blocks`
-/// blocks in `near` near nodes.
+/// Report whether splitting a cell saves more time in the evaluation than it takes in the build.
+/// @param blocks number of blocks in the near nodes of the cell
+/// @param near number of near nodes of the cell
 bool DipoleField::Build::pays_to_split(
   const Vec3& center, double size, double blocks, std::size_t near) const
 {
@@ -841,8 +851,8 @@ bool DipoleField::Build::pays_to_split(
   return 0.5 * block_cost * blocks * volume * this->density > 8.0 * child;
 }
 
-// Store the nodes for points outside the cells. Descendants of a node that is always far enough are
-// omitted.
+// Store the nodes for points outside the cells. Descendants of a node that is far enough away from
+// all these points are omitted.
 void DipoleField::Build::find_outer()
 {
   this->field.outer_.clear();
@@ -867,7 +877,7 @@ void DipoleField::Build::add_outer(Id id)
   this->field.outer_.push_back(outer);
   const double* moment = &this->moments[std::size_t(id) * stride];
   this->field.outer_moments_.insert(this->field.outer_moments_.end(), moment, moment + stride);
-  // The smallest distance to a point outside the cells.
+  // Smallest distance from the center of the node to a point outside the cells.
   const Vec3 inside = node.center - this->field.lower_;
   const double distance =
     std::min(inside.minCoeff(), this->field.size_ - inside.maxCoeff()) * (1.0 - 1e-9);
@@ -1175,9 +1185,9 @@ bool DipoleField::Build::fill_cells()
   return true;
 }
 
-/// Return the largest error on a sample: points near triangles, in the cells, around them, and
-/// where the estimated errors are largest. The error of an expansion is largest at the corner of
-/// the cell that is nearest to the nodes of the expansion.
+/// Return the largest error on the sample points, which are near triangles, in the cells, around
+/// the cells, and where the estimated errors are largest. The error of a leaf's expansion is
+/// largest at the corner that is nearest to the nodes of the expansion.
 double DipoleField::Build::measure()
 {
   DipoleField& f = this->field;
@@ -1204,7 +1214,7 @@ double DipoleField::Build::measure()
     {
       for (Index i = begin; i < end; ++i)
       {
-        // Low-discrepancy numbers: multiples of the powers of 1 / x, where x is the positive root
+        // Low-discrepancy sequence: multiples of the powers of 1 / x, where x is the positive root
         // of x^4 = x + 1.
         const double n = static_cast<double>(i) + 0.5;
         Vec3 u(n * 0.8191725133961645, n * 0.6710436067037893, n * 0.5497004779019703);
@@ -1220,7 +1230,8 @@ double DipoleField::Build::measure()
         }
         else if (i % 2)
         {
-          const double beyond = i % 4 == 1 ? 0.5 : 0.01; // margin on each side, in sizes
+          // Margin on each side, relative to the size of the cells' cube.
+          const double beyond = i % 4 == 1 ? 0.5 : 0.01;
           at = f.lower_ + f.size_ * ((1.0 + 2.0 * beyond) * u - Vec3::Constant(beyond));
         }
         else

@@ -19,15 +19,15 @@ struct ExactFrame
 {
   Vec3 shift = Vec3::Zero();
   double scale = 1.0;
-  /// Objects within this distance touch. It is a few units in the last place of the largest
-  /// coordinate (2^-49 of it), after scaling.
+  /// Objects within this distance of each other count as touching. The tolerance is a few units in
+  /// the last place of the largest coordinate (2^-49 times the coordinate), after scaling.
   double tolerance = 0.0;
 
   ExactFrame() = default;
   explicit ExactFrame(const Box& box)
   {
-    // Halve before subtracting: the difference would overflow for a box as large as the range of
-    // doubles.
+    // Halve the corners before subtracting them: the difference would overflow for a box as large
+    // as the range of doubles.
     const Vec3 half = 0.5 * box.upper - 0.5 * box.lower;
     const Vec3 center = box.lower + half;
     for (int k = 0; k < 3; ++k)

@@ -1,6 +1,7 @@
-// Rows of coefficients are multiplied by harmonics in the plane x = 0, for eight lanes of the
-// polynomial in parallel. A row shorter than a multiple of eight is read beyond its end; the extra
-// products are not added.
+// Evaluation of the expansion of a cell along a row of points. The coefficients of the expansion
+// are multiplied by the harmonics in the plane x = 0, for eight coefficients of the polynomial in
+// parallel. If the length of a row of coefficients is not a multiple of eight, values beyond its
+// end are read; their products are not added.
 #include "winding/local_polynomial.h"
 
 #include "base/simd.h"
@@ -17,7 +18,7 @@ constexpr int largest_order = largest_polynomial_order;
 struct PlaneConstants
 {
   double plane[largest_order + 1][largest_order / 2 + 1];
-  double factorial[largest_order + 2]; ///< the last entry is 0
+  double factorial[largest_order + 2]; ///< entry j is 1 / j!; the last entry is 0
 };
 constexpr PlaneConstants make_plane_constants()
 {
@@ -45,8 +46,8 @@ constexpr PlaneConstants plane_constants = make_plane_constants();
 template <int Order>
 constexpr int room_of = (Order / polynomial_lanes + 1) * polynomial_lanes;
 
-/// Add the terms (L + 2Q, L), (L + 2Q + 2, L) … to the polynomial. r and i are the real and
-/// imaginary parts of zeta^L rho^2Q.
+/// Add the products with the harmonics (L + 2Q, L), (L + 2Q + 2, L) … to the polynomial. r and i
+/// are the real and imaginary parts of zeta^L rho^2Q.
 template <int Order, int L, int Q, typename Real>
 BINDPOSE_ALWAYS_INLINE void add_terms(const Real* row, Real r, Real i, Real rho2, Real* polynomial)
 {
@@ -67,7 +68,7 @@ BINDPOSE_ALWAYS_INLINE void add_terms(const Real* row, Real r, Real i, Real rho2
   }
 }
 
-/// Add the rows L … Order. re and im are the real and imaginary parts of zeta^L.
+/// Add the products of the rows L … Order. re and im are the real and imaginary parts of zeta^L.
 template <int Order, int L, typename Real>
 BINDPOSE_ALWAYS_INLINE void add_rows(
   const Real* row, Real re, Real im, Real y, Real z, Real* polynomial)
@@ -127,7 +128,8 @@ BINDPOSE_ALWAYS_INLINE void contract_any(
   }
 }
 
-/// Evaluated in pairs, then pairs of pairs, because a chain of operations would be the bottleneck.
+/// Sum the terms in pairs, then the sums in pairs, because a chain of dependent operations would be
+/// slower.
 double eight_terms(const double* p, double x, double x2, double x4)
 {
   return ((p[0] + p[1] * x) + (p[2] + p[3] * x) * x2) +

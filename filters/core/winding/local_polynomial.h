@@ -1,15 +1,16 @@
 #ifndef bindpose_winding_local_polynomial_h
 #define bindpose_winding_local_polynomial_h
 
-// Expansion of the far triangles in a cell (solid_harmonics.h), in a form that is fast to evaluate.
+// Evaluation of a cell's local expansion, which approximates the winding number of the far
+// triangles (see dipole_field.h and solid_harmonics.h).
 //
 // The polar axis of the harmonics is x. For given y and z, the expansion is a polynomial in x. Its
 // coefficient j is the sum of F(k, l) times the harmonic (k - j, l) in the plane x = 0, divided by
 // j!, because d/dx lowers the degree of a harmonic by one.
 //
-// The numbers of an expansion are stored for l = 0 … order: first the real parts of (k, l),
-// k = l … order, then for l > 0 their imaginary parts. All numbers with l > 0 are doubled. Up to
-// polynomial_lanes numbers beyond the end are read.
+// The coefficients of an expansion are stored for l = 0 … order: first the real parts of (k, l), k
+// = l … order, then for l > 0 their imaginary parts. All coefficients with l > 0 are doubled. The
+// functions read up to polynomial_lanes values beyond the end of the array.
 
 #include "base/mesh.h"
 
@@ -24,7 +25,8 @@ constexpr int harmonic_axes[3] = { 1, 2, 0 };
 constexpr int largest_polynomial_order = 14;
 /// Number of coefficients that are processed in parallel.
 constexpr int polynomial_lanes = 8;
-/// Room for the coefficients of a polynomial of any order; unused coefficients are 0.
+/// Capacity of an array for the coefficients of a polynomial of any order; unused coefficients are
+/// 0.
 constexpr int polynomial_room = 2 * polynomial_lanes;
 
 /// Return the number of values in an expansion.
@@ -33,8 +35,9 @@ constexpr int count_of_local(int order)
   return (order + 1) * (order + 1);
 }
 
-/// Contract an expansion to a polynomial in x for given y and z, in the precision of the numbers.
-/// Orders 2 … largest_polynomial_order. The result has the same bits on every instruction set.
+/// Contract an expansion to a polynomial in x for the specified y and z, in the precision of the
+/// coefficients `numbers`. `order` must be 2 … largest_polynomial_order. The result has the same
+/// bits on every instruction set.
 void contract_local(int order, const float* numbers, double y, double z, double* polynomial);
 void contract_local(int order, const double* numbers, double y, double z, double* polynomial);
 

@@ -1,6 +1,7 @@
-// A cell starts as the square around the disc and is cut by the bisector of each neighbor. Then the
-// area of the polygon's part inside the disc is computed, from triangles with the center where the
-// polygon is inside the disc and from sectors where it is outside.
+// Area of the Voronoi cell of each sample, clipped to a disc. A cell starts as the square around
+// the disc and is cut by the bisector of each neighbor. Then the area of the intersection of the
+// polygon and the disc is computed: triangles with the center of the disc where the edge of the
+// polygon is inside the disc, circular sectors elsewhere.
 #include "winding/point_areas.h"
 
 #include "base/parallel.h"
@@ -42,7 +43,7 @@ void cut(std::vector<Vec2>& polygon, const Vec2& toward, double limit, std::vect
   polygon.swap(room);
 }
 
-/// Return the signed area of the part of the triangle 0, a, b inside the disc about 0.
+/// Return the signed area of the intersection of the triangle 0, a, b with the disc around 0.
 double triangle_in_disc(const Vec2& a, const Vec2& b, double radius)
 {
   const auto sector = [radius](const Vec2& from, const Vec2& to)

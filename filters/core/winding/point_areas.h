@@ -10,11 +10,11 @@ namespace bindpose
 /// tangent plane, among its nearest neighbors (after Barill, Dickson, Schmidt, Levin, Jacobson
 /// 2018).
 ///
-/// Neighbors are mapped into the plane at their own distance, in the direction of their projection.
-/// Neighbors with an opposite normal (the other side of a thin sheet) do not bound the cell. The
-/// cell is clipped to the disc of half the farthest neighbor's distance, because points beyond it
-/// could be nearer to a sample that was not considered. Samples at the same position share their
-/// cell.
+/// Neighbors are mapped into the plane in the direction of their projection, and keep their
+/// distance from the sample. Neighbors with an opposite normal (the other side of a thin sheet) do
+/// not bound the cell. The cell is clipped to the disc of half the farthest neighbor's distance,
+/// because a point beyond this radius could be nearer to a sample that is not among the neighbors.
+/// The area of a cell is divided among the samples at the same position.
 ///
 /// Measured on a sphere of 20,000 samples: for evenly spread samples the sum of the areas is
 /// accurate to 1e-4 with 8 neighbors or more. For random samples it is too small by 10 % with 8
@@ -24,8 +24,7 @@ namespace bindpose
 /// @param normals #P x 3, of length 1, or of length 0 for an area of 0
 /// @param neighbors number of neighbors, at least 3
 /// @param tolerance distance within which points coincide
-/// @return false if canceled.
-/// Cost: about 3 us per point with 12 neighbors.
+/// @return false if canceled. Cost: about 3 us per point with 12 neighbors.
 bool estimate_point_areas(const Points& points, const Points& normals, const PointTree& tree,
   Index neighbors, double tolerance, ExecutionContext& context, Eigen::VectorXd& areas);
 

@@ -1,21 +1,25 @@
-// Each point is a dipole. Its contribution at q is the derivative of the potential of a charge,
-// -m . grad (1 / |p - q|) with m = area n / (4 pi). Points are sorted into a tree. Each box of the
+// Fast multipole evaluation of the winding number of a point cloud (after Barill et al. 2018), with
+// an error bound for every value.
+//
+// Each point is a dipole. Its contribution at q is the derivative of the potential of a charge, -m
+// . grad (1 / |p - q|) with m = area n / (4 pi). Points are sorted into a tree. Each box of the
 // tree has multipoles about its center: sums of the derivatives of the regular solid harmonics
-// along m. A query point descends the tree. Boxes that are far enough away are evaluated as
+// along m. A query point descends the tree. Boxes that are far enough away contribute their
 // multipoles; the points of near leaves are summed one by one.
 //
-// "Far enough": consider the harmonics of degree n of a dipole m at y from the center. At distance
-// r they are at most n |m| |y|^(n-1) / r^(n+1), because the slope of a zonal harmonic |y|^n P_n is
-// at most n |y|^(n-1) (inequality of Bernstein and Szego). Let A = sum |m| |y|^order, let R be the
-// largest |y|, and let u = R / r < 1. Then the terms omitted after degree `order` are at most
+// "Far enough" is defined as follows. Consider the harmonics of degree n of a dipole m at the
+// offset y from the center of the box. At distance r they are at most n |m| |y|^(n-1) / r^(n+1),
+// because the slope of a zonal harmonic |y|^n P_n is at most n |y|^(n-1) (inequality of Bernstein
+// and Szego). Let A = sum |m| |y|^order, let R be the largest |y|, and let u = R / r < 1. Then the
+// terms omitted after degree `order` are at most
 //
 //   A / r^(order+2) (order + 1 + u / (1 - u)) / (1 - u)
 //
-// A box is far enough if this bound is below a threshold, which is the same for all boxes. The
-// bounds of the boxes that a query evaluates as multipoles are added up in addition to the value.
-// If their sum exceeds the tolerance, the point is evaluated again, with distances increased by a
-// power of the excess. This keeps the tolerance at every point, not just at tested points. The
-// build chooses the threshold so that almost no points are evaluated again.
+// A box is far enough if this bound is below a threshold, which is the same for all boxes. Each
+// query also sums the bounds of the boxes that contribute multipoles. If the sum of the bounds
+// exceeds the tolerance, the point is evaluated again, with the required distances multiplied by a
+// power of (sum / tolerance). Therefore the error is within the tolerance at every point. The build
+// chooses the threshold so that almost no points are evaluated again.
 //
 // Eight boxes or points are processed in parallel, in lanes that are independent until the final
 // sums, so that all machines compute the same bits.
@@ -40,14 +44,16 @@ namespace
 {
 using Id = PointTree::Id;
 constexpr double four_pi = 12.566370614359172954;
-/// Up to this many points the plain sum costs no more than the tree.
+/// Up to this many points the plain sum takes no more time than the tree.
 constexpr Index few_points = 3000;
 constexpr Id leaf_size = 32;
-/// Beyond this distance, in units of the cloud, the winding number is 0 in double precision.
+/// Beyond this distance from the origin, in units of the cloud's size, the winding number is 0 in
+/// double precision.
 constexpr double far_away = 1e100;
-/// Moments are limited to this, so that no sum overflows.
+/// Limit for the moments, so that no sum overflows.
 constexpr double largest_moment = 1e100;
-/// Multipoles are not evaluated at smaller distances, because their powers would overflow.
+/// Minimum distance at which multipoles are evaluated. At smaller distances their powers would
+/// overflow.
 constexpr double nearest_multipole = 1e-12;
 
 struct Tuning
@@ -55,7 +61,7 @@ struct Tuning
   double tolerance;
   int order;
 };
-/// Measured on 100k points.
+/// Orders per tolerance, measured on 100k points.
 constexpr Tuning tunings[] = { { 1e-2, 6 }, { 1e-3, 8 }, { 1e-5, 10 }, { 0.0, 12 } };
 
 /// Eight points with m = area n / (4 pi). Empty lanes repeat a point with m = 0.
@@ -69,12 +75,12 @@ struct Dipoles
 struct Boxes
 {
   HarmonicLanes center[3];
-  HarmonicLanes squared_reach; ///< multipoles are used beyond this squared distance; infinite in
-                               ///< an empty lane
+  /// Multipoles are used beyond this squared distance; infinite in an unused lane.
+  HarmonicLanes squared_reach;
   HarmonicLanes bound; ///< bound of the omitted terms, times r^(order+2)
-  Id first_block[harmonic_lanes]; ///< first block of its dipoles
+  Id first_block[harmonic_lanes]; ///< first block of the dipoles in the box
   Id block_count[harmonic_lanes];
-  Id group[harmonic_lanes]; ///< group that the box is divided into; -1: a leaf
+  Id group[harmonic_lanes]; ///< group that contains the children of the box; -1: a leaf
 };
 
 /// Data of a box that determines its reach for a threshold.
@@ -167,8 +173,8 @@ BINDPOSE_SIMD_CLONES void add_dipole_gradients(const Dipoles* dipoles, Index cou
   }
 }
 
-/// Return the boxes that are far enough, one bit per box. `from` gets the position of q relative to
-/// their centers. The bounds of their omitted terms are added to `bounds`.
+/// Return a bit mask of the boxes that are far enough away. `from` is set to the positions of q
+/// relative to the centers of the boxes. The bounds of the omitted terms are added to `bounds`.
 BINDPOSE_SIMD_CLONES unsigned far_boxes(const Boxes& boxes, const double (&q)[3], int order,
   double squared_stretch, HarmonicLanes (&from)[3], HarmonicLanes& bounds)
 {
@@ -195,7 +201,7 @@ BINDPOSE_SIMD_CLONES unsigned far_boxes(const Boxes& boxes, const double (&q)[3]
   return bits;
 }
 
-/// Add the multipoles of the boxes in `bits` to `sums`.
+/// Add the contributions of the multipoles of the boxes in the bit mask `bits` to `sums`.
 BINDPOSE_SIMD_CLONES void add_multipoles(int order, const HarmonicLanes* moments,
   const Harmonics& harmonics, unsigned bits, HarmonicLanes& sums)
 {
@@ -217,8 +223,9 @@ BINDPOSE_SIMD_CLONES void add_multipoles(int order, const HarmonicLanes* moments
   }
 }
 
-/// Add the gradient of the multipoles of the boxes in `bits` to `sums`. `harmonics` must have one
-/// degree more: d/dz T(n, m) = -T(n+1, m), (d/dx + i d/dy) T(n, m) = -T(n+1, m+1).
+/// Add the gradient of the multipoles of the boxes in the bit mask `bits` to `sums`. `harmonics`
+/// must be computed to degree order + 1, because d/dz T(n, m) = -T(n+1, m), (d/dx + i d/dy) T(n, m)
+/// = -T(n+1, m+1).
 BINDPOSE_SIMD_CLONES void add_multipole_gradients(int order, const HarmonicLanes* moments,
   const Harmonics& harmonics, unsigned bits, HarmonicLanes (&sums)[3])
 {
@@ -253,7 +260,8 @@ BINDPOSE_SIMD_CLONES void add_multipole_gradients(int order, const HarmonicLanes
   }
 }
 
-/// Return the bound at distance r of the comment at the top of the file, times r^(order+2).
+/// Return the error bound at distance r (see the comment at the top of the file), times
+/// r^(order+2).
 double bound_of(const Extent& extent, int order, double r)
 {
   const double u = extent.radius / r;
@@ -342,7 +350,8 @@ Status check_input(PointsView points, PointsView normals, NumbersView areas,
   return {};
 }
 
-/// Normalize the normals. Normals of length 0 stay 0 and are counted.
+/// Return the normals scaled to length 1. Normals of length 0 stay 0; their number is written to
+/// `zero_normals`.
 Points directions(PointsView normals, Index& zero_normals)
 {
   Points unit(normals.rows(), 3);
@@ -369,12 +378,12 @@ struct PointCloudWindingNumber::Parts
   WindingMethod method = WindingMethod::direct;
   ExactFrame frame;
   Eigen::VectorXd areas;
-  std::vector<Dipoles> dipoles; ///< in the tree's order
-  int order = 0; ///< even
+  std::vector<Dipoles> dipoles; ///< sorted like the points of the tree
+  int order = 0; ///< degree of the multipoles, even
   double tolerance = 0.0;
   std::vector<Boxes> boxes; ///< one per group of the tree
   std::vector<HarmonicLanes> moments; ///< moments of each group
-  std::vector<Extent> extents; ///< eight per group; used while building only
+  std::vector<Extent> extents; ///< eight per group; used by the build only
 
   void take_dipoles(const Points& points, const Points& moments_of, const PointTree& tree);
   bool find_multipoles(const PointTree& tree, ExecutionContext& context);
@@ -405,9 +414,9 @@ PointCloudWindingNumber& PointCloudWindingNumber::operator=(
 
 // ---- Building ----------------------------------------------------------------------------------
 
-/// Call far(group, from, bits) for the far boxes of a group, one bit per box; `from` is the
-/// position of p relative to their centers. Call near(first block, block count) for near leaves.
-/// Return the error bound of the multipoles.
+/// Call far(group, from, bits) for each group that has far boxes. `bits` is the bit mask of these
+/// boxes, and `from` contains the positions of p relative to the centers. Call near(first block,
+/// block count) for near leaves. Return the sum of the error bounds of the multipoles.
 template <typename Far, typename Near>
 double PointCloudWindingNumber::Parts::visit(
   const Vec3& p, double squared_stretch, const Far& far, const Near& near) const
@@ -447,8 +456,8 @@ double PointCloudWindingNumber::Parts::visit(
   return sum_of(bounds);
 }
 
-/// Call `attempt` with increasing distances of the far boxes, until the error bound that it returns
-/// is within the tolerance.
+/// Call `attempt` until the error bound that it returns is within the tolerance. The required
+/// distance of far boxes is increased before each further call.
 template <typename Try>
 void PointCloudWindingNumber::Parts::within_tolerance(const Try& attempt) const
 {
@@ -460,8 +469,8 @@ void PointCloudWindingNumber::Parts::within_tolerance(const Try& attempt) const
     {
       return;
     }
-    // A bound decreases at least with this power of the distance; the bounds of children are
-    // smaller.
+    // The bound of a box decreases at least with this power of the distance. The bounds of its
+    // children are smaller.
     constexpr double margin = 1.05;
     squared_stretch *= margin * std::pow(error_bound / this->tolerance, 2.0 / (this->order + 2));
   }
@@ -551,8 +560,8 @@ void PointCloudWindingNumber::Parts::find_multipole(
     each(
       [&](const Vec3& at, double weight)
       {
-        // Points without a moment are included, because a query point that touches one must descend
-        // to it.
+        // Points without a moment are included: a query point that touches such a point must
+        // descend to it.
         const double distance = (at - center).norm();
         extent.radius = std::max(extent.radius, distance);
         extent.power += weight * std::pow(distance, this->order);
@@ -585,7 +594,7 @@ void PointCloudWindingNumber::Parts::find_multipole(
       (to++)->lane[c] = sum_of(sum.real[harmonic_index(n, 0)]);
       for (int m = 1; m <= n; ++m)
       {
-        // m and -m together.
+        // The coefficients for m and -m have the same contribution.
         (to++)->lane[c] = 2.0 * sum_of(sum.real[harmonic_index(n, m)]);
         (to++)->lane[c] = 2.0 * sum_of(sum.imaginary[harmonic_index(n, m)]);
       }
@@ -618,8 +627,8 @@ bool PointCloudWindingNumber::Parts::find_reaches(double threshold, ExecutionCon
     });
 }
 
-/// Return points at which errors are measured. Half of them are near points of the cloud, at
-/// distances comparable with the point spacing. The others are in and around the box.
+/// Return sample points for measuring the error. Half of them are near points of the cloud, at
+/// distances comparable with the point spacing. The other half are in and around the bounding box.
 Points PointCloudWindingNumber::Parts::sample(const PointTree& tree) const
 {
   constexpr Index count = 384;
@@ -627,7 +636,7 @@ Points PointCloudWindingNumber::Parts::sample(const PointTree& tree) const
   std::uint64_t state = 1;
   const auto uniform = [&state]
   {
-    // SplitMix64.
+    // SplitMix64 generator.
     std::uint64_t z = state += 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -676,12 +685,12 @@ Points PointCloudWindingNumber::Parts::sample(const PointTree& tree) const
   return result;
 }
 
-/// Find the largest threshold, within a few percent, for which the error bounds at `places` are
-/// within the tolerance. Return false if canceled.
+/// Find the largest threshold, within a few percent, such that the sums of the error bounds at
+/// `places` are within the tolerance. Return false if canceled.
 bool PointCloudWindingNumber::Parts::find_threshold(const Points& places, ExecutionContext& context)
 {
-  // The bound of a box is proportional to the threshold. A larger threshold slightly lowers the
-  // number of boxes.
+  // The error bound of each box is proportional to the threshold. The number of boxes decreases
+  // slightly if the threshold increases.
   double threshold = this->tolerance / 32.0;
   constexpr int rounds = 4;
   for (int round = 0; round < rounds; ++round)

@@ -1,9 +1,11 @@
-// The points of a group are halved three times, each time across the longest side of their box.
-// Therefore each group has eight children of about the same size. Halves are cut at multiples of
-// eight, so that all leaves except the last one are whole blocks.
+// Construction of the tree and search for nearest neighbors.
 //
-// The search for neighbors descends from the root, nearest box first, while a box can contain a
-// nearer point.
+// The points of a group are divided into two halves three times, each time along the longest axis
+// of their box. Therefore each group has eight children of about the same size. The first half has
+// a multiple of eight points, so that all leaves except the last one are whole blocks.
+//
+// The search for neighbors descends from the root. It visits the nearest box first and skips boxes
+// that cannot contain a nearer point.
 #include "winding/point_tree.h"
 
 #include <algorithm>
@@ -13,7 +15,7 @@ namespace bindpose
 
 namespace
 {
-constexpr PointTree::Id large = 1 << 15; // takes milliseconds to divide
+constexpr PointTree::Id large = 1 << 15; // dividing this many points takes milliseconds
 
 bool is_nearer(const PointTree::Neighbor& x, const PointTree::Neighbor& y)
 {
@@ -116,7 +118,7 @@ void PointTree::nearest(
   const auto look = [&](const auto& look_again, Id number) -> void
   {
     const Group& group = this->groups_[number];
-    std::array<Neighbor, width> near{}; // children, nearest box first
+    std::array<Neighbor, width> near{}; // children, sorted by distance
     for (int c = 0; c < group.size; ++c)
     {
       const Child& child = group.children[c];

@@ -21,10 +21,11 @@ public:
 
   struct Child
   {
-    Vec3 lower, upper; ///< box around its points
+    Vec3 lower, upper; ///< box around the points of the child
     Id first = 0,
-       count = 0; ///< its points: order()[first … first + count); first is divisible by 8
-    Id group = -1; ///< group that the child is divided into; -1: a leaf
+       /// Points of the child: order()[first … first + count); `first` is divisible by 8.
+      count = 0;
+    Id group = -1; ///< group that contains the children of this child; -1: a leaf
   };
   struct Group
   {
@@ -44,12 +45,13 @@ public:
 
   /// Return the ids of the points in the order of the leaves.
   const std::vector<Id>& order() const { return this->order_; }
-  /// Return the groups. The first one is the root; there are none without points. A group is stored
-  /// after its parent.
+  /// Return the groups. The first group is the root; the list is empty if there are no points. A
+  /// group is stored after its parent.
   const std::vector<Group>& groups() const { return this->groups_; }
 
-  /// Find the `count` points nearest to a point of the tree, without the point itself, or all
-  /// others if there are fewer. They are sorted by distance, then by id. Thread-safe.
+  /// Find the `count` nearest neighbors of a point of the tree, or all other points if there are
+  /// fewer. The point itself is excluded. The result is sorted by distance, then by id.
+  /// Thread-safe.
   void nearest(const Points& points, Id point, Index count, std::vector<Neighbor>& neighbors) const;
 
 private:

@@ -1,3 +1,5 @@
+// Parallel evaluation of values and derivatives at many points, in blocks whose size depends on the
+// time per point.
 #include "winding/point_values.h"
 
 #include "base/parallel.h"
@@ -12,8 +14,8 @@ namespace bindpose
 
 namespace
 {
-/// Return the number of points per block: some blocks for each thread, large enough to keep
-/// neighbors together and small enough to notice a cancel request in time.
+/// Return the number of points per block. Each thread gets several blocks. Blocks are large enough
+/// to keep neighbors together and small enough to notice a cancel request in time.
 Index block_of(Index count, double nanoseconds_a_point)
 {
   constexpr double shortest_block = 8e5, longest_block = 5e6; // nanoseconds

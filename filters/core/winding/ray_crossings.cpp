@@ -1,12 +1,15 @@
-// The point p and the triangle a, b, c are in coordinates (x, y, z) whose first axis is the
-// direction of the ray. The ray crosses the triangle if (py, pz) is in its projection and p is in
-// front of its plane. The signs of three orientations in the projection plane decide the first
-// condition, the sign of a volume decides the second. Signs are computed in doubles with error
-// bounds for the whole bounding box of the triangle; exact arithmetic decides the remaining ones.
+// Exact counts of the crossings of axis-aligned rays with triangles.
 //
-// If (py, pz) is on an edge, the orientation is that of (py + e, pz + e^2) with an infinitesimal e.
-// The orientations of a common edge have opposite signs in its two triangles. Therefore each ray
-// crosses exactly one of them, and sums over closed surfaces are integers.
+// The point p and the triangle a, b, c are in coordinates (x, y, z) whose first axis is the
+// direction of the ray. The ray crosses the triangle if (py, pz) is in the projection of the
+// triangle and p is in front of the triangle's plane. The signs of three orientations in the
+// projection plane decide the first condition, the sign of a volume decides the second. Signs are
+// computed in doubles, with error bounds for the whole bounding box of the triangle. Exact
+// arithmetic computes the signs that the error bounds leave uncertain.
+//
+// If (py, pz) is on an edge, it is replaced by (py + e, pz + e^2) with an infinitesimal e. The
+// orientations of the two triangles at a shared edge have opposite signs. Therefore a ray through
+// the edge crosses exactly one of the two triangles, and sums over closed surfaces are integers.
 #include "winding/ray_crossings.h"
 
 #include "base/exact.h"
@@ -29,25 +32,26 @@ constexpr double epsilon = 0x1p-53;
 constexpr double edge_error = 8.0 * epsilon;
 /// Error of a volume, in units of the volume of the triangle's box.
 constexpr double plane_error = 96.0 * epsilon;
-/// Measured nanoseconds: to project a triangle, to test a point against it, to sort a point, to
-/// process a triangle of a slab, and to test a row of a grid.
+/// Measured nanoseconds to project a triangle, to test a point against a triangle, to sort a point,
+/// to process a triangle of a slab, and to test a row of a grid.
 constexpr double face_cost = 35.0;
 constexpr double test_cost = 1.5;
 constexpr double point_cost = 120.0;
 constexpr double slab_face_cost = 50.0;
 constexpr double row_cost = 5.0;
-/// Cells per point of the grid in the projection plane. There are more if triangles outnumber the
-/// points, so that most triangles meet only empty cells.
+/// Minimum and maximum number of cells per point in the grid of the projection plane. The number
+/// increases if triangles outnumber the points, so that most triangles overlap only empty cells.
 constexpr double fewest_cells_per_point = 0.5;
 constexpr double most_cells_per_point = 8.0;
-/// Points per slab of that grid; one thread processes a slab.
+/// Points per slab of the grid in the projection plane; one thread processes a slab.
 constexpr Index points_per_slab = 32768;
 constexpr std::int32_t points_at_once = 256;
-/// A triangle is listed in each slab that it meets. These limits bound the memory for triangles as
-/// large as the surface.
+/// A triangle is listed in each slab that it overlaps. These limits bound the memory if triangles
+/// are as large as the surface.
 constexpr Index most_slabs = 64;
 constexpr Index most_slabs_per_face = 32;
-/// Samples per slab of a sample grid: some hundred kilobytes, which stay in the cache.
+/// Samples per slab of a sample grid. A slab takes some hundred kilobytes, so that it stays in the
+/// cache.
 constexpr Index samples_per_slab = 65536;
 
 int sign_of(double x)
@@ -64,7 +68,7 @@ int moved_orientation(double ay, double az, double by, double bz, double py, dou
 }
 
 /// Return the index of the first of the ascending `values` that is at least x. The search starts at
-/// a guess for equal spacing, with `per_length` values per unit of length.
+/// the index expected for equal spacing, with `per_length` values per unit of length.
 Index first_from(const std::vector<double>& values, double x, double per_length)
 {
   const auto count = static_cast<Index>(values.size());
@@ -91,17 +95,21 @@ double per_length_of(const std::vector<double>& values)
 /// A triangle in the ray's coordinates, with error bounds for points in its box.
 struct RayCrossings::Facet
 {
-  std::array<Vec3, 3> corners; ///< in the input's coordinates
+  std::array<Vec3, 3> corners; ///< corners in the coordinates of the input
   int axis;
   double x[3], y[3], z[3];
-  double lower[3], upper[3]; ///< with the tolerance added
-  double edge_bound; ///< larger orientations have the right sign
-  double outside; ///< a point with orientations below -outside and above outside does not touch
-  double normal[3]; ///< not normalized
-  double plane_bound; ///< larger volumes have the right sign, and their points do not touch
+  double lower[3], upper[3]; ///< box of the triangle, enlarged by the tolerance
+  /// If the absolute orientation is larger than this, its computed sign is right.
+  double edge_bound;
+  /// A point does not touch if it has an orientation below -outside and another above outside.
+  double outside;
+  double normal[3]; ///< normal vector, not normalized
+  /// If the absolute volume is larger than this, its computed sign is right and the point does not
+  /// touch.
+  double plane_bound;
 
-  /// Return six times the volume with a point: its distance from the plane times the normal's
-  /// length.
+  /// Return six times the signed volume of the tetrahedron with the point, which is the distance
+  /// from the plane times the length of `normal`.
   double height(double px, double py, double pz) const
   {
     return this->normal[0] * (px - this->x[0]) + this->normal[1] * (py - this->y[0]) +
@@ -233,8 +241,8 @@ struct FacetBounds
   double nx, ny, nz, edge_bound, outside, plane_bound;
 };
 
-/// Add the crossings of the rays from `count` points with one triangle. Points whose signs are
-/// uncertain are not counted and get open[i] = 1. Return whether there are any.
+/// Add the crossings of the rays from `count` points with one triangle. For points with uncertain
+/// signs, no crossing is counted and open[i] is set to 1. Return whether there are such points.
 BINDPOSE_SIMD_CLONES bool add_crossings(const FacetBounds& f, const double* x, const double* y,
   const double* z, int count, std::int32_t* counts, std::int32_t* open)
 {
@@ -335,7 +343,7 @@ bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& con
     return false;
   }
 
-  // Slabs consist of whole lines of cells. The triangles of each slab are listed.
+  // Each slab consists of whole lines of cells. List the triangles that overlap each slab.
   const Index slabs = std::clamp<Index>(
     static_cast<Index>(inside) / points_per_slab, 1, std::min<Index>(vs, most_slabs));
   const auto slab_of = [&](Index line) { return line * slabs / vs; };
@@ -390,7 +398,8 @@ bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& con
           return;
         }
         const Index face = slabs > 1 ? faces[face_begin[slab] + i] : i;
-        // The projected box alone decides for most triangles if points are few.
+        // If points are few, the projected box is sufficient for most triangles, because it
+        // contains no point.
         const std::array<Vec3, 3> c = this->corners(face);
         const Index u0 = u_of(std::min({ c[0][u], c[1][u], c[2][u] }) - this->tolerance_);
         const Index u1 = u_of(std::max({ c[0][u], c[1][u], c[2][u] }) + this->tolerance_);
@@ -504,7 +513,8 @@ RayCrossings::Layers RayCrossings::layers_of(const Grid& grid) const
   return layers;
 }
 
-/// Crossings of the rows of a slab. Each one adds `sign` to the samples [0, end) of a row.
+/// Crossings of the rows of samples in a slab. A crossing adds `sign` to the samples [0, end) of a
+/// row.
 class RayCrossings::RowHits
 {
 public:
@@ -607,7 +617,7 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
         }
         const Index row = (k - first_layer) * rows + j;
         const bool certain = least > f.edge_bound || most < -f.edge_bound;
-        // Samples from x to y are tested one by one. If the triangle is parallel to the rows,
+        // Samples from `x` to `y` are tested one by one. If the triangle is parallel to the rows,
         // `center` is NaN and the comparisons select the ends of the box.
         const double center = f.x[0] + (f.normal[1] * ay + f.normal[2] * az) * per_normal;
         const double x =
@@ -622,7 +632,7 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
         }
         else if (at > 0)
         {
-          // A ray from a point in front of the box crosses the triangle if it crosses the
+          // A ray that starts in front of the box crosses the triangle if it crosses the triangle's
           // projection.
           hits.add(row, at, this->crossing_of(f, Vec3(f.lower[0] - 1.0, py, pz), touches));
         }

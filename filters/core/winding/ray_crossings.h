@@ -14,8 +14,8 @@ namespace bindpose
 /// Winding numbers of a closed surface at many points in one call. They are exact integers.
 ///
 /// The winding number of a point is the sum of the signed crossings of a ray that starts there.
-/// Rays run along a coordinate axis, so that a triangle can only meet rays of points in its
-/// projection. Points are sorted into a grid in the projection plane, and one pass over the
+/// Rays run along a coordinate axis, so that only the rays of points in a triangle's projection can
+/// cross the triangle. Points are sorted into a grid in the projection plane, and one pass over the
 /// triangles finds all crossings. No data structure is built beforehand. Rays are faster than
 /// WindingCells for grids, and for fewer points than a few times the number of triangles.
 ///
@@ -31,11 +31,11 @@ public:
   RayCrossings(
     const Points& points, const Triangles& triangles, const Triangles& caps, double tolerance);
 
-  /// Return the expected time of count() for `number` points spread over the bounding box, in
-  /// nanoseconds on one thread.
+  /// Return the expected time in nanoseconds, on one thread, of count() for `number` points spread
+  /// over the bounding box.
   double predicted_nanoseconds(Index number) const;
   /// Compute the winding numbers and the resolved flags of `number` finite points, fewer than 2^31.
-  /// O(#F + number + overlaps of their projections).
+  /// Cost: O(#F + number + pairs of a point and a triangle whose projections overlap).
   /// @return false if canceled.
   bool count(const Vec3* points, Index number, ExecutionContext& context, int* counts,
     unsigned char* resolved) const;
@@ -45,21 +45,21 @@ public:
   {
     std::array<std::vector<double>, 3> at;
   };
-  /// The triangles of each slab of a grid's layers (samples of equal z). Slabs can be evaluated
-  /// independently.
+  /// For each slab of a grid, its triangles. A slab consists of layers (samples of equal z). Slabs
+  /// can be evaluated independently.
   struct Layers
   {
     Index per_slab = 1; ///< number of layers per slab
-    std::vector<Index> begin; ///< index in `faces` for each slab, and the end
+    std::vector<Index> begin; ///< first index in `faces` of each slab, and the end
     std::vector<std::int32_t> faces;
     double nanoseconds = 0.0; ///< expected time of all slabs on one thread, without writing values;
                               ///< infinite if the surface is too large for rays, and `faces` is
                               ///< then empty
   };
   Layers layers_of(const Grid& grid) const;
-  /// Write the winding numbers of the samples of a slab to `values`, x fastest, beginning with its
-  /// first layer. Append the positions (in `values`) of unresolved samples to `unresolved`, in no
-  /// order, some twice. Thread-safe.
+  /// Write the winding numbers of the samples of a slab to `values`. x varies fastest, and the
+  /// first value belongs to the first layer of the slab. Append the indices (in `values`) of
+  /// unresolved samples to `unresolved`; they are not sorted and may occur twice. Thread-safe.
   void count_slab(const Grid& grid, const Layers& layers, Index slab, double* values,
     std::vector<Index>& unresolved) const;
 
@@ -80,7 +80,7 @@ private:
   Index faces_;
   Box box_;
   int axis_ = 0; ///< direction of the rays of count()
-  double overlaps_ = 0.0; ///< mean number of triangles whose projected boxes contain a point
+  double overlaps_ = 0.0; ///< mean number of triangles whose projected boxes contain a given point
 };
 
 } // namespace bindpose

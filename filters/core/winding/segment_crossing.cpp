@@ -1,3 +1,5 @@
+// Crossing test between a segment and a triangle by the signs of five tetrahedron volumes, with an
+// error bound for each sign.
 #include "winding/segment_crossing.h"
 
 #include <algorithm>
@@ -7,10 +9,10 @@ namespace bindpose
 
 namespace
 {
-/// Error bound of the volumes, relative to the cube of the largest coordinate. For volumes that
-/// have the segment as a side, it is relative to the square times the length of the segment. In
-/// units of 2^-53, subtractions contribute 1, cross products 28 and volumes 90. The bound is
-/// rounded up.
+/// Error bound of the volumes, relative to the cube of the largest coordinate. A tighter bound
+/// applies to volumes of tetrahedra that have the segment as an edge; it is relative to the squared
+/// largest coordinate times the length of the segment. In units of 2^-53, subtractions contribute
+/// 1, cross products 28 and volumes 90. The bound is rounded up.
 constexpr double double_error = 0x1p-53 * 256.0;
 } // namespace
 

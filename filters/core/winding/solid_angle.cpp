@@ -1,16 +1,20 @@
+// Solid angles of triangles that are accurate to a few units in the last place at every distance.
+//
 // The solid angle of a triangle a, b, c seen from the origin is twice the angle of the complex
 // number (|a||b||c| + a.b|c| + b.c|a| + c.a|b|) + i a.(b x c) (Van Oosterom and Strackee, 1983).
-// Far from the triangle the header multiplies these numbers and computes the angle of four at a
-// time.
+// Far from the triangle, solid_angle.h multiplies the complex numbers of four triangles and
+// computes the angle of the product.
 //
-// Near the triangle both parts cancel. Next to a sliver they are as small as its squared width, so
-// that even doubled precision would lose all digits. Let u = |a|b + |b|a and v = |a|c + |c|a, which
-// bisect the angles between a and b and between a and c. The angle of the complex number above
-// equals the angle from u to v around a, that of the complex number |a| u.v + i a.(u x v). If b and
-// c are on the other side of the point than a, u and v are small. Both are then exact to doubled
-// precision, and their products lose no more digits.
+// Near the triangle, cancellation occurs in the real and the imaginary part. Next to a sliver both
+// parts are as small as its squared width, so that even double-double arithmetic would lose all
+// digits. Let u = |a|b + |b|a and v = |a|c + |c|a, which bisect the angles between a and b and
+// between a and c. The angle of the complex number above equals the angle from u to v around a,
+// that of the complex number |a| u.v + i a.(u x v). If b and c are on the other side of the point
+// than a, u and v are small. Both vectors are then exact to double-double precision, and their
+// products lose no more digits.
 //
-// A triangle that touches the point has no angle, only a jump. It counts 0, the mean of both sides.
+// The solid angle of a triangle that touches the point is undefined, because it jumps there. Such a
+// triangle contributes 0, the mean of the values on its two sides.
 #include "winding/solid_angle.h"
 
 #include "base/exact.h"

@@ -1,6 +1,8 @@
 #ifndef bindpose_winding_solid_angle_h
 #define bindpose_winding_solid_angle_h
 
+// Solid angles of triangles, accurate at every distance, and their sums: the winding number.
+
 #include "base/mesh.h"
 
 namespace bindpose
@@ -17,8 +19,8 @@ double side_of_triangle(const Vec3& point, const Vec3& a, const Vec3& b, const V
 
 /// Sum of the solid angles of triangles at one point, about 20 ns per triangle.
 ///
-/// Triangles that touch the point count 0 (the principal value) and set on_surface(). Angles are
-/// accurate to a few units in the last place of a full turn for every shape and distance of a
+/// Triangles that touch the point contribute 0 (the principal value) and set on_surface(). Angles
+/// are accurate to a few units in the last place of a full turn for every shape and distance of a
 /// triangle, because near triangles are evaluated in double-double arithmetic. Coordinates must be
 /// centered and scaled, within about 1e20 of the point.
 class SolidAngleSum
@@ -26,7 +28,8 @@ class SolidAngleSum
 public:
   SolidAngleSum(const Vec3& point, double tolerance) : point_(point), tolerance_(tolerance) {}
 
-  /// Add the triangle a, b, c `multiplicity` times; a negative number reverses the orientation.
+  /// Add the triangle a, b, c `multiplicity` times. A negative multiplicity reverses the
+  /// orientation.
   void add(const Vec3& a, const Vec3& b, const Vec3& c, int multiplicity = 1);
   /// Return the current sum in full turns (4 pi), which is the winding number.
   double winding_number() const;
@@ -56,9 +59,9 @@ inline void SolidAngleSum::add(const Vec3& a0, const Vec3& b0, const Vec3& c0, i
   const double lengths = la * lb * lc;
   const double real = lengths + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
   const double imaginary = a.dot(b.cross(c));
-  // The half angle is below 45 degrees, so four of them sum to less than a half turn. The point is
-  // also clearly off the triangle: for a touching triangle, real / lengths is at most 0.63 if the
-  // vertices are more than 4 tolerances away.
+  // The half angle is below 45 degrees, so four of them sum to less than a half turn. This
+  // condition also excludes triangles that touch the point: for them, real / lengths is at most
+  // 0.63 if the vertices are more than 4 tolerances away.
   const double reach = 4.0 * this->tolerance_;
   if (real > lengths && la > reach && lb > reach && lc > reach &&
     (multiplicity == 1 || multiplicity == -1))

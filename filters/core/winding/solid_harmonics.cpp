@@ -1,5 +1,6 @@
-// Recurrences and translations of Dehnen 2014, section A, as loops over coefficients with the eight
-// lanes innermost. The lanes are a vector type of the compiler; no operation mixes them.
+// Recurrences and translations of solid harmonics (Dehnen 2014, section A). The innermost loop of
+// each function runs over the eight lanes, which are a vector type of the compiler. No operation
+// mixes lanes.
 //
 // Regular harmonics U and irregular ones T:
 //   U(n, n) = (x + iy) / (2n) U(n-1, n-1)
@@ -27,8 +28,8 @@ BINDPOSE_ALWAYS_INLINE Pack& pack(HarmonicLanes& lanes)
   return reinterpret_cast<Pack&>(lanes);
 }
 
-/// Coefficient (n, m) for any sign of m: the stored coefficient at `index`, with its parts
-/// multiplied by `real_sign` and `imaginary_sign`.
+/// The coefficient (n, m) for any sign of m is the stored coefficient at `index` with its real part
+/// multiplied by `real_sign` and its imaginary part by `imaginary_sign`.
 struct Place
 {
   int index;
@@ -209,7 +210,7 @@ BINDPOSE_SIMD_CLONES void multipole_to_local(
         const Pack m0 = pack(in.real[harmonic_index(n, 0)]);
         re += m0 * pack(from.real[row + l]);
         im += m0 * pack(from.imaginary[row + l]);
-        // M(n, m) and M(n, -m) together.
+        // The coefficients M(n, m) and M(n, -m) are processed together.
         for (int m = 1; m <= n; ++m)
         {
           const Pack mr = pack(in.real[harmonic_index(n, m)]);

@@ -14,12 +14,12 @@ namespace bindpose
 
 constexpr int harmonic_lanes = 8;
 
-/// Return the index of (n, m), 0 <= m <= n, in an array.
+/// Return the array index of the coefficient (n, m), 0 <= m <= n.
 constexpr int harmonic_index(int n, int m)
 {
   return n * (n + 1) / 2 + m;
 }
-/// Return the number of (n, m) with 0 <= m <= n <= order.
+/// Return the number of coefficients (n, m) with 0 <= m <= n <= order.
 constexpr int harmonic_count(int order)
 {
   return harmonic_index(order + 1, 0);
@@ -35,13 +35,13 @@ struct alignas(64) HarmonicLanes
   double lane[harmonic_lanes];
 };
 
-/// Real and imaginary parts of the coefficients of an expansion.
+/// Real and imaginary parts of the coefficients (n, m) of an expansion.
 struct Harmonics
 {
   HarmonicLanes real[harmonic_count(max_harmonic_order)];
   HarmonicLanes imaginary[harmonic_count(max_harmonic_order)];
 
-  /// Set the degrees up to `order` to zero.
+  /// Set the coefficients up to degree `order` to zero.
   void clear(int order);
 };
 
@@ -61,8 +61,9 @@ void regular_derivative(
 void multipole_to_multipole(int order, const Harmonics& shift, const Harmonics& in, Harmonics& out);
 
 /// Add to `out` the local expansion of degrees 0 … order - 1 of the multipoles `in` of degrees 1 …
-/// order. Only products of total degree <= order are included, so that all omitted terms are of the
-/// same order. `from` contains the irregular harmonics of (local center - multipole center).
+/// order. Only products of total degree <= order are included, so that the omitted terms begin at
+/// the same total degree. `from` contains the irregular harmonics of (local center - multipole
+/// center).
 void multipole_to_local(int order, const Harmonics& from, const Harmonics& in, Harmonics& out);
 
 /// Set `out` to the local expansion `in` of degrees 0 … order, moved to another center. `shift`

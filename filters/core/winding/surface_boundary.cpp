@@ -1,7 +1,9 @@
+// Boundary edges, components and volumes of a welded surface.
+//
 // Surface and caps together are closed. Each component and its caps are closed, too, because a
-// boundary loop stays within one component. The volume of a component is therefore independent of
-// the origin. A vertex of the component is used as the origin, to keep round-off small for small
-// components far away.
+// boundary loop belongs to one component. Therefore the volume of a component does not depend on
+// the origin of the sum. The origin is a vertex of the component, which reduces round-off if a
+// small component is far from the coordinate origin.
 #include "winding/surface_boundary.h"
 
 #include <cstdlib>

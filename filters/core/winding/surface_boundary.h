@@ -8,24 +8,27 @@
 namespace bindpose
 {
 
-/// The boundary of a surface in the sense of winding numbers, and its connected components. The
-/// boundary consists of the edges whose directions do not cancel. It determines the winding number
-/// up to an integer.
+/// The boundary of a surface in the sense of winding numbers, and the connected components of the
+/// surface. The boundary consists of the edges whose directions do not cancel: different numbers of
+/// triangles use the edge in its two directions. The boundary determines the winding number up to
+/// an integer.
 struct SurfaceBoundary
 {
-  /// Directed like the majority of the triangles at this edge.
+  /// A boundary edge, directed like the majority of its triangles.
   struct BoundaryEdge
   {
     Index from, to; ///< vertex ids
-    Index multiplicity; ///< triangles in this direction minus triangles in the other direction, at
-                        ///< least 1
+    /// Number of triangles in this direction minus number of triangles in the other direction, at
+    /// least 1.
+    Index multiplicity;
     Index component;
   };
   /// Triangles that are connected by vertices.
   struct Component
   {
     Index triangles = 0;
-    Index open_edges = 0; ///< boundary edges counted with their multiplicities; 0: closed
+    /// Number of boundary edges, with multiplicity; 0: the component is closed.
+    Index open_edges = 0;
     /// Volume by the divergence theorem, with holes closed by caps. It is positive if the component
     /// faces outwards and negative if it is inside out.
     double volume = 0.0;

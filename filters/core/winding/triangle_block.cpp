@@ -1,9 +1,9 @@
-// The formula of solid_angle.cpp for eight triangles in parallel. The half angle of a triangle is
-// the angle of a complex number. For blocks far from the point, the numbers of four blocks are
-// multiplied before the angle is computed. For near blocks the angle of each triangle is computed,
-// by a polynomial arc tangent (fitted at Chebyshev nodes). Lanes that would lose digits (next to an
-// edge or a vertex), or whose plane does not decide the side, add nothing and are passed to the
-// careful sum.
+// Solid angles of eight triangles in parallel, by the formula of solid_angle.cpp. The half angle of
+// a triangle is the angle of a complex number. For blocks far from the point, the complex numbers
+// of four blocks are multiplied lane by lane before the angle is computed. For near blocks the
+// angle of each triangle is computed, by a polynomial arc tangent (fitted at Chebyshev nodes). A
+// lane would lose digits if the point is next to an edge or a vertex, and its sign is uncertain if
+// the point is almost in its plane. Such lanes contribute 0 and are passed to the CarefulSum.
 #include "winding/triangle_block.h"
 
 #include "base/simd.h"
@@ -25,13 +25,16 @@ struct Precision<float>
   using Flag = std::int32_t;
   static constexpr float lost = 1e-2f; ///< smallest relative size of the complex number
   static constexpr float flat = 1e-4f; ///< smallest relative distance from the plane
-  static constexpr float reach = 1e-4f; ///< smallest squared distance of a vertex, in block sizes
-  static constexpr float apart = 2.5f; ///< squared distance of a far block's center, in block sizes
-  static constexpr float remote = 1e4f; ///< beyond this squared distance products of four would
-                                        ///< overflow
+  /// Smallest squared distance of a vertex, relative to the squared block size.
+  static constexpr float reach = 1e-4f;
+  /// Squared distance of a far block's center, relative to the squared block size.
+  static constexpr float apart = 2.5f;
+  /// Beyond this squared distance, products of four complex numbers would overflow.
+  static constexpr float remote = 1e4f;
   static BINDPOSE_ALWAYS_INLINE float arc_tangent(float t)
   {
-    // Evaluated in pairs, because a chain of twelve operations would be the bottleneck.
+    // The terms are summed in pairs, because a chain of twelve dependent operations would be
+    // slower.
     const float u = t * t, u2 = u * u;
     const float low = (0.9999993278352406f + u * -0.33326374521881785f) +
       u2 * (0.19879872155711403f + u * -0.1348040560755243f);
@@ -91,14 +94,14 @@ struct Seen
       cx(block.corner[6][i] - x), cy(block.corner[7][i] - y), cz(block.corner[8][i] - z)
   {
   }
-  /// Return six times the volume of the tetrahedron with the point.
+  /// Return six times the volume of the tetrahedron of the triangle and the point.
   BINDPOSE_ALWAYS_INLINE Real volume() const
   {
     return this->ax * (this->by * this->cz - this->bz * this->cy) +
       this->ay * (this->bz * this->cx - this->bx * this->cz) +
       this->az * (this->bx * this->cy - this->by * this->cx);
   }
-  /// Return the real part of the complex number.
+  /// Return the real part of the complex number whose angle is half the solid angle.
   BINDPOSE_ALWAYS_INLINE Real real(Real la, Real lb, Real lc) const
   {
     return la * lb * lc + (this->ax * this->bx + this->ay * this->by + this->az * this->bz) * lc +
@@ -121,9 +124,9 @@ BINDPOSE_ALWAYS_INLINE Real angle_of(Real re, Real im)
   return im < Real(0) ? -half : half;
 }
 
-/// Add blocks far from the point. From there a sphere of the block's size covers less than an
-/// eighth of the view. Half the angle of a triangle is below 41 degrees, and that of four below
-/// half a turn. No triangle touches the point.
+/// Add blocks far from the point. Seen from the point, a sphere of the block's size covers less
+/// than an eighth of all directions. Half the solid angle of a triangle is below 41 degrees, so the
+/// sum for four triangles is below half a turn. No triangle touches the point.
 template <typename Real>
 BINDPOSE_ALWAYS_INLINE void add_apart(const TriangleBlock<Real>* blocks,
   const SeenBlock<Real>* seen, const int* order, int count, Real (&sums)[triangle_lanes])
@@ -189,7 +192,8 @@ BINDPOSE_ALWAYS_INLINE void add_block(const TriangleBlock<Real>* blocks,
     const Real least = aa < bb ? aa : bb;
     const Real nearest = least < cc ? least : cc;
     const bool far_off = re > Real(0.7) * lengths;
-    // The volume with a touching triangle is at most that of a slab as thick as the tolerance.
+    // Upper bound for the volume with a touching triangle: the volume of a slab whose thickness is
+    // the tolerance.
     const Real slab = 2 * touching * (la * lb + lb * lc + lc * la);
     const bool off_plane = im_size > P::flat * lengths + slab;
     const bool kept =
@@ -248,7 +252,7 @@ BINDPOSE_ALWAYS_INLINE double sum(const TriangleBlock<Real>* blocks, const Block
         next.at[k] = away;
         distance2 += away * away;
       }
-      // No branch, because its outcome would be unpredictable.
+      // Bitwise operators avoid a branch, whose outcome would be unpredictable.
       const bool is_apart = (distance2 > P::apart) & (distance2 < P::remote) & block.single;
       apart[count_apart] = count_seen;
       others[count_others] = count_seen;

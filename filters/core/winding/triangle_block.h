@@ -1,6 +1,8 @@
 #ifndef bindpose_winding_triangle_block_h
 #define bindpose_winding_triangle_block_h
 
+// Fast sums of solid angles over blocks of eight triangles, for near triangles in DipoleField.
+
 #include "base/mesh.h"
 
 #include <cstdint>
@@ -10,7 +12,8 @@ namespace bindpose
 
 constexpr int triangle_lanes = 8;
 
-/// Eight triangles, one per lane, relative to a center and in units of about their own size.
+/// Eight triangles, one per lane. Corners are relative to a center, in units of about the size of
+/// the triangles.
 template <typename Real>
 struct TriangleBlock
 {
@@ -21,14 +24,14 @@ struct TriangleBlock
   bool single; ///< whether every multiplicity is -1, 0 or 1
 };
 
-/// The blocks first … first + count - 1.
+/// The consecutive blocks first … first + count - 1.
 struct BlockRun
 {
   std::int32_t first, count;
 };
 
-/// Interface that sums the triangles of a block that are too near the point for the fast formula:
-/// those whose entry in `lanes` is not 0.
+/// Interface that sums the triangles of a block that are too near the point for the fast formula. A
+/// triangle is selected if its entry in `lanes` is not 0.
 class CarefulSum
 {
 public:
@@ -39,9 +42,9 @@ protected:
 };
 
 /// Return the winding number of the triangles of the runs, except the triangles that are passed to
-/// `careful`. These include all triangles within touch_tolerance of the point. In float a triangle
-/// takes about 1.5 ns, with an error of 1e-5 of a turn; in double it takes 4 ns, with an error of
-/// 1e-9. The result has the same bits on every instruction set.
+/// `careful`. All triangles within touch_tolerance of the point are passed to `careful`. A triangle
+/// takes about 1.5 ns in float, with an error of 1e-5 of a turn, and 4 ns in double, with an error
+/// of 1e-9 of a turn. The result has the same bits on every instruction set.
 double sum_blocks(const TriangleBlock<float>* blocks, const BlockRun* runs, Index count,
   const Vec3& point, double touch_tolerance, CarefulSum& careful);
 double sum_blocks(const TriangleBlock<double>* blocks, const BlockRun* runs, Index count,

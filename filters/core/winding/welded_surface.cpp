@@ -1,6 +1,8 @@
+// Merging of equal points, and counts of edges and duplicate triangles.
+//
 // Vertices are sorted by coordinates: a radix sort by the leading bits of x, then a comparison sort
-// of the few vertices that share these bits. Edges and triangles are grouped by their smallest
-// vertex, as 64-bit integers, and sorted within these small groups.
+// of the few vertices that share these bits. Edges and triangles are packed into 64-bit integers,
+// grouped by their smallest vertex id, and sorted within these small groups.
 #include "winding/welded_surface.h"
 
 #include "base/large_pages.h"
@@ -28,7 +30,7 @@ bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c)
 
 struct Vertex
 {
-  std::uint32_t key; ///< ascending with x
+  std::uint32_t key; ///< ascends with x
   std::int32_t id;
 };
 
@@ -109,13 +111,14 @@ bool sort_vertices(
   return true;
 }
 
-/// Pack two vertex ids into one number that ascends with the first, then the second.
+/// Pack two vertex ids into one integer, so that the integers are sorted by the first id, then by
+/// the second.
 std::uint64_t packed(Index first, Index second)
 {
   return static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint64_t>(second);
 }
 
-/// Group numbers by a vertex: the numbers of v are items[begin[v] … begin[v + 1]), ascending.
+/// Group items by a vertex: the items of vertex v are items[begin[v] … begin[v + 1]), ascending.
 /// `visit(see)` must call see(vertex, item) for all items; it is called twice. Return false if
 /// canceled.
 template <typename Visit>
@@ -202,12 +205,13 @@ bool weld(PointsView points, TrianglesView triangles, const ExactFrame& frame,
   return true;
 }
 
-/// Count the triangles with the same corners as an earlier one. Return false if canceled.
+/// Count the triangles with the same corners as an earlier triangle. Return false if canceled.
 bool count_duplicates(
   const Triangles& triangles, Index vertices, ExecutionContext& context, Index& duplicates)
 {
   std::vector<Index> begin;
-  std::vector<std::uint64_t> others; // the two larger corners, ascending
+  // The two larger corner ids of each triangle, packed in ascending order.
+  std::vector<std::uint64_t> others;
   const auto visit = [&](const auto& see)
   {
     for (Index t = 0; t < triangles.rows(); ++t)
@@ -231,12 +235,14 @@ bool count_duplicates(
   return true;
 }
 
-/// Count the edges and find the open ones. Return false if canceled.
+/// Count the edges and find the open edges, whose directions do not cancel. Return false if
+/// canceled.
 bool find_edges(
   const Triangles& triangles, Index vertices, ExecutionContext& context, WeldedSurface& welded)
 {
   std::vector<Index> begin;
-  std::vector<std::uint64_t> sides; // larger vertex, and 1 if the side runs to it
+  // For each triangle side: the larger vertex id, and 1 if the side points to that vertex.
+  std::vector<std::uint64_t> sides;
   const auto visit = [&](const auto& see)
   {
     for (Index t = 0; t < triangles.rows(); ++t)

@@ -10,19 +10,21 @@
 namespace bindpose
 {
 
-/// A surface prepared for winding numbers. Equal points are merged and triangles that use a vertex
-/// twice are removed. Duplicate triangles are kept because each of them counts.
+/// A surface prepared for winding numbers. Equal points are merged, and triangles that use a vertex
+/// twice are removed. Duplicate triangles are kept, because each of them contributes to the winding
+/// number.
 struct WeldedSurface
 {
-  Points points; ///< in the frame, sorted by coordinates
+  Points points; ///< in the exact frame (ExactFrame), sorted by coordinates
   Triangles triangles;
   std::vector<Index> original_vertices; ///< #V, one input id per vertex
   std::vector<Edge> open_edges; ///< the edges of mesh_edges() whose directions do not cancel
-  Index boundary_edges = 0; ///< used by one triangle
-  Index nonmanifold_edges = 0; ///< used by three triangles or more
+  Index boundary_edges = 0; ///< number of edges used by one triangle
+  Index nonmanifold_edges = 0; ///< number of edges used by three triangles or more
   Index merged_vertices = 0;
-  Index degenerate_triangles = 0; ///< removed triangles and triangles without area
-  Index duplicate_triangles = 0; ///< triangles with the same vertices as another one, in any order
+  Index degenerate_triangles = 0; ///< number of removed triangles and of triangles without area
+  /// Number of triangles with the same vertices as another triangle, in any order.
+  Index duplicate_triangles = 0;
 };
 
 /// Weld a valid mesh (check_mesh) of fewer than 2^31 points. O(#F log #F), on all threads.

@@ -1,14 +1,16 @@
-// Between two points the winding number changes by the signed crossings of the segment that joins
-// them. A cell is convex, so the segment from a point to the cell's reference meets only the few
-// triangles of the cell.
+// Evaluation of exact winding numbers in cells. winding_cells_build.cpp builds the cells.
+//
+// The winding numbers of two points differ by the signed crossings of the segment that joins the
+// points. A cell is convex, so the segment from a point to the cell's reference can cross only the
+// few triangles of the cell.
 //
 // A segment from p to the reference r crosses the triangle a, b, c if p and r are on different
 // sides of its plane, and p is on the same side of the three planes through r and an edge. These
 // four planes are stored as unit normals with 16 bits per coordinate. Their signs are computed for
 // eight triangles in parallel, in a few operations each. The error bound depends only on the
 // distance between p and r. An undecided sign is computed again in doubles, from volumes of the
-// corners themselves. If that sign is undecided, too, the point touches the triangle or the segment
-// touches an edge; the point is unresolved.
+// corners themselves. If the sign is still undecided, the point touches the triangle or the segment
+// touches an edge. Then the point is unresolved.
 //
 // winding_cells_build.cpp builds the cells.
 #include "winding/winding_cells.h"
@@ -25,7 +27,8 @@ namespace bindpose
 
 namespace
 {
-/// Largest change of a coordinate by rounding, with some room for the round-off of floats.
+/// Largest change of a stored coordinate by rounding, including a margin for the round-off of
+/// floats.
 constexpr float rounded_by = 0.57f;
 } // namespace
 
@@ -55,8 +58,8 @@ std::array<WindingCells::Id, 3> WindingCells::place_of(const Node& node, const V
 
 /// Return the signed crossings of the segment from the point q to the reference, which is the
 /// origin. q and `touching` are in units of the stored plane distances. Faces with an undecided
-/// sign, and faces that the point touches within the length `touching`, are added to `unclear`
-/// instead of being counted.
+/// sign, and faces within the distance `touching` of the point, are not counted but added to
+/// `unclear`.
 BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* end,
   const Faces* faces, float touching, const float* q, Unclear& unclear)
 {
@@ -69,7 +72,8 @@ BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* en
   std::int32_t counts[lanes] = {};
   for (const Block* block = begin; block != end; ++block)
   {
-    // A separate loop, because compilers do not vectorize the next loop with this conversion in it.
+    // A separate loop, because compilers would not vectorize the next loop if it contained this
+    // conversion.
     float plane[Block::numbers * lanes];
     for (int k = 0; k < Block::numbers * lanes; ++k)
     {
@@ -158,7 +162,8 @@ bool WindingCells::count_in(const Leaf& found, const Vec3& p, int& count) const
 
 void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool* told) const
 {
-  // All points descend together: the data of one point is prefetched while others are processed.
+  // All points descend in parallel: the data of one point is prefetched while other points are
+  // processed.
   std::array<const Cell*, most_at_once> cells;
   std::array<Id, most_at_once> waiting;
   Id left = 0;
@@ -252,8 +257,9 @@ void WindingCells::evaluate_row(const double* xs, Index number, double y, double
       place = this->place_of(*at, p);
       cell = this->cell_at(*at, place);
     }
-    // The part of the row in this cell, without a margin in which rounding could choose the
-    // neighboring cell. evaluate() must find every point in the same cell.
+    // Part of the row in this cell. A small margin at the cell's sides is excluded, because
+    // rounding could assign its points to the neighboring cell, and evaluate() must find every
+    // point in the same cell.
     const double lower = at->lower.x() + (place[0] + 1e-6) / at->inverse;
     const double upper = at->lower.x() + (place[0] + 1 - 1e-6) / at->inverse;
     Index end = i + 1;

@@ -11,7 +11,8 @@
 namespace bindpose
 {
 
-/// Winding numbers of closed surfaces, which are exact integers.
+/// A grid of nested cells for fast winding numbers of closed surfaces. The values are exact
+/// integers.
 ///
 /// Space is divided into cells until each cell contains few triangles. A cell without triangles
 /// stores its constant winding number. Any other cell stores the winding number of one point, its
@@ -20,9 +21,9 @@ namespace bindpose
 class WindingCells
 {
 public:
-  /// Build from triangles and the caps that close them (boundary_caps.h). Together, the directions
-  /// of every edge must cancel. Points must be centered and scaled (ExactFrame), ids below 2^29.
-  /// All three arguments are referenced, not copied.
+  /// Build from triangles and the caps that close them (boundary_caps.h). Triangles and caps
+  /// together must use every edge equally often in both directions. Points must be centered and
+  /// scaled (ExactFrame), ids below 2^29. All three arguments are referenced, not copied.
   /// @return false if canceled.
   bool build(const Points& points, const Triangles& triangles, const Triangles& caps,
     double tolerance, ExecutionContext& context);
@@ -34,8 +35,9 @@ public:
   static constexpr Index most_at_once = 32;
   void evaluate(const Vec3* points, Index number, int* counts, bool* told) const;
 
-  /// Compute the winding numbers of the points (xs[0 … number), y, z). Neighbors in one cell share
-  /// the descent to it. The indices of unresolved points are appended to `untold`. Thread-safe.
+  /// Compute the winding numbers of the points (xs[0 … number), y, z). Consecutive points in one
+  /// cell share the descent to the cell. The indices of unresolved points are appended to `untold`.
+  /// Thread-safe.
   void evaluate_row(const double* xs, Index number, double y, double z, double* counts,
     std::vector<Index>& untold) const;
 
@@ -47,8 +49,8 @@ private:
   static constexpr int lanes = 8;
   /// Planes of up to eight triangles relative to the reference of a leaf. The first three normals
   /// belong to the planes through the reference and an edge. The fourth normal belongs to the
-  /// triangle itself and is followed by the distance of its plane. Each number is stored for all
-  /// triangles before the next one.
+  /// triangle itself and is followed by the distance of its plane. The layout is a structure of
+  /// arrays: each coordinate is stored for all triangles before the next coordinate.
   struct Block
   {
     static constexpr int numbers = 13;
@@ -60,11 +62,11 @@ private:
   struct Leaf
   {
     Vec3 reference;
-    float per_length; ///< units of the stored plane distances per unit of length
+    float per_length; ///< stored plane distances are lengths multiplied by this
     int count; ///< winding number at the reference
     Id begin, end; ///< range of blocks
   };
-  /// A box of cells; x varies fastest.
+  /// A box that is divided into a grid of cells; x varies fastest.
   struct Node
   {
     Vec3 lower;
@@ -74,7 +76,7 @@ private:
   };
   enum Kind : std::uint32_t
   {
-    holds_nothing, ///< value: the winding number of the cell
+    holds_nothing, ///< value: the constant winding number of the cell
     holds_leaf,
     holds_node
   };
@@ -88,7 +90,8 @@ private:
   {
     static constexpr Id most = 32;
     std::array<Id, most> faces;
-    Id number = 0; ///< may exceed `most`; then only the first `most` faces are listed
+    /// Number of faces, which may exceed `most`; then only the first `most` faces are stored.
+    Id number = 0;
 
     void add(Id face)
     {

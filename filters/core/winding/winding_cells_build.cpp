@@ -1,7 +1,8 @@
-// Cells are built from the box of the surface downwards. The triangles of a box are sorted into its
-// cells; a cell with many triangles becomes a box again. The winding number of a reference follows
-// from that of a neighboring cell's reference, for the first cell from that of the enclosing box.
-// The cells of the whole box are filled on all threads, in pieces that are joined in order.
+// Construction of WindingCells. Cells are built from the box of the surface downwards. The
+// triangles of a box are sorted into the cells of the box. A cell with many triangles is divided
+// like the box. The winding number at the reference of a cell is computed from the winding number
+// at the reference of a neighboring cell, or of the enclosing box for the first cell. The cells of
+// the whole box are built on all threads, and the parts are joined in order.
 #include "winding/winding_cells.h"
 
 #include "base/large_pages.h"
@@ -26,18 +27,19 @@ constexpr std::size_t few = 40;
 /// Intended number of triangles in a new cell.
 constexpr double wanted = 18;
 constexpr int most_cells_along = 32;
-/// Fewest cells along the whole box, so that most points around a few large triangles are in cells
-/// without triangles.
+/// Minimum number of cells along the whole box, so that most points around a few large triangles
+/// are in cells without triangles.
 constexpr double fewest_cells_along = 8.0;
 constexpr int deepest = 12;
-/// Units of a plane's distance per cell size: slightly less than the range of 16 bits.
+/// Stored distance of a plane at the distance of one cell size: slightly less than the range of 16
+/// bits.
 constexpr double distance_units = 32000.0;
-/// A cross product shorter than this, in units of the lengths of its factors (doubles around 1),
+/// A cross product shorter than this, relative to the lengths of its factors (doubles around 1),
 /// has no reliable direction.
 constexpr double shortest_product = 1e-9;
 
-/// Report whether a triangle and a box intersect, by separating axes (Akenine-Moeller). True if in
-/// doubt.
+/// Report whether a triangle and a box intersect, by separating axes (Akenine-Moeller). Return true
+/// if round-off makes the result uncertain.
 bool overlaps(const std::array<Vec3, 3>& corners, const Vec3& center, const Vec3& half)
 {
   const Vec3 a = corners[0] - center;
@@ -67,7 +69,7 @@ bool overlaps(const std::array<Vec3, 3>& corners, const Vec3& center, const Vec3
   return true;
 }
 
-/// A triangle with sorted corners; `turn` is 1 for an even permutation and -1 for an odd one.
+/// A triangle with sorted corner ids; `turn` is 1 if sorting was an even permutation and -1 if odd.
 struct SortedCorners
 {
   std::array<Index, 3> ids;
@@ -89,8 +91,8 @@ SortedCorners sorted_corners(const Triangles& triangles, Index t)
   return corners;
 }
 
-/// Return the ids of the triangles, followed by those of the caps, without the pairs of the same
-/// corners and opposite orientation. Ascending.
+/// Return the ids of the triangles, followed by the ids of the caps, in ascending order. Pairs of
+/// triangles with the same corners and opposite orientation are omitted.
 std::vector<std::int32_t> without_opposites(const Triangles& triangles, const Triangles& caps)
 {
   std::vector<SortedCorners> of_caps;
@@ -151,17 +153,17 @@ private:
     Vec3 size;
     Vec3 reference; ///< a point whose winding number is `count`
     int count = 0;
-    std::vector<Id> faces; ///< ascending
+    std::vector<Id> faces; ///< ids of the faces, ascending
     std::vector<std::array<Vec3, 3>> corners; ///< corners of the faces, stored contiguously
     int depth = 0;
   };
   /// The cells of a box. The faces of cell c are faces[begin[c] … begin[c + 1]), ascending indices
-  /// into the list of the box.
+  /// into the face list of the box.
   struct Grid
   {
     double cell = 0.0; ///< edge length of a cell
     std::array<Id, 3> size;
-    std::size_t faces_before = 0; ///< number of faces of the box
+    std::size_t faces_before = 0; ///< number of faces in the box that is divided
     std::vector<Id> begin;
     std::vector<Id> faces;
     std::vector<Vec3> references;
@@ -196,7 +198,7 @@ private:
 
   WindingCells& owner_;
   ExecutionContext& context_;
-  std::vector<Id> faces_; // ids of all faces
+  std::vector<Id> faces_; // ids of all triangles and caps
 };
 
 bool WindingCells::build(const Points& points, const Triangles& triangles, const Triangles& caps,
@@ -225,8 +227,8 @@ bool WindingCells::Builder::build()
   }
   if (!bounds.empty())
   {
-    // The margin keeps triangles off the sides of the box. Its irregular ratios keep the sides of
-    // cells off the planes of axis-aligned surfaces.
+    // The margin keeps triangles away from the sides of the box. Its irregular ratios keep the
+    // sides of cells off the planes of axis-aligned surfaces.
     const double room = 1e-3 * bounds.diagonal() + 16.0 * this->owner_.tolerance_;
     all.lower = bounds.lower - Vec3(1.0137, 1.0719, 1.0431) * room;
     all.size = bounds.upper + Vec3(1.0311, 1.0173, 1.0597) * room - all.lower;
@@ -241,14 +243,14 @@ bool WindingCells::Builder::build()
   this->owner_.upper_ = all.lower + all.size;
   if (all.faces.empty())
   {
-    this->owner_.upper_ = this->owner_.lower_ - Vec3::Ones(); // every point is outside
+    this->owner_.upper_ = this->owner_.lower_ - Vec3::Ones(); // then every point counts as outside
     return true;
   }
   return this->cut_whole(all);
 }
 
-/// Count the signed crossings of a segment with the faces of two lists, each face once. Return
-/// false if a crossing is unclear.
+/// Count the signed crossings of a segment with the faces of two lists. A face in both lists is
+/// counted once. Return false if a crossing is unclear.
 bool WindingCells::Builder::crossings(
   const Box& box, const Vec3& from, const Vec3& to, List some, List others, int& count)
 {
@@ -286,8 +288,8 @@ bool WindingCells::Builder::count_slowly(const Vec3& place, int& count) const
   return !sum.on_surface();
 }
 
-/// Choose the cubic cells of a box. Their number leaves about `wanted` triangles per cell if the
-/// triangles form a sheet.
+/// Choose the cubic cells of a box. The number of cells is chosen so that a cell contains about
+/// `wanted` triangles if the triangles form a sheet.
 WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box, double most_along) const
 {
   Grid grid;
@@ -304,14 +306,14 @@ WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box, doub
   return grid;
 }
 
-/// Find the cells that the faces [begin, end) of the box meet. Return false if canceled or if more
-/// than `most` cells are found.
+/// Find the cells that the faces [begin, end) of the box overlap. Return false if canceled or if
+/// there are more than `most` pairs of a cell and a face.
 bool WindingCells::Builder::find(
   const Box& box, const Grid& grid, Index begin, Index end, std::size_t most, Found& found) const
 {
   const std::array<Id, 3>& size = grid.size;
-  // A small margin keeps the result correct for points that rounding puts into the neighboring
-  // cell.
+  // A small margin, so that the result is also correct for points that rounding assigns to the
+  // neighboring cell.
   const Vec3 half = Vec3::Constant(0.5 * grid.cell * (1.0 + 1e-9) + 4.0 * this->owner_.tolerance_);
   const double inverse = 1.0 / grid.cell;
   for (Index i = begin; i < end; ++i)
@@ -353,8 +355,8 @@ bool WindingCells::Builder::find(
   return true;
 }
 
-/// Sort the faces of the box into its cells. Return false if canceled or if this would make more
-/// than `most` entries.
+/// Sort the faces of the box into its cells. Return false if canceled or if the cells would contain
+/// more than `most` entries in total.
 bool WindingCells::Builder::sort(
   const Box& box, bool on_all_threads, std::size_t most, Grid& grid) const
 {
@@ -427,7 +429,8 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
     bool told = false;
     for (int attempt = 0; attempt < 32 && !told; ++attempt)
     {
-      // Off the center, in a different direction per attempt, with irregular ratios.
+      // Place the reference near the center of the cell, in a different direction with irregular
+      // ratios at each attempt.
       const double t = attempt + 1.0;
       const Vec3 place = center +
         0.05 * grid.cell *
@@ -466,8 +469,9 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
 bool WindingCells::Builder::cut_whole(const Box& whole)
 {
   // Largest number of entries of all cells together. It is divided among the cells in proportion to
-  // their first entries. It bounds the memory to a multiple of the surface's for every arrangement
-  // of the faces. Surfaces with triangles as large as the surface get fewer cells.
+  // the number of faces that each contains. For every arrangement of the faces, the limit bounds
+  // the memory to a multiple of the surface's memory. Surfaces with triangles as large as the
+  // surface get fewer cells.
   const double most = 16.0 * static_cast<double>(this->faces_.size()) + 1e5;
   Grid grid;
   {
@@ -593,13 +597,15 @@ bool WindingCells::Builder::cut(const Box& box, Arrays& made, std::size_t entrie
   return true;
 }
 
-/// Set the cell c and add its contents. Return false if canceled.
+/// Set `cell` for the cell c of the grid, and add its leaf or node to `made`. Return false if
+/// canceled.
 bool WindingCells::Builder::fill(
   const Box& box, const Grid& grid, Id c, std::size_t entries, Arrays& made, Cell& cell) const
 {
   const auto number = static_cast<std::size_t>(grid.number(c));
   const List faces(grid.faces.data() + grid.begin[c], grid.faces.data() + grid.begin[c + 1]);
-  // The division must pay off: a vertex of many triangles stays in one cell of any size.
+  // Divide the cell only if this reduces the number of faces per cell: a vertex of many triangles
+  // is in one cell of any size, so dividing does not help.
   const bool shrinks = box.depth < 3 || 10 * number < 7 * grid.faces_before;
   const bool large_enough = grid.cell > 1e6 * this->owner_.tolerance_;
   if (number > few && shrinks && large_enough && box.depth < deepest && entries > number)
@@ -627,7 +633,7 @@ bool WindingCells::Builder::fill(
     {
       return false;
     }
-    // The faces are too large for smaller cells.
+    // The faces are too large to be sorted into smaller cells, so the cell becomes a leaf.
   }
   cell = { grid.counts[c], holds_nothing };
   if (number > 0)
@@ -669,7 +675,7 @@ WindingCells::Id WindingCells::Builder::add_leaf(
     Faces ids;
     for (int lane = 0; lane < lanes; ++lane)
     {
-      // An unused lane contains a plane far away.
+      // An unused lane contains a plane far from the cell.
       std::array<double, Block::numbers> plane{};
       plane[12] = one;
       ids[lane] = -1;
@@ -698,7 +704,8 @@ WindingCells::Id WindingCells::Builder::add_leaf(
           direction(product, shortest_product * longest * std::max(1.0, reach / cell), one);
         const double distance =
           static_cast<double>(leaf.per_length) * product.dot(seen[0]) / product.norm();
-        const bool is_near = std::abs(distance) < one; // expected, because the face meets the cell
+        // This is the normal case, because the face overlaps the cell.
+        const bool is_near = std::abs(distance) < one;
         std::copy(normal.begin(), normal.end(), plane.begin() + 9);
         plane[12] = is_near && normal != std::array<double, 3>{} ? distance : 0.0;
       }

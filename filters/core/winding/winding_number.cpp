@@ -1,13 +1,17 @@
+// Generalized winding numbers of triangle meshes: choice of the method, exact and fast evaluation.
+//
 // The build merges equal vertices, drops triangles that use a vertex twice, counts edges, chooses a
 // method and builds its data structures. The evaluation treats each point independently, so that
-// neither the number of threads nor the extent of a grid can change a bit.
+// results are bit-identical for every number of threads and every extent of a grid.
 //
-// The methods crossings and fast close the surface by caps over its boundary. Surface and caps
-// together have an integer winding number, which ray crossings count. The winding number of the
-// caps is subtracted: crossings computes it as an exact sum, fast evaluates it as a DipoleField. If
-// the point touches the surface or a cap, the tree or the plain sum is used instead.
+// The methods `crossings` and `fast` close the surface by caps over its boundary. Surface and caps
+// together have an integer winding number, which ray crossings count. Then the winding number of
+// the caps is subtracted: the method `crossings` computes an exact sum over the caps, the method
+// `fast` evaluates a DipoleField. If the point touches the surface or a cap, the tree or the plain
+// sum is used instead.
 //
-// All computations use an exact frame: size about 1, near the origin, without rounding.
+// All computations use coordinates that are scaled to a size of about 1 and shifted to the origin
+// without rounding (ExactFrame).
 #include "winding/winding_number.h"
 
 #include "base/large_pages.h"
@@ -33,17 +37,20 @@ namespace bindpose
 
 namespace
 {
-/// Up to this many triangles the plain sum costs no more than a data structure.
+/// Up to this many triangles the plain sum takes no more time than a data structure.
 constexpr Index few_triangles = 24;
-/// Up to this many open edges the sum over them costs less than a descent of the tree. The tree
-/// does not pay off either if most edges are open. Measured: 14-20 ns per open edge, 20 ns per
-/// triangle, 20 to 600 us for the tree (more on rougher surfaces).
+/// Up to this many open edges (edges whose directions do not cancel), the sum over the caps takes
+/// less time than a descent of the tree. The tree is also slower if most edges are open. Measured:
+/// 14-20 ns per open edge, 20 ns per triangle, 20 to 600 us for the tree (more on rougher
+/// surfaces).
 constexpr Index few_open_edges = 15000;
-/// Up to this many open edges the exact sum over them costs about as much as the field of the caps.
+/// Up to this many open edges, the exact sum over the caps takes about as much time as the
+/// DipoleField of the caps.
 constexpr Index hardly_open = 12;
-/// Beyond this distance, in units of the mesh, the winding number is 0 in double precision.
+/// Beyond this distance from the origin, in units of the mesh size, the winding number is 0 in
+/// double precision.
 constexpr double far_away = 1e20;
-/// Measured nanoseconds of cells: to build them, per triangle; to evaluate a point; to evaluate a
+/// Measured nanoseconds of WindingCells: to build, per triangle; to evaluate a point; to evaluate a
 /// sample of a row.
 constexpr double cells_per_face = 450.0;
 constexpr double cells_per_point = 40.0;
@@ -101,16 +108,18 @@ struct WindingNumber::Parts
   mutable WindingTree tree;
   mutable std::mutex tree_mutex;
   mutable std::atomic<bool> tree_built{ false };
-  // Built at once, or when they first pay off. Counting crossings by rays gives the same values.
+  // The cells are built during the build, or later when building them saves time. Counting
+  // crossings by rays gives the same values.
   mutable WindingCells cells;
   mutable std::mutex cells_mutex;
   mutable std::atomic<bool> cells_built{ false };
-  mutable std::atomic<double> ray_nanoseconds{ 0.0 }; ///< predicted time of all ray counts so far
+  /// Sum of the predicted times of all ray counts so far.
+  mutable std::atomic<double> ray_nanoseconds{ 0.0 };
   std::unique_ptr<RayCrossings> rays;
   std::vector<Edge> rim; ///< edges whose directions do not cancel
-  Triangles caps; ///< triangles that close the surface
+  Triangles caps; ///< triangles that close the surface (boundary_caps.h)
   SurfaceBoundary boundary; ///< in ids and units of the input
-  DipoleField field; ///< of the caps, if the method is fast
+  DipoleField field; ///< field of the caps, used by the method `fast`
 
   bool by_crossings() const
   {
@@ -270,7 +279,8 @@ Status WindingNumber::build(
       parts.method = WindingMethod::direct;
     }
   }
-  // The plain sum is fastest with the fewest caps, the cells of the field with the smallest caps.
+  // The plain sum needs the minimum number of caps; the cells of the field need caps of minimum
+  // size.
   if (done && parts.method == WindingMethod::fast &&
     !DipoleField::sums_all(options.expected_queries))
   {
@@ -296,14 +306,14 @@ Status WindingNumber::build(
     DipoleField::Options field;
     field.tolerance = options.tolerance;
     field.expected_points = options.expected_queries;
-    // The default padding of grids, as a fraction of the diagonal.
+    // The default padding of grids, as a fraction of the bounding-box diagonal.
     constexpr double padding = 0.1;
     field.region = bounding_box(parts.points, parts.triangles);
     const double pad = padding * field.region.diagonal();
     field.region.lower.array() -= pad;
     field.region.upper.array() += pad;
-    // Long caps are cut at rounded positions. Points for which this rounding matters count as
-    // touching, and the exact sum is used for them.
+    // The field cuts long caps at rounded positions. Points for which this rounding matters count
+    // as touching, and the exact sum is used for them.
     const double shows = parts.frame.tolerance / options.tolerance;
     done = parts.field.build(parts.points, parts.caps,
       std::vector<int>(static_cast<std::size_t>(parts.caps.rows()), 1), shows, field, context);
@@ -341,8 +351,9 @@ Index WindingNumber::memory() const
     this->parts_->tree.memory() + this->parts_->cells.memory() + this->parts_->field.memory();
 }
 
-/// Report whether counting crossings by rays, which takes ray_cost nanoseconds, is faster than by
-/// cells. Cells are built at the latest when rays have taken as long as building the cells takes.
+/// Report whether counting crossings by rays is faster than by cells. ray_cost is the predicted
+/// time for rays in nanoseconds. The cells are built at the latest when the total time of rays
+/// would exceed the time to build the cells.
 bool WindingNumber::Parts::rays_pay(double ray_cost, double cell_cost) const
 {
   if (this->cells_built)
@@ -369,7 +380,8 @@ void WindingNumber::Parts::at(const Vec3* queries, Index number, const int* coun
 {
   std::array<Vec3, WindingCells::most_at_once> framed;
   framed.fill(Vec3::Zero());
-  std::array<Index, WindingCells::most_at_once> asked; // indices of the points to evaluate
+  // Indices of the points that need an evaluation.
+  std::array<Index, WindingCells::most_at_once> asked;
   Index count = 0;
   for (Index i = 0; i < number; ++i)
   {
@@ -420,7 +432,7 @@ void WindingNumber::Parts::at(const Vec3* queries, Index number, const int* coun
   }
 }
 
-/// Compute the winding numbers of the caps and whether the points touch them.
+/// Compute the winding numbers of the caps at the points, and report whether a point touches a cap.
 void WindingNumber::Parts::caps_at(
   const Vec3* framed, Index count, double* winding_numbers, bool* touches) const
 {
@@ -438,7 +450,7 @@ void WindingNumber::Parts::caps_at(
   }
 }
 
-/// Build the tree unless it exists. If few points need it, the first of them builds it.
+/// Build the tree if it does not exist. It is built when the first point needs it.
 bool WindingNumber::Parts::build_tree(ExecutionContext& context) const
 {
   const std::lock_guard<std::mutex> lock(this->tree_mutex);
@@ -466,7 +478,8 @@ double WindingNumber::Parts::slowly_at(const Vec3& p, bool* on_surface) const
   {
     *on_surface = sum.on_surface();
   }
-  // Cells return integers without round-off; points that they cannot resolve must be integers, too.
+  // Round the value to an integer if the surface is closed, because WindingCells returns integers
+  // for the other points.
   const bool whole = this->rim.empty() && !sum.on_surface();
   return whole ? std::round(sum.winding_number()) : sum.winding_number();
 }
@@ -541,7 +554,7 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
     }
   }
   const ProgressRange range(context, by_rays ? 0.5 : 0.0, 1.0);
-  // The tree can degenerate to a list.
+  // The estimate for the tree is its worst case, in which it works like a list.
   const double nanoseconds = parts.method == WindingMethod::fast ? 500.0
     : parts.method == WindingMethod::crossings
     ? 100.0 + 20.0 * static_cast<double>(parts.caps.rows())
@@ -549,8 +562,8 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
   return point_values(context, count, nanoseconds, out, on_surface,
     [&](Index begin, Index end, unsigned char* flags)
     {
-      // Sort the points spatially, so that neighbors use the data of a cell while it is in the
-      // cache.
+      // Sort the points spatially, so that neighboring points use the data of a cell while it is in
+      // the cache.
       const Index count_here = end - begin;
       std::vector<Vec3> points(static_cast<std::size_t>(count_here));
       for (Index i = 0; i < count_here; ++i)
@@ -644,8 +657,8 @@ Status WindingNumber::evaluate_gradient(
   return this->evaluate_gradients(grid.count(), points_of(grid), context, out);
 }
 
-/// Return the sum over the boundary edges (the field of a current that runs along them). The
-/// surface between the edges does not matter.
+/// Return the sum over the boundary edges (the field of an electric current along them). The result
+/// does not depend on the triangles between the boundary edges.
 Vec3 WindingNumber::Parts::gradient_at(const Vec3& point) const
 {
   if (!point.allFinite())
@@ -678,7 +691,7 @@ Vec3 WindingNumber::Parts::gradient_at(const Vec3& point) const
   return this->frame.scale / four_pi * sum;
 }
 
-/// Report whether all samples are in the range that cells and rays can evaluate.
+/// Report whether all samples are within the range of coordinates that cells and rays accept.
 bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
 {
   const auto corner = [&](int end)
@@ -688,7 +701,7 @@ bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
     corner(1).cwiseAbs().maxCoeff() < far_away;
 }
 
-/// Evaluate the grid by rows along x, in which neighbors in one cell share the descent.
+/// Evaluate the grid by rows along x. Samples of a row in one cell share the descent to the cell.
 Status WindingNumber::evaluate_rows(
   const SampleGrid& grid, ExecutionContext& context, double* out, unsigned char* on_surface) const
 {
@@ -853,7 +866,7 @@ double winding_number_direct(
     const Vec3 a = frame(points.row(triangles(t, 0)));
     const Vec3 b = frame(points.row(triangles(t, 1)));
     const Vec3 c = frame(points.row(triangles(t, 2)));
-    if (a != b && b != c && c != a) // a degenerate triangle counts 0 and cannot be touched
+    if (a != b && b != c && c != a) // A degenerate triangle contributes 0 and cannot be touched.
     {
       sum.add(a, b, c);
     }

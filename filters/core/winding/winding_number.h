@@ -1,6 +1,8 @@
 #ifndef bindpose_winding_winding_number_h
 #define bindpose_winding_winding_number_h
 
+// Generalized winding numbers of triangle meshes (Jacobson, Kavan, Sorkine-Hornung 2013).
+
 #include "base/execution.h"
 #include "base/mesh.h"
 #include "base/sample_grid.h"
@@ -16,10 +18,12 @@ namespace bindpose
 enum class WindingMethod
 {
   automatic, ///< exact if there are at most 24 triangles or 12 open edges, otherwise fast
-  exact, ///< the fastest of the three exact methods, chosen by the counts of the surface
-  fast, ///< ray crossings minus an approximation of the caps within the tolerance; ~0.2 us per
-        ///< point
-  direct, ///< exact: sum over all triangles; no build; ~20 ns x #F per point
+  /// The fastest of the three exact methods, chosen from the numbers of triangles and open edges.
+  exact,
+  /// Ray crossings minus a DipoleField of the caps, accurate within the tolerance; ~0.2 us per
+  /// point.
+  fast,
+  direct, ///< exact: sum over all triangles; no build time; ~20 ns x #F per point
   hierarchical, ///< exact: tree of boxes with caps; tens of microseconds per point for 100k
                 ///< triangles
   crossings ///< exact: ray crossings minus the sum over all caps; ~40 ns + 20 ns x #open edges per
@@ -34,13 +38,14 @@ const char* to_string(WindingMethod method);
 /// of all triangles.
 ///
 /// The triangles may be closed, open, intersecting, duplicated, non-manifold or a soup. Their
-/// orientation determines the sign: counter-clockwise seen from outside gives +1 inside. Closed
-/// surfaces give integers; the values of open surfaces vary smoothly through their holes.
+/// orientation determines the sign: if triangles are counter-clockwise as seen from outside, the
+/// winding number is +1 inside. Closed surfaces give integers; the values of open surfaces vary
+/// smoothly through their holes.
 ///
-/// - **On the surface**: triangles that touch the point count 0 (the principal value): 1/2 on a
-///   face, 1/4 on an edge and 1/8 at a vertex of a cube. A triangle touches a point within a few
-///   units in the last place of the largest coordinate (2^-49 of it).
-/// - **Degenerate triangles** count 0 and are counted in the report. Equal vertices are merged.
+/// - **On the surface**: triangles that touch the point contribute 0 (the principal value). For
+///   example, the value is 1/2 on a face of a cube, 1/4 on an edge and 1/8 at a vertex. A triangle
+///   touches a point within a few units in the last place of the largest coordinate (2^-49 of it).
+/// - **Degenerate triangles** contribute 0; their number is reported. Equal vertices are merged.
 /// - **Precision**: double. Coordinates are shifted and scaled without rounding. The error is about
 ///   1e-14 plus 1e-16 times the sum of the absolute winding numbers of the single triangles. The
 ///   error of the fast method is at most the tolerance.
@@ -60,9 +65,9 @@ public:
     /// Nodes with at most this many triangles are not split further, 1 … 10000.
     Index max_leaf_size = 64;
     /// Total number of points that will be evaluated, 0 … 2^62. 0 means unknown and is treated as
-    /// very many. It determines how much the build prepares, so that build and evaluation together
-    /// take the least time. A wrong number costs time, never accuracy. Values of the fast method
-    /// depend on it within the tolerance: use the number of the whole grid for all parts of a grid.
+    /// very many. The build uses it to minimize the total time of build and evaluation. A wrong
+    /// value costs time but no accuracy. The values of the fast method depend on it within the
+    /// tolerance; for parts of a grid, always use the number of samples of the whole grid.
     Index expected_queries = 0;
   };
 
@@ -73,16 +78,15 @@ public:
   WindingNumber(WindingNumber&&) noexcept;
   WindingNumber& operator=(WindingNumber&&) noexcept;
 
-  /// Build from copies of #V x 3 points and #F x 3 ids.
-  /// invalid_input: a coordinate is not finite, an id is out of range, there are 2^29 or more
-  /// triangles or more than 2^31 - 1 points, or an option is out of its range. An empty mesh is
-  /// valid and has the winding number 0 everywhere; a warning reports it.
-  /// The status reports method, method_reason, counts.vertices, .triangles, .boundary_edges (used
-  /// by one triangle), .nonmanifold_edges, .open_edges (their directions do not cancel, which makes
-  /// the winding number fractional), .components, .merged_vertices, .degenerate_triangles,
-  /// .duplicate_triangles, and volume (by the divergence theorem, with holes closed by caps). For
-  /// the fast method it also reports error_bound (the tolerance) and measured_error (on a sample
-  /// that the build chooses).
+  /// Build from copies of #V x 3 points and #F x 3 ids. Return invalid_input if a coordinate is not
+  /// finite, an id is out of range, there are 2^29 or more triangles or more than 2^31 - 1 points,
+  /// or an option is out of its range. An empty mesh is valid and has the winding number 0
+  /// everywhere; a warning reports it. The status reports method, method_reason, counts.vertices,
+  /// .triangles, .boundary_edges (used by one triangle), .nonmanifold_edges, .open_edges (edges
+  /// whose directions do not cancel, which makes the winding number fractional), .components,
+  /// .merged_vertices, .degenerate_triangles, .duplicate_triangles, and volume (by the divergence
+  /// theorem, with holes closed by caps). For the fast method it also reports error_bound (the
+  /// tolerance) and measured_error (the largest error at sample points that the build chooses).
   Status build(
     PointsView points, TrianglesView triangles, ExecutionContext& context, const Options& options);
   Status build(PointsView points, TrianglesView triangles, ExecutionContext& context)
@@ -102,31 +106,31 @@ public:
 
   /// Compute the winding numbers of #Q x 3 points. A point that is not finite gets NaN and causes a
   /// warning. The status reports counts.queries, counts.on_surface and, if it is not 0,
-  /// counts.not_finite.
-  /// canceled: `out` is incomplete.
+  /// counts.not_finite. If the result is canceled, `out` is incomplete.
   Status evaluate(PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
-  /// Compute the winding numbers of the samples of a grid, x fastest.
+  /// Compute the winding numbers at the samples of a grid; x varies fastest.
   Status evaluate(const SampleGrid& grid, ExecutionContext& context, Eigen::VectorXd& out) const;
-  /// Write the winding numbers to `out`, memory of the caller for #Q or grid.count() numbers.
-  /// Unless it is null, `on_surface` gets 1 for every point that touches a triangle, else 0.
+  /// Write the winding numbers to `out`, which the caller allocates for #Q or grid.count() values.
+  /// If `on_surface` is not null, set its entries to 1 for points that touch a triangle, otherwise
+  /// to 0.
   Status evaluate(PointsView queries, ExecutionContext& context, double* out,
     unsigned char* on_surface = nullptr) const;
   Status evaluate(const SampleGrid& grid, ExecutionContext& context, double* out,
     unsigned char* on_surface = nullptr) const;
-  /// Compute the derivatives along x, y and z, #Q x 3 or grid.count() x 3 numbers. The jump across
-  /// the surface is excluded. The derivatives of closed surfaces are 0. The derivatives are
-  /// unbounded near a boundary edge; an edge that the point touches adds 0. The error of the fast
-  /// method is about 10 x tolerance / (distance to the boundary).
-  /// canceled: `out` is incomplete. Cost: 10 ns x #open edges per point; for the fast method about
-  /// that of a value.
+  /// Compute the derivatives of the winding number along x, y and z, #Q x 3 or grid.count() x 3.
+  /// The jump across the surface is excluded, so the derivatives of closed surfaces are 0. The
+  /// derivatives are unbounded near a boundary edge; an edge that touches the point contributes 0.
+  /// The error of the fast method is about 10 x tolerance / (distance to the boundary). If the
+  /// result is canceled, `out` is incomplete. Cost: 10 ns x #open edges per point; for the fast
+  /// method about the cost of a value.
   Status evaluate_gradient(PointsView queries, ExecutionContext& context, double* out) const;
   Status evaluate_gradient(const SampleGrid& grid, ExecutionContext& context, double* out) const;
 
   /// Return the winding number at one point, or NaN if the point is not finite. Thread-safe, does
   /// not allocate.
   double evaluate_at(const Vec3& point, bool* on_surface = nullptr) const;
-  /// Return the exact winding number at one point with every method. Slower than evaluate_at() if
-  /// the method is fast.
+  /// Return the exact winding number at one point, independently of the method in use. Slower than
+  /// evaluate_at() if the method is fast.
   double evaluate_exactly_at(const Vec3& point, bool* on_surface = nullptr) const;
 
 private:
@@ -144,7 +148,7 @@ private:
   std::unique_ptr<Parts> parts_;
 };
 
-/// Return the plain sum over all triangles, without a build and with the same principal values.
+/// Return the plain sum over all triangles, without a build and with the same value on the surface.
 /// This is the reference implementation. The mesh must be valid (check_mesh); the result is 0
 /// without triangles. Cost: ~25 ns x #F.
 double winding_number_direct(

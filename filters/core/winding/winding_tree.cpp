@@ -1,8 +1,10 @@
+// Construction and evaluation of WindingTree (Jacobson et al. 2013).
+//
 // Nodes are split at the median of the triangles' centers along the longest axis. Boundaries are
-// computed from the leaves upwards: edges that two children share in opposite directions cancel.
-// The cap of a boundary is the fan from one of its vertices to all its edges. Every vertex of a
-// boundary has as many edges in as out, so triangles and reversed fan together are closed. Outside
-// the box their winding number is a constant integer, which is zero.
+// computed from the leaves upwards: edges that the two children use in opposite directions cancel.
+// The cap of a boundary is the fan from one of its vertices to all its edges. As many boundary
+// edges enter a vertex as leave it, so the triangles and the reversed fan together are closed.
+// Outside the box their total winding number is constant; it is zero.
 #include "winding/winding_tree.h"
 
 #include <algorithm>
@@ -13,7 +15,8 @@ namespace bindpose
 
 namespace
 {
-/// Merge the entries of the same edge, sorted by (a, b), and remove entries of net 0.
+/// Merge the entries of the same edge and remove entries whose `net` is 0. The entries must be
+/// sorted by (a, b).
 template <typename NetEdges>
 void combine(NetEdges& edges)
 {
@@ -131,8 +134,8 @@ bool WindingTree::build_node(Id id, ExecutionContext& context, std::vector<NetEd
     combine(boundary);
   }
 
-  // The apex is the vertex that is the end `a` of the most boundary edges, because edges at the
-  // apex need no triangle.
+  // The apex of the fan is the vertex that is the end `a` of the most boundary edges, because edges
+  // at the apex need no triangle.
   Id apex = -1;
   std::size_t most = 0;
   for (std::size_t i = 0; i < boundary.size();)
@@ -200,7 +203,7 @@ void WindingTree::add_to(SolidAngleSum& sum, const Vec3& point) const
   {
     return;
   }
-  // 31 levels halve 2^31 triangles; each level leaves one node on the stack.
+  // Halving 2^31 triangles takes 31 levels, and each level leaves one node on the stack.
   Id stack[64] = { 0 };
   int height = 1;
   while (height > 0)

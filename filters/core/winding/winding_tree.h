@@ -14,14 +14,15 @@ namespace bindpose
 ///
 /// Seen from outside a node's box, the node's triangles have the same winding number as any other
 /// surface with the same boundary in that box. Therefore the node stores a fan over its boundary
-/// edges as its cap. The result is exact up to round-off. In a triangle soup every edge is a
-/// boundary edge; caps gain nothing there and the tree works like a list.
+/// edges, called its cap, which replaces the triangles in the sum. The result is exact up to
+/// round-off. In a triangle soup every edge is a boundary edge. Then caps save no time, and the
+/// tree works like a list.
 class WindingTree
 {
 public:
-  /// Build the tree. Points must be centered and scaled, equal points must be one vertex, and ids
-  /// must be below 2^31. Both matrices must outlive the tree. A node of at most max_leaf_size
-  /// triangles is not split.
+  /// Build the tree. Points must be centered and scaled, equal points must be merged to one vertex,
+  /// and ids must be below 2^31. Both matrices must outlive the tree. A node of at most
+  /// max_leaf_size triangles is not split.
   /// @return false if canceled.
   bool build(const Points& points, const Triangles& triangles, double tolerance,
     Index max_leaf_size, ExecutionContext& context);
@@ -46,7 +47,7 @@ private:
   struct Node
   {
     double lower[3], upper[3];
-    Id first = 0, count = 0; ///< range of triangles in order_
+    Id first = 0, count = 0; ///< range of the node's triangles in `order_`
     Id left = -1, right = -1; ///< children; -1: a leaf
     Id cap_first = 0;
     Id cap_count = -1; ///< -1: no cap, because it would not be smaller than the triangles

@@ -328,7 +328,7 @@ def main(options):
     smooth = np.abs(beside[1] - beside[0]) < 0.5  # exclude points with a jump between the two samples
     error = np.median(np.abs(slope - gradient[:, 0])[smooth] / (1e-9 + np.abs(gradient[smooth, 0])))
     numbers["gradient"] = float(error)
-    print(f"\n  gradient: differs from differences by {error:.1e} of itself (median)")
+    print(f"\n  gradient: median relative difference from finite differences {error:.1e}")
 
     # The result can also be a grid, a vtkImageData. For any other vtkDataSet the field is evaluated at its points.
     start = time.perf_counter()

@@ -1150,8 +1150,8 @@ std::vector<std::string> find_losses(const tinygltf::Model& model, const Parts& 
   add(static_cast<std::size_t>(parts.morph_targets), "morph target", "morph targets");
   add(model.cameras.size(), "camera", "cameras");
   add(model.lights.size(), "light", "lights");
-  add(static_cast<std::size_t>(other_meshes), "mesh without the first skin",
-    "meshes without the first skin");
+  add(static_cast<std::size_t>(other_meshes), "mesh that does not use the first skin",
+    "meshes that do not use the first skin");
   add(static_cast<std::size_t>(parts.skipped), "primitive of points or lines",
     "primitives of points or lines");
   if (parts.meshes > 1)

@@ -50,7 +50,7 @@ def make(options):
     data = smooth + noise(squares)
     numbers = {"noise: rms": float(np.sqrt(np.mean((data - smooth) ** 2)) / np.ptp(smooth))}
     nearest = [int(np.argmin((x - a) ** 2 + (y - b) ** 2)) for a, b, _height in HILLS]
-    results = {"four most persistent": bindpose.monotone_smoothing((vertices, triangles), data, count=4),
+    results = {"four most persistent": bindpose.monotone_smoothing((vertices, triangles), data, number_of_extrema=4),
                "one of each kind": bindpose.monotone_smoothing((vertices, triangles), data, maxima=nearest[:1],
                                                                minima=nearest[2:3])}
     files = []

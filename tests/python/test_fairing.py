@@ -51,7 +51,7 @@ def test_tangents_of_an_array_tilt_the_edge():
 
 
 @pytest.mark.parametrize("words, sentence", [
-    ({"order": 4}, "order"), ({"boundary": "edge"}, "boundary"), ({"tangents": "steep"}, "tangents"),
+    ({"order": 4}, "order"), ({"boundary": "edge"}, "boundary"), ({"tangent_source": "steep"}, "tangent_source"),
     ({"fixed": [10 ** 6]}, "1000000"), ({"fixed": FIXED[1:]}, "Fixed"), ({"parameters": FLAT[1:]}, "Parameterization"),
     ({"fixed": np.zeros(len(FLAT), dtype=bool)}, "at least one fixed point"),
 ])

@@ -72,10 +72,10 @@ def test_gradient_is_the_slope():
     point = np.array([0.3, 0.2, 0.4])
     steps = 1e-5 * np.vstack([np.eye(3), -np.eye(3)])
     around = bindpose.winding_number(shapes.open_cube(), point + steps)
-    value, gradient = bindpose.winding_number(shapes.open_cube(), [point], gradient=True)
+    value, gradient = bindpose.winding_number(shapes.open_cube(), [point], compute_gradient=True)
     assert gradient.shape == (1, 3) and value.shape == (1,)
     assert gradient[0] == pytest.approx((around[:3] - around[3:]) / 2e-5, abs=1e-8)
-    grid = bindpose.winding_number(shapes.open_cube(), 6, gradient=True)
+    grid = bindpose.winding_number(shapes.open_cube(), 6, compute_gradient=True)
     assert point_array(grid, "WindingNumberGradient").shape == (grid.GetNumberOfPoints(), 3)
     assert set(point_array(grid, "OnSurface")) <= {0, 1}
 
@@ -240,7 +240,7 @@ def test_rotations_are_arrays_of_datasets():
     add_point_array(mesh, "Weights", np.stack([1 - x, x], axis=1), ["b1", "b2"])
     pose = {"handles": {"b1": {"rotate": {"axis": [1, 0, 0], "degrees": 25}}, "b2": {"mode": "free"}}}
     handles = bindpose.handles(bones=BONES)
-    options = {"rotation_arrays": True, "tolerance": 0, "iterations": 5000}
+    options = {"rotation_arrays": True, "tolerance": 0, "maximum_iterations": 5000}
     posed = [bindpose.deform(mesh, handles, pose, method=method, **options) for method in ("reduced-arap", "full-arap")]
     posed += bindpose.dynamics(mesh, handles, pose, frames=1, rotation_arrays=True)
     for each in posed:

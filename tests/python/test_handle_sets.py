@@ -50,16 +50,16 @@ def test_farthest_points():
 
 
 def test_automatic_points():
-    data = bindpose.automatic_handles(shapes.cube(), points=5)
+    data = bindpose.automatic_handles(shapes.cube(), method="points", number_of_points=5)
     assert [name for name, _parent in names_and_parents(data)] == ["p1", "p2", "p3", "p4", "p5"]
     assert all(abs(bound) < 1 for bound in data.GetBounds())
     assert bindpose.report(data)["counts"]["points_inside"] == 5
-    corners = bindpose.automatic_handles(shapes.cube(), points=2, place_inside=False, distance="straight")
+    corners = bindpose.automatic_handles(shapes.cube(), method="points", number_of_points=2, place_inside=False, distance="straight")
     assert corners.GetBounds() == (-1, 1, -1, 1, -1, 1)
     with pytest.raises(bindpose.InvalidInput, match="only 8"):
-        bindpose.automatic_handles(shapes.cube(), points=9)
+        bindpose.automatic_handles(shapes.cube(), method="points", number_of_points=9)
     with pytest.raises(bindpose.InvalidInput, match="along-edges"):
-        bindpose.automatic_handles(shapes.cube(), points=2, distance="far")
+        bindpose.automatic_handles(shapes.cube(), method="points", number_of_points=2, distance="far")
 
 
 def test_automatic_bones():

@@ -97,7 +97,7 @@ def test_bad_input_is_named():
     with pytest.raises(bindpose.InvalidInput, match="vertex 3"):
         bindpose.monotone_smoothing(BAR, np.where(np.arange(len(X)) == 3, np.nan, DATA))
     for wrong in ({"order": 4}, {"guide": "data"}, {"persistence": 1.0}, {"data_weight": -1}, {"epsilon": -1},
-                  {"rebuilds": -1}, {"count": -1}, {"tolerance": 0}, {"maximum_iterations": 0}):
+                  {"rebuilds": -1}, {"number_of_extrema": -1}, {"tolerance": 0}, {"maximum_iterations": 0}):
         with pytest.raises(bindpose.InvalidInput):
             bindpose.monotone_smoothing(BAR, DATA, **wrong)
 

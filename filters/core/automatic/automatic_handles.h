@@ -22,9 +22,9 @@ const char* to_string(AutomaticMethod method);
 struct AutomaticHandlesOptions
 {
   AutomaticMethod method = AutomaticMethod::skeleton;
-  CurveSkeletonOptions skeleton; ///< for method skeleton
-  SkeletonBonesOptions bones; ///< for method skeleton; `inside` is overwritten
-  SpreadPointsOptions points; ///< for method points
+  CurveSkeletonOptions skeleton; ///< options of method skeleton
+  SkeletonBonesOptions bones; ///< options of method skeleton; the member `inside` is overwritten
+  SpreadPointsOptions points; ///< options of method points
 };
 
 /// Create handles of a shape automatically: bones along its curve skeleton (curve_skeleton.h,

@@ -36,8 +36,9 @@ Status check_options(const CurveSkeletonOptions& options)
   return check_limits(options.time_limit, options.memory_limit);
 }
 
-/// If a clean surface has more triangles than this per contracted triangle, decimating the surface
-/// would take longer than making a lattice.
+/// If the number of triangles of a clean surface is more than this factor times the number of
+/// triangles to contract, decimating the surface would take longer than making a closed surface
+/// from a lattice.
 constexpr Index dense = 10;
 
 /// Compute a closed surface of the volume that the given surface encloses. Hollows are not filled
@@ -69,7 +70,8 @@ Status close_surface(PointsView points, TrianglesView triangles,
   status.report.set("surface", "lattice");
   ThickSolidOptions thick;
   thick.winding_threshold = options.winding_threshold;
-  // The parts of an unclean surface are joined to one shape; the gaps of a clean surface are kept.
+  // Parts of a surface with defects that touch or almost touch are joined; the gaps of a clean
+  // surface are kept.
   thick.join_near_parts = !clean;
   thick.triangles = (clean ? 4 : 2) * options.triangles;
   const ProgressRange range(context, 0.6, 1.0);

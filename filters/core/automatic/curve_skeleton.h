@@ -13,7 +13,8 @@ namespace bindpose
 /// Options of curve_skeleton().
 struct CurveSkeletonOptions
 {
-  /// A point is inside if its winding number is at least this, > 0. Used for unclean surfaces only.
+  /// A point is inside if its winding number is at least this, > 0. Used only if the surface is
+  /// replaced by a closed surface (see curve_skeleton).
   double winding_threshold = 0.5;
   /// Approximate number of triangles of uniform size that are contracted, for all components
   /// together, 100 … 1000000. Parts thinner than the edges of these triangles may be lost. The time
@@ -27,7 +28,7 @@ struct CurveSkeletonOptions
 struct CurveSkeleton
 {
   Points points; ///< #P x 3
-  Segments segments; ///< #S x 2, each pair of points at most once
+  Segments segments; ///< #S x 2: ids of two points; each pair occurs at most once
   Eigen::VectorXd radii; ///< #P: distance to the closed surface, which is half of the thickness
   /// #P: component of each point, as an index into centroids. A component with one point is a ball
   /// or almost a ball.
@@ -40,11 +41,12 @@ struct CurveSkeleton
 /// bindpose-mesher contracts the surface.
 ///
 /// A clean surface (closed, manifold, without crossings) with at most 10 times `triangles` is
-/// contracted itself. Any other surface (open, crossing, doubled, partly inside out, flat) is
+/// contracted directly. Any other surface (open, crossing, doubled, partly inside out, flat) is
 /// replaced by a closed surface of the enclosed volume and of a layer around thin parts
-/// (thick_solid.h). Parts of an unclean surface that touch or almost touch are joined. The surface
-/// is first remeshed to about `triangles` triangles of uniform size. Hollows are filled. Components
-/// with less than a 1000th of the largest component's volume are omitted, with a warning.
+/// (thick_solid.h). If the surface has defects, its parts that touch or almost touch are joined.
+/// The surface is first remeshed to about `triangles` triangles of uniform size. Hollows are
+/// filled. Components with less than a 1000th of the largest component's volume are omitted, with a
+/// warning.
 ///
 /// @param solid  set to the closed surface before remeshing
 ///

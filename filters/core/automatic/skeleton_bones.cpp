@@ -260,7 +260,7 @@ public:
     this->radii_[a] = std::max(this->radii_[a], this->radii_[b]);
   }
 
-  /// Remove all vertices of a component except the widest one.
+  /// Remove all vertices of a component except the one with the largest radius.
   void collapse(Index part)
   {
     Index widest = -1;
@@ -306,8 +306,9 @@ private:
   const std::function<bool(const Vec3&)>& inside_;
 };
 
-/// Return the length of a branch relative to the radius at its start, or infinity if the branch
-/// must be kept. A branch with a value below 1 is within the ball of this radius.
+/// Return the length of a branch divided by the radius at its junction (between two junctions: by
+/// the larger radius), or infinity if the branch must be kept. If the value is below 1, the branch
+/// is within the ball of this radius around the junction.
 /// @param inner set to true if the branch is between two junctions.
 double reach(const Graph& graph, const Branch& branch, bool& inner)
 {
@@ -413,7 +414,9 @@ void simplify(Graph& graph, const SkeletonBonesOptions& options, SkeletonBones& 
 struct Piece
 {
   std::vector<Index> path;
-  /// The piece must be split if the value is above 1, because it violates a bound.
+  /// Above 1 if the piece must be split: its distance from the bone divided by the tolerance, or
+  /// its length divided by the maximum length. If the distance is within the tolerance but the bone
+  /// leaves the shape, 1 is added.
   double need = 0.0;
   std::size_t at = 0; ///< index in the path at which the piece would be split
 };
@@ -563,7 +566,7 @@ public:
     std::stable_sort(
       order.begin(), order.end(), [&](Index a, Index b) { return volumes[a] > volumes[b]; });
     const auto first_bone = static_cast<Index>(this->result_.handles.size());
-    Index last_bone = first_bone; // end of the bones of the first component
+    Index last_bone = first_bone; // end of the range of bones of the first component
     for (const Index part : order)
     {
       const Index root = this->root_of(part);
@@ -574,7 +577,7 @@ public:
           last_bone > first_bone ? last_bone : static_cast<Index>(this->result_.handles.size());
       }
     }
-    for (Index h = 0; h < first_bone; ++h) // for handles that are points
+    for (Index h = 0; h < first_bone; ++h) // for all handles that are points
     {
       this->result_.handles[h].parent =
         this->nearest(this->result_.handles[h].head, first_bone, last_bone);

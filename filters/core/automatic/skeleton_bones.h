@@ -15,12 +15,14 @@ struct SkeletonBonesOptions
   /// Largest distance of the curve from its bones, in diagonals of the shape's bounding box, 0.001
   /// … 1.
   double tolerance = 0.03;
-  /// Longer bones are split, in bounding-box diagonals, >= 0.01; 0: straight bones are not split.
+  /// Maximum length of a bone, in bounding-box diagonals, >= 0.01. Longer bones are split. 0: no
+  /// maximum; straight bones are not split.
   double longest_bone = 0.0;
   /// Maximum number of bones, >= 0; 0: no limit. A component keeps at least one bone.
   Index maximum_bones = 0;
-  /// A branch is pruned if it is shorter than this many radii at its start, 0 … 10. The radius is
-  /// half of the shape's thickness. Junctions that are nearer to each other than that are merged.
+  /// A branch is pruned if it is shorter than this factor times the radius at its junction, 0 … 10.
+  /// The radius is half of the shape's thickness. Junctions are merged if the branch between them
+  /// is shorter than that.
   double prune = 1.0;
   /// Callback that reports whether a point is inside the shape; must be thread-safe. If given,
   /// bones that leave the shape are split if they deviate from the curve by a quarter of the
@@ -31,7 +33,8 @@ struct SkeletonBonesOptions
 /// The result of skeleton_bones().
 struct SkeletonBones
 {
-  Handles handles; ///< points p1, p2, … (components that are balls), then bones b1, b2, …
+  /// Point handles p1, p2, … (for components that are balls), then bones b1, b2, …
+  Handles handles;
   Points joints; ///< #J x 3: ends of bones, without duplicates
   std::vector<Index> roots; ///< joint index of the root of every component with bones
   Index junctions = 0; ///< number of joints of three bones or more
@@ -47,9 +50,9 @@ struct SkeletonBones
 ///    ring, the nearest point. Each cycle is cut at the point farthest from the root along the
 ///    curve, because a bone can have only one parent.
 /// 2. The branch that is shortest relative to the radius is pruned or, if it is between two
-///    junctions, contracted to one point. This is repeated until no branch is shorter than `prune`.
-///    If there are more branches than maximum_bones, the limbs that are shortest relative to the
-///    radius are pruned too.
+///    junctions, contracted to one point. This is repeated until no branch is shorter than `prune`
+///    times the radius. If there are more branches than maximum_bones, the limbs that are shortest
+///    relative to the radius are pruned too.
 /// 3. Branches are divided into pieces, one per bone. The piece that is farthest from its bone, or
 ///    longest, is split until tolerance and longest_bone are satisfied or there are maximum_bones
 ///    pieces (Douglas and Peucker, 1973, worst piece first). Points within the ball of a junction

@@ -32,7 +32,7 @@ struct Component
   std::vector<Index> vertices;
   double area = 0.0;
   Index points = 0;
-  bool full = false; ///< every vertex is chosen
+  bool full = false; ///< whether every vertex of the component is chosen
 };
 
 class Spread
@@ -257,7 +257,7 @@ private:
         return false;
       }
     }
-    // Find the end of the inside along the ray.
+    // Find the distance at which the ray leaves the shape.
     const Vec3 origin = from + step * way;
     double end = this->diagonal_;
     double last = 0.0;

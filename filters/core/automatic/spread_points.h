@@ -12,7 +12,7 @@ namespace bindpose
 /// The distance that is used to spread points. vtkAutomaticHandles uses the same order.
 enum class PointDistance
 {
-  along_edges, ///< along edges of the surface: neighboring limbs are far from each other
+  along_edges, ///< distance along edges of the surface: neighboring limbs are far from each other
   straight ///< through space
 };
 
@@ -33,7 +33,7 @@ struct SpreadPointsOptions
 /// The result of spread_points().
 struct SpreadPoints
 {
-  Points places; ///< #count x 3, in the order of choice
+  Points places; ///< #count x 3: positions of the points, in the order of choice
   std::vector<Index> vertices; ///< #count: the vertex at which each point was chosen
   Index inside = 0; ///< number of points that were moved inside
   Index components = 0; ///< number of components of the surface with equal vertices welded
@@ -44,8 +44,8 @@ struct SpreadPoints
 /// possible from all earlier points of its component. The first point is the vertex farthest
 /// (straight) from the centroid of the component's vertices. The method is that of T. Gonzalez,
 /// "Clustering to minimize the maximum intercluster distance", 1985: on the surface, no vertex is
-/// farther from its nearest point than the points are from each other, and this distance is at most
-/// twice the optimum.
+/// farther from its nearest point than the points are from each other, and the largest distance of
+/// a vertex from its nearest point is at most twice the optimum.
 ///
 /// - **Components** are connected by welded vertices and get points in proportion to their area:
 ///   the next point is placed in the component with the largest area / (points + 1). Before that,
@@ -53,11 +53,11 @@ struct SpreadPoints
 ///   are only measured within a component.
 /// - **Inside**: a point moves from the vertex in the direction opposite to its normal, or in the
 ///   direction of the normal if the inside is there. It moves as long as its depth (the distance to
-///   the surface) grows by at least 3/10 of the path, and at most halfway through the shape. A
-///   point at the tip of a limb therefore remains in the tip, and a point at a corner moves to
-///   where the middle surfaces of the faces intersect. All vertices within twice the depth of a
-///   chosen point count as near this point, so that the two sides of a plate do not both get
-///   points.
+///   the surface) grows by at least 3/10 of the distance that it moves, and at most half of the way
+///   to the opposite side of the shape. A point at the tip of a limb therefore remains in the tip,
+///   and a point at a corner moves to where the middle surfaces of the faces intersect. All
+///   vertices within twice the depth of a chosen point count as near this point, so that the two
+///   sides of a plate do not both get points.
 /// - **The first n points do not depend on `count`.** If several vertices are equally far, the one
 ///   with the lowest id is chosen. Vertices with equal positions count as one vertex, with the
 ///   lowest id.

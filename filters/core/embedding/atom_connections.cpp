@@ -207,8 +207,8 @@ private:
     }
   }
 
-  /// Add an interval of a line that is inside to its atom. Each half of the line counts for the
-  /// cell of the nearer sample.
+  /// Add the length of an interval that is inside to the share of an atom. Each half of the line
+  /// counts for the cell of the nearer sample.
   void measure(Id lower, Id upper, double from, double to, Id atom)
   {
     if (atom < 0)
@@ -232,8 +232,8 @@ private:
   }
 
   /// Connect samples along lines that are not cut, and measure their cells. The inside fraction of
-  /// a cell is the mean over the axes along which lines at the sample are cut; it is 1 if no line
-  /// is cut.
+  /// a sample's cell is the mean of the fractions along those axes on which lines at the sample are
+  /// cut; it is 1 if no line is cut.
   bool connect_samples()
   {
     for (Id cube = 0; cube < static_cast<Id>(this->atoms_.sampled.size()); ++cube)
@@ -273,8 +273,9 @@ private:
           }
           if (!down_is_cut && position[axis] == 0)
           {
-            // A neighbor that is also a sample is connected when its own lines are processed. Here,
-            // only a neighbor in a cube that is completely inside is connected.
+            // The previous point along the axis is in the adjacent cube. If that cube is sampled,
+            // the connection is made when the lines of its samples are processed. If that cube is
+            // completely inside, the connection is made here.
             Sample below = this->atoms_.sample_of(cube, s);
             --below[axis];
             const Id last = this->atoms_.atom_of(below);
@@ -304,7 +305,8 @@ private:
         {
           continue;
         }
-        // The neighbor at this half's face.
+        // This half is in the lower cube of its tet. The other half of the tet is in the next cube
+        // along the normal axis of the face between the two cubes.
         const Id above = this->atoms_.full_cube(moved(cube, half / 8, 1));
         if (above >= 0)
         {
@@ -413,7 +415,8 @@ private:
   ExecutionContext& context_;
 
   std::vector<std::uint8_t> cut_; // #samples: bits of the lines that are cut
-  std::vector<LineCrossing> crossings_; // sorted by line, then by the position on the line
+  // Crossings of lines with triangles, sorted by line, then by position on the line.
+  std::vector<LineCrossing> crossings_;
 };
 } // namespace
 

@@ -19,7 +19,7 @@ struct AtomConnections
 {
   using Id = EmbeddingAtoms::Id;
 
-  DisjointSets<Id> within; ///< classes of connected atoms within one tet
+  DisjointSets<Id> within; ///< classes of atoms that are in the same tet and connected
   std::vector<std::pair<Id, Id>> across; ///< connected atoms of different tets
   /// #atoms: amount of the inside that the atom represents, in cells of the sub-grid.
   std::vector<float> shares;

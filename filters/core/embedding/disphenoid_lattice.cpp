@@ -2,7 +2,7 @@
 // to an edge of the face between two cubes. The key of a tet contains its lower cube and three more
 // properties: the normal axis of the face (a), the axis along which the edge is offset from the
 // center of the face (m), and the sign of that offset (s). The edge is parallel to the third axis
-// (n). With the center c of the lower cube, the nodes are
+// (n). With the center c of the lower cube and a, m, n as unit vectors, the nodes are
 //   c,   c + a,   c + (a + s m - n) / 2,   c + (a + s m + n) / 2.
 // Let d be the offset of a position from the center of its cube. The position is in the tet whose
 // axes a, m, n sort |d| in descending order. The barycentric coordinates are sums of these |d|.
@@ -17,7 +17,8 @@ namespace bindpose
 namespace
 {
 constexpr int cube_bits = 16;
-constexpr int node_bits = 17; // nodes have integer coordinates in units of half cubes
+// Bits per coordinate in a node's key; coordinates are integers, in units of half cubes.
+constexpr int node_bits = 17;
 constexpr int tet_bits = 4;
 constexpr double margin = 2.0;
 

@@ -31,8 +31,8 @@ public:
   /// 8 binary digits and the origin to a 64th of the spacing. Coordinates of nodes are therefore
   /// exact if the spacing is at least least_spacing().
   DisphenoidLattice(const Box& box, double spacing);
-  /// Return the smallest spacing for which node coordinates are exact, if no coordinate of the box
-  /// is larger than this.
+  /// Return the smallest spacing for which node coordinates are exact, for a box whose
+  /// coordinates have absolute values up to `largest_coordinate`.
   static double least_spacing(double largest_coordinate);
 
   double spacing() const { return this->spacing_; }
@@ -68,10 +68,11 @@ public:
   /// tet k of the lower neighbor's upper faces (see number_of).
   static constexpr int halves = 24;
   static Key tet_of_half(const Cube& cube, int half);
-  /// Return the number n of a tet, 0 … 11, among the tets around the three upper faces of its lower
+  /// Return the index n of a tet, 0 … 11, among the tets around the three upper faces of its lower
   /// cube. Its halves are 2n + 1 of the lower cube and 2n of the upper cube.
   static int number_of(Key tet) { return static_cast<int>(tet & 15U); }
-  /// Return the number of the half that contains a position, within the position's cube.
+  /// Return the index of the half that contains a position, among the 24 halves of the position's
+  /// cube.
   static int half_of(const Vec3& place);
 
   /// Cut a triangle by the planes of all facets, and call piece(middle, lower, upper) for each
@@ -91,7 +92,8 @@ public:
 private:
   struct Polygon
   {
-    /// 3 corners, one more for each of 12 planes, and some for rounding.
+    /// Maximum number of corners: 3 of the triangle, at most one more for each of 12 planes, and
+    /// some for rounding.
     static constexpr int most = 24;
     std::array<Vec3, most> places;
     int count = 0;

@@ -28,7 +28,7 @@ public:
   using Sample = CubeSamples::Sample;
   static constexpr int halves = DisphenoidLattice::halves; ///< number of halves of tets per cube
 
-  /// The cover must outlive the atoms.
+  /// `cover` must outlive this object.
   explicit EmbeddingAtoms(const LatticeCover& cover) : cover_(cover) {}
 
   /// Number the atoms. Return invalid_input if there are more than a million cubes at the surface.
@@ -113,14 +113,17 @@ public:
   std::vector<Key> tets; ///< keys of the tets that contain atoms, sorted
   std::vector<std::array<Key, 4>> nodes; ///< #tets: keys of the tet's nodes
   std::array<int, halves> samples_of_half{};
-  Id first_full = 0; ///< first atom in the cubes of `full`
+  Id first_full = 0; ///< index of the first atom in the cubes of `full`
   Id first_piece = 0;
 
 private:
   const LatticeCover& cover_;
-  std::unordered_map<Key, Id> cube_id_; ///< index in `sampled`, or -1 - index in `full`
-  std::vector<Id> half_tets_; ///< indices in `tets`: 24 per sampled cube, then 24 per full cube
-  std::vector<Id> piece_tets_; ///< indices in `tets` of cover_.pieces
+  /// Cube key -> index i in `sampled`, or -1 - i for index i in `full`.
+  std::unordered_map<Key, Id> cube_id_;
+  /// The tet of each half, as an index in `tets`: 24 halves per sampled cube, then 24 per full
+  /// cube.
+  std::vector<Id> half_tets_;
+  std::vector<Id> piece_tets_; ///< the tet of each piece in cover_.pieces, as an index in `tets`
   std::array<int, CubeSamples::of_cube> half_of_sample_{};
   std::vector<std::uint8_t> inside_; ///< 1 for samples that are inside
 };

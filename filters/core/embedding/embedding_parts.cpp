@@ -71,8 +71,9 @@ private:
     return true;
   }
 
-  /// Join the atoms of a convex piece of material, because they are connected. At every node that
-  /// two of their tets have in common, their corners get the same copy of the node.
+  /// Join the atoms of a convex piece of material, because they are connected: at every node that
+  /// the tets of two of these atoms have in common, the parts in these tets get the same copy of
+  /// the node.
   template <typename AtomAt>
   void join_convex(Index count, const AtomAt& atom_at)
   {
@@ -277,7 +278,8 @@ private:
     {
       return false;
     }
-    std::vector<std::pair<Key, Id>> vertices; // a node, and the root corner of its copy
+    // Vertices of the mesh: a node, and the root corner that identifies the copy of the node.
+    std::vector<std::pair<Key, Id>> vertices;
     std::vector<Index> tet_of_part(copies.size());
     std::vector<std::size_t> first_of_tet;
     for (std::size_t i = 0; i < copies.size(); ++i)
@@ -328,10 +330,10 @@ private:
         this->atoms_.samples_of_half[number] + this->atoms_.samples_of_half[number + 1];
       result.inside_fractions[t] = std::min(1.0, result.inside_fractions[t] / samples);
     }
-    // A tet contains 10 to 28 samples, depending on its position in the sub-grid. Relative to these
-    // numbers, whole tets have the correct fraction, but plates aligned with the sub-grid would
-    // become too thick or too thin. The total number of inside samples has no such bias, so the
-    // fractions of cut tets are scaled to match it.
+    // A tet contains 10 to 28 samples, depending on its position in the sub-grid. The fractions
+    // above are relative to these numbers. They are correct for whole tets, but plates aligned with
+    // the sub-grid would become too thick or too thin. The total number of inside samples has no
+    // such bias, so the fractions of cut tets are scaled to match it.
     constexpr double samples_of_tet = CubeSamples::of_cube / 12.0;
     const double whole = (result.inside_fractions.array() >= 1.0).count();
     const double cut = result.inside_fractions.sum() - whole;

@@ -156,7 +156,8 @@ Status embed_surface(PointsView points, TrianglesView triangles, const WindingNu
     return status;
   }
   const Box box = bounding_box(points, triangles);
-  constexpr double largest_size = 1e100; // the cube of this length is still a finite double
+  // The volume of a cube with this edge length is still a finite double.
+  constexpr double largest_size = 1e100;
   if (!(box.size().maxCoeff() <= largest_size))
   {
     return Status::invalid_input("the surface is larger than 1e100, so its volume would overflow");

@@ -38,13 +38,14 @@ struct PointBinding
 /// A coarse volume mesh in which a surface is embedded.
 struct EmbeddingTets
 {
-  TetMesh mesh; ///< dihedral angles 60 and 90 degrees, positive volumes, no unused vertices
+  /// Tets with dihedral angles of 60 and 90 degrees and positive volumes; no unused vertices.
+  TetMesh mesh;
   /// #T: fraction of the tet's volume that is inside and belongs to the part of the surface that
   /// this copy of the tet contains, 0 … 1. The fractions are measured on lines a sixth of a cube
   /// apart. Their sum times the volume of a tet is accurate to 1 % at 16 cubes along the longest
   /// side. The fraction of a single tet that the surface passes through is accurate to about 0.1.
   Eigen::VectorXd inside_fractions;
-  PointBinding binding; ///< for all input points
+  PointBinding binding; ///< tets and coordinates of all input points
   double spacing = 0.0; ///< edge length of a lattice cube = longest edge of a tet
   Index resolution = 0; ///< number of cubes along the longest side
   Index lattice_tets = 0; ///< number of lattice tets in use; copies of one tet count once

@@ -326,7 +326,7 @@ Status LatticeCover::find_cubes(ExecutionContext& context)
     }
   }
   // At openings of the surface the inside ends without triangles. The cubes on both sides of this
-  // border count as cut.
+  // border count as cubes at the surface.
   std::vector<Key> open;
   for (const Key key : outside)
   {

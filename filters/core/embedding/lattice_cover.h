@@ -23,7 +23,7 @@ struct LatticeSurface
   /// One end of a link.
   struct End
   {
-    Id point, link; ///< the point at this end, and the degenerate triangle of the link
+    Id point, link; ///< ids of the point at this end and of the degenerate triangle of the link
     Id triangle; ///< triangle of the surface that contains the end
   };
 
@@ -51,16 +51,17 @@ public:
   {
     Key tet;
     Id triangle;
-    Vec3 middle; ///< a position in the tet and the triangle
+    Vec3 middle; ///< a position that is in the tet and on the triangle
   };
   enum class Kind : std::uint8_t
   {
     outside,
-    inside, ///< contains no triangle, and the winding number is at least the threshold
+    inside, ///< the cube contains no triangle, and its winding number is at least the threshold
     cut ///< contains triangles, or is at an opening of the surface, where the inside ends
   };
   static constexpr Index most_cubes = 4000000;
-  static constexpr Index largest_resolution = 1000; ///< number of cubes along the longest side
+  /// Maximum number of cubes along the longest side.
+  static constexpr Index largest_resolution = 1000;
 
   /// All arguments must outlive the cover.
   LatticeCover(
@@ -71,7 +72,8 @@ public:
 
   /// Choose the spacing and build the cover.
   /// @param resolution number of cubes along the longest side of the box; 0: chosen to give about
-  /// `tets` tets, but at most 1000, and less if triangles would be cut into millions of pieces.
+  /// `tets` tets, but at most 1000 cubes, and fewer if triangles would be cut into millions of
+  /// pieces.
   /// @return invalid_input if the lattice would have more than most_cubes cubes. Cost: 1 us per
   /// piece of a triangle.
   Status choose(Index resolution, Index tets, ExecutionContext& context);
@@ -98,7 +100,7 @@ public:
   DisphenoidLattice lattice;
   std::vector<Vec3> places; ///< #points: positions of the surface's points, in units of cubes
   std::vector<Key> tet_of_point;
-  std::vector<Piece> pieces; ///< sorted by triangle, then by tet
+  std::vector<Piece> pieces; ///< all pieces of triangles, sorted by triangle, then by tet
   std::vector<Index> first_piece; ///< #F + 1: offsets into `pieces`
   std::unordered_map<Key, Kind> kinds; ///< kinds of all cubes that are not outside
 

@@ -46,7 +46,8 @@ void add_line_crossings(
     corner[0][u], corner[0][v], corner[1][u], corner[1][v], corner[2][u], corner[2][v]);
   if (turn == 0)
   {
-    return; // parallel to the axis: the lines cross its neighbors instead
+    // The triangle is parallel to the axis: the lines cross the neighboring triangles instead.
+    return;
   }
   const auto range = [&](int k) {
     return std::minmax({ corner[0][k], corner[1][k], corner[2][k] });

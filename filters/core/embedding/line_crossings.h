@@ -21,7 +21,7 @@ struct LineCrossing
   /// Crossings of a line whose distance is below this fraction of the sample distance count as one.
   static constexpr double touching = 1e-9;
 
-  Key line; ///< encodes the axis and the first sample of the line
+  Key line; ///< key of the line, from its axis and its first sample
   double at; ///< position on the line, 0 … 1
   Id triangle;
 

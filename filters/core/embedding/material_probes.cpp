@@ -16,8 +16,9 @@ namespace bindpose
 
 namespace
 {
-/// Intersect the segment from a to b with a triangle; `at` is the fraction of the segment. Hits
-/// slightly outside of the triangle count too, because an additional cut is harmless.
+/// Intersect the segment from a to b with a triangle; `at` is set to the position of the
+/// intersection, as a fraction of the segment. Hits slightly outside of the triangle count too,
+/// because an additional cut is harmless.
 bool meets(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t, double& at)
 {
   const Vec3 u = t[1] - t[0];

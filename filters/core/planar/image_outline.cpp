@@ -9,8 +9,8 @@
 // first passes try every second vertex at a quarter of the tolerance. On straight lines, every pass
 // halves the number of vertices, so each chain of contour points is tested only about log(length)
 // times. After these passes, each vertex in turn searches ahead. It is connected to the farthest
-// vertex for which the straight line is within the tolerance, even if nearer vertices fail, as they
-// do on staircases of pixels.
+// vertex for which the straight line is within the tolerance. On staircases of pixels, the lines to
+// nearer vertices often exceed the tolerance; the search continues beyond them.
 #include "planar/image_outline.h"
 
 #include <algorithm>
@@ -147,8 +147,10 @@ private:
   }
 
   /// Link the vertices on the edges of a cell. Corners are counter-clockwise from the lower left;
-  /// edge k is between corners k and k + 1. Each run of consecutive inside corners gets a link. It
-  /// starts at the edge after the run and ends at the edge where a run begins.
+  /// edge k is between corners k and k + 1. For each run of consecutive inside corners, the vertex
+  /// on the edge after the run is linked to the vertex on the edge where this run begins. In a
+  /// saddle cell whose two inside corners are connected, it is linked to the vertex where the other
+  /// run begins.
   void link_cell(const std::array<bool, 4>& in, const std::array<Index, 4>& sides,
     const std::array<float, 4>& values, Contour& contour) const
   {
@@ -437,8 +439,9 @@ private:
     return fewer;
   }
 
-  /// Remove vertices after p one by one as long as the search may succeed. Then restore the
-  /// vertices after the last one for which the line from p was within the tolerance.
+  /// Search ahead from p: remove the vertices after p one by one as long as a line within the
+  /// tolerance may still be found. Then restore the vertices after the last one for which the line
+  /// from p was within the tolerance.
   bool leap_from(std::size_t loop, Index p, double tolerance)
   {
     constexpr std::size_t farthest = 256; // maximum number of vertices that are removed at a time
@@ -528,7 +531,8 @@ private:
       });
   }
 
-  static constexpr Index fewest = 4; // so that the diamond around a single pixel is kept
+  // Minimum number of vertices of a loop, so that the diamond around a single pixel is kept.
+  static constexpr Index fewest = 4;
 
   const Loops& loops_;
   VertexGrid grid_;

@@ -29,7 +29,8 @@ struct ImageOutline
 {
   /// #V x 2, in pixels: the center of pixel (column, row) has the coordinates (column, row).
   PlanePoints points;
-  Segments segments; ///< #V x 2; each vertex is the start of one segment and the end of another
+  /// #V x 2: edges of the curves; each vertex is the start of one edge and the end of another.
+  Segments segments;
 };
 
 /// Compute the outline of an image from its alpha: a contour by marching squares, then simplified.

@@ -147,13 +147,13 @@ private:
   const PlanarShapeOptions& options_;
   ExecutionContext& context_;
   Gathered gathered_;
-  Segments curves_; ///< oriented with the inside on the left
+  Segments curves_; ///< segments of the curves, oriented with the inside on the left
   Segments bones_;
-  std::vector<Index> handles_; ///< gathered vertex of each handle point
+  std::vector<Index> handles_; ///< index in gathered_ of each handle point
   int exponent_ = 0;
   Vec2 shift_ = Vec2::Zero(); ///< input point that is mapped to the scaled origin
   double rounding_ = 0.0; ///< 8 units in the last place of the coordinates, scaled
-  double diagonal_ = 0.0; ///< of the curves' bounding box, scaled
+  double diagonal_ = 0.0; ///< diagonal of the curves' bounding box, scaled
   PlanePoints curve_points_; ///< scaled
   double finest_ = 0.0; ///< smallest height of a kept triangle, scaled
   double finest_allowed_ = 0.0; ///< smallest height that refinement can handle, scaled
@@ -176,7 +176,8 @@ Status Builder::scale()
     lower = lower.cwiseMin(p);
     upper = upper.cwiseMax(p);
   }
-  const Vec2 half = 0.5 * upper - 0.5 * lower; // halved first, so that it cannot overflow
+  // Half of the extent; halved before the subtraction, so that it cannot overflow.
+  const Vec2 half = 0.5 * upper - 0.5 * lower;
   if (half.maxCoeff() <= 0.0)
   {
     return Status::invalid_input("all points of the curves coincide");
@@ -197,7 +198,8 @@ Status Builder::scale()
     this->shift_[k] = lower[k] > size ? lower[k] : upper[k] < -size ? upper[k] : 0.0;
   }
   this->rounding_ = 0x1p-49 * farthest;
-  // A fraction of the size that is below any intended detail, or the limit due to rounding.
+  // The larger of two limits, rounded up to a power of two: a fraction of the size that is smaller
+  // than any intended detail, and the accuracy of the coordinates.
   int exponent = 0;
   std::frexp(std::max(0x1p-40 * this->diagonal_, this->rounding_), &exponent);
   this->finest_allowed_ = std::ldexp(1.0, exponent);
@@ -466,7 +468,7 @@ bool Builder::fits(bool exact) const
   { return exact && v < this->gathered_.count() ? this->gathered_.places[v] : this->unscaled(v); };
   for (Index t = 0; t < this->data_.triangles.rows(); ++t)
   {
-    const auto side = [&](int from, int to) // scaled, because areas could underflow
+    const auto side = [&](int from, int to) // edge vector, scaled, because areas could underflow
     {
       const Vec2 along =
         place(this->data_.triangles(t, to)) - place(this->data_.triangles(t, from));

@@ -13,7 +13,8 @@ namespace bindpose
 struct PlanarShapeOptions
 {
   /// Points with at least this winding number are inside, > 0. With 0.5, the gap of an open curve
-  /// is closed halfway; with 1.5, only regions that are enclosed twice are inside.
+  /// is closed approximately along the straight line between its ends. With 1.5, only regions that
+  /// are enclosed twice are inside.
   double winding_threshold = 0.5;
   /// Smallest angle of a triangle in degrees, 0 … 33, except where curves or bones form a smaller
   /// angle. Angles up to 20.6 can always be reached, larger angles usually.
@@ -29,17 +30,18 @@ struct PlanarShapeOptions
 struct PlanarHandles
 {
   PlanePoints points; ///< #H x 2; each point that is inside becomes a vertex
-  /// #B x 2 ids of these points; the inside part of each bone becomes a chain of edges.
+  /// #B x 2: bones, as ids of two of these points. The inside part of each bone becomes a chain of
+  /// edges.
   Segments bones;
 };
 
 /// The result of planar_shape().
 struct PlanarShape
 {
-  PlanePoints points; ///< #V x 2, no unused vertices
+  PlanePoints points; ///< #V x 2: positions of the vertices; no vertex is unused
   Triangles triangles; ///< #F x 3, counter-clockwise
-  Eigen::VectorXd winding_numbers; ///< #F: at the triangles' centers
-  /// #V: id of the curve vertex, in ascending order, then -1 for new vertices.
+  Eigen::VectorXd winding_numbers; ///< #F: winding numbers at the triangles' centers
+  /// #V: input id of each vertex of the curves, in ascending order, then -1 for new vertices.
   std::vector<Index> original_vertices;
   /// #H: vertex at the handle's point; -1: the point is outside.
   std::vector<Index> handle_vertices;

@@ -1,7 +1,8 @@
 // The active-set method of BoxQp (see active_set.h). A vertex is held while its weight is
-// constrained to a bound. The factor is exact while the set of held vertices does not change, and a
-// good preconditioner while few vertices change. If projected_newton() does not converge with a
-// factor, the next factor is computed for the vertices that are held at that time.
+// constrained to a bound. The factor of A, with the held vertices decoupled, gives exact solutions
+// while the set of held vertices does not change, and is a good preconditioner while few vertices
+// enter or leave this set. If projected_newton() does not converge with a factor, the next factor
+// is computed for the vertices that are held at that time.
 #include "weights/active_set.h"
 
 #include "base/stopwatch.h"
@@ -37,7 +38,8 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
   const Stopwatch watch;
   constexpr int most_factorizations = 10;
   constexpr int sure = 2; // number of factorizations that are exempt from the test for stalling
-  // A later factorization must reduce the smallest move by this factor.
+  // With each later factorization, the largest change of a weight in the last Newton round must be
+  // below this factor times the smallest such change so far.
   constexpr double nearer = 0.5;
   constexpr int rounds = 6; // maximum number of Newton rounds per factorization
   const double tolerance = options.tolerance;

@@ -4,8 +4,9 @@
 //   smoothed harmonic   (M + length^4 Q) w = M h, where K h = 0 and Q = K M^-1 K is the biharmonic
 //                       form; w is h for length 0 and approaches the biharmonic weights for a large
 //                       length
-//   bone heat           (K + M H) w_j = M H p_j, where H = heat / d^2 if the nearest handle is
-//                       visible, and p_j is the fraction of handle j among equally near handles
+//   bone heat           (K + M H) w_j = M H p_j, where H = heat / d^2 for the distance d of the
+//                       nearest handle if the straight line to it is free, else 0; p_j is 1 for
+//                       this handle j and 0 for all others (equally near handles share the 1)
 // where K is the cotangent stiffness and M the mass matrix of the mesh scaled to diagonal 1, so
 // that the result does not depend on units.
 #include "weights/baseline_weights.h"
@@ -234,7 +235,8 @@ Walls walls_of(const WeightsProblem& problem)
   return walls;
 }
 
-/// Compute H for every vertex, and the fractions p of the handles nearest to the vertex.
+/// Compute for every vertex H (0 if no nearest handle is visible) and the fractions p of the
+/// handles that are nearest to it.
 Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext& context,
   VectorXd& h, MatrixXd& p, Index& heated)
 {
@@ -317,7 +319,7 @@ Status bone_heat(const WeightsProblem& problem, const WeightsOptions& options,
   return {};
 }
 
-/// Start the weights with the rows that are given.
+/// Check the options, and initialize the rows of the fixed vertices.
 Status begin(
   const WeightsProblem& problem, const WeightsOptions& options, WeightsResult& result, MatrixXd& w)
 {

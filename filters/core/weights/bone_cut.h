@@ -13,7 +13,7 @@ namespace bindpose
 struct BoneCut
 {
   Points points; ///< the mesh's vertices with their ids, then the duplicates
-  Triangles triangles; ///< the mesh's triangles, in their order
+  Triangles triangles; ///< the mesh's triangles, in the same order
   std::vector<Index> original; ///< #points: original vertex of each point
   /// #points: the side of a curve on which the point is, or 0 if it is on no side. 2 b + 1 is the
   /// left side of the curve whose first bone is handle b, and 2 b + 2 is its right side, as seen
@@ -27,8 +27,8 @@ struct BoneCut
 /// tip inside the mesh the last vertex is not duplicated and is on neither side. A vertex on
 /// several curves is on the side of the first of these curves in the list.
 ///
-/// Report: counts.doubled_vertices. A warning names each bone that has no vertex of its own between
-/// its neighbors in the curve.
+/// Report: counts.doubled_vertices. A warning names each bone whose only vertices are those that it
+/// shares with its neighbors in the curve; the bone uses the sides of these neighbors.
 /// @param curves #handles: for each bone the first bone of its curve; empty: each bone is a curve.
 /// @return invalid_input, naming the bone, if the bone is not a chain of edges, or if it is a
 /// single edge in the interior, which cannot be opened.

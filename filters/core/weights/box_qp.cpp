@@ -64,7 +64,9 @@ struct BoxQp::Impl : SplitForm
 
   BoxQpOptions options;
   mutable SparseSolver solver; // double precision; its analysis is shared by all other solvers
-  FloatCholesky single; // has the same analysis; not analyzed if single precision is unavailable
+  // Single precision, with the analysis of `solver`; not analyzed if single precision is
+  // unavailable.
+  FloatCholesky single;
   FloatCholesky single_of_a; // A's factor, if single precision is accurate enough
   bool in_single = false;
   mutable bool in_double = false; // whether `solver` contains A's factor
@@ -210,7 +212,7 @@ public:
 
   void run()
   {
-    constexpr double at_bounds = 0.7; // fraction of the time, for progress
+    constexpr double at_bounds = 0.7; // progress at the end of the active-set method
     std::vector<std::size_t> left; // indices of the columns for the interior-point method
     {
       const ProgressRange range(this->context_, 0.0, at_bounds);
@@ -259,7 +261,9 @@ public:
   }
 
 private:
-  static constexpr double start_share = 0.3; // fraction of the time for starts, for progress
+  // Progress at the end of computing the starts, as a fraction of the progress of one method
+  // (active set or interior point).
+  static constexpr double start_share = 0.3;
 
   /// Report whether a start can be computed for the column: the caller gives no start, there are no
   /// ordered pairs, and the bounds are finite.

@@ -29,8 +29,9 @@ struct BoxQpColumn
   /// Vertices that only this column fixes, in addition to the fixed vertices, and their values.
   std::vector<Index> pinned;
   Eigen::VectorXd pinned_values;
-  /// Bounds of all other vertices, [0, 1] by default. lower < upper is required; a vertex with
-  /// equal bounds must be pinned instead. Both bounds of a vertex are finite or both are infinite.
+  /// Bounds of the vertices that are neither fixed nor pinned, [0, 1] by default. lower < upper is
+  /// required; a vertex with equal bounds must be pinned instead. Both bounds of a vertex are
+  /// finite or both are infinite.
   Bounds bounds;
   /// Pairs of vertices whose values must be in a given order, optionally with a minimum difference.
   /// The pairs must have no cycle, and Q must have an entry for every pair. Pairs in which both
@@ -44,7 +45,7 @@ struct BoxQpColumn
 struct BoxQpSolution
 {
   Status status; ///< ok, not_converged or canceled; internal_error if a factorization fails
-  Eigen::VectorXd w; ///< #V; bounds and pairs are satisfied exactly
+  Eigen::VectorXd w; ///< #V: the weights; they satisfy bounds and pairs exactly
   Certificate certificate;
   Eigen::VectorXd multipliers; ///< Lagrange multipliers of column.pairs, >= 0
   int iterations = 0;
@@ -69,9 +70,10 @@ struct BoxQpSolution
 /// - 12 to 13 F with ordered pairs, on a box of 5k vertices;
 /// - 10 to 25 F with Eigen's solver.
 ///
-/// Memory: one factor of Q in single precision, and one more per thread, with a third more for the
-/// thread's workspace (63k vertices: 1.4 GB in total with one thread). With ordered pairs, or if
-/// single precision fails, each thread also stores a factor in double precision.
+/// Memory, in units of one factor of Q in single precision: one for the common factor, one per
+/// thread for the thread's own factor, and one third per thread for its workspace (63k vertices:
+/// 1.4 GB in total with one thread). With ordered pairs, or if single precision fails, each thread
+/// also stores a factor in double precision.
 ///
 /// Hintermueller, Ito and Kunisch 2003; Mehrotra 1992; Gondzio 1996; Jacobson et al. 2011 and 2012
 /// for the problems.

@@ -13,9 +13,10 @@ namespace bindpose
 /// The memory for solving one column (see BoxQp), reused for the next column.
 struct BoxQpWorkspace
 {
-  SparseSolver solver; ///< has analyzed the pattern of `lower`
-  FloatCholesky single; ///< has analyzed the pattern of `lower`, if single precision is available
-  SparseMatrix matrix; ///< has the pattern of `lower`
+  SparseSolver solver; ///< double precision; has analyzed the pattern of SplitForm::lower
+  /// Single precision; has analyzed the same pattern, if single precision is available.
+  FloatCholesky single;
+  SparseMatrix matrix; ///< the matrix to factor, with the same pattern
 };
 
 /// The map r -> A^-1 r for vectors over all vertices (see certify).

@@ -48,7 +48,7 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
     const double share = g[v] == 0.0 ? 0.0 : std::max(g[v] * (w[v] - l), -g[v] * (u - w[v]));
     gap += share;
     // If a Newton step of this vertex alone stays within the bounds, the vertex belongs to the set
-    // R.
+    // R (see Certificate).
     if (inverse && w[v] - g[v] / diagonal > l && w[v] - g[v] / diagonal < u)
     {
       r[v] = g[v];

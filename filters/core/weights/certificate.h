@@ -34,7 +34,6 @@ struct OrderedPair
 ///   gap = lambda' (G w - h) + (the sum above over all vertices not in R) + 1/2 r' A^-1 r
 /// where A is Q's block of free vertices. If A^-1 is given, the smaller of the two bounds is used.
 /// Without bounds on w only the second bound is finite.
-/// bounds on w only the second one is finite.
 struct Certificate
 {
   double relative_gap = 0.0; ///< gap / E

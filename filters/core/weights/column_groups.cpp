@@ -154,7 +154,7 @@ private:
   const std::string& handle_name(Index handle) const { return this->problem_.handles[handle].name; }
 
   /// Return the handle that determines the given row of a vertex: the handle on the vertex, or the
-  /// handle that the vertex's component follows.
+  /// handle whose weights the vertex's component copies.
   Index owner(Index vertex) const
   {
     Index best = 0;
@@ -178,7 +178,7 @@ private:
     Index fixed_count = 0;
     for (Index u = 0; u < count; ++u)
     {
-      Index from = -1; // the member whose value was used first, or -1
+      Index from = -1; // the last member so far that has a given value, or -1
       for (const Index member : this->members_[u])
       {
         const Index v = member % this->n_;
@@ -219,7 +219,7 @@ private:
         given[u] = value;
         from = member;
       }
-      // Set the excluded weight to 0 if no term gives a value.
+      // Set an excluded weight to 0 if neither a handle nor a term gives it a value.
       for (const Index member : this->members_[u])
       {
         const Index at =
@@ -323,7 +323,7 @@ private:
       {
         constant[part] = std::isinf(constant[part]) || constant[part] == given[u]
           ? given[u]
-          : std::nan(""); // the values differ
+          : std::nan(""); // given values of the component differ: it is not constant
       }
     }
     for (Index u = 0; u < this->group_.count; ++u)
@@ -382,7 +382,7 @@ private:
   const bool coupled_;
   ColumnGroup& group_;
   const Index n_;
-  std::vector<std::vector<Index>> members_; // members of every unknown, copy * #V + vertex
+  std::vector<std::vector<Index>> members_; // members of every unknown, each as copy * #V + vertex
   std::vector<Index> part_; // component of every unknown; -1: in no component
   Index part_count_ = 0;
   // Index of every vertex in the rows of problem.fixed_values; -1: not fixed.
@@ -444,7 +444,8 @@ std::vector<BoxQpColumn> plain_columns(const WeightsProblem& problem)
   }
   const WeightTerms none;
   const Exclusions nothing;
-  GroupMaker(problem, none, nothing, false, group).make(false); // make() cannot fail without terms
+  // make() cannot fail without optional terms.
+  GroupMaker(problem, none, nothing, false, group).make(false);
   return std::move(group.columns);
 }
 

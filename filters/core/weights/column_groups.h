@@ -11,10 +11,11 @@ namespace bindpose
 /// its mirror vertex.
 ///
 /// Let handles a and b be mirror images of each other, so that w_a(v) = w_b(mirror of v). Their
-/// weights are one column on two copies of the mesh, where the vertices (v, a) and (mirror of v, b)
-/// are one unknown. A handle that is its own mirror image has one copy, where v and the mirror of v
-/// are one unknown. Every equality is therefore exact, and the energy is the sum over both handles.
-/// If all vertices have a mirror vertex, the number of unknowns is still #V.
+/// weights are one column on two copies of the mesh, one for each handle. Vertex v in a's copy and
+/// the mirror vertex of v in b's copy are one unknown. A handle that is its own mirror image has
+/// one copy, where v and the mirror of v are one unknown. Every equality is therefore exact, and
+/// the energy is the sum over both handles. If all vertices have a mirror vertex, the number of
+/// unknowns is still #V.
 struct ColumnGroup
 {
   std::vector<std::vector<Index>> handles; ///< for each column, one handle per copy

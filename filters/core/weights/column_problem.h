@@ -23,11 +23,11 @@ struct ColumnProblem
 
   /// Restrict a vector to the free vertices and clamp it to the bounds; pinned entries get their
   /// given values.
-  /// @param all #V.
-  /// @return n.
+  /// @param all one entry per vertex, #V.
+  /// @return one entry per free vertex, n.
   Eigen::VectorXd nearest(const SplitForm& matrices, const Eigen::VectorXd& all) const;
   /// Extend a vector from the free vertices to all vertices; x is clamped to the bounds.
-  /// @param x n.
+  /// @param x one entry per free vertex, n.
   /// @return #V: x, and the given values.
   Eigen::VectorXd whole(const SplitForm& matrices, const Eigen::VectorXd& x) const;
 };

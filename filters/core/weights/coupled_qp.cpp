@@ -6,7 +6,8 @@
 // Newton's step eliminates s, t, z, r. With H_j = A + diag(z_j / s_j + r_j / t_j), the remaining
 // system is
 //   H_j dw_j + dy = b_j,   sum_j dw_j = p,   so that   S dy = sum_j H_j^-1 b_j - p
-// with S = sum_j H_j^-1. Every H_j is factored; S is not formed. S has the form of an additive
+// with S = sum_j H_j^-1. Here b_j is the right-hand side after the elimination, and p is the
+// residual 1 - sum_j w_j. Every H_j is factored; S is not formed. S has the form of an additive
 // Schwarz preconditioner. Where k columns are free, S is about k times the inverse of A. Therefore
 // A, weighted by 1 / k, preconditions conjugate gradients for S. One step of conjugate gradients
 // takes one solve with every H_j and one product with A.
@@ -178,7 +179,8 @@ private:
   MatrixXd rd_, rs_, rt_; // residuals
   VectorXd rp_;
   MatrixXd d_; // n x m: terms added to A's diagonal
-  VectorXd share_, least_d_; // factors of the preconditioner
+  // n: the diagonal scaling and the smallest d_ per vertex, for the preconditioner.
+  VectorXd share_, least_d_;
   std::vector<SparseSolver> solvers_;
   CoupledSolution result_, best_;
   double factor_seconds_ = 0.0;
@@ -308,8 +310,8 @@ void CoupledQp::set_start(const MatrixXd& start)
   {
     energy += 0.5 * this->x_.col(j).dot(gradient.col(j));
   }
-  // Measured: if mu is computed from a tenth or a hundredth of the energy, the number of iterations
-  // increases by half.
+  // mu is computed from the whole energy. With a tenth or a hundredth of the energy, the number of
+  // iterations is larger by half (measured).
   constexpr double least = 1e-2;
   constexpr double of_energy = 1.0;
   const double mu = of_energy * std::abs(energy) / std::max(1.0, this->solved_.sum());
@@ -373,8 +375,8 @@ Status CoupledQp::factor()
       return status;
     }
   }
-  // The preconditioner needs, per vertex, the effective number of free columns and the smallest d
-  // of all columns.
+  // For each vertex, the preconditioner needs the effective number of columns that are solved for,
+  // and the smallest entry of d_ in these columns.
   const VectorXd diagonal = this->matrices_.a.diagonal();
   this->share_ = VectorXd::Zero(this->n_);
   this->least_d_ = VectorXd::Zero(this->n_);
@@ -667,7 +669,8 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     const MatrixXd sz = this->s_.cwiseProduct(this->z_);
     const MatrixXd tr = this->t_.cwiseProduct(this->r_);
     const double mu = (sz.sum() + tr.sum()) / count;
-    // Relative accuracy of the multipliers. A smaller one saves no iteration (measured).
+    // Relative accuracy of the multipliers in the predictor. A smaller value saves no iteration
+    // (measured).
     constexpr double predictor_accuracy = 1e-1;
     constexpr double step_accuracy = 1e-2;
     Direction d = this->solve(-sz, -tr, predictor_accuracy, VectorXd::Zero(this->n_));

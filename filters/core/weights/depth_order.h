@@ -11,14 +11,17 @@ namespace bindpose
 struct DepthOrderOptions
 {
   /// The difference in `front`, in layers, between the first and the last handle of the list if all
-  /// layers are equal, >= 0. It draws handles later in the list in front. Does not affect `depth`.
+  /// layers are equal, >= 0. It puts handles later in the list in front of earlier ones. Does not
+  /// affect `depth`.
   double tie = 1e-3;
 };
 
 /// The result of depth_order().
 struct DepthOrder
 {
-  Eigen::VectorXd depth; ///< #V: sum_j w_j d_j; if all layers are equal, exactly this layer
+  /// #V: the depth sum_j w_j d_j of each vertex, where d_j is the layer of handle j. If all layers
+  /// are equal, the depth is exactly this layer.
+  Eigen::VectorXd depth;
   Eigen::VectorXd front; ///< #V: depth with ties broken; larger values are in front
 };
 

@@ -14,13 +14,13 @@ struct Domain
 {
   Points points;
   Tets tets;
-  Triangles triangles; ///< used when there are no tets
+  Triangles triangles; ///< triangles of a surface, used if there are no tets
   /// #T: fraction of each tet that is inside the surface, > 0, for a lattice that contains a
   /// surface; empty: 1 for all tets. Energies are integrated over this fraction.
   Eigen::VectorXd shares;
-  /// For a lattice: the points of the surface that it contains, and for each point one corner of
-  /// its tet (-1: in no tet). Distances of components from handles are measured from these points;
-  /// if there are no points, from the vertices.
+  /// For a lattice that contains a surface: the points of the surface, and for each point one
+  /// corner of the tet that contains it (-1: no tet does). Distances of components from handles are
+  /// measured from these points, or from the vertices if there are no such points.
   Points held_points;
   std::vector<Index> held_corners;
 

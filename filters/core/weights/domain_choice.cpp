@@ -67,7 +67,8 @@ std::string reason_against_tets(const TetMesh& tets, Index handle_count)
   }
   const double in_tets = predicted_seconds(tets.points.rows(), handle_count);
   const double in_lattice = both_resolutions * predicted_seconds(lattice_vertices, handle_count);
-  // Conforming tets may take up to this factor more time, because they preserve the surface.
+  // Conforming tets may take up to this factor times the predicted time of lattices, because they
+  // preserve the surface.
   constexpr double worth = 2.0;
   return in_tets > worth * in_lattice ? std::to_string(count) + " tets would take about " +
       short_number(in_tets, 2) + " s, a lattice " + short_number(in_lattice, 2) + " s"

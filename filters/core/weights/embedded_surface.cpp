@@ -3,7 +3,7 @@
 // the copy that is connected with the nearest point of the surface, because the segment from a
 // point inside to its nearest surface point crosses no surface. A breadth-first search over tets
 // with common vertices starts at the tet that contains this surface point and ends at the first
-// copy.
+// copy of the tet at the given point.
 //
 // On a tet with values w_i and gradients g_i at its corners x_i, the value at p is
 //   sum l_i (w_i + g_i.(p - x_i) / 2), where l_i are the barycentric coordinates of p.
@@ -68,8 +68,8 @@ Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
   return gradients;
 }
 
-/// Group item numbers by their keys 0 … count - 1. Items with key k are grouped[first[k]] to
-/// grouped[first[k + 1] - 1].
+/// Group the indices of items by the keys 0 … count - 1 of the items. Items with key k are
+/// grouped[first[k]] to grouped[first[k + 1] - 1].
 template <typename KeyOf>
 void group_by_key(Index count, Index items, const KeyOf& key_of, std::vector<Index>& first,
   std::vector<Index>& grouped)
@@ -134,8 +134,8 @@ EmbeddedSurface::Place EmbeddedSurface::center_of(Index tet) const
   Place place;
   for (int k = 0; k < 3; ++k)
   {
-    // Lattice nodes are at multiples of half a cube, so means of four nodes are at multiples of an
-    // eighth.
+    // Lattice nodes are at multiples of half the edge of a cube, so means of four nodes are at
+    // multiples of an eighth of this edge.
     place[k] = static_cast<Index>(std::llround(2.0 * sum[k] / this->spacing_));
   }
   return place;
@@ -278,7 +278,7 @@ Index EmbeddedSurface::point_at(const Vec3& place) const
 Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double length,
   ExecutionContext& context, Weights& result) const
 {
-  constexpr double built = 0.03; // fraction of the time, for progress
+  constexpr double built = 0.03; // progress when equal points are merged
   LatticeSurface welded;
   {
     const ProgressRange range(context, 0.0, built);
@@ -339,7 +339,7 @@ Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handle
 {
   constexpr double smoothing = 0.3;
   const bool smoothed = smoothness == Smoothness::smoothed;
-  const double interpolation = smoothed ? 0.1 : 1.0; // fraction of the time, for progress
+  const double interpolation = smoothed ? 0.1 : 1.0; // progress at the end of the interpolation
   Status status;
   {
     const ProgressRange range(context, 0.0, interpolation);

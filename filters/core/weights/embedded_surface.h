@@ -46,9 +46,10 @@ public:
 
   /// Compute values at the surface's points (#V x #columns) from values at the vertices of the
   /// lattice in which the handles were inserted. Linear interpolation would make every tet visible.
-  /// Therefore each corner also contributes its gradient times half of the distance to the point,
-  /// and the sum is clamped to the column's range. Smoothed values are smoothed along the surface
-  /// over 0.3 times the lattice spacing (smooth_on_surface), except at points on handles.
+  /// Therefore each corner also contributes its gradient times half of the vector from the corner
+  /// to the point, and the sum is clamped to the column's range. Smoothed values are smoothed along
+  /// the surface over 0.3 times the lattice spacing (smooth_on_surface), except at points on
+  /// handles.
   Status carry(const HandleInsertion& mesh, const Handles& handles, WeightsView values,
     Smoothness smoothness, ExecutionContext& context, Weights& result) const;
 
@@ -73,7 +74,7 @@ private:
   SimplexLocator tets_;
   const SimplexLocator& surface_;
   double spacing_ = 0.0; ///< edge length of a lattice cube, which is the longest edge of a tet
-  /// The copies at each center that at least two tets have in common.
+  /// For each center that several tets have in common, the ids of these tets (copies).
   std::unordered_map<Place, std::vector<Index>, PlaceHash> copies_;
   std::vector<Index> first_corner_, corners_at_; ///< corners grouped by vertex, as 4 * tet + corner
 };

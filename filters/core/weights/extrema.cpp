@@ -37,7 +37,8 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
   std::sort(order.begin(), order.end(), before);
   std::vector<Index> rank(static_cast<std::size_t>(count), -1);
   std::vector<Index> parent(static_cast<std::size_t>(count));
-  // The minimum of each part, indexed by the part's root.
+  // A part is a connected set of vertices that have been visited. For each part, its minimum,
+  // indexed by the part's root in the union-find.
   std::vector<Index> birth(static_cast<std::size_t>(count));
   std::iota(parent.begin(), parent.end(), Index(0));
   std::iota(birth.begin(), birth.end(), Index(0));
@@ -75,8 +76,8 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
         continue;
       }
       // The merged part keeps one of the two minima: the minimum on a handle, or else the lower
-      // one. Let this be part a; the minimum of part b ends here. If part b consists of the vertex
-      // v alone, v joins its first part and is no minimum.
+      // one. Let a be the part with this minimum. The minimum of the other part b ends here. If
+      // part b consists of the vertex v alone, v joins its first part and is no minimum.
       const bool handle_a = exempt[birth[a]] != 0;
       const bool handle_b = exempt[birth[b]] != 0;
       if (handle_a != handle_b ? handle_b : rank[birth[b]] < rank[birth[a]])

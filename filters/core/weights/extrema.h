@@ -24,10 +24,10 @@ constexpr double notable_persistence = 1e-3;
 /// Find the local extrema at vertices that are not exempt. They are returned in the order of
 /// descending persistence, then by vertex.
 ///
-/// The method builds merge trees. Vertices are added in the order of their values. Each added
-/// vertex joins the parts that contain its neighbors. Where two parts merge, the less extreme of
-/// their two extrema ends, which determines its persistence. Exempt vertices (vertices on handles)
-/// never end and are not listed.
+/// The method builds merge trees. Vertices are added in the order of their values. The vertices
+/// that have been added form connected parts; each added vertex joins the parts that contain its
+/// neighbors. Where two parts merge, the less extreme of their two extrema ends, which determines
+/// its persistence. Exempt vertices (vertices on handles) never end and are not listed.
 /// Cost: O(#E log #V).
 ///
 /// @param values #V, finite.

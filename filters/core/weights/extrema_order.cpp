@@ -1,10 +1,11 @@
 // Orders of vertices with prescribed extrema, by flooding (see extrema_order.h). Upward flooding
 // begins with the listed minima and then repeatedly takes the lowest vertex that is a neighbor of a
 // vertex already taken. So each vertex except the listed minima comes after one of its neighbors.
-// If the values have another minimum, its basin is taken when its pass is reached. Downward
-// flooding from the maxima does the same for maxima, but may create new minima on the slopes of the
-// maxima that it cuts off. Therefore both alternate until neither changes the order. Each flood
-// only moves vertices within the plateaus that the previous flood created, and these shrink.
+// If the values have a minimum that is not listed, the vertices around it are taken when the flood
+// reaches the lowest pass to it. Downward flooding from the maxima does the same for maxima, but
+// may create new minima on the slopes of the maxima that it cuts off. Therefore both alternate
+// until neither changes the order. Each flood only moves vertices within the plateaus that the
+// previous flood created, and these shrink.
 #include "weights/extrema_order.h"
 
 #include "weights/ordered_pairs.h"

@@ -40,7 +40,9 @@ void find_components(const Domain& domain, HandleConstraints& result)
       result.roles[v] = VertexRole::solved;
     }
   }
-  // A follower copies a neighbor that is solved for, or else another follower.
+  // A vertex that is only in elements without area (a follower) copies the weights of a neighbor.
+  // If the neighbor is a follower, too, the vertex copies from the vertex that the neighbor copies
+  // from.
   result.leader.assign(static_cast<std::size_t>(vertex_count), -1);
   for (bool again = true; again;)
   {
@@ -147,8 +149,8 @@ void tether_components(const Domain& domain, const Handles& handles,
       }
     }
   }
-  // A lattice component that contains no point of the surface does not affect the result. It
-  // follows the first handle that has vertices.
+  // A lattice component that contains no point of the surface does not affect the result. It copies
+  // the weights of the first handle that has vertices.
   const auto first =
     std::find_if(result.counts.begin(), result.counts.end(), [](Index owned) { return owned > 0; });
   for (Index c = 0; c < count; ++c)
@@ -158,7 +160,7 @@ void tether_components(const Domain& domain, const Handles& handles,
       result.tether[c] = first - result.counts.begin();
     }
   }
-  std::map<Index, Index> parts; // handle -> number of components that follow it
+  std::map<Index, Index> parts; // handle -> number of components that copy its weights
   for (const Index handle : result.tether)
   {
     if (handle >= 0)
@@ -200,9 +202,9 @@ std::string advice_about(const Handle& handle, const Box& box)
 }
 
 /// Give every handle a vertex of its own. A handle that shares all of its vertices (a point on a
-/// bone) would have a weight of one nowhere. It gets the first shared vertex whose other owners all
-/// have vertices of their own. If there is no such vertex and the handle is optional, the handle is
-/// removed from the owners of its vertices.
+/// bone) would not have a weight of one anywhere. It gets, for itself alone, the first of its
+/// vertices at which all other handles have vertices of their own. If there is no such vertex and
+/// the handle is optional, its vertices are left to the other handles.
 Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
   std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
 {

@@ -9,21 +9,22 @@ namespace bindpose
 /// The source of a vertex's weights, one role per vertex.
 enum class VertexRole : unsigned char
 {
-  solved, ///< result of the minimization
-  handle, ///< on a handle: the handle determines the row
-  tethered, ///< in a component without handles: copies the weights of the nearest handle
-  follower, ///< only in elements without area: copies the weights of a neighbor
-  unreferenced ///< in no element: a row of zeros
+  solved, ///< a vertex whose row is the result of the minimization
+  handle, ///< a vertex on a handle, which determines the row
+  /// A vertex in a component without handles; it copies the weights of the nearest handle.
+  tethered,
+  follower, ///< a vertex that is only in elements without area; it copies the weights of a neighbor
+  unreferenced ///< a vertex in no element; its row is zero
 };
 
 /// The Dirichlet conditions of all weights, computed from the handles by constrain_handles().
 struct HandleConstraints
 {
   std::vector<VertexRole> roles; ///< #V
-  std::vector<Index> vertices; ///< b, ascending: the vertices on handles and cages
-  Weights values; ///< bc, #b x #handles: rows sum to one
+  std::vector<Index> vertices; ///< the vertices on handles and cages, ascending (b)
+  Weights values; ///< the weights of these vertices, #b x #handles; rows sum to one (bc)
   std::vector<Index> counts; ///< number of constrained vertices per handle
-  /// Components connected by elements of positive measure; -1 for followers and unreferenced
+  /// Connected components of the elements of positive measure; -1 for followers and unreferenced
   /// vertices.
   Components components;
   /// Handle whose weights each component copies; -1 if the component has handles.
@@ -40,10 +41,10 @@ struct HandleConstraints
 ///
 /// A vertex on several handles gets equal weights (a joint of two bones: 1/2, 1/2). If the handles
 /// do not touch, a warning names them. If a handle shares all of its vertices with other handles,
-/// one of them is assigned to that handle alone, so that every column contains a one. A component
-/// without any handle follows the handle nearest to it, with a warning. A handle whose vertices are
-/// optional (see Ownership) is skipped if it has none: its column is zero, and one warning names
-/// all skipped handles.
+/// one of these vertices is assigned to that handle alone, so that every column contains a one. A
+/// component without any handle copies the weights of the handle nearest to it, with a warning. A
+/// handle whose vertices are optional (see Ownership) is skipped if it has none: its column is
+/// zero, and one warning names all skipped handles.
 ///
 /// @param region_ids region label of every original vertex, or empty if there are no regions.
 /// @param joined label of every vertex, or empty. Components that contain the same label > 0 count

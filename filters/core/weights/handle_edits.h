@@ -17,7 +17,8 @@ struct EditedHandles
 {
   Handles handles;
   std::vector<Index> source; ///< index before the edit; -1: new handle
-  std::vector<Index> model; ///< index of the handle that was copied, else the source; -1: neither
+  /// For a copy, the index of the copied handle before the edit, else the source; -1: neither.
+  std::vector<Index> model;
 };
 
 // Every edit below takes handles that pass check_handles(), or an empty list, and returns such

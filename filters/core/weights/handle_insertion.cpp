@@ -1,8 +1,8 @@
-// This file splits elements so that samples of handles become vertices (see handle_insertion.h). A
-// sample in the interior of a tet, of a face or of an edge is one case. Let S be the corners of the
-// smallest simplex that contains the sample. Every element that has all corners in S is replaced by
-// one child for each corner s in S, with s replaced by the new vertex. Children keep the
-// orientation of their parent and fill it exactly.
+// This file splits elements so that samples of handles become vertices (see handle_insertion.h).
+// Samples in the interior of a tet, of a face and of an edge are treated alike. Let S be the
+// corners of the smallest simplex that contains the sample. Every element that has all corners in S
+// is replaced by one child for each corner s in S, with s replaced by the new vertex. Children keep
+// the orientation of their parent and fill it exactly.
 //
 // A later sample is located by descending from the original element through its children, so the
 // search tree is built only once.
@@ -26,8 +26,9 @@ namespace
 struct Element
 {
   std::array<Index, 4> ids{ -1, -1, -1, -1 };
-  Index root = -1; // index of the original element that contains this one
-  std::vector<Index> children; // empty: the element is part of the mesh
+  Index root = -1; // index of the original element that contains this element
+  // The elements into which this element was split; empty: it is part of the current mesh.
+  std::vector<Index> children;
 };
 
 /// A point of a handle that must become a vertex. If the point is on an edge or face of a cage,
@@ -155,7 +156,7 @@ SimplexLocation Inserter::root(const Vec3& p) const
 }
 
 /// Report whether the original vertex v is a corner of the element that root() returns for its
-/// position. Copies of a vertex in overlapping elements are not.
+/// position. Of several copies of a vertex, in overlapping elements, only one is such a corner.
 bool Inserter::is_held(Index v) const
 {
   if (!this->options_.element_of)
@@ -483,7 +484,7 @@ void Inserter::finish()
     }
   }
   domain.held_points = this->domain_.held_points;
-  // Valid, because original vertices keep their ids.
+  // The ids in held_corners remain valid, because original vertices keep their ids.
   domain.held_corners = this->domain_.held_corners;
   Index* out = this->corners_ == 4 ? domain.tets.data() : domain.triangles.data();
   for (const Index e : alive)

@@ -23,16 +23,17 @@ struct HandleInsertionOptions
   bool keep_mesh = false;
   /// Distance between the samples of a bone, in local edge lengths, range (0, 1].
   double spacing = 1.0;
-  /// Return the element that contains a point where elements overlap, so that the position alone is
-  /// ambiguous (the copies of an embedding). If empty, the first element found is used.
+  /// Callback that returns the element that contains a point. It is needed where elements overlap
+  /// (the copies of an embedding), because the position alone is ambiguous there. If empty, the
+  /// first element found is used.
   std::function<Index(const Vec3&)> element_of;
 };
 
 /// The position of one handle in the mesh.
 struct HandlePlacement
 {
-  std::vector<Index> vertices; ///< ascending; empty for regions
-  double outside = 0.0; ///< largest distance from the mesh of a sample outside of it
+  std::vector<Index> vertices; ///< the vertices on the handle, ascending; empty for regions
+  double outside = 0.0; ///< largest distance between the mesh and a sample outside of the mesh
   double snap = 0.0; ///< largest distance that a sample moved within the mesh
 };
 
@@ -49,17 +50,18 @@ struct CageVertex
 {
   Index vertex = -1;
   CageElement element{ -1, -1, -1 };
-  std::array<double, 3> shares{ 0.0, 0.0, 0.0 }; ///< weights of the element's corners, with sum 1
+  /// Barycentric coordinates of the vertex in the edge or face of the cage.
+  std::array<double, 3> shares{ 0.0, 0.0, 0.0 };
 };
 
 /// The mesh with handles as vertices.
 struct HandleInsertion
 {
   /// Original vertices come first, with their ids, then the inserted ones. Elements that were not
-  /// split come first, in their order.
+  /// split come first, in the order of the original mesh.
   Domain domain;
-  std::vector<HandlePlacement> handles; ///< one per handle
-  std::vector<CageVertex> cage; ///< mesh vertices on the cage
+  std::vector<HandlePlacement> handles; ///< placements of all handles
+  std::vector<CageVertex> cage; ///< mesh vertices on edges and faces of the cage
   std::vector<InsertedVertex> inserted;
   std::vector<Index> parent_element; ///< #elements: the original element that contains each element
   /// Largest distance that a sample moved within the mesh, in local edge lengths.

@@ -12,9 +12,9 @@
 // iterations.
 //
 // If available, the factorization is in single precision. It is the preconditioner of one or two
-// steps of conjugate gradients in double precision (float_cholesky.cpp). Matrices for which that is
-// not accurate enough are factored in double precision. This always happens with ordered pairs,
-// because their multipliers span too many orders of magnitude.
+// steps of conjugate gradients in double precision (float_cholesky.cpp). Matrices for which these
+// steps are not accurate enough are factored in double precision. This always happens with ordered
+// pairs, because their multipliers span too many orders of magnitude.
 //
 // Slacks are separate variables: Bx + h = s holds only in the limit. An iterate may therefore
 // violate the bounds temporarily. Compared with slacks that are computed from x, this saves about a
@@ -55,7 +55,7 @@ struct PairRow
 {
   Index low = -1;
   Index high = -1;
-  double offset = 0.0; // contribution of given values and of OrderedPair::least
+  double offset = 0.0; // constant term of the row, from given values and OrderedPair::least
   int position = -1; // index of the entry (low, high) in the values of SplitForm::lower
   Index pair = 0; // index of the pair in the column's list
 };
@@ -313,7 +313,7 @@ Status InteriorPoint::factor_double()
   double* values = matrix.valuePtr();
   Status status = this->workspace_.solver.factor(matrix);
   this->result_.factorizations += 1;
-  // Because of round-off, a matrix pivot can be negative that is positive in exact arithmetic. A
+  // Because of round-off, a matrix pivot that is positive in exact arithmetic can be negative. A
   // relative shift of the diagonal makes the step slightly shorter, but the solution stays correct.
   for (double shift = 1e-14; !status.ok() && status.code == StatusCode::invalid_input &&
        shift < 1e-6 && !this->context_.canceled();
@@ -432,7 +432,8 @@ InteriorPoint::Direction InteriorPoint::find_direction()
 {
   const double count = static_cast<double>(this->s_.size());
   const VectorXd products = this->s_.cwiseProduct(this->z_);
-  // A smaller value saves no iteration (measured).
+  // Relative accuracy of the linear solve for the predictor. A smaller value saves no iteration
+  // (measured).
   constexpr double predictor_accuracy = 1e-2;
   const double step_accuracy = this->rows_.empty() ? 1e-3 : 1e-5;
   Direction d = this->solve(-products, predictor_accuracy);
@@ -499,10 +500,12 @@ void InteriorPoint::set_start(bool central)
   const double energy_within = 0.5 * within.dot(matrices.q.transpose() * within);
   if (!(energy > 1e-9 * energy_within))
   {
-    energy = energy_within; // the column would be constant without its own bounds or pins
+    // Without its own bounds and pins the column would be constant, and its minimum energy would be
+    // zero.
+    energy = energy_within;
   }
-  // `least` and the factor 10 below were measured on boxes and on real shapes. They halve the
-  // number of iterations compared with mu = E / n.
+  // The values of `least` and of the factor 10 below were measured on boxes and on real shapes.
+  // With them, half as many iterations are needed as with mu = E / n.
   constexpr double least = 1e-2;
   this->s_ = this->apply(this->x_) + this->h_;
   this->raise_slacks(least);
@@ -516,9 +519,11 @@ void InteriorPoint::set_start(bool central)
 void InteriorPoint::balance_start()
 {
   const double gap = this->result_.certificate.relative_gap;
-  constexpr double far = 1.0; // relative gap; good starts have 1e-3 to 0.5
+  // Relative gap above which a start is corrected; good starts have 1e-3 to 0.5.
+  constexpr double far = 1.0;
   constexpr double least_slack = 1e-3;
-  constexpr double mu_of_energy = 3.0; // measured: values from 1 to 10 are equally good
+  // Factor of mu = factor * energy / number of slacks; 1 to 10 are equally good (measured).
+  constexpr double mu_of_energy = 3.0;
   if (this->start_.mu > 0.0 && gap > far)
   {
     this->raise_slacks(least_slack);
@@ -529,7 +534,8 @@ void InteriorPoint::balance_start()
 }
 
 /// Raise all slacks to a minimum.
-/// @param least the minimum, times the distance between the bounds if that is below 1.
+/// @param least the minimum. For a vertex whose bounds are less than 1 apart, the minimum is
+/// `least` times the distance between its bounds.
 void InteriorPoint::raise_slacks(double least)
 {
   VectorXd floor = VectorXd::Constant(this->h_.size(), least);
@@ -649,11 +655,13 @@ BoxQpSolution InteriorPoint::run()
   double near = 4e-5;
   int tries = 0;
   // 5 to 15 iterations are usual. If the form is very ill-conditioned (triharmonic energies of fine
-  // meshes), all step lengths from the common start can be too short. Then the solve is restarted
-  // without the start, and later switches to double precision if it still has not converged.
+  // meshes), all step lengths can be too short if the iteration begins at the start that was
+  // computed for all columns together. Then the solve is restarted without that start, and later
+  // switches to double precision if it still has not converged.
   constexpr int begin_anew_after = 25;
   constexpr int double_after = 60;
-  // With ordered pairs, inexact solves stall near the end.
+  // With ordered pairs, the method stalls near the end if its factors are in single precision.
+  // After this number of iterations without an improvement, double precision is used.
   constexpr int most_stalled = 3;
   int stalled = 0;
   double moved = this->h_.size() == 0 ? 0.0 : 1.0;

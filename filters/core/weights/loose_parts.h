@@ -14,7 +14,9 @@ namespace bindpose
 struct LooseParts
 {
   Index count = 0; ///< number of connected parts of the lattice without a handle
-  std::vector<PartLink> links; ///< empty if no component is loose, or if more than 20,000 are loose
+  /// Empty if no surface component is in a part without a handle, if all components are in such
+  /// parts, or if more than 20,000 are.
+  std::vector<PartLink> links;
 };
 
 /// Find parts of the lattice that no handle controls. Link every surface component in such a part

@@ -7,12 +7,12 @@
 // The ordered pairs that exclude unlisted extrema are computed from an order of the vertices. This
 // order has exactly the listed extrema (extrema_order.cpp) and is as close as possible to the order
 // of the minimizer without pairs. If that minimizer already has the listed extrema, it is the
-// result. The larger the data weight, the closer the order is to the order of the data. The
-// alternative guide is the harmonic function with the listed extrema as boundary values; it ignores
-// the data between them.
+// result. The larger the data weight, the closer the order is to the order of the data. Instead of
+// that minimizer, the harmonic function with the listed extrema as boundary values can determine
+// the order (SmoothingGuide::harmonic); it ignores the data between the extrema.
 //
-// A result satisfies the pairs of the order of its own values, with ties broken as before. Solving
-// again for that order can therefore only lower the energy.
+// A result also satisfies the pairs that belong to the order of its own values, where equal values
+// keep their earlier order. Solving again for that order can therefore only lower the energy.
 #include "weights/monotone_smoothing.h"
 
 #include "weights/free_system.h"
@@ -76,7 +76,7 @@ private:
   double middle_ = 0.0, range_ = 0.0; // center and range of the data
   VectorXd f_; // data scaled to -1/2 to 1/2; 0 for unused vertices
   ScaledMesh scaled_; // the mesh scaled to size 1
-  std::vector<Index> fixed_; // fixed vertices, then the additional unknown #V
+  std::vector<Index> fixed_; // fixed vertices, then the additional unknown, whose index is #V
   VectorXd fixed_values_;
   VectorXd pull_; // diagonal of the data term in the quadratic form
   bool keep_values_ = false;
@@ -318,7 +318,8 @@ void Smoothing::assemble()
   const Index n = this->data_.size();
   const int k = this->options_.order;
   this->scale_to_size();
-  // The form is that of the scaled mesh times mass_unit^(k - 1).
+  // The quadratic form is the scaled mesh's energy times mass_unit^(k - 1), so the data term has
+  // the same factor.
   this->pull_ =
     this->options_.data_weight * std::pow(this->scaled_.mass_unit, k) * this->scaled_.mass;
   const SparseMatrix q = harmonic_energy(this->scaled_.stiffness, this->scaled_.mass, k);
@@ -391,7 +392,8 @@ double Smoothing::expected_energy(
   return unconstrained.certificate.energy + 0.5 * this->pull_.dot(moved.cwiseAbs2());
 }
 
-/// Compute the values of the guide. Their order is kept as far as the list allows.
+/// Compute the values of the guide (see SmoothingGuide). The result keeps their order as far as the
+/// list of extrema allows.
 Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
 {
   values = unconstrained.head(this->data_.size());

@@ -11,8 +11,8 @@ namespace bindpose
 /// The guide: a function whose order of neighboring vertices is used for the result.
 enum class SmoothingGuide
 {
-  /// The minimizer without ordered pairs, after flooding removes its unlisted extrema. It is
-  /// closest to the data.
+  /// The minimizer without ordered pairs, after flooding removes its unlisted extrema. Of the two
+  /// guides, it is closer to the data.
   unconstrained,
   /// The function that is harmonic for positive edge weights, with the maxima and minima as
   /// boundary values.
@@ -24,10 +24,10 @@ struct MonotoneSmoothingOptions
 {
   /// Order k of the energy: 2 biharmonic, 3 triharmonic.
   int order = 2;
-  /// Weight lambda >= 0 of the data term, in units of (mesh size)^(-2 k). Let s be
-  /// lambda^(-1 / 2 k). Detail finer than about six times s mesh sizes is smoothed away. For
-  /// lambda = 1e6, s is 0.03 for k = 2 and 0.1 for k = 3. If lambda is 0, only the data's values at
-  /// the extrema are used, and these values are kept.
+  /// Weight lambda >= 0 of the data term, in units of (mesh size)^(-2 k). Detail finer than about
+  /// 6 s mesh sizes is smoothed away, where s = lambda^(-1 / (2 k)). For lambda = 1e6, s is 0.03
+  /// for k = 2 and 0.1 for k = 3. If lambda is 0, only the data's values at the extrema are used,
+  /// and these values are kept.
   double data_weight = 1e6;
   /// The extrema that the result may have, #V. If empty, they are chosen from the extrema of the
   /// data by the next two options.
@@ -56,7 +56,7 @@ struct MonotoneSmoothingOptions
 /// Result of monotone_smoothing().
 struct MonotoneSmoothingResult
 {
-  Eigen::VectorXd values; ///< #V, in the data's unit
+  Eigen::VectorXd values; ///< #V: the values of the function, in the unit of the data
   /// The listed extrema, sorted by vertex, with the values and the persistence that they have in
   /// the result.
   std::vector<Extremum> extrema;
@@ -67,8 +67,9 @@ struct MonotoneSmoothingResult
   /// Certificate for data scaled to a range of 1. Its energy is half of the last entry of
   /// `energies`, in another unit.
   Certificate certificate;
-  std::vector<double> energies; ///< after the first solve and after each rebuild
-  int iterations = 0; ///< total over all solves
+  /// Energies of the result of the first solve and of each rebuild whose result was kept.
+  std::vector<double> energies;
+  int iterations = 0; ///< number of iterations of all solves together
   Index analyses = 0; ///< number of symbolic analyses
 };
 

@@ -1,13 +1,14 @@
-// The ordered pairs of monotone weights (see monotone_weights.h). The guide of a handle is harmonic
-// for the cotangent Laplacian with negative edge weights raised to small positive ones. Unlike the
-// cotangent Laplacian of most tet meshes, this matrix satisfies the maximum principle. The guide
-// therefore has no extremum between handles that the weights would inherit. (Uniform edge weights
-// have this property, too, but a guide closer to the mesh's geometry results in less energy.)
+// The ordered pairs of monotone weights (see monotone_weights.h). The guide of a handle (see
+// MonotoneGuide) is harmonic for the cotangent Laplacian with negative edge weights raised to small
+// positive ones. Unlike the cotangent Laplacian of most tet meshes, this matrix satisfies the
+// maximum principle. The guide therefore has no extremum between handles that the weights would
+// inherit. (Uniform edge weights have this property, too, but a guide closer to the mesh's geometry
+// results in less energy.)
 //
 // Far from its handle a guide u is tiny; where its handle dominates, 1 - u is tiny. Both values are
 // computed without cancellation: guides for positive right-hand sides have small relative errors,
-// and 1 - u is the sum of the other handles' guides. Two vertices are compared by u if u is small
-// and by 1 - u if that is small. Ties are broken by index, so the pairs have no cycle.
+// and 1 - u is the sum of the other handles' guides. Two vertices are compared by u where u is
+// small and by 1 - u where 1 - u is small. Ties are broken by index, so the pairs have no cycle.
 //
 // An extremum on a handle has the value 0 or 1, so the bounds alone determine the order of all
 // edges at this vertex.

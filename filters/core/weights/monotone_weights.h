@@ -14,7 +14,7 @@ namespace bindpose
 /// handle and vertex, if the bounds contradict the order.
 struct MonotoneGuide
 {
-  Eigen::MatrixXd guide; ///< #unknowns x #columns, harmonic for positive edge weights
+  Eigen::MatrixXd guide; ///< #unknowns x #columns: guides, harmonic for positive edge weights
   std::vector<std::vector<OrderedPair>> pairs;
 };
 Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,

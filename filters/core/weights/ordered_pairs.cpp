@@ -10,8 +10,9 @@ namespace bindpose
 SparseMatrix positive_stiffness(
   const SparseMatrix& stiffness, const VertexGraph& graph, const std::vector<char>& pulls)
 {
-  // Minimum edge weight as a fraction of the diagonal entries. It is small enough to keep the
-  // direction of the guide and large enough to keep rounding errors of the solution small.
+  // Minimum edge weight as a fraction of the diagonal entries. It is small enough that the harmonic
+  // function still follows the geometry of the mesh, and large enough to keep rounding errors of
+  // the solution small.
   constexpr double least_weight = 1e-3;
   const Eigen::VectorXd diagonal = stiffness.diagonal();
   const auto n = static_cast<int>(stiffness.rows());
@@ -52,7 +53,8 @@ void sort_pairs(std::vector<OrderedPair>& pairs)
 std::vector<Index> upward_order(const std::vector<OrderedPair>& pairs, Index count)
 {
   std::vector<std::vector<Index>> above(static_cast<std::size_t>(count));
-  // Number of pairs, per `high` vertex, whose `low` vertex is not in the order yet.
+  // For each vertex, the number of pairs of which it is the `high` vertex and whose `low` vertex is
+  // not in the order yet.
   std::vector<Index> open(static_cast<std::size_t>(count), 0);
   for (const OrderedPair& pair : pairs)
   {
@@ -98,8 +100,8 @@ std::vector<OrderedPair> upward_pairs(
 void order_values(const std::vector<OrderedPair>& upwards, const std::vector<char>& is_free,
   const Eigen::VectorXd& highest, Eigen::VectorXd& values)
 {
-  // The smallest given value of all vertices that must be above a vertex; it is an upper limit for
-  // the vertex.
+  // The upper limit of each vertex: the smallest of its own limit and the limits of all vertices
+  // that must be above it, each reduced by the minimum differences of the pairs between them.
   Eigen::VectorXd cap = highest;
   for (Index v = 0; v < values.size(); ++v)
   {

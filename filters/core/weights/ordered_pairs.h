@@ -14,7 +14,7 @@ namespace bindpose
 SparseMatrix positive_stiffness(
   const SparseMatrix& stiffness, const VertexGraph& graph, const std::vector<char>& pulls);
 
-/// Sort the pairs and remove duplicates.
+/// Sort the pairs by `low`, then by `high`, and remove duplicates.
 void sort_pairs(std::vector<OrderedPair>& pairs);
 
 /// Return the vertices 0 … count - 1 in an order in which the `low` vertex of every pair comes

@@ -190,7 +190,7 @@ private:
   const WeightsProblem& problem_;
   SplitForm form_;
   SparseSolver solver_;
-  Eigen::VectorXd mass_; ///< of the free vertices
+  Eigen::VectorXd mass_; ///< lumped masses of the free vertices
 };
 } // namespace
 

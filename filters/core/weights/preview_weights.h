@@ -16,7 +16,8 @@ namespace bindpose
 /// low-rank matrix (Woodbury).
 /// Cost: one factorization of K (in volumes a fraction of the cost of factoring the energy), and
 /// two solves per handle vertex that has a free neighbor. If there are many such vertices,
-/// conjugate gradients with the product as preconditioner are used instead (to 1e-3).
+/// conjugate gradients with the product as preconditioner are used instead, until an iteration
+/// changes no weight by 1e-3 or more.
 ///
 /// The certificate bounds the distance of the clamped columns to bounded biharmonic weights. The
 /// tolerance of the options is ignored.

@@ -13,7 +13,8 @@ using Eigen::VectorXd;
 
 namespace
 {
-/// Return the minimizer over the value of vertex i alone, without bounds.
+/// Return the value of vertex i at which the energy is least if all other values stay the same.
+/// Bounds are ignored.
 double newton_step(const SplitForm& matrices, const VectorXd& gradient, const VectorXd& x, Index i)
 {
   return x[i] - gradient[i] / matrices.lower.valuePtr()[matrices.diagonal[i]];
@@ -37,10 +38,11 @@ double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
   VectorXd& x)
 {
   constexpr int steps = 4; // maximum iterations of conjugate gradients per round
-  // They end if the energy norm of the error decreased to this fraction.
+  // Conjugate gradients end earlier if the energy norm of the error has decreased to this fraction.
   constexpr double reduction = 0.05;
   const Index n = x.size();
-  const SparseMatrix& a = matrices.a; // symmetric; the product with the transpose is faster
+  // A is symmetric. Products with its transpose are faster.
+  const SparseMatrix& a = matrices.a;
   std::vector<char> held;
   const auto release = [&](VectorXd& v)
   {

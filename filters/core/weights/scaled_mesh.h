@@ -14,8 +14,8 @@ struct ScaledMesh
   Points points;
   double diagonal = 1.0; ///< original bounding-box diagonal
   SparseMatrix stiffness; ///< cotangent stiffness
-  Eigen::VectorXd mass; ///< lumped, scaled so that the largest is 1
-  double mass_unit = 1.0; ///< largest mass before that scaling
+  Eigen::VectorXd mass; ///< lumped masses, divided by the largest
+  double mass_unit = 1.0; ///< largest mass before the division
 };
 
 /// Scale the mesh and assemble its matrices.

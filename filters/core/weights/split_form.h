@@ -18,12 +18,12 @@ struct SplitForm
   /// @param fixed ids of the fixed vertices, each once.
   SplitForm(const SparseMatrix& q, std::vector<Index> fixed);
 
-  SparseMatrix q; ///< #V x #V, both triangular halves stored
+  SparseMatrix q; ///< the whole form, #V x #V, both triangular halves stored
   std::vector<Index> fixed;
   std::vector<char> is_free; ///< #V: 1 for free vertices
   std::vector<Index> free_vertices;
   std::vector<Index> free_of_vertex; ///< #V: index in free_vertices; -1: fixed
-  SparseMatrix a; ///< free x free, both triangular halves stored
+  SparseMatrix a; ///< block of the free vertices, both triangular halves stored
   SparseMatrix lower; ///< lower triangle of a; every diagonal entry is stored
   SparseMatrix to_fixed; ///< free x fixed
   std::vector<int> diagonal; ///< indices of the diagonal entries in the values of `lower`
@@ -40,7 +40,7 @@ struct SplitForm
     const Eigen::MatrixXd& free_rows, const Eigen::MatrixXd& fixed_values) const;
   /// Set the off-diagonal entries of a free x free matrix to 0 in the rows and columns of held
   /// vertices.
-  /// @param held free: 1 for held vertices.
+  /// @param held one entry per free vertex: 1 for held vertices.
   static void decouple(const std::vector<char>& held, SparseMatrix& matrix);
   /// Return the index of entry (i, j), i > j, in the values of `lower`; -1 if there is no such
   /// entry.

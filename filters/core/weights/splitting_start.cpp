@@ -135,7 +135,7 @@ private:
   MatrixXd gram_ = MatrixXd::Zero(memory, memory);
   VectorXf last_point_, last_change_;
   double last_size_ = 0.0;
-  int count_ = -1; // number of columns in use; -1: no iteration yet
+  int count_ = -1; // number of columns of points_ and changes_ in use; -1: no iteration yet
   int next_ = 0;
 };
 } // namespace

@@ -13,10 +13,11 @@ namespace bindpose
 /// An initial guess for the minimizer of one column (see BoxQp).
 struct ColumnStart
 {
-  Eigen::VectorXd x; ///< one entry per free vertex, within the bounds; empty: no guess
+  Eigen::VectorXd x; ///< the guess, one entry per free vertex, within the bounds; empty: no guess
   std::vector<char> held; ///< per free vertex: 1 if x is given or expected to be at a bound
-  /// If above 0, x is a point of the central path: it is near the minimizer where the bounds of
-  /// each vertex are replaced by the barrier mu (-log(x - l) - log(u - x)). `held` is then empty.
+  /// If above 0, x is a point of the central path: it is near the minimizer of the problem in which
+  /// the bounds of each vertex are replaced by the barrier mu (-log(x - l) - log(u - x)). `held` is
+  /// then empty.
   double mu = 0.0;
 };
 
@@ -25,7 +26,6 @@ struct ColumnStart
 /// each iteration is one solve for all columns together. The result is bitwise the same for any
 /// number of threads. Every iteration checks for cancel.
 /// Cost per column: 0.5 to 1 factorization in double precision for eight columns, about 2 for a
-/// single column.
 /// single column.
 ///
 /// Douglas and Rachford 1956; Eckstein and Bertsekas 1992; Walker and Ni 2011 for Anderson

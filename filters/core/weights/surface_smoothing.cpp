@@ -125,7 +125,8 @@ private:
   /// matrix stays positive semi-definite.
   static VectorXd shares_of(const Points& points, TrianglesView triangles)
   {
-    constexpr double most = 15.0; // half of the cotangent of 2 degrees
+    // Limit of the matrix entries: half of the cotangent of 2 degrees, rounded up.
+    constexpr double most = 15.0;
     const auto weights = cotangent_weights(points, triangles);
     VectorXd shares(triangles.rows());
     for (Index t = 0; t < triangles.rows(); ++t)
@@ -170,7 +171,8 @@ private:
       }
     }
     a += SparseMatrix(this->mass_.asDiagonal());
-    constexpr double assembled = 0.15; // fractions of the time, for progress
+    // Progress when M + K is assembled, as a fraction of the time for its factor.
+    constexpr double assembled = 0.15;
     constexpr double analyzed = 0.6;
     context.progress(assembled);
     // METIS would take more time than its better ordering saves.
@@ -317,7 +319,9 @@ private:
   Eigen::MatrixXd responses_; // #V x #counted: (M + K)⁻¹ M (M + K)⁻¹ u for each of these points
   // Factor of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, where the columns of U are the vectors u.
   Eigen::LLT<Eigen::MatrixXd> small_;
-  VectorXd inverse_diagonal_; // used without a factor; 0 for fixed points
+  // The preconditioner if there is no factor: inverse diagonal of the energy's matrix; 0 for fixed
+  // points.
+  VectorXd inverse_diagonal_;
 };
 } // namespace
 

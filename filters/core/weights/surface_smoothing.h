@@ -11,7 +11,7 @@ namespace bindpose
 
 /// Smooth functions along a surface. The result w minimizes ½∫(w - given)² + ½ length⁴ ∫(Δw)²,
 /// where `given` is the input, with linear elements and lumped mass. Waves shorter than about 6
-/// lengths are damped.
+/// times `length` are damped.
 ///
 /// Each column is solved separately by conjugate gradients, starting from the input values, until
 /// the residual is reduced to 1e-6 of its initial value or for 200 iterations. Every iterate has a

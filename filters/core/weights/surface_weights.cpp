@@ -1,7 +1,7 @@
 // Solve the weights of a surface in a domain of its inside (see surface_weights.h). There is one
 // path for the volume (tets, handles, method, transfer), one path for the embedding (the same
 // operations on a lattice, with a smoothed transfer), and the choice between them. If a result is
-// replaced by another one, its status is reported as the reason.
+// replaced by another one, the status of the replaced result is reported as the reason.
 #include "weights/surface_weights.h"
 
 #include "weights/cage_domain.h"
@@ -48,11 +48,13 @@ constexpr double most_seconds = 20.0;
 /// One lattice that contains the surface, and its solution.
 struct Lattice
 {
-  SurfaceWeights result; ///< weights are interpolated, not smoothed
+  /// The solution; its weights at the surface are interpolated, not smoothed.
+  SurfaceWeights result;
   Status status;
   Index resolution = 0;
   EmbeddingTets tets;
-  std::unique_ptr<EmbeddedSurface> surface; ///< refers to tets
+  /// Transfers values to the surface; refers to the member `tets`.
+  std::unique_ptr<EmbeddedSurface> surface;
 
   Status carry(const Weights& solved, const Handles& handles,
     EmbeddedSurface::Smoothness smoothness, ExecutionContext& context, Weights& at_points) const
@@ -128,12 +130,12 @@ private:
   const WeightsOptions& weights_options_;
   const WeightsMethod& method_;
   ExecutionContext& context_;
-  Weights preview_; ///< empty until the preview has been computed
-  /// Null until prepared; the same object serves all tets and lattices.
+  Weights preview_; ///< weights of the preview; empty until they have been computed
+  /// The prepared surface, used for all tets and lattices; null until it is prepared.
   std::unique_ptr<PreparedSurface> prepared_;
-  /// Null until needed; the same object serves all lattices.
+  /// The locator of the surface, used for all lattices; null until it is needed.
   std::unique_ptr<SimplexLocator> surface_;
-  std::vector<PartLink> links_; ///< links of parts without a handle, over all lattices so far
+  std::vector<PartLink> links_; ///< links of parts without a handle, from all lattices so far
   Index linked_parts_ = 0;
 };
 
@@ -473,8 +475,8 @@ Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
     return prepared;
   }
   // A finer lattice may separate parts that are connected on a coarser one, so links are added in
-  // rounds. Real models took at most three rounds. Parts that remain after the last round follow
-  // the nearest handle.
+  // rounds. Real models took at most three rounds. Parts without a handle that remain after the
+  // last round copy the weights of the nearest handle.
   constexpr int most_rounds = 4;
   const ProgressRange range(this->context_, 0.3, 1.0);
   Status status;
@@ -587,11 +589,12 @@ Status Solver::in_embedding(SurfaceWeights& result)
   return best->status.usable() ? this->finish(*best, result) : best->status;
 }
 
-/// Return the estimated fraction of the time that the smoothed transfer to the surface takes; it is
-/// half for a dense surface. Measured on surfaces with one and four million triangles.
+/// Return the estimated fraction of the time that the smoothed transfer to the surface takes. For a
+/// dense surface and ten handles, this is about half. Measured on surfaces with one and four
+/// million triangles.
 double Solver::share_of_transfer() const
 {
-  // Times in seconds, on two threads.
+  // Times in seconds on two threads, for the transfer and for the solves on all lattices.
   constexpr double per_point = 6e-6;
   constexpr double per_point_and_column = 1.5e-6;
   constexpr double lattices_per_point = 20e-6;
@@ -638,7 +641,8 @@ LatticePtr Solver::best_lattice()
   {
     return best;
   }
-  Index resolution = best->resolution; // of the last lattice, whose solve may have failed
+  // Resolution of the last lattice, whose solve may have failed.
+  Index resolution = best->resolution;
   for (int level = 1; level < most_lattices && !trusted; ++level)
   {
     const double growth = level == 1 ? 1.5 : growth_to_third(*best);

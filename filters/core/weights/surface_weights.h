@@ -13,17 +13,18 @@ namespace bindpose
 /// vtkWeightsAlgorithm.
 enum class WeightsDomain : int
 {
-  surface = 0, ///< on the triangles
+  surface = 0, ///< Solve on the surface's own triangles.
   /// Choose a domain automatically. A flat shape is solved on its own triangles. A closed, clean
   /// surface is solved in its volume if that is predicted to be well conditioned and cheap
   /// (domain_choice.h). A surface with regions or with terms for individual points is also solved
   /// in its volume. All other surfaces are solved in the embedding, which is also used if the first
   /// choice fails.
   automatic = 1,
-  volume = 2, ///< in tets of the inside that preserve the surface (tetrahedralize, method auto)
-  embedding = 3, ///< in a lattice that contains the surface (tetrahedralize, method embed)
-  /// In tets of a closed cage of faces around the surface. For a flat shape, in triangles of a
-  /// closed cage of edges around it.
+  /// Solve in tets of the inside that preserve the surface (tetrahedralize, method auto).
+  volume = 2,
+  embedding = 3, ///< Solve in a lattice that contains the surface (tetrahedralize, method embed).
+  /// Solve in tets of a closed cage of faces around the surface. For a flat shape, solve in
+  /// triangles of a closed cage of edges around the shape.
   cage = 4
 };
 
@@ -73,8 +74,8 @@ struct SurfaceWeightsOptions
 
 /// Compute weights at a surface's own points, solved in one of these domains of its inside.
 ///
-/// **volume**: conforming tets. The surface's points are vertices of the tets; otherwise they get
-/// the weights of the nearest point of the tets (transfer).
+/// **volume**: conforming tets. The surface's points are usually vertices of the tets. A point that
+/// is not a vertex gets the weights of the nearest point of the tets (transfer).
 ///
 /// **embedding**: tets of a lattice, independent of the surface's resolution, weighted by the
 /// fraction of each tet that is inside. Parts that are near each other but not connected stay
@@ -89,7 +90,8 @@ struct SurfaceWeightsOptions
 /// with the third. The result is the finest lattice that converged. Its weights differ from the
 /// weights of much finer lattices by about 0.01 rms. If the last two lattices still differ by more
 /// than 0.016 rms, a warning reports the rms difference and the largest difference. If the caller
-/// specifies a resolution, it is compared with two thirds of it.
+/// specifies a resolution, the lattice with this resolution is compared with a lattice with two
+/// thirds of this resolution.
 ///
 /// **automatic** returns certified weights whenever the embedding converges. If the first choice
 /// fails or does not converge, the embedding is used instead, with one warning. An error of the

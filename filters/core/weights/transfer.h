@@ -21,10 +21,11 @@ struct TransferOptions
 /// Numbers of points by the way in which their weights were computed.
 struct TransferCounts
 {
-  Index exact = 0; ///< on a vertex: a bitwise copy of its row
-  Index barycentric = 0; ///< in an element
-  Index nearest = 0; ///< outside, within reach: from the nearest point of the nearest element
-  Index misses = 0; ///< beyond reach, or not finite (these get zeros)
+  Index exact = 0; ///< points on a vertex, which get a bitwise copy of the row of the vertex
+  Index barycentric = 0; ///< points in an element, whose weights are interpolated
+  /// Points outside, within reach; they get the weights of the nearest point of the mesh.
+  Index nearest = 0;
+  Index misses = 0; ///< points beyond reach, and points that are not finite (the latter get zeros)
   double largest_distance = 0.0; ///< largest distance of a point from the mesh
 };
 

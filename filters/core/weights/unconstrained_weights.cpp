@@ -48,7 +48,9 @@ bool fixed_vertices_span(const WeightsProblem& problem)
       all[components.of_vertex[v]].push_back(v);
     }
   }
-  constexpr double flat = 1e-6; // relative to the diagonal
+  // The vertices are flat in a direction if their extent in this direction is below this fraction
+  // of the mesh's diagonal.
+  constexpr double flat = 1e-6;
   for (std::size_t c = 0; c < fixed.size(); ++c)
   {
     const auto dimensions = (spread(all[c]).array() > flat).count();
@@ -114,7 +116,7 @@ Status minimize(const WeightsProblem& problem, const char* method, const SparseM
   return finish_weights(problem, method, options.tolerance, solutions, fallback, context, result);
 }
 
-/// Minimize the energy of an order with these masses.
+/// Minimize the k-harmonic energy of the given order k, computed with the given masses.
 Status minimize_order(const WeightsProblem& problem, const char* method, int order,
   const Eigen::VectorXd& mass, const WeightsOptions& options, ExecutionContext& context,
   WeightsResult& result)

@@ -6,32 +6,35 @@
 namespace bindpose
 {
 
-/// Weights that minimize an energy with no constraint except the values at the handles. Rows sum
-/// to one without normalization. The certificate contains the distance of the energy from its
-/// minimum and the largest Newton step of one vertex, both relative. Cost: one factorization, and
-/// one solve per handle. invalid_input: the problem has terms (see WeightTerms), or the energy has
+/// Weights that minimize an energy with no constraint except the values at the handles. Rows sum to
+/// one without normalization. The certificate contains the distance of the energy from its minimum
+/// and the largest Newton step of one vertex, both relative. Cost: one factorization, and one solve
+/// per handle. invalid_input: the problem has optional terms (see WeightTerms), or the energy has
 /// no unique minimum.
 
-/// Minimize int |grad w|^2: in [0, 1] if cotangents are positive; has peaks at points.
+/// Minimize int |grad w|^2. The weights are in [0, 1] if cotangents are positive, and have peaks at
+/// point handles.
 Status harmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result);
-/// Minimize int (Laplacian w)^2: smooth, independent of the mesh, leaves [0, 1].
+/// Minimize int (Laplacian w)^2. The weights are smooth and independent of the mesh, but leave
+/// [0, 1].
 Status biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result);
-/// Minimize int |grad Laplacian w|^2: smoother, leaves [0, 1] further.
+/// Minimize int |grad Laplacian w|^2. The weights are smoother than biharmonic weights, but leave
+/// [0, 1] further.
 Status triharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result);
-/// Minimize |K w|^2 without masses (Botsch and Kobbelt 2004): depends on the density of the mesh.
-/// For comparison.
+/// Minimize |K w|^2 without masses (Botsch and Kobbelt 2004), for comparison. The weights depend on
+/// the density of the mesh.
 Status graph_biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result);
 /// Minimize the biharmonic energy with boundary conditions that a linear function satisfies as well
 /// (Wang, Jacobson, Barbic, Kavan, Linear Subspace Design for Real-Time Shape Deformation, 2015).
 /// Point handles then reproduce affine maps exactly: sum w_j p_j = p. This requires four points
 /// that are not in a plane (three not in a line for flat shapes). With fewer, a millionth of the
-/// biharmonic energy is added, with a warning. The method is intended for points. Bones, along
-/// which weights are constant, fit no linear function, and the extrapolation beyond them overshoots
-/// far.
+/// biharmonic energy is added, with a warning. The method is intended for point handles. Bones,
+/// along which weights are constant, fit no linear function, and the extrapolation beyond them
+/// overshoots far.
 Status linear_subspace_weights(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result);
 

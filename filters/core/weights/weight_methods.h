@@ -12,22 +12,25 @@ namespace bindpose
 using WeightsKernel = Status (*)(
   const WeightsProblem&, const WeightsOptions&, ExecutionContext&, WeightsResult&);
 
-/// A method that computes weights. A new method is its kernel and one row in weight_methods(); the
-/// filter vtkUnconstrainedWeights, the window and the program find it there.
+/// A method that computes weights. To add a method, write its kernel and add one row to
+/// weight_methods(). The filter vtkUnconstrainedWeights, the window of the viewer and the command
+/// line find it there.
 struct WeightMethod
 {
-  const char* word; ///< on the command line, in Python, in reports and in session files
-  const char* label; ///< in lists of the window
-  const char* short_label; ///< in narrow lines of the window
-  bool constrained; ///< has bounds, terms and influences; otherwise it is for comparison
+  const char* word; ///< name on the command line, in Python, in reports and in session files
+  const char* label; ///< name in lists of the window
+  const char* short_label; ///< name in narrow lines of the window
+  /// Whether the method supports bounds, optional terms and a limit on influences. The other
+  /// methods are for comparison.
+  bool constrained;
   WeightsKernel kernel;
 };
 
 /// Return all methods: bounded biharmonic and monotone weights first.
 const std::vector<WeightMethod>& weight_methods();
-/// Return the method of a word; null if it is unknown.
+/// Return the method with the given `word`; null if there is none.
 const WeightMethod* find_weight_method(std::string_view word);
-/// Return the words, with commas between, for error messages.
+/// Return the `word` of each method, separated by commas, for error messages.
 /// @param constrained  whether constrained methods are included
 std::string weight_method_words(bool constrained);
 

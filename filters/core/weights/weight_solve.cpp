@@ -21,14 +21,14 @@ namespace
 /// The quadratic form of one group and its solver, which all passes use.
 struct GroupSolver
 {
-  SparseMatrix q; // kept only if columns are coupled
+  SparseMatrix q; // the quadratic form; stored only if columns are coupled
   std::unique_ptr<BoxQp> solver;
 };
 
 /// The results of one pass over all columns.
 struct Round
 {
-  std::vector<BoxQpSolution> solutions; // one per handle, over vertices
+  std::vector<BoxQpSolution> solutions; // one solution per handle, with one value per vertex
   Eigen::MatrixXd fallback; // minimizers without bounds
   double coupled_energy = 0.0;
 };
@@ -42,8 +42,8 @@ public:
   {
   }
 
-  /// Make the groups, add the constraints of the guide, and in the first pass also make the
-  /// solvers.
+  /// Make the column groups, add the ordered pairs of monotone weights if there is a guide, and in
+  /// the first pass also make the solvers.
   Status prepare(const Exclusions& excluded)
   {
     const bool coupled = this->options_.partition == PartitionOfUnity::coupled;
@@ -223,7 +223,7 @@ Weights normalized(const WeightsProblem& problem, const Round& round, const Excl
 
 /// Exclude the smallest weights, so that each vertex has at most `most` weights above 0. Weights
 /// that a pin or a bound keeps above 0 are never excluded.
-/// @param capped the number of vertices at which weights are excluded.
+/// @param capped set to the number of vertices at which weights are excluded.
 Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, int most,
   Exclusions& excluded, Index& capped)
 {

@@ -35,8 +35,8 @@ struct WeightTerms
   /// Mirror vertex of each vertex, #V; -1: none. The relation is symmetric: mirror[mirror[v]] == v.
   std::vector<Index> mirror;
   /// Alternative to `mirror`: the normal of a symmetry plane through mirror_origin; zero: no plane.
-  /// Two vertices are mirror vertices if each is within 1e-5 of the mesh's diagonal of the other
-  /// vertex's mirror image.
+  /// Two vertices are mirror vertices if the distance of each vertex from the mirror image of the
+  /// other one is at most 1e-5 of the mesh's diagonal.
   Vec3 mirror_normal = Vec3::Zero();
   Vec3 mirror_origin = Vec3::Zero();
 

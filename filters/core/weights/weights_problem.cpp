@@ -214,7 +214,7 @@ Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallb
     }
     double wanted = 1.0;
     double sum = weights.row(v).sum();
-    // 1: the weight is scaled, 0: it is unchanged.
+    // For each weight of the row, 1 if it is scaled, 0 if it is pinned and does not change.
     Eigen::RowVectorXd scaled = Eigen::RowVectorXd::Ones(m);
     for (Index j = 0; j < m && pinned.size() > 0 && role == VertexRole::solved; ++j)
     {

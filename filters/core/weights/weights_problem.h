@@ -13,7 +13,7 @@ namespace bindpose
 /// The way in which rows of bounded weights are made to sum to one.
 enum class PartitionOfUnity
 {
-  normalize, ///< each column is solved separately; then rows are divided by their sums
+  normalize, ///< solve each column separately, then divide rows by their sums
   coupled ///< all columns are solved together with this constraint (see solve_coupled_qp)
 };
 
@@ -32,16 +32,18 @@ struct WeightsOptions
   /// largest weights are kept. Columns of bounded and monotone weights are then solved again, with
   /// the other weights fixed at 0. Rows of vertices on handles do not change.
   int maximum_influences = 0;
-  WeightTerms terms; ///< for bounded and monotone weights; read by make_weights_problem()
+  /// Optional terms of bounded and monotone weights; read by make_weights_problem().
+  WeightTerms terms;
   HandleInsertionOptions insertion;
   SparseSolver::Options solver;
   /// Bounded and monotone weights: order of the energy, 2 biharmonic, 3 triharmonic (which
   /// oscillates within the bounds).
   int order = 2;
-  double power = 2.0; ///< inverse-distance weights: exponent, > 0
+  double power = 2.0; ///< inverse-distance weights: exponent of the distance, > 0
   /// Smoothed harmonic weights: smoothing length as a fraction of the diagonal, >= 0.
   double smoothing = 0.05;
-  /// Bone heat weights: > 0; larger values make the transition between handles sharper.
+  /// Bone heat weights: amount of heat from the nearest handle, > 0; larger values make the
+  /// transition between handles sharper.
   double heat = 1.0;
 };
 
@@ -67,7 +69,7 @@ struct WeightsProblem
   /// VertexRole), and these rows, #fixed x #handles.
   std::vector<Index> fixed;
   Eigen::MatrixXd fixed_values;
-  Status status; ///< counts and warnings of the preparation
+  Status status; ///< counts and warnings of make_weights_problem()
 
   Index vertex_count() const { return this->mesh.domain.points.rows(); }
   Index handle_count() const { return static_cast<Index>(this->handles.size()); }
@@ -93,7 +95,8 @@ struct WeightsColumn
   /// Fraction of the vertices where the column before normalization is exactly 0; measures its
   /// locality.
   double zeros = 0.0;
-  double ones = 0.0; ///< fraction of the vertices where it is exactly 1
+  /// Fraction of the vertices where the column before normalization is exactly 1.
+  double ones = 0.0;
   /// Interior extrema of the column before normalization, with persistence above 1e-3.
   std::vector<Extremum> extrema;
   Index normalized_interior_extrema = 0; ///< number of interior extrema after normalization

@@ -1,7 +1,7 @@
-// A blocked matrix product. Blocks of a and b are copied, so that the innermost loop reads them
-// sequentially and its sums, a tile of c, stay in registers. Every sum runs over the inner index in
-// ascending order, in blocks of a fixed size. Therefore the result does not depend on the size of
-// registers and tiles.
+// A blocked matrix product. c = c + a b is computed in blocks. Blocks of a and b are copied, so
+// that the innermost loop reads them sequentially. The sums of the innermost loop are a tile of c
+// and stay in registers. Every sum runs over the inner index in ascending order, in blocks of a
+// fixed size. Therefore the result does not depend on the size of registers and tiles.
 #include "base/dense_product.h"
 
 #include "base/packs.h"
@@ -14,26 +14,26 @@ namespace bindpose
 
 namespace
 {
-/// Length of a block along the inner index. With the columns of a tile, a block takes at most 32
-/// KiB, the size of the first-level cache.
+/// Length of a block along the inner index. A block of matrix b with this length and the width of a
+/// tile takes at most 32 KiB, the size of the first-level cache.
 constexpr Index inner_block = 256;
-/// Rows of a block of a. With inner_block columns, a block takes 384 KiB and fits into the
-/// second-level cache.
+/// Number of rows in a block of matrix a. With inner_block columns, the block takes 384 KiB and
+/// fits into the second-level cache.
 constexpr Index row_block = 192;
 
-/// Size of a tile of c. The sums of a tile use 24 registers of AVX-512, or 12 of the 16 registers
-/// of the other instruction sets.
+/// Size of a tile of the result c. The sums of a tile use 24 registers of AVX-512, or 12 of the 16
+/// registers of the other instruction sets.
 template <int bytes>
 struct Tile
 {
   static constexpr Index lanes = PackOf<double, bytes>::lanes;
   static constexpr Index rows = bytes == 64 ? 12 : bytes == 32 ? 6 : 3;
-  static constexpr Index packs = bytes == 16 ? 4 : 2; ///< packs in a row of the tile
+  static constexpr Index packs = bytes == 16 ? 4 : 2; ///< number of packs in a row of the tile
   static constexpr Index cols = packs * lanes;
 };
 
-/// Compute sums = a b, for a (tile rows x inner, packed column by column) and b (inner x tile
-/// columns, row by row).
+/// Compute the product `sums` of `a` and `b` for one tile. `a` is T::rows x inner, stored column by
+/// column. `b` is inner x T::cols, stored row by row.
 template <int bytes>
 BINDPOSE_ALWAYS_INLINE void multiply_tile(
   const double* a, const double* b, Index inner, double* sums)
@@ -69,8 +69,8 @@ Index tiles_of(Index count, Index size)
   return (count + size - 1) / size;
 }
 
-/// Copy the rows [begin, end) and columns [first, first + inner) of a in tiles. The last tile is
-/// padded with zeros.
+/// Copy the rows [begin, end) and columns [first, first + inner) of matrix `a`, one tile after the
+/// other. The last tile is padded with zeros.
 template <int bytes>
 BINDPOSE_ALWAYS_INLINE void pack_rows(
   const StridedMatrix& a, Index begin, Index end, Index first, Index inner, double* to)
@@ -89,7 +89,8 @@ BINDPOSE_ALWAYS_INLINE void pack_rows(
   }
 }
 
-/// Copy the columns of one tile of b, beginning at `left`. Missing columns are filled with zeros.
+/// Copy the columns of one tile of matrix `b`, beginning at column `left`. If the tile extends
+/// beyond the last column, it is padded with zeros.
 template <int bytes>
 BINDPOSE_ALWAYS_INLINE void pack_columns(
   const StridedMatrix& b, Index left, Index first, Index inner, double* to)

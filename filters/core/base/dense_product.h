@@ -16,10 +16,10 @@ struct StridedMatrix
   Index row, column;
 };
 
-/// Add a b to c, a row-major matrix of #a.rows x #b.cols whose rows are c_stride apart. The rows of
-/// b must be contiguous (b.column = 1). If `lower` is true, only entries (i, j) with j <= i are
-/// guaranteed to be added, which halves the time. This is sufficient if the result is known to be
-/// symmetric.
+/// Add the product of `a` and `b` to `c`. `c` is a row-major matrix of a.rows x b.cols whose rows
+/// are `c_stride` apart. The rows of `b` must be contiguous (b.column = 1). If `lower` is true,
+/// only entries (i, j) with j <= i are guaranteed to be added, which halves the time. This is
+/// sufficient if the product is known to be symmetric.
 ///
 /// Eigen is not used, because release builds of Eigen use only SSE2. BLAS is not used, because its
 /// results depend on the machine and its speed depends on whether it supports the processor. This

@@ -133,14 +133,14 @@ private:
   int count_ = 0;
 };
 
-/// Return +1 if a, b, c turn counter-clockwise, -1 if clockwise, and 0 if they are collinear. The
-/// result is exact.
+/// Return +1 if the points a, b, c are in counter-clockwise order, -1 if they are in clockwise
+/// order, and 0 if they are collinear. The result is exact.
 inline int orientation_2d(double ax, double ay, double bx, double by, double cx, double cy)
 {
   const double left = (ax - cx) * (by - cy);
   const double right = (ay - cy) * (bx - cx);
   const double determinant = left - right;
-  // Relative error bound (3 + 16 e) e, with e = 2^-53.
+  // Error bound of the determinant, relative to |left| + |right|: (3 + 16 e) e, with e = 2^-53.
   constexpr double bound = 3.3306690738754716e-16;
   if (std::abs(determinant) > bound * (std::abs(left) + std::abs(right)))
   {

@@ -1,5 +1,5 @@
-// Progress, cancellation and computing time per phase. Progress callbacks are limited to one per 50
-// ms and phase change.
+// Progress, cancellation and computing time per phase. The progress callback is called at most
+// every 50 ms, and at every change of phase.
 #include "base/execution.h"
 
 #include <algorithm>

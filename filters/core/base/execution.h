@@ -42,8 +42,8 @@ public:
   bool canceled() const;
 
   /// Report progress within the current phase, in [0, 1]. Fast enough for frequent calls. Calls on
-  /// threads other than the one that created the context are ignored, so that parallel bodies may
-  /// call it.
+  /// threads other than the one that created the context are ignored, so that the bodies of
+  /// parallel loops may call this function.
   void progress(double fraction_of_phase);
 
   /// Return the seconds spent in each phase, in the order in which the phases first began. If a

@@ -53,7 +53,7 @@ struct Plan
 {
   std::shared_ptr<const Supernodes> nodes;
   std::vector<int> parent; // parent of each supernode; -1: no parent
-  std::vector<int> position; // index in the factor's values of each stored entry of the matrix
+  std::vector<int> position; // per stored entry of the matrix: its index in the factor's values
   // Depth of each supernode below its root, modulo 2, which is the index of the stack for its
   // update matrix.
   std::vector<unsigned char> depth;
@@ -460,8 +460,8 @@ void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
         size = std::max(size, value);
         finite = finite && std::isfinite(value);
       }
-      // Scale each right-hand side by its size, so that all magnitudes are within the range of
-      // floats.
+      // Divide each right-hand side by its largest absolute entry, so that all entries are within
+      // the range of floats.
       factor[c] = size > 0.0 && finite ? size : 1.0;
       float* into = scaled.data() + c;
       for (std::size_t i = 0; i < n; ++i)

@@ -37,9 +37,10 @@ public:
   /// Report whether analyze() succeeded.
   bool analyzed() const;
 
-  /// Factor a matrix of the analyzed pattern plus shift times its diagonal. The status is
-  /// invalid_input if the sum is not positive definite in single precision; the message contains
-  /// the unknown whose pivot failed. A cancel request is checked between dense blocks.
+  /// Factor the sum of a matrix of the analyzed pattern and `shift` times the diagonal of this
+  /// matrix. The status is invalid_input if the sum is not positive definite in single precision;
+  /// the message contains the unknown whose pivot failed. A cancel request is checked between dense
+  /// blocks.
   Status factor(const SparseMatrix& matrix, double shift, const ExecutionContext& context);
   /// Solve approximately with the last factorization. Several threads may call it concurrently.
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;

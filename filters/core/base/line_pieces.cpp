@@ -1,5 +1,6 @@
-// Division of a line into pieces of equal size relative to a local length, by integrating 1 /
-// length along the line.
+// Division of a line into pieces. The desired size of a piece varies along the line and is called
+// the local length. The integral of 1 / (local length) along a part of the line is the length of
+// this part in local lengths. All pieces have the same length in local lengths.
 #include "base/line_pieces.h"
 
 #include <algorithm>
@@ -11,12 +12,12 @@ namespace bindpose
 std::vector<double> line_cuts(double from, double to, const std::function<double(double)>& length,
   const std::function<int(double)>& pieces)
 {
-  // passed[i] is the length of the line from the start to at[i], measured in local lengths.
+  // passed[i] is the length of the line from its start to parameter at[i], in local lengths.
   std::vector<double> passed{ 0.0 };
   std::vector<double> at{ from };
   while (at.back() < to)
   {
-    constexpr double part = 0.5; // step in units of the local length, which changes along the line
+    constexpr double part = 0.5; // step of the integration, in local lengths
     const double here = length(at.back());
     const double step = std::min(part * here, to - at.back());
     passed.push_back(passed.back() + step / here);

@@ -67,7 +67,7 @@ double address_space_leaves()
 
 double group_leaves()
 {
-  // In the unified hierarchy, the line has the form "0::/path".
+  // In the unified hierarchy of control groups, the line of the process has the form "0::/path".
   std::string group;
   std::ifstream file("/proc/self/cgroup");
   for (std::string line; std::getline(file, line);)

@@ -34,8 +34,8 @@ double available_memory();
 /// @return ok, or internal_error with the needed and the available memory.
 Status check_memory(const std::string& what, double bytes, Index limit);
 
-/// Return the number of bytes that the process can still allocate under a limit of this many MiB
-/// (0: all available memory).
+/// Return the number of bytes that the process can still allocate.
+/// @param limit MiB that the whole process may use; 0: all available memory
 double memory_left(Index limit);
 
 } // namespace bindpose

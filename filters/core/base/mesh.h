@@ -107,7 +107,7 @@ struct Edge
 {
   Index a = 0, b = 0; ///< vertex ids, a < b
   int uses = 0; ///< number of triangles at the edge
-  /// (number of triangles that use it as a->b) - (number of triangles that use it as b->a).
+  /// Number of triangles that use the edge from a to b, minus the number that use it from b to a.
   int net_direction = 0;
 };
 
@@ -115,13 +115,13 @@ struct Edge
 /// omitted.
 std::vector<Edge> mesh_edges(TrianglesView triangles);
 
-/// Numbers of edges of a surface, by the number and orientation of their triangles.
+/// Number of edges of a surface, in total and for several kinds of edges.
 struct EdgeCounts
 {
   Index edges = 0;
-  Index boundary = 0; ///< used by one triangle
-  Index nonmanifold = 0; ///< used by three triangles or more
-  Index misoriented = 0; ///< used by two triangles in the same direction
+  Index boundary = 0; ///< number of edges that belong to one triangle only
+  Index nonmanifold = 0; ///< number of edges that three or more triangles share
+  Index misoriented = 0; ///< number of edges that two triangles use in the same direction
   /// Whether the surface is closed in the sense of the winding number: every edge is used equally
   /// often in both directions.
   bool closed = true;

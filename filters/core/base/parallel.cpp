@@ -70,7 +70,7 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
     }
     else
     {
-      // Kept between calls, because new arenas would accumulate.
+      // The arenas are kept between calls, because a new arena per call would accumulate.
       thread_local std::map<int, tbb::task_arena> arenas;
       arenas.try_emplace(threads, threads).first->second.execute(share);
     }

@@ -23,8 +23,8 @@ int thread_count(int asked);
 bool parallel_for(ExecutionContext& context, Index count, Index block_size,
   const std::function<void(Index begin, Index end)>& body);
 
-/// Return the sum of body(begin, end) over the same blocks. The results are added in the order of
-/// the blocks, so that the bits are the same for any number of threads.
+/// Return the sum of body(begin, end) over the blocks of parallel_for(). The results are added in
+/// the order of the blocks, so that the bits are the same for any number of threads.
 double parallel_sum(ExecutionContext& context, Index count, Index block_size,
   const std::function<double(Index begin, Index end)>& body);
 

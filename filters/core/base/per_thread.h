@@ -15,8 +15,8 @@ template <typename T>
 class PerThread
 {
 public:
-  /// Call use(object) with an object that no other thread is using. @param make function () ->
-  /// std::unique_ptr<T>
+  /// Call use(object) with an object that no other thread is using.
+  /// @param make function () -> std::unique_ptr<T> that creates an object
   template <typename Make, typename Use>
   void with(const Make& make, const Use& use)
   {
@@ -38,7 +38,7 @@ public:
     this->idle_.push_back(std::move(one));
   }
 
-  /// Call see(const T&) for each object. No body may run at the same time.
+  /// Call see(const T&) for each object. No loop body may run at the same time.
   template <typename See>
   void for_each(const See& see) const
   {

@@ -1,5 +1,5 @@
-// Spatial sort of points. The box of the points is divided into 16 or 32 cells along each axis,
-// which are numbered in Morton order. A counting sort distributes the points to the cells.
+// Spatial sort of points. The box of the points is divided into 16 or 32 cells along each axis. The
+// cells are numbered in Morton order. A counting sort distributes the points to the cells.
 #include "base/point_order.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace bindpose
 
 std::vector<std::int32_t> order_by_place(const std::vector<Vec3>& points)
 {
-  // This is the box of a sample of the points. Points outside the box are assigned to the nearest
-  // cells.
+  // The cells divide the bounding box of every 16th point. Points outside of this box are assigned
+  // to the nearest cells.
   Box box;
   constexpr std::size_t some = 16;
   for (std::size_t i = 0; i < points.size(); i += some)

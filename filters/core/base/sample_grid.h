@@ -31,7 +31,8 @@ struct SampleGrid
       this->spacing.cwiseProduct(
         Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
   }
-  /// Return the point of a sample. `number` is the index of the sample within the extent, from 0.
+  /// Return the point of a sample.
+  /// @param number index of the sample within the extent, from 0
   Vec3 point(Index number) const
   {
     const Index nx = this->size(0), ny = this->size(1);

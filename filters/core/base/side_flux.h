@@ -7,7 +7,7 @@
 namespace bindpose
 {
 
-/// Return the matrix N of the flux out of triangles through these sides (#V x #V): N_ij is the
+/// Return the matrix N of the flux out of triangles through the given sides (#V x #V): N_ij is the
 /// integral of phi_i n . grad phi_j over the sides. n lies in the plane of the triangle and is
 /// normal to the side.
 SparseMatrix side_flux(

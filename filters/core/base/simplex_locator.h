@@ -21,7 +21,7 @@ struct SimplexLocation
 };
 
 /// Return the point of a triangle or tet that is nearest to p, as barycentric coordinates and
-/// distance. Degenerate elements are handled by their edges.
+/// distance. The nearest point of a degenerate element is found on its edges.
 SimplexLocation nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 SimplexLocation nearest_in_tet(
   const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
@@ -42,8 +42,8 @@ private:
   struct Node
   {
     Vec3 lower, upper;
-    Index begin = 0, end = 0; // range in order_ of a leaf's elements
-    Index right = -1; // right child; the left child is the next node; -1: a leaf
+    Index begin = 0, end = 0; // range of a leaf's elements in order_
+    Index right = -1; // index of the right child, -1 for a leaf; the left child is the next node
   };
   void build();
   Index build(Index begin, Index end);

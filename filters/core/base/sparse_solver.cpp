@@ -98,8 +98,8 @@ public:
 
   std::unique_ptr<Factorization> clone() const override
   {
-    // Eigen's solver cannot be copied, so the analysis is repeated. It is fast compared with a
-    // factorization.
+    // Eigen's solver cannot be copied, so the analysis is repeated. An analysis takes little time
+    // compared with a factorization.
     auto copy = std::make_unique<EigenFactorization>();
     copy->pattern_ = this->pattern_;
     if (copy->pattern_)

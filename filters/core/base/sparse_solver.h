@@ -30,7 +30,7 @@ class SparseSolver
 public:
   enum class Backend
   {
-    automatic, ///< CHOLMOD if it is built in
+    automatic, ///< CHOLMOD if it is built in, otherwise Eigen
     cholmod,
     eigen
   };

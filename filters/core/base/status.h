@@ -49,8 +49,8 @@ public:
     this->set(key, Value(static_cast<Stored>(value)));
   }
   void set(const std::string& key, const char* value) { this->set(key, Value(std::string(value))); }
-  /// Add to the number for the key, or set the number if it is absent. Used for a phase that runs
-  /// several times.
+  /// Add the value to the number for the key. If the key is absent, set it to the value. Used for a
+  /// phase that runs several times.
   void add(const std::string& key, double value);
   void erase(const std::string& key);
   /// Copy all entries of the other report. Existing entries with the same keys are replaced.
@@ -68,8 +68,8 @@ private:
   std::vector<std::pair<std::string, Value>> entries_;
 };
 
-/// Return the text with a '?' for every control character and every byte that is not UTF-8. This
-/// keeps text from files and names from breaking a line, a terminal or a Python string.
+/// Return the text with a '?' in place of every control character and every byte that is not UTF-8.
+/// Therefore neither names nor text from files can break a line, a terminal or a Python string.
 std::string one_line(std::string text);
 
 /// Outcome of a computation: a code, a message of one sentence, warnings (one sentence each) and a

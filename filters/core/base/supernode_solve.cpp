@@ -26,8 +26,9 @@ typedef float Row8 __attribute__((vector_size(32)));
 typedef float Lanes __attribute__((vector_size(64), aligned(4)));
 constexpr int lanes = 16;
 
-/// Solve with the triangle at the top of each group of columns, then subtract the products from the
-/// rows below: t -= block x.
+/// Forward substitution with one block, by groups of columns. The triangle at the top of a group
+/// gives the solution x for its columns. Then the products of the rows below with x are subtracted
+/// from the entries of these rows.
 template <typename Row>
 BINDPOSE_ALWAYS_INLINE void forward(const float* block, int rows, int width, float* entries)
 {
@@ -64,8 +65,8 @@ BINDPOSE_ALWAYS_INLINE void forward(const float* block, int rows, int width, flo
   }
 }
 
-/// Compute the dot products of `count` columns with t, from row `first` on. The sums do not depend
-/// on each other, so they run in parallel.
+/// Compute the dot products of `count` columns of `a` with `t`, from row `first` on. The sums are
+/// independent of each other, so the processor computes them in parallel.
 template <int count, typename Row>
 BINDPOSE_ALWAYS_INLINE void dots(const float* a, const Row* t, int first, int rows, Row* sums)
 {
@@ -113,8 +114,8 @@ BINDPOSE_ALWAYS_INLINE void dots(const float* a, const float* t, int first, int 
   }
 }
 
-/// Solve t = block^-T t for the entries of the supernode's own rows. The entries of the rows below
-/// are input.
+/// Backward substitution with the transpose of one block: replace the entries of the supernode's
+/// own rows by the solution. The entries of the rows below are already solved and remain unchanged.
 template <typename Row>
 BINDPOSE_ALWAYS_INLINE void backward(const float* block, int rows, int width, float* entries)
 {

@@ -19,8 +19,8 @@ BINDPOSE_SIMD_CLONES void multiply(
   Index c = 0;
   for (; c + 4 <= cols; c += 4)
   {
-    // Skip groups of zeros. Such groups are frequent, because the blocks of specified (full)
-    // handles are zero except at these handles.
+    // Skip groups of four rows in which x is zero. Such groups are frequent: a matrix of
+    // displacements that full handles prescribe is zero in the blocks of all other handles.
     if (any_of_four(x + c) || any_of_four(x + cols + c) || any_of_four(x + 2 * cols + c))
     {
       add_columns<4>(rows, a + c * rows, x + c, cols, y);

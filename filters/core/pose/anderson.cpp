@@ -1,8 +1,10 @@
 // Anderson acceleration with incrementally updated normal equations. The differences between
 // successive values of g and of the residual f = g - x are stored in ring buffers, one row per
-// difference. A new difference adds one row of inner products to the normal equations. The
-// right-hand side (the inner products with the residual) follows from that row. Therefore a step
-// needs one inner product per stored difference and one more.
+// difference. A new difference adds one row to the normal equations: its inner products with the
+// stored differences. The right-hand side contains the inner products of the differences with the
+// residual. Because the residual changes by the new difference, the new row is added to the old
+// right-hand side. Only the last entry of the right-hand side needs a new inner product. Therefore
+// a step needs one inner product per stored difference and one more.
 #include "pose/anderson.h"
 
 #include "base/packs.h"
@@ -15,9 +17,9 @@ namespace bindpose
 
 namespace
 {
-/// Regularization of the normal equations after scaling to a unit diagonal. If two differences are
-/// closer to parallel than this, their coefficients are about equal instead of large with opposite
-/// signs.
+/// Regularization of the normal equations after scaling to a unit diagonal. Without regularization,
+/// two nearly parallel differences would have large coefficients of opposite signs; with it, their
+/// coefficients are about equal.
 template <typename Scalar>
 constexpr double ridge = sizeof(Scalar) == 4 ? 1e-6 : 1e-10;
 

@@ -16,11 +16,11 @@ constexpr Index largest_anderson_window = 50;
 /// Anderson acceleration of a fixed-point iteration x <- g(x). The next x is g(x) minus a linear
 /// combination of the last differences between successive values of g. The coefficients minimize
 /// the distance between the residual g(x) - x and the same combination of the differences of the
-/// residual. The coefficients of the iterates sum to one, so the extrapolated x satisfies the same
-/// linear constraints as the iterates. The caller decides whether an extrapolated x is acceptable,
-/// for example by an energy that must not rise. If it is not acceptable, the caller continues from
-/// g(x) and calls forget(). Method: Peng et al. 2018, Anderson acceleration for geometry
-/// optimization and physics simulation.
+/// residual. The next x is thus a linear combination of values of g whose coefficients sum to one.
+/// Therefore it satisfies all linear constraints that these values satisfy. The caller decides
+/// whether an extrapolated x is acceptable, for example by an energy that must not rise. If it is
+/// not acceptable, the caller continues from g(x) and calls forget(). Method: Peng et al. 2018,
+/// Anderson acceleration for geometry optimization and physics simulation.
 ///
 /// Values that are linear functions of x (such as a gradient) can be carried along: they are stored
 /// behind x in memory and combined like x, but they are not part of the residual.
@@ -51,8 +51,8 @@ public:
   /// not finite.
   bool next(const Scalar* g, Scalar* x);
 
-  /// Sum of the absolute values of the last coefficients. The round-off of the carried values may
-  /// exceed that of a plain iterate by this factor.
+  /// Sum of the absolute values of the last coefficients. In an extrapolated iterate, the round-off
+  /// of the carried values may be larger than in g(x) by this factor.
   double reach() const { return this->reach_; }
 
 private:
@@ -62,7 +62,7 @@ private:
   Dot dot_;
   Index count_ = 0; ///< number of calls of next() since forget()
   double reach_ = 0.0;
-  AlignedVector<Scalar> changes_g_, changes_f_; ///< ring buffers of `window` rows
+  AlignedVector<Scalar> changes_g_, changes_f_; ///< ring buffers of `window` differences of g and f
   AlignedVector<Scalar> last_g_, last_f_;
   Eigen::MatrixXd products_; ///< inner products of the differences of the residual
   Eigen::VectorXd right_; ///< inner products of each difference with the last residual

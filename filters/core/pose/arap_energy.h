@@ -16,9 +16,9 @@ namespace bindpose
 /// Type of the as-rigid-as-possible energy, which determines the sets of edges that share one
 /// rotation. All energies are normalized: an affine map x -> J x with the same rotation R
 /// everywhere costs 1/2 volume |J - R|^2 (area on surfaces). For `spokes_and_rims` and `elements`,
-/// this R is the rotation of minimum cost. For `spokes`, it is if J = s R with s >= 0. For another
-/// map J, `spokes` may give a lower cost, because the edges of one vertex need not be distributed
-/// evenly over all directions.
+/// the minimum of this cost over all R is the energy of the map. For `spokes`, this is true if J is
+/// a rotation times a scale of at least 0. For another map J, the energy `spokes` may be lower,
+/// because the edges of one vertex need not be distributed evenly over all directions.
 ///
 /// The weight of an edge is the sum of its elements' cotangent weights. The energy `spokes` omits
 /// edges with negative weights (obtuse angles opposite to the edge), because such an edge alone
@@ -54,8 +54,8 @@ SparseMatrix arap_stiffness(
 /// none.
 std::string left_out_warning(Index left_out);
 
-/// Assignment of vertices or elements to groups that share a rotation. Elements are assigned for
-/// the energy `elements`, vertices for the others.
+/// Assignment of vertices or elements to groups that share a rotation. The energy `elements`
+/// assigns elements, the other energies assign vertices.
 struct RotationGroups
 {
   ArapEnergy energy = ArapEnergy::spokes_and_rims;
@@ -82,8 +82,9 @@ SparseMatrix covariance_matrix(
   PointsView rest, TrianglesView triangles, const RotationGroups& groups);
 SparseMatrix covariance_matrix(PointsView rest, TetsView tets, const RotationGroups& groups);
 
-/// Return 1/2 sum_k sum c |e' - R_k e|^2, summed edge by edge. This is accurate for energies near
-/// zero, whereas the difference of large sums would not be. Cost: #elements x #edges.
+/// Return 1/2 sum_k sum c |e' - R_k e|^2, summed edge by edge. The sum is accurate even if the
+/// energy is near zero, because no large numbers are subtracted. Cost: one term for each edge of
+/// each element, and for each group of the element.
 double arap_energy(PointsView rest, TrianglesView triangles, const RotationGroups& groups,
   PointsView posed, const std::vector<Eigen::Matrix3d>& rotations);
 double arap_energy(PointsView rest, TetsView tets, const RotationGroups& groups, PointsView posed,

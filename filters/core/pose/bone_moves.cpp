@@ -2,14 +2,15 @@
 // vertices.
 //
 // At a point (x, y, z) of a bone's frame the endpoint weight is e = z / length, clamped to [0, 1],
-// and the angle of the twist is a = (1 - e) head + e tail. Twist and stretch add to the point
+// and the angle of the twist is a = (1 - e) head + e tail, where `head` and `tail` are the twists
+// at the ends. `vector` points from the head to the tail. Twist and stretch add to the point
 //
 //     ( -sin a y - (1 - cos a) x,  sin a x - (1 - cos a) y,  0 )  and  e (stretch - 1) vector.
 //
-// With s = sin(a / 2) and c = cos(a / 2), sin a = 2 s c and 1 - cos a = 2 s^2. Both values are
-// exactly zero without a twist, and they do not change if s and c change their signs. Therefore
-// whole turns can be subtracted from a. The remaining angle is at most half a turn. A short power
-// series is accurate for a quarter of the remaining angle.
+// With s = sin(a / 2) and c = cos(a / 2), sin a = 2 s c and 1 - cos a = 2 s^2. The values sin a and
+// 1 - cos a are exactly zero without a twist, and they do not change if s and c change their signs.
+// Therefore whole turns can be subtracted from a. The remaining angle is at most half a turn. A
+// short power series is accurate for a quarter of the remaining angle.
 #include "pose/bone_moves.h"
 
 #include "base/packs.h"
@@ -112,7 +113,7 @@ BINDPOSE_ALWAYS_INLINE void add_any(const std::int32_t* columns, const Scalar* w
         {
           given[i - begin] = static_cast<Scalar>(from[i * handles]);
         }
-        e = given == given ? given : e; // the endpoint weight is not specified if it is NaN
+        e = given == given ? given : e; // NaN: keep the position along the bone
       }
       const Pack w = pack_at(weights + k * of_tile + begin);
       const Pack longer = w * e;

@@ -32,8 +32,8 @@ struct BoneFrames
   std::vector<BoneFrame<Scalar>> frames;
 };
 
-/// Return the frames of all bones that stretch or twist. @param center origin of the tiles' points
-/// (load_points()).
+/// Return the frames of all bones that stretch or twist.
+/// @param center origin of the tiles' points (load_points()).
 template <typename Scalar>
 BoneFrames<Scalar> bone_frames(
   const std::vector<BoneChange>& bones, const std::vector<Affine>& transforms, const Vec3& center);

@@ -9,8 +9,9 @@
 //
 //     A L^-1 A^T m - A 1 t = A L^-1 force - b,    (A 1)^T m = 0.
 //
-// The second equation states that the multipliers' forces sum to zero in each part. A pivoted QR
-// decomposition of A first selects linearly independent points, so that the small system is
+// The matrix 1 has one column per part without a given vertex, with ones at the vertices of the
+// part. The second equation states that the multipliers' forces sum to zero in each part. A pivoted
+// QR decomposition of A first selects linearly independent points, so that the small system is
 // regular.
 #include "pose/constrained_stiffness.h"
 

@@ -21,9 +21,9 @@ using MeshPoint = std::vector<std::pair<Index, double>>;
 /// choice of given vertices and held points. Then it can be solved for any prescribed values.
 ///
 /// L may be singular, because a connected part without a given vertex can translate freely. Held
-/// points in such a part determine its translation; without held points its mean is zero. Held
-/// points that depend linearly on other held points are detected and left out. Contradictory held
-/// points are satisfied in the least-squares sense.
+/// points in such a part determine its translation. If there are none, the mean of x over the part
+/// is zero. Held points that depend linearly on other held points are detected and left out.
+/// Contradictory held points are satisfied in the least-squares sense.
 class ConstrainedStiffness
 {
 public:
@@ -41,7 +41,7 @@ public:
   /// order of their ids) and the values at the held points (#held x k).
   void solve(const Rows& force, const Rows& given, const Rows& held, Rows& x) const;
 
-  /// Held points that depend linearly on other held points.
+  /// Return the indices of held points that depend linearly on other held points.
   const std::vector<Index>& redundant() const { return this->redundant_; }
 
 private:
@@ -56,7 +56,8 @@ private:
   SparseMatrix border_;
   SparseSolver solver_;
 
-  // Rows of the held points: weights of the vertices that are not given, scaled to unit length.
+  // Per held point: factor that scales its row of A to unit length. The row contains the weights of
+  // the vertices that are not given.
   std::vector<double> scale_;
   std::vector<Index> kept_; ///< indices of linearly independent held points
   std::vector<Index> redundant_;
@@ -68,7 +69,8 @@ private:
 
   /// #V: index of the vertex's part among the parts without a given vertex, or -1.
   std::vector<Index> floating_;
-  /// Per part without a given vertex: its column in multipliers_; -1: no held point.
+  /// Per part without a given vertex: index of its shift among the shifts in held_system_; -1 if no
+  /// held point is in the part.
   std::vector<Index> shift_;
   std::vector<double> size_; ///< per part without a given vertex: number of vertices
 };

@@ -30,11 +30,12 @@ public:
   Status bind(ExecutionContext& context, PointsView points, TetsView tets, WeightsView weights,
     const Handles& handles, const ReducedArapOptions& options = {});
 
-  /// Find the transforms of a pose for each instance. An instance of the last solve starts with its
-  /// last rotations. Return not_converged if any instance did not converge; all results are usable.
-  /// Any other code is the first failure, and its message contains the instance. The report
-  /// contains counts.instances, counts.not_converged and iterations (sum over all instances). The
-  /// warnings are those of the first instance with warnings.
+  /// Find the transforms of a pose for each instance. The solve of an instance starts with the
+  /// rotations of its previous pose, if it has one. Return not_converged if any instance did not
+  /// converge; in this case all results are usable. If an instance fails, return its status at
+  /// once; the message contains the instance. The report contains counts.instances,
+  /// counts.not_converged and iterations (sum over all instances). The warnings are those of the
+  /// first instance with warnings.
   Status solve(ExecutionContext& context, const std::vector<Pose>& poses,
     const ReducedSolveOptions& options = {});
 

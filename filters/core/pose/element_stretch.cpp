@@ -26,8 +26,9 @@ namespace bindpose
 namespace
 {
 constexpr Index block_size = 4096;
-/// An element is degenerate if its volume (area) at rest is at most this fraction of the volume of
-/// a cube (area of a square) with its edge lengths. Its shape is then round-off.
+/// An element is degenerate if its volume (area) at rest is at most about this fraction of the
+/// volume of a cube (area of a square) on its longest edge. The shape of such an element is
+/// round-off.
 constexpr double degenerate_share = 1e-12;
 /// A shape is flat if its thickness in z is at most this fraction of the bounding-box diagonal.
 constexpr double flat_tolerance = 1e-9;
@@ -57,7 +58,7 @@ struct alignas(64) Batch
 struct alignas(64) BatchValues
 {
   double largest[lanes], smallest[lanes];
-  double area[lanes]; ///< negative: the triangle is flipped
+  double area[lanes]; ///< signed size of the posed element; negative if it is flipped
 };
 
 /// Rotate columns p and q of each lane until they are orthogonal. Return the largest value of

@@ -21,8 +21,9 @@ enum class EndpointMethod : int
   /// W_tail / (W_head + W_tail), where W are bounded biharmonic weights of point handles at the
   /// ends of all bones. One problem is solved for all bones.
   joints = 1,
-  /// The function with minimum biharmonic energy between 0 and 1 that is linear along the bone. It
-  /// is the weight of the tail in an open cage of one edge. One problem is solved per bone.
+  /// The function with values from 0 to 1 that is linear along the bone and has the minimum
+  /// biharmonic energy. It is the weight of the tail in an open cage of one edge. One problem is
+  /// solved per bone.
   bounded = 2
 };
 

@@ -7,12 +7,13 @@ namespace bindpose
 {
 
 /// Return the pose for a method that computes rotations itself (as-rigid-as-possible). Only handles
-/// in mode `automatic` change their mode. A translation is either relative to the parent or
-/// relative to the world.
-/// - A point, a cage vertex or a bone that the pose only translates gets mode `position`, so that
-///   the method computes its rotation. So does a point or cage vertex that does not move.
-/// - A handle that the pose rotates, scales, stretches or twists gets mode `full`. So does a
-///   region, a bone at rest, and a bone that only moves with its parent.
+/// in mode `automatic` change their mode. A handle counts as translated if its transform, in the
+/// world or relative to the parent, is a translation. It counts as at rest if one of these
+/// transforms is the identity.
+/// - A point, a cage vertex or a bone that is only translated gets mode `position`, so that the
+///   method computes its rotation. A point or cage vertex at rest also gets mode `position`.
+/// - A handle that is rotated, scaled, stretched or twisted gets mode `full`. A region and a bone
+///   at rest (such as a bone that only moves with its parent) also get mode `full`.
 Pose with_found_rotations(const Handles& handles, const Pose& pose);
 
 } // namespace bindpose

@@ -5,9 +5,9 @@
 //
 //     E(D, Q) = 1/2 <D, L D> - <Q, S0 + K D>.
 //
-// There are no constant and linear terms, because rest with R = I is a minimum. S0 + K D are the
-// covariances, K^T Q is the force on the vertices. The local step fits R to the covariances. The
-// global step solves L D = K^T Q under the handles' constraints.
+// There is no constant term and no term that is linear in D alone, because rest with R = I is a
+// minimum. S0 + K D are the covariances, K^T Q is the force on the vertices. The local step fits R
+// to the covariances. The global step solves L D = K^T Q under the handles' constraints.
 //
 // Anderson acceleration treats a local and a global step together as one function g of D and
 // searches its fixed point. All iterates satisfy the constraints, so extrapolated iterates also
@@ -37,7 +37,8 @@ namespace
 /// If the energy is below this fraction of the rest energy, it counts as zero in the convergence
 /// test.
 constexpr double nothing_bends = 1e-6;
-/// A rise of the energy is round-off if it is below this fraction of the sum of the energy's terms.
+/// A rise of the energy is round-off if it is at most this fraction of the sum of the absolute
+/// values of the energy's terms.
 constexpr double rounding = 1e-12;
 /// Number of items per block. The block sizes affect the round-off of the sums; the number of
 /// threads does not.
@@ -277,7 +278,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
     this->start_rotations(pose);
   }
   this->warm_ = false; // true again when this solve has succeeded
-  double terms = 0.0; // sum of the absolute terms whose difference is the last energy
+  double terms = 0.0; // sum of the absolute values of the terms of the last energy
   const auto energy_after_global = [&](const Rows& g)
   {
     const double bent = this->quadratic(context, g);

@@ -79,8 +79,8 @@ public:
   struct SolveOptions
   {
     /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. If
-    /// the energy is below 1e-6 of the rest energy (a strain of a few 1e-6), that value is used
-    /// instead of the energy. 0: run all iterations; the result is never not_converged.
+    /// the energy is below 1e-6 of the rest energy (a strain of a few 1e-6), 1e-6 of the rest
+    /// energy is used in its place. 0: run all iterations; the result is never not_converged.
     double tolerance = 1e-6;
     Index max_iterations = 500;
     Start start = Start::last;
@@ -113,7 +113,8 @@ public:
   /// Energy after each local and global step of the last solve: start, local, global, local,
   /// global, …
   const std::vector<double>& energies() const { return this->energies_; }
-  /// 1/2 tr(V^T L V), used as the scale of round-off in energies.
+  /// Quadratic form 1/2 tr(V^T L V) of the rest positions V. It is the scale of round-off in
+  /// energies.
   double rest_energy() const { return this->rest_energy_; }
   /// Number of factorizations: one for each choice of modes.
   Index factorizations() const { return this->factorizations_; }
@@ -125,7 +126,7 @@ private:
   /// to the covariance of a group, another maps groups to the force on a vertex.
   struct Terms
   {
-    std::vector<Index> begin; ///< first entry of each row
+    std::vector<Index> begin; ///< index of each row's first entry
     std::vector<int> item;
     std::vector<double> b; ///< three coordinates per entry
   };
@@ -144,11 +145,12 @@ private:
   Handles handles_;
   Points rest_;
   RotationGroups groups_;
-  /// Per group: the vertices whose mean initial value gives the initial rotation.
+  /// Per group: ids of its vertices, padded with -1. The initial rotation is the rotation nearest
+  /// to the mean of their initial values.
   std::vector<std::array<int, 4>> group_vertices_;
   SparseMatrix stiffness_;
   Terms of_group_, of_vertex_;
-  Components parts_; ///< connected parts of the mesh, counting only elements that have an energy
+  Components parts_; ///< connected parts of the mesh; elements without energy do not connect
   /// #V: for a vertex that only flat elements use, the neighbor that it moves with; else -1.
   std::vector<Index> leader_;
   MeshGrips grips_;
@@ -169,8 +171,8 @@ private:
   std::vector<double> rest_covariance_, covariance_, rotations_;
   std::vector<double> turn_; ///< R - I, nine per group, row by row
   Rows force_; ///< K^T Q of the last global step, #V x 3
-  double turned_ = 0.0; ///< <R - I, S> after the last local step
-  double rest_turned_ = 0.0; ///< <R - I, S of the rest pose>
+  double turned_ = 0.0; ///< inner product <R - I, S> after the last local step
+  double rest_turned_ = 0.0; ///< inner product of R - I and the rest pose's S
   bool warm_ = false;
   Points posed_;
   std::vector<double> energies_;

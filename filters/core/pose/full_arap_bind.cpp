@@ -15,7 +15,8 @@ namespace
 /// energy would be round-off.
 constexpr double steepest = 1e7;
 
-/// Return the unit of an element's cotangent weights: 1 for triangles, a length for tets.
+/// Return the unit of an element's cotangent weights: 1 for a triangle, the length of the longest
+/// edge for a tet.
 double weight_unit(PointsView, const TrianglesView&, Index)
 {
   return 1.0;

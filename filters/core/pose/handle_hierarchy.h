@@ -9,7 +9,7 @@ namespace bindpose
 {
 
 /// Return the indices of all handles such that each handle comes after its parent. If the parents
-/// form a cycle, which check_handles() rejects, the order is that of the list.
+/// form a cycle, which check_handles() rejects, one handle of the cycle comes before its parent.
 std::vector<Index> parents_first(const Handles& handles);
 
 /// Return the transform that a child attached at `place` (rest position) inherits from its posed

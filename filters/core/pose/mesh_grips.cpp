@@ -240,8 +240,8 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
     }
   }
   // A position handle at a vertex that a full handle constrains is redundant. If several position
-  // handles are at one vertex, all except the first are redundant, but the target is the mean of
-  // all.
+  // handles are at one vertex, all except the first are reported as redundant, but the target is
+  // the mean of all their targets.
   std::map<Index, bool> given; // vertex -> whether a full handle constrains it
   for (const Hold& hold : this->holds_)
   {

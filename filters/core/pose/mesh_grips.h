@@ -76,9 +76,9 @@ public:
 private:
   struct Grip
   {
-    std::vector<MeshPoint> points; ///< constrained in mode full
-    MeshPoint pivot; ///< constrained in modes position and ends
-    MeshPoint tail; ///< constrained in modes tail and ends of a bone
+    std::vector<MeshPoint> points; ///< mesh points that mode full constrains
+    MeshPoint pivot; ///< mesh point of the pivot, which modes position and ends constrain
+    MeshPoint tail; ///< mesh point of a bone's tail, which modes tail and ends constrain
   };
   template <typename Elements>
   Status find_any(PointsView points, const Elements& elements, const Components& parts,
@@ -93,8 +93,9 @@ private:
   std::vector<Hold> holds_;
   std::vector<Index> given_;
   std::vector<MeshPoint> held_;
-  std::vector<Index> holder_; ///< index of the handle that constrains each held point
-  /// Indices of position handles at a vertex that another handle constrains.
+  std::vector<Index> holder_; ///< per held point: index of the handle that constrains it
+  /// Indices of the position handles that are redundant because another handle constrains their
+  /// vertex.
   std::vector<Index> doubled_;
 };
 

@@ -9,12 +9,12 @@
 // Along a bone p(t) and q(t) are linear, so a warp needs only three integrals of w(t): its amount
 // (total weight), mean and variance. They depend only on the rest pose and are computed by bind().
 // Near the bone w has a sharp peak. The integral is therefore split at the position nearest to v
-// into pieces. The first piece on either side is as long as the distance, and each next piece is
-// twice as long. Each piece has eight Gauss points, which gives nine correct digits for any
-// distance between v and the bone.
+// into pieces. The first piece on either side is as long as the distance between v and the bone,
+// and each next piece is twice as long. Each piece has eight Gauss points, which gives nine correct
+// digits for any distance between v and the bone.
 //
-// If a vertex is on a handle, the distance is set to 1e-12 of the handles' extent. Then the vertex
-// moves with this handle to twelve digits, and no division by zero occurs.
+// If a vertex is on a handle, its distance from the handle is set to 1e-12 of the handles' extent.
+// Then the vertex moves with this handle to twelve digits, and no division by zero occurs.
 #include "pose/moving_least_squares.h"
 
 #include "base/parallel.h"
@@ -59,9 +59,10 @@ double falloff(double squared_ratio, double exponent)
   return exponent == 1.0 ? squared_ratio : std::pow(squared_ratio, exponent);
 }
 
-/// Compute the integrals of w(t), t w(t), t^2 w(t) over a bone, as amount, mean and variance.
-/// Parameters are relative to the point nearest to v, where the values are small. The amount is
-/// scaled so that a bone as long as the handles' extent has the same weight as a point handle.
+/// Compute the integrals of w(t), t w(t), t^2 w(t) over a bone, as amount, mean and variance. In
+/// the integrals, t is counted from the bone's point nearest to v, so that t is small where the
+/// weight is large. The amount is scaled so that a bone as long as the handles' extent has the same
+/// weight as a point handle.
 /// @param nearest distance of v to the nearest handle.
 /// @param own distance of v to this bone.
 MovingLeastSquares::Share bone_share(const Handle& bone, const Vec3& v, double nearest, double own,
@@ -140,7 +141,7 @@ double largest_distance(const Points& points)
   return std::sqrt(squared);
 }
 
-/// Return the head and tail rows of the handles in the list.
+/// Return the rows of `places` for the handles in `counting`: head, tail, head, tail, …
 Points rows_of(const Points& places, const std::vector<Index>& counting)
 {
   const Index count = places.rows() / 2;

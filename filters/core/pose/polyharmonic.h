@@ -40,8 +40,8 @@ class Polyharmonic
 public:
   using Rows = ConstrainedStiffness::Rows;
 
-  /// Set the mesh and the boundary condition. @param parameters positions of the vertices in the
-  /// parameter domain, #V x 3.
+  /// Set the mesh and the boundary condition.
+  /// @param parameters positions of the vertices in the parameter domain, #V x 3.
   /// @param order 1, 2 or 3.
   void bind(PointsView parameters, TrianglesView triangles, int order, PatchBoundary boundary);
 
@@ -56,11 +56,12 @@ public:
   Status prepare(ExecutionContext& context, const Components& parts,
     const std::vector<Index>& given, const std::vector<MeshPoint>& held);
 
-  /// Solve for u.
+  /// Solve for u, and store it in x.
   /// @param flux integrals of phi_i du/dn along the edge of the patch, from one of the functions
   /// below; empty: zero.
   /// @param load #V x m; empty: zero.
-  /// @return the last correction of the refinement, as a fraction of the largest |x|.
+  /// @return the last correction of the iterative refinement, relative to x (ratio of the largest
+  /// absolute entries).
   double solve(
     const Rows& given, const Rows& held, const Rows& flux, const Rows& load, Rows& x) const;
 
@@ -91,7 +92,7 @@ private:
   std::vector<char> is_free_;
   int layers_ = 0;
   SparseMatrix stiffness_; ///< stiffness K of the triangles in use
-  Eigen::VectorXd mass_; ///< lumped mass M of these triangles, scaled to mean 1
+  Eigen::VectorXd mass_; ///< lumped mass M of the triangles in use, scaled to mean 1
   Eigen::VectorXd inverse_mass_; ///< inverse of mass_; 0 where the Laplacian is zero
   double unit_ = 1.0; ///< mass of a vertex whose entry in mass_ is 1
   SparseMatrix matrix_; ///< K (M^-1 K)^(k-1)

@@ -637,10 +637,10 @@ struct TransformNumbers
   bool exact = true; ///< false if a shear, a non-uniform scale or a reflection cannot be written
 };
 
-/// Largest relative difference between a transform and its description in the file. Transforms from
-/// glTF files are products of single-precision matrices and differ by about 1e-6. At this limit, a
-/// vertex at the distance of one bounding-box diagonal from the pivot has an error of 1e-5
-/// diagonals.
+/// Largest relative difference between a transform and its description in the file that is treated
+/// as round-off. Transforms from glTF files are products of single-precision matrices and have a
+/// relative error of about 1e-6. At this limit, a vertex at the distance of one bounding-box
+/// diagonal from the pivot has an error of 1e-5 diagonals.
 constexpr double pose_file_misfit = 1e-5;
 
 TransformNumbers numbers_of(const Affine& transform, const Vec3& pivot)
@@ -655,8 +655,9 @@ TransformNumbers numbers_of(const Affine& transform, const Vec3& pivot)
   return numbers;
 }
 
-/// Return the entry of handle h. @param exact is set to false if the transform could only be
-/// written as its nearest rotation and scale.
+/// Return the JSON entry of handle `h`.
+/// @param exact is set to false if the transform could only be written as its nearest rotation and
+/// scale.
 Json format_handle(const Pose& pose, const Handles& handles, std::size_t h, bool& exact)
 {
   const HandlePose& posed = pose[h];

@@ -85,8 +85,8 @@ struct PoseTimes
   bool has_expressions = false;
 };
 
-/// Read these properties. Return false if the text is not a pose file; parse_pose_file() reports
-/// the reason.
+/// Read the properties in PoseTimes. Return false if the text is not a pose file; parse_pose_file()
+/// reports the reason.
 bool read_pose_times(const std::string& text, PoseTimes& times);
 
 /// Return the pose that a frame describes.
@@ -96,10 +96,10 @@ bool read_pose_times(const std::string& text, PoseTimes& times);
 /// (transform_for_child()), as in glTF. "space": "world" disables the inheritance. This transform
 /// replaces the transform of the base pose. `head` and `tail` are world positions. An end without a
 /// key moves with the parent, or is at rest if the space is "world". The bone is rotated by the
-/// minimal arc from its direction before to its direction after the change. Its stretch is the
-/// value of `stretch` or, without this key, the ratio of the lengths. If a handle has none of the
-/// keys translate, rotate, scale, head and tail, it keeps the transform relative to its parent of
-/// the base pose. A handle that is not in the frame also keeps it.
+/// minimal arc from its old direction to its new direction. Its stretch is the value of `stretch`
+/// or, without this key, the ratio of the lengths. If a handle has none of the keys translate,
+/// rotate, scale, head and tail, or is not in the frame, its transform relative to the parent
+/// remains that of the base pose.
 ///
 /// A handle without "mode" keeps its mode of the base pose. If this mode is automatic and the frame
 /// has one of the keys rotate, scale, head, tail, stretch and twist for the handle, its mode

@@ -15,7 +15,7 @@ namespace bindpose
 
 namespace
 {
-/// Adjacency lists of the vertices: the neighbors of v are to[start[v]] to to[start[v + 1] - 1].
+/// Adjacency lists of the vertices: the neighbors of v are to[k] for start[v] <= k < start[v + 1].
 struct Neighbors
 {
   std::vector<Index> start, to;
@@ -70,7 +70,8 @@ Index nearest_vertex(PointsView points, const Neighbors& neighbors, const Vec3& 
   return nearest;
 }
 
-/// A path between two handles: length and the two handles. Paths are sorted by length.
+/// A path between two handles: its length, then the indices of the handles. Paths are sorted by
+/// length.
 using Way = std::tuple<double, Index, Index>;
 
 Way way(double length, Index a, Index b)

@@ -42,17 +42,18 @@ Status automatic_pseudo_edges(ExecutionContext& context, PointsView points, Tria
 
 /// Return the rotation by the smallest angle that maps the direction of `from` to the direction of
 /// `to`. For opposite directions it is half a turn about an axis perpendicular to them. This axis
-/// is the projection of the coordinate axis with the largest angle to the directions. If several
-/// coordinate axes have the same angle, the last one is used, so that flat shapes (z = const)
-/// rotate within their plane. Return the identity for a vector of length zero.
+/// is the coordinate axis with the largest angle to the directions, projected to the plane
+/// perpendicular to them. If several coordinate axes have the same angle, the last one is used, so
+/// that flat shapes (z = const) rotate within their plane. Return the identity for a vector of
+/// length zero.
 Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to);
 
 /// Add to each handle with pseudo-edges the rotation that the posed positions of the handles imply.
 /// This is the mean of the smallest rotations that take the handle's edges from rest to their posed
-/// directions (the quaternions are aligned in sign to the first one, added and normalized). The
-/// handle's new linear part is rotation * its own linear part, about its posed pivot. The handle's
-/// mode becomes full. If it was position, only the translation of its transform is used. A free
-/// handle stays at rest. Handles without edges keep their transforms.
+/// directions (the quaternions are aligned in sign to the first one, added and normalized). The new
+/// linear part of the handle's transform is the rotation times the old linear part, about the posed
+/// pivot. The handle's mode becomes full. If the mode was position, the old linear part is ignored.
+/// A free handle stays at rest. Handles without edges keep their transforms.
 ///
 /// If a rigid motion moves all pivots, the result is exact if the handles are in a plane and the
 /// rotation is within that plane. In space, a rotation about an edge does not change the edge and

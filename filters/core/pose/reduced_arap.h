@@ -26,8 +26,8 @@ namespace bindpose
 /// `free` there is no constraint. If every handle is full, the result is linear blend skinning.
 ///
 /// The unknowns are displacements from rest, so the rest pose is reproduced exactly, even for
-/// ill-conditioned, duplicate or empty weight columns. Directions that affect neither the energy
-/// nor a constraint stay at rest. If a pivot is on a vertex or inside an element, that point of the
+/// ill-conditioned, duplicate or empty weight columns. Displacements that affect neither the energy
+/// nor a constraint remain zero. If a pivot is on a vertex or inside an element, that point of the
 /// mesh is constrained. Otherwise, and for a region, the pivot is treated as a point that moves
 /// with the handle's own transform.
 ///
@@ -81,7 +81,8 @@ public:
   /// Energy after each local and global step of the last solve: start, local, global, local,
   /// global, …
   const std::vector<double>& energies() const { return this->solver_.energies(); }
-  /// 1/2 tr(V^T L V), used as the scale of round-off in energies.
+  /// Quadratic form 1/2 tr(V^T L V) of the rest positions V. It is the scale of round-off in
+  /// energies.
   double rest_energy() const { return this->space_.rest_energy; }
 
 private:

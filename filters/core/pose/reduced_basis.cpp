@@ -9,14 +9,15 @@
 //
 // Quick method. H does not depend on the modes. It is factored once for all unknowns: L L^T = H, D
 // = E z with E = L^-T, and the energy is |z|^2 / 2. A choice of modes then affects only its
-// constraints G z = g, with G = A E, where A also contains the unknowns of full handles as rows.
-// The last columns Z of the orthogonal factor of G^T give B = E Z and C = (K E) Z, which is
-// computed by applying reflections to K E. A translation u of the whole shape has no energy: H u =
-// 0 and K u = 0. Therefore one unknown is omitted, and D = u t + E z with an additional unknown t.
-// Because t has no energy, the constraints determine it: a reflection of the constraints removes t
-// from all constraints except the first one, and the others are constraints of z.
+// constraints G z = g, with G = A E, where A has one more row for each unknown that a full handle
+// prescribes. The last columns Z of the orthogonal factor of G^T give B = E Z and C = (K E) Z,
+// which is computed by applying reflections to K E. A translation u of the whole shape has no
+// energy: H u = 0 and K u = 0. Therefore H is factored without one of the unknowns, and D = u t + E
+// z with an additional unknown t. Because t has no energy, the constraints determine it: a
+// reflection of the constraints removes t from all constraints except the first one, and the others
+// are constraints of z.
 //
-// The quick method returns false unless all of the following conditions hold; then the robust
+// If one of the following conditions does not hold, the quick method returns false and the robust
 // method is used.
 // - L is well-conditioned. Then a basis in fewer unknowns, or under constraints, is also
 //   well-conditioned, so the robust method would not remove a direction either.
@@ -285,8 +286,8 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
   Eigen::MatrixXd reduced = scale.asDiagonal() * stiffness(open, open) * scale.asDiagonal();
   Eigen::MatrixXd covariance = space.covariance(Eigen::all, open) * scale.asDiagonal();
 
-  // Constrained positions: D = particular b + Z y with rows Z = 0. Z consists of the last columns
-  // of the orthogonal factor.
+  // The displacements that move the constrained positions by b are D = `particular_` b + Z y, with
+  // `rows` Z = 0. The columns of Z (`free_space`) are the last columns of the orthogonal factor.
   this->particular_ = Eigen::MatrixXd::Zero(size, asked);
   Eigen::MatrixXd free_space;
   Index rank = 0;
@@ -305,13 +306,13 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
     {
       Eigen::MatrixXd range = Eigen::MatrixXd::Identity(size, rank);
       range.applyOnTheLeft(qr.householderQ());
-      const Eigen::MatrixXd met = rows * range; // has full column rank
+      const Eigen::MatrixXd met = rows * range; // of full column rank
       this->particular_ =
         range * met.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(asked, asked));
       const Reflections reflections(qr.matrixQR(), qr.hCoeffs(), rank);
       free_space = reflections.tail();
       covariance = reflections.times_tail(covariance);
-      // both factors are applied in the same way because H is symmetric
+      // Z^T H Z = (H Z)^T Z, because H is symmetric.
       reduced = reflections.times_tail(reflections.times_tail(reduced).transpose());
     }
   }
@@ -373,8 +374,9 @@ ReducedBasis::Unturned ReducedBasis::unturned_sturdily(const ReducedSpace& space
   const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
   const Coordinates& missing) const
 {
-  // First satisfy the positions with the given blocks, then add the response to the resulting force
-  // and the load.
+  // First compute a displacement that contains the given blocks and satisfies the constrained
+  // positions. Then add the response to its force and to the load: the combination of columns of B
+  // that minimizes the energy.
   Unturned result;
   result.given = given;
   Coordinates& star = result.given;
@@ -382,7 +384,8 @@ ReducedBasis::Unturned ReducedBasis::unturned_sturdily(const ReducedSpace& space
   const Coordinates bent = thin_product(stiffness, star);
   const Coordinates force = bent - load;
   const Coordinates answer = transposed_thin_product(this->basis_, force(this->open_, Eigen::all));
-  // The response lowers the energy by half its squared norm, because B^T H B = I.
+  // The response lowers the energy by half the squared norm of its coordinates `answer`, because
+  // B^T H B = I.
   result.energy = 0.5 * (star.array() * bent.array()).sum() - (star.array() * load.array()).sum() -
     0.5 * answer.squaredNorm();
   this->add_open(-thin_product(this->basis_, answer), star);

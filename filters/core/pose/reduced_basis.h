@@ -61,8 +61,8 @@ public:
   void make(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
     const std::vector<Index>& open, const Eigen::MatrixXd& held);
 
-  /// Compute B by one of the two methods. make_quickly returns false if a rank is not certain or if
-  /// the robust method would be faster.
+  /// Compute B by the robust or by the quick method. make_quickly returns false if a rank is not
+  /// certain or if the robust method would be faster.
   bool make_quickly(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
     const std::vector<Index>& open, const Eigen::MatrixXd& held);
   void make_sturdily(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
@@ -103,7 +103,7 @@ private:
   struct Whole
   {
     bool tried = false, good = false;
-    std::vector<Index> rows; ///< indices of the rows of D; the last one may be omitted
+    std::vector<Index> rows; ///< indices of rows of D; if u is not empty, H omits the last one
     Eigen::VectorXd scale; ///< scale of each row
     Eigen::VectorXd shift; ///< u, of norm one; empty if u has an energy
     DenseCholesky cholesky; ///< Cholesky factor L
@@ -127,13 +127,13 @@ private:
   /// Open x positions: maps differences of positions to the smallest change that corrects them.
   Eigen::MatrixXd particular_;
   Eigen::MatrixXd basis_; ///< B, open x coordinates
-  Eigen::MatrixXd covariance_; ///< C, until take_covariance()
+  Eigen::MatrixXd covariance_; ///< covariance C = K B; empty after take_covariance()
 
   // ---- quick method. The constraints are A D = g, positions first. A reflection removes t from
   // all constraints except the first one. The constraints are then rho t + lever z = g_0 and R^T
   // (Q^T z) = the other entries of g.
   Whole whole_;
-  std::vector<Index> reached_; ///< indices in whole_.rows of the open unknowns
+  std::vector<Index> reached_; ///< indices of the open unknowns in whole_.rows
   Index constraints_ = 0;
   Eigen::VectorXd mirror_; ///< the reflection of the constraints is I - mirror mirror^T
   Eigen::VectorXd lever_;

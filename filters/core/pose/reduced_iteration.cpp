@@ -26,7 +26,7 @@ namespace bindpose
 
 namespace
 {
-/// Relative error of energies, as a fraction of the sum of their absolute terms.
+/// Round-off of an energy, as a fraction of the sum of the absolute values of its terms.
 template <typename Scalar>
 constexpr double energy_noise = sizeof(Scalar) == 4 ? 2e-7 : 0.0;
 

@@ -16,8 +16,8 @@
 namespace bindpose
 {
 
-/// Stopping criteria of the alternation between local and global steps. Energies are in units of
-/// the solver's energy.
+/// Stopping criteria of the alternation between local and global steps. Energies are those of the
+/// solver; the divisor of C (set_matrix()) does not affect them.
 struct ReducedLimits
 {
   /// The run ends if an iteration lowers the energy by at most this fraction of the energy.
@@ -97,7 +97,7 @@ private:
   // A column of C, of S^T or of Q^T consists of three blocks of #clusters values (one per
   // coordinate) and is padded with zeros to whole tiles.
   Index clusters_ = 0, columns_ = 0;
-  Index rows_ = 0; ///< padded length of such a column
+  Index rows_ = 0; ///< padded length of a column of C, S^T or Q^T
   Index length_ = 0; ///< padded length of a column of Y
   double unit_ = 1.0;
   AlignedVector<Scalar> covariance_; ///< C, with the columns in groups of four
@@ -107,7 +107,7 @@ private:
   AlignedVector<Scalar> plain_, tried_;
   std::optional<Anderson<Scalar>> anderson_; ///< stored here to reuse its memory
   bool has_iterate_ = false; ///< false: the iteration starts from the rotations
-  double magnitude_ = 0.0; ///< sum of the absolute terms whose difference is the energy
+  double magnitude_ = 0.0; ///< sum of the absolute values of the energy's terms
 };
 
 } // namespace bindpose

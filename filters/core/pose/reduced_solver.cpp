@@ -5,11 +5,12 @@
 //
 //     E(D, Q) = 1/2 <D, H D> - <P, D> - <Q, S0 + K D>,
 //
-// where H, K and S0 are projected at bind time. There are no constant and linear terms, because
-// rest with R = I is a minimum of the energy. The blocks of full handles are given. The other
-// unknowns are D = D* + B Y. D* is the displacement of minimum energy that satisfies the
-// constrained positions with Q = 0. The columns of B span the displacements that do not change the
-// constrained positions. They are orthonormal in H (B^T H B = I). With C = K B one iteration is
+// where H, K and S0 are projected at bind time. The deformation energy (P = 0) has no constant term
+// and no term that is linear in D alone, because rest with R = I is its minimum. The blocks of full
+// handles are given. The other unknowns are D = D* + B Y. D* is the displacement of minimum energy
+// that satisfies the constrained positions with Q = 0. The columns of B span the displacements that
+// do not change the constrained positions. They are orthonormal in H (B^T H B = I). With C = K B
+// one iteration is
 //
 //     S = S* + C Y                   covariances
 //     Q = best rotations of S - I    the local step
@@ -26,8 +27,8 @@
 // energy, with the best rotations for it, is at most the energy of the plain Y. The last iterate is
 // always a plain iterate.
 //
-// reduced_basis.cpp computes B. Directions that affect neither the energy nor a constraint stay at
-// rest.
+// reduced_basis.cpp computes B. Displacements that affect neither the energy nor a constraint
+// remain zero.
 #include "pose/reduced_solver.h"
 
 #include "base/number_text.h"
@@ -113,9 +114,10 @@ void ReducedSolver::factor(
   }
 }
 
-/// Compute initial rotations from the pose only. The rotation of a cluster is a blend of the
-/// rotations of the full handles near it. For the influence of other handles, the rotation that
-/// best fits all pivots and the frames of full handles is used.
+/// Compute initial rotations from the pose only. The rotation of a cluster is a blend over all
+/// handles, with their mean weights in the cluster. A full handle contributes its own rotation.
+/// Every other handle contributes the same rotation, which best fits all pivots and the frames of
+/// full handles.
 void ReducedSolver::start_rotations(const ReducedSpace& space, const Pose& pose)
 {
   const double reach = 0.3 * space.radius; // size of the frame that represents a full handle

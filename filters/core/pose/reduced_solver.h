@@ -26,8 +26,8 @@ enum class ReducedStart
 struct ReducedSolveOptions
 {
   /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. If
-  /// the energy is below 1e-6 of the rest energy (a strain of a few 1e-6), that value is used
-  /// instead of the energy. 0: run all iterations; the result is never not_converged.
+  /// the energy is below 1e-6 of the rest energy (a strain of a few 1e-6), 1e-6 of the rest energy
+  /// is used in its place. 0: run all iterations; the result is never not_converged.
   double tolerance = 1e-6;
   Index max_iterations = 100;
   ReducedStart start = ReducedStart::last;
@@ -35,8 +35,8 @@ struct ReducedSolveOptions
   /// largest_anderson_window; 0: no acceleration.
   Index anderson_window = 5;
   /// The solve ends after the iteration in which this time is exceeded; 0: no limit. With a limit,
-  /// the number of iterations depends on the machine. A solve with the same number as
-  /// max_iterations gives bit-identical results.
+  /// the number of iterations depends on the machine. To repeat a result bit for bit, set
+  /// max_iterations to the number of iterations in the report.
   double budget_microseconds = 0.0;
   /// If true, iterate in single precision until the decrease of the energy is smaller than the
   /// round-off. Then continue in double precision for at least one iteration. If false, use only

@@ -1,11 +1,12 @@
 // Optimized centers of rotation (Le and Hodgins 2016), accelerated by grouping elements.
 //
 // The similarity of weights is a sum over pairs of handles. The term of a pair is a smooth function
-// of only two weights. Therefore elements whose two weights are nearly equal are grouped, and each
-// group is one term of the pair's sum. Their other weights do not matter. Groups are formed in the
-// plane of the two weights: ranges are halved along the weight with the larger range until they are
-// at most as large as the group size. With twenty handles of global influence, almost no two
-// elements have similar rows of weights, but hundreds of elements have similar pairs of weights.
+// of only two weights. Therefore, for each pair, elements that have nearly the same two weights are
+// grouped, whatever their other weights are. Each group contributes one term. Groups are formed in
+// the plane of the two weights: a set of elements is halved along the weight with the larger range,
+// until both ranges are at most the group size. With twenty handles of global influence, almost no
+// two elements have similar rows of weights, but hundreds of elements have similar pairs of
+// weights.
 //
 // The groups of each pair are contiguous. The groups of a pair are computed from all elements in
 // which both handles have a weight. A vertex at which both handles have a weight loops over the
@@ -33,8 +34,8 @@ constexpr Index lanes = 8;
 /// An element in which both handles of a pair have a weight.
 struct PairElement
 {
-  double weights[2]; ///< mean weights of the two handles over the corners
-  double amount; ///< size * weights[0] * weights[1]
+  double weights[2]; ///< weights of the two handles, averaged over the element's corners
+  double amount; ///< size of the element (volume or area) * weights[0] * weights[1]
   Index element;
 };
 
@@ -42,9 +43,9 @@ struct PairElement
 /// whole lanes with groups of amount zero.
 struct PairGroups
 {
-  std::vector<double> first, second; ///< mean weights, divided by the width
-  std::vector<double> amount; ///< sum of size * first * second
-  std::vector<double> x, y, z; ///< sum of amount * centroid
+  std::vector<double> first, second; ///< mean weights of the two handles, divided by the width
+  std::vector<double> amount; ///< sum of the elements' amounts
+  std::vector<double> x, y, z; ///< sum of amount * centroid over the elements
   Index count = 0;
 
   void add(double a, double b, double of_all, const Vec3& moment)
@@ -105,8 +106,9 @@ BINDPOSE_ALWAYS_INLINE double decay(double u)
   return u < 690.0 ? p * scale : 0.0;
 }
 
-/// Add the groups of a pair of handles to `sums`. They are weighted by the similarity of their
-/// weights to the weights a and b of a vertex. The groups' weights are divided by the width.
+/// Add the groups of a pair of handles to `sums`. Each group is weighted by the similarity between
+/// its two weights and the weights `a` and `b` of a vertex. The weights of the groups are already
+/// divided by the width.
 BINDPOSE_SIMD_CLONES void add_similar(
   const PairGroups& groups, double a, double b, double factor, Sums& sums)
 {
@@ -161,8 +163,8 @@ std::size_t split(
   {
     return begin;
   }
-  // If the two ends are adjacent floating-point numbers, the mean may equal the upper end. Then the
-  // cut is below the upper end, so that each half has an element.
+  // If the limits of the range are adjacent floating-point numbers, their mean may equal the upper
+  // limit. In this case the lower limit is the cut, so that each half contains an element.
   const double half = 0.5 * (lower[axis] + upper[axis]);
   const double cut = half < upper[axis] ? half : lower[axis];
   const auto first = elements.begin();
@@ -173,7 +175,7 @@ std::size_t split(
     first);
 }
 
-/// Group elements whose two weights are nearly the same, and sum each group.
+/// Group the elements of a pair of handles by their two weights, and sum each group.
 PairGroups groups_of(std::vector<PairElement>& elements, const Points& centroids,
   const RotationCentersOptions& options)
 {

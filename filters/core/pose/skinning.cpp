@@ -57,7 +57,7 @@ Vec3 center_of(PointsView points)
   return few > 0 ? Vec3(sum / static_cast<double>(few)) : sum;
 }
 
-/// Add the coordinates of `what` to `to`.
+/// Add the coordinates in `what` to those in `to`.
 template <typename Scalar>
 void add(const TilePoints<Scalar>& what, TilePoints<Scalar>& to)
 {
@@ -758,8 +758,8 @@ Status Skinning::dual_quaternion_normals(ExecutionContext& context, PointsView r
   return done ? status : Status::canceled();
 }
 
-/// Blend rotations about centers. @param centers if null, `rest` contains normals instead of
-/// points.
+/// Blend rotations about centers.
+/// @param centers if null, `rest` contains normals instead of points.
 template <typename Scalar>
 bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
   const std::vector<Affine>& transforms, const PointsView* centers, Points& posed) const

@@ -90,9 +90,9 @@ public:
     const std::vector<std::vector<Affine>>& transforms, std::vector<FloatPoints>& posed,
     const std::vector<Affine>& placements = {}) const;
 
-  /// Transform normals by the same blend: multiply by the cofactor matrix of the blended linear
-  /// part and normalize to unit length. A normal whose transformed length is zero keeps its rest
-  /// direction.
+  /// Transform normals by the blended transforms of linear_blend(): multiply by the cofactor matrix
+  /// of the blended linear part and normalize to unit length. A normal whose transformed length is
+  /// zero keeps its rest direction.
   Status linear_blend_normals(ExecutionContext& context, PointsView rest_normals,
     const std::vector<Affine>& transforms, Points& posed_normals) const;
 

@@ -1,8 +1,8 @@
 // Smooth surfaces by polyharmonic equations (polyharmonic.h). The patch consists of the free
 // vertices, which neither a handle nor a flag constrains. The positions or displacements of the
 // constrained vertices are passed to Polyharmonic as one column per coordinate. Tangents are passed
-// as a flux. If the unknowns are displacements, this is the difference between the required flux
-// and the flux at rest.
+// as a flux. If the unknowns are displacements, the flux is the difference between the required
+// flux and the flux at rest.
 #include "pose/variational_surface.h"
 
 #include <cmath>

@@ -12,8 +12,8 @@
 namespace bindpose
 {
 
-// In these functions, weight space is the space in which the coordinates of a vertex are its row of
-// weights.
+// The following functions measure distances in weight space, in which the coordinates of a vertex
+// are its row of weights.
 
 /// Append up to `count` row indices to the seeds by farthest-point sampling. Each new seed is the
 /// row farthest from all seeds so far (the lowest index if several are equally far). If there are

@@ -38,7 +38,7 @@ template <typename Scalar, int bytes>
 struct PartReferences
 {
   static constexpr int lanes = part_lanes<Scalar, bytes>;
-  Bits<Scalar, bytes> where[lanes]; // all bits are set in the lanes of the reference
+  Bits<Scalar, bytes> where[lanes]; // per reference handle: all bits are set in its lanes
   std::int32_t handles[lanes];
   int count = 0;
 

@@ -10,16 +10,16 @@
 namespace bindpose
 {
 
-/// Weights in tiles of consecutive vertices. A tile stores, for each column that any of its
-/// vertices has, one weight per vertex, including zeros. A tile is as wide as the widest registers,
-/// so a blend multiplies whole registers by the few values of a handle. Scalar: float (tiles of 16)
-/// or double (tiles of 8).
+/// Weights in tiles of consecutive vertices. A tile stores the columns in which at least one of its
+/// vertices has a weight. For each of these columns it stores the weights of all its vertices,
+/// including zeros. A tile is as wide as the widest registers, so a blend multiplies whole
+/// registers by the few values of a handle. Scalar: float (tiles of 16) or double (tiles of 8).
 template <typename Scalar>
 struct WeightTiles
 {
   static constexpr Index lanes = 64 / sizeof(Scalar);
 
-  std::vector<Index> start{ 0 }; ///< #tiles + 1: index in `columns` of each tile's first column
+  std::vector<Index> start{ 0 }; ///< #tiles + 1: index of each tile's first column in `columns`
   std::vector<std::int32_t> columns; ///< handle of each column, ascending within a tile
   std::vector<Scalar> weights; ///< `lanes` weights for each column
 

@@ -101,7 +101,7 @@ public:
   Child& operator=(const Child&) = delete;
 
   /// Start the process.
-  /// @param lines file descriptor to which it prints its lines.
+  /// @param lines file descriptor to which the process prints its lines.
   /// @return an error number, 0 for success.
   int start(int lines)
   {

@@ -18,15 +18,15 @@ struct ChildRequest
   std::string path; ///< path of the executable
   std::vector<std::string> arguments;
   std::string folder; ///< working folder; empty: working folder of this process
-  int input = -1; ///< file descriptor for its standard input, -1: no input
-  /// File descriptor for its standard output. -1: its lines are passed to take_line, like those of
-  /// standard error.
+  int input = -1; ///< file descriptor for the standard input of the program, -1: no input
+  /// File descriptor for the standard output of the program. -1: the lines of the output are passed
+  /// to take_line, like those of standard error.
   int output = -1;
   double time_limit = 120.0; ///< the program is killed after this many seconds
   /// The program is killed after using this many seconds of processor time, 0: no limit. Processor
   /// time does not depend on the load of the machine.
   double processor_limit = 0.0;
-  Index memory_limit = 0; ///< largest address space in MiB, 0: no limit
+  Index memory_limit = 0; ///< largest address space of the program in MiB, 0: no limit
   /// Called with the id of the process group when the program has started, and with 0 when the
   /// group has ended.
   std::function<void(int group)> started;
@@ -35,10 +35,11 @@ struct ChildRequest
 /// The way in which a program ended.
 struct ChildEnd
 {
-  /// "was ended by signal 11 (Segmentation fault)" or "ended with code 7"; empty for code 0.
+  /// Phrase for messages, such as "was ended by signal 11 (Segmentation fault)" or "ended with code
+  /// 7"; empty for code 0.
   std::string failure;
   bool by_signal = false;
-  bool at_limit = false; ///< whether it was stopped at one of its time limits
+  bool at_limit = false; ///< whether the program was stopped at one of its time limits
   double seconds = 0.0;
 };
 

@@ -16,7 +16,8 @@ struct MesherData
   Points points; ///< #V x 3
   Triangles triangles; ///< #F x 3
   Tets tets; ///< #T x 4
-  std::vector<Index> regions; ///< #T or empty: tets that no triangle separates have the same number
+  /// #T or empty: region numbers, equal for tets that no triangle separates.
+  std::vector<Index> regions;
   Segments segments; ///< #E x 2: curves in the plane z = 0
 };
 

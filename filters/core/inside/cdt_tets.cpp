@@ -166,7 +166,7 @@ Status CdtTets::build(double seconds)
 }
 
 /// Report whether the refinements and TetGen runs have used the time budget. The last attempt, a
-/// Delaunay triangulation, takes a tenth of that time.
+/// Delaunay triangulation, takes a tenth of the budget.
 bool CdtTets::out_of_patience() const
 {
   constexpr double patience = 8.0; // seconds
@@ -178,8 +178,8 @@ bool CdtTets::out_of_patience() const
 /// Run TetGen on refined triangles with each set of switches in turn. If the surface has wide
 /// openings, small tets are tried first, because tets between the triangles alone are too coarse to
 /// follow the winding number, which may reach the threshold outside the convex hull. Small tets are
-/// not tried first for a sheet with a sliver in front of it, because they miss the sliver too. Such
-/// a sheet has a very large doubtful_share().
+/// not tried first if doubtful_share() is very large, as for a sheet with a sliver in front of it,
+/// because they miss the sliver, too.
 Status CdtTets::try_switches(const Move& move, const MesherData& refined)
 {
   const Phase phase(this->context_, "tetgen", 0.4, 1.0);
@@ -243,7 +243,7 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
     {
       try_fine();
     }
-    // If small tets have a wrong volume too, more runs of TetGen cannot help.
+    // If the volume of the small tets is wrong, too, more runs of TetGen cannot help.
     this->finer_is_no_better_ = fine_is_wrong && this->wrong_volume_;
     if (done())
     {
@@ -553,7 +553,8 @@ Status CdtTets::take_inside(
 /// boundary. Edges and facets around such tets are swapped until the tets disappear.
 Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet>& facets)
 {
-  constexpr double rounding = 1e-12; // relative to the cube of the longest edge
+  // Smallest accepted volume of a tet, relative to the cube of its longest edge.
+  constexpr double rounding = 1e-12;
   const Eigen::VectorXd volumes = tet_volumes(points, tets);
   bool any = false;
   for (Index t = 0; t < tets.rows() && !any; ++t)
@@ -567,7 +568,7 @@ Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet
   TetMesh mesh{ points, tets };
   ImproveOptions options;
   options.angle = 1e-8; // degrees
-  options.least_angle = 0.0; // held vertices do not move
+  options.least_angle = 0.0; // held (constrained) vertices do not move
   options.keep_boundary = true;
   Improvement done;
   if (!improve_tets(mesh, std::vector<char>(static_cast<std::size_t>(points.rows()), 1), {},

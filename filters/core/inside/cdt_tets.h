@@ -39,7 +39,8 @@ private:
 /// Options of method cdt; documented at TetrahedralizeOptions.
 struct CdtOptions
 {
-  /// Used for open surfaces only, because a closed surface has integer winding numbers.
+  /// Options of the segmentation. They are used for open surfaces only, because a closed surface
+  /// has integer winding numbers.
   SegmentationOptions segmentation;
   double time_limit = 120.0;
   Index memory_limit = 0;
@@ -132,13 +133,14 @@ private:
   double diagonal_ = 0.0;
   double start_ = 0.0;
   double deadline_ = 0.0;
-  std::vector<Index> original_; ///< input ids of the current attempt's first vertices
-  bool wrong_volume_ = false; ///< the attempt gave tets, but their volume is wrong
-  bool finer_is_no_better_ = false; ///< finer tets cannot improve the result
-  bool timed_out_ = false; ///< the last run of TetGen reached its time limit
+  std::vector<Index> original_; ///< input ids of the first vertices of the current attempt
+  bool wrong_volume_ = false; ///< whether the attempt gave tets with a wrong volume
+  bool finer_is_no_better_ = false; ///< whether finer tets cannot improve the result
+  bool timed_out_ = false; ///< whether the last run of TetGen reached its time limit
   double job_seconds_ = 0.0; ///< total duration of the refinements and the TetGen runs
-  bool too_many_crossings_ = false; ///< the refinement was stopped because too many triangles cross
-  bool fine_fails_ = false; ///< small tets were tried, and TetGen returned none
+  /// Whether the refinement was stopped because too many triangles cross.
+  bool too_many_crossings_ = false;
+  bool fine_fails_ = false; ///< whether small tets were tried and TetGen returned none
   TetMesh mesh_;
   Eigen::VectorXd winding_numbers_;
   std::vector<char> kept_;

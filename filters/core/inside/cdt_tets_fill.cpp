@@ -40,7 +40,8 @@ constexpr Index tets_per_boundary_triangle = 2;
 /// requires so many tets, a small number of vertices is still allowed.
 Index most_inner_vertices(Index surface_triangles, Index boundary_triangles)
 {
-  constexpr double least = 0.1; // vertices per triangle
+  // Number of new vertices that is always allowed, per triangle of the surface.
+  constexpr double least = 0.1;
   const double triangles = static_cast<double>(surface_triangles);
   const double tets = std::max(static_cast<double>(fewest_tets), tets_per_triangle * triangles) -
     static_cast<double>(tets_per_boundary_triangle * boundary_triangles);
@@ -54,7 +55,8 @@ void remove_near(Points& places, const Points& others, const SizingField& sizes)
   {
     return;
   }
-  std::vector<Index> order(static_cast<std::size_t>(others.rows())); // sorted by x
+  // Indices of the rows of `others`, sorted by x.
+  std::vector<Index> order(static_cast<std::size_t>(others.rows()));
   std::iota(order.begin(), order.end(), Index(0));
   std::sort(
     order.begin(), order.end(), [&](Index a, Index b) { return others(a, 0) < others(b, 0); });
@@ -62,7 +64,8 @@ void remove_near(Points& places, const Points& others, const SizingField& sizes)
   for (Index i = 0; i < places.rows(); ++i)
   {
     const Vec3 p = places.row(i);
-    constexpr double spacing = 0.5; // in local edge lengths
+    // Minimum distance from the other points, in units of the local edge length.
+    constexpr double spacing = 0.5;
     const double least = spacing * sizes.at(p);
     bool near = false;
     for (auto other = std::lower_bound(order.begin(), order.end(), p.x() - least,
@@ -93,7 +96,7 @@ struct CdtTets::Inside
 Status CdtTets::fill()
 {
   const double start = this->context_.elapsed_seconds();
-  constexpr double found = 0.35; // fraction of the time for finding the positions
+  constexpr double found = 0.35; // fraction of the total time for finding the positions
   Inside inside;
   Status status;
   {
@@ -127,7 +130,8 @@ Status CdtTets::find_places(Inside& inside)
   const double wanted = this->options_.interior_edge * this->diagonal_;
   if (wanted > 0.0)
   {
-    constexpr double long_edge = 3.0; // in units of the requested length
+    // Length above which a boundary edge is split, in units of the requested length.
+    constexpr double long_edge = 3.0;
     return this->find_even_places(
       wanted, long_edge * wanted, most_tets_on_request, most_tets_on_request, inside);
   }
@@ -154,8 +158,8 @@ Status CdtTets::find_places(Inside& inside)
     inside);
 }
 
-/// Find up to about `most` positions with distances of up to about `length`. First, boundary edges
-/// longer than `long_edge` are split until there are `most_tets` tets.
+/// Find up to about `most` positions, at distances of up to about `length` from each other. First,
+/// boundary edges longer than `long_edge` are split until there are `most_tets` tets.
 Status CdtTets::find_even_places(
   double length, double long_edge, Index most_tets, Index most, Inside& inside)
 {
@@ -214,12 +218,14 @@ Status CdtTets::look_inside(double longest, Inside& inside)
 
 /// Return the points of the handles that are inside, and samples of the handles' segments and
 /// triangles. Samples keep some distance from the boundary, because the boundary has enough
-/// vertices and tets between the two would be flat. Other positions near the returned points are
-/// removed.
+/// vertices, and tets between a sample and the boundary would be flat. Other positions near the
+/// returned points are removed.
 Points CdtTets::places_of_handles(Inside& inside) const
 {
-  constexpr double near = 0.3; // in local edge lengths
-  constexpr double touching = 1e-6; // in bounding-box diagonals
+  // Minimum distance of samples from the boundary, in units of the local edge length.
+  constexpr double near = 0.3;
+  // Minimum distance of the handles' points from the boundary, in bounding-box diagonals.
+  constexpr double touching = 1e-6;
   const SizingField& sizes = *inside.sizes;
   const HandleSamples samples =
     sample_places(this->options_.handles, [&](const Vec3& p) { return sizes.at(p); });
@@ -284,7 +290,7 @@ Status CdtTets::improve()
     held[v] = 1;
   }
   ImproveOptions options;
-  options.least_angle = 0.0; // held vertices never move
+  options.least_angle = 0.0; // held (constrained) vertices never move
   options.keep_boundary = true;
   options.coplanar = coplanar * this->diagonal_;
   options.insert = true;

@@ -21,8 +21,9 @@ namespace
 {
 constexpr double smallest_volume_ratio = 0.9;
 constexpr double largest_volume_ratio = 1.1;
-/// At openings (and in no region of a closed surface), winding numbers are this near to the
-/// threshold. On the two sides of a wall they differ by more.
+/// Winding numbers in the openings of a surface differ from the threshold by less than this. The
+/// winding numbers on the two sides of a wall, and in all regions of a closed surface, differ from
+/// it by more.
 constexpr double doubtful = 0.25;
 
 /// Return points spread evenly over a box. They are the same in every run: an additive recurrence
@@ -72,7 +73,7 @@ Status EnclosedRegion::build(
 Status EnclosedRegion::sample(
   const RepairedSurface& surface, double& negative, ExecutionContext& context)
 {
-  // Expect the samples below and, later, the centers of tets.
+  // The expected queries are the samples below and, later, the centers of tets.
   WindingNumber::Options winding;
   winding.expected_queries = 500000;
   Status status = this->winding_.build(surface.points, surface.triangles, context, winding);
@@ -90,10 +91,11 @@ Status EnclosedRegion::sample(
   constexpr double affordable = 2e6; // microseconds
   constexpr double most_samples = 1e6;
   // The initial number of points is that of a grid with 40 points along the longest side. The
-  // points do not form a grid: faces aligned with the planes of a grid (boxes, CAD) would add or
-  // remove a whole layer of cells.
+  // points do not form a grid, because faces of boxes and of CAD models may be aligned with the
+  // planes of a grid. Then a whole layer of points would be counted wrongly.
   const Vec3 size = this->box_.size();
-  constexpr double enough = 20000.0; // samples inside, which give an error below one percent
+  // Sufficient number of samples inside; the error is then below one percent.
+  constexpr double enough = 20000.0;
   constexpr double growth = 3.375;
   auto samples = static_cast<Index>((40.0 * size / size.maxCoeff()).array().ceil().max(1.0).prod());
   for (;; samples = static_cast<Index>(growth * static_cast<double>(samples)))
@@ -156,9 +158,10 @@ Status EnclosedRegion::no_tets() const
 Status EnclosedRegion::only_specks(const RepairedSurface& surface) const
 {
   constexpr Index fewest_triangles = 10000;
-  constexpr double loose = 0.9; // fraction of the triangle sides that are boundary edges
-  constexpr double largest_share = 1e-3; // fraction of the box volume
-  constexpr double largest_thickness = 0.1; // relative to the mean size of a triangle
+  constexpr double loose = 0.9; // minimum fraction of the triangle sides that are boundary edges
+  constexpr double largest_share = 1e-3; // maximum volume, as a fraction of the box volume
+  // Maximum thickness, relative to the mean size of a triangle.
+  constexpr double largest_thickness = 0.1;
   const Index count = surface.triangles.rows();
   const double share = this->volume_ / this->box_.size().prod();
   if (count < fewest_triangles || share > largest_share ||
@@ -201,7 +204,7 @@ Status EnclosedRegion::label_regions(
   const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context) const
 {
   const Eigen::VectorXd volumes = tet_volumes(data.points, data.tets);
-  std::map<Index, Index> largest; // region -> its largest tet
+  std::map<Index, Index> largest; // index of the largest tet of each region
   for (Index t = 0; t < data.tets.rows(); ++t)
   {
     const auto [entry, fresh] = largest.emplace(data.regions[t], t);
@@ -263,7 +266,8 @@ Status EnclosedRegion::label_tets(
   {
     return Status::canceled();
   }
-  constexpr double large = 0.05; // in bounding-box diagonals
+  // Length of the longest edge above which a tet is large, in bounding-box diagonals.
+  constexpr double large = 0.05;
   std::vector<Index> tets;
   for (Index t = 0; t < data.tets.rows(); ++t)
   {

@@ -41,8 +41,8 @@ public:
   /// Return the error for a surface that encloses no volume. The message contains the largest
   /// winding number sampled so far.
   Status encloses_nothing() const;
-  /// Return the error for a method whose tets of a certain size are all outside. The code is
-  /// `unavailable` if the surface encloses a volume that is too thin for such tets.
+  /// Return the error for a method that found no tet inside. The code is `unavailable` if the
+  /// surface encloses a volume that is too thin for the tets of the method.
   Status no_tets() const;
 
   /// Return an error if the surface consists of thousands of loose triangles that enclose only
@@ -66,7 +66,7 @@ private:
   double threshold_ = 0.5;
   bool closed_ = false;
   double volume_ = 0.0;
-  double volume_error_ = 1.0; ///< relative standard error
+  double volume_error_ = 1.0; ///< relative standard error of volume_
   double doubtful_share_ = 0.0;
   double largest_winding_ = 0.0;
 };

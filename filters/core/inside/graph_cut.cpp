@@ -3,9 +3,9 @@
 // Most nodes are labeled without flow, because the difference of their two costs exceeds the costs
 // of their edges. The other nodes form a network. A node that is cheaper inside is connected to the
 // source, with the difference of its two costs as capacity; a node that is cheaper outside is
-// connected to the sink. The maximum flow from source to sink saturates the cheapest edges that
-// separate the two. Costs are first rounded to integers, so that the flow arithmetic is exact and
-// the result does not depend on rounding.
+// connected to the sink. The maximum flow from source to sink saturates the cheapest set of edges
+// that separates the source from the sink. Costs are first rounded to integers, so that the flow
+// arithmetic is exact and the result does not depend on rounding.
 #include "inside/graph_cut.h"
 
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
@@ -130,7 +130,8 @@ public:
   void decide()
   {
     const auto nodes = static_cast<Index>(this->labels_.size());
-    std::vector<double> edges(this->labels_.size()); // costs of the edges to undecided nodes
+    // Total cost of each node's edges to undecided nodes.
+    std::vector<double> edges(this->labels_.size());
     for (bool go_on = true; go_on;)
     {
       for (Index i = 0; i < nodes; ++i)
@@ -143,7 +144,8 @@ public:
         this->add(edge.a, edge.b, edge.cost, edges);
         this->add(edge.b, edge.a, edge.cost, edges);
       }
-      // Relative margin for rounding; nodes within it remain undecided, which is safe.
+      // Relative margin for rounding errors. A node is decided only if its gain exceeds the costs
+      // of its edges by more than this margin, which is safe.
       constexpr double rounding = 1e-9;
       Index left = 0;
       Index decided = 0;

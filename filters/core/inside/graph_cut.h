@@ -18,7 +18,7 @@ struct CutEnergy
   struct Edge
   {
     Index a, b; ///< nodes, a != b
-    double cost; ///< added if the labels of the two ends differ, >= 0
+    double cost; ///< cost that is added if the labels of the two ends differ, >= 0
   };
   std::vector<double> inside_costs; ///< cost of node i if it is inside, >= 0
   std::vector<double> outside_costs; ///< cost of node i if it is outside, >= 0

@@ -50,7 +50,7 @@ public:
   bool build(Index most)
   {
     std::vector<Cell> cells{ Cell() };
-    constexpr double chosen = 0.7; // fraction of the total time before choose()
+    constexpr double chosen = 0.7; // fraction of the total time that is spent before choose()
     double done = 0.0; // completed fraction of the time before choose()
     for (int level = 0; !cells.empty(); ++level)
     {
@@ -253,7 +253,7 @@ double Interior::layer(const SizingField& sizes) const
     const double size = sizes.at((a + b + c) / 3.0);
     sum += 0.5 * (b - a).cross(c - a).norm() / (size * size);
   }
-  // The size of a layer depends little on growth rates below this.
+  // Growth rates below this have little effect on the number of cells in the layer.
   constexpr double least_growth = 0.1;
   return sum * static_cast<double>(step) / (2.0 * std::max(sizes.growth(), least_growth));
 }
@@ -290,7 +290,8 @@ public:
   {
     const Sample& many = this->many_;
     const Sample& few = this->few_;
-    constexpr double blind = 12.0; // factor of the scale if there is no finite measurement
+    // Factor by which the scale changes if there is no finite measurement.
+    constexpr double blind = 12.0;
     constexpr double largest_step = 12.0;
     constexpr double least_step = 1.1;
     if (few.scale == 0.0)
@@ -306,7 +307,8 @@ public:
       return std::max(
         this->least_, few.scale * std::max(largest_step_back, few.points / this->wanted_));
     }
-    double share = 0.5; // logarithmic position between the scales of many_ and few_
+    // Position of the next scale between those of many_ and few_, on a logarithmic axis.
+    double share = 0.5;
     if (std::isfinite(many.points) && few.points > 0.0)
     {
       constexpr double margin = 0.15;
@@ -327,7 +329,7 @@ public:
 private:
   struct Sample
   {
-    double scale = 0.0; ///< 0: no measurement
+    double scale = 0.0; ///< scale of the edge lengths; 0: no measurement
     double points = 0.0;
   };
   double wanted_;
@@ -352,17 +354,20 @@ Points thinned(const Points& points, Index wanted)
 bool inner_points(const Interior& interior, SizingField& sizes, Index most,
   ExecutionContext& context, Points& inner)
 {
-  constexpr double too_many = 5.0; // an attempt ends at this multiple of `most`
-  // Number of cells that is allowed in any case, because it takes little time.
+  // An attempt ends if more cells are inside than this factor times the maximum number of points.
+  constexpr double too_many = 5.0;
+  // An attempt may always have this many cells inside, because they take little time.
   constexpr double few_cells = 2000.0;
   constexpr double enough = 1.2;
   constexpr double least_enough = 0.6;
   constexpr int attempts = 20;
-  constexpr double most_growth = 1.0; // cells cannot follow edge lengths that grow faster
+  // Largest growth rate of edge lengths that octree cells can follow.
+  constexpr double most_growth = 1.0;
   const double wanted = static_cast<double>(std::max<Index>(1, most));
   ScaleSearch search(sizes.scale(), wanted);
-  // Increase the scale of the edge lengths before the first attempt: for most surfaces there are 4
-  // to 20 points per cell of the layer at the surface.
+  // Before the first attempt, increase the scale of the edge lengths until the expected number of
+  // points is small enough. On most surfaces there are 4 to 20 points per cell of the layer at the
+  // surface.
   const double first_scale = sizes.scale();
   const auto raise = [&]
   {
@@ -381,8 +386,8 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
     }
   };
   raise();
-  Points fewer; // largest set so far with at most the allowed number of points
-  Points more; // smallest set so far with too many points
+  Points fewer; // largest point set so far with at most the allowed number of points
+  Points more; // smallest point set so far with too many points
   double before = -1.0;
   double begin = 0.0; // progress at the start of this attempt
   for (int attempt = 0; attempt < attempts; ++attempt)
@@ -410,7 +415,8 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
       continue;
     }
     search.add(sizes.scale(), points);
-    // The maximum edge length limits the cells, so the scale has no effect.
+    // If the number of points stays the same, the maximum edge length limits the cells and the
+    // scale has no effect.
     const bool same = whole && points == before;
     before = points;
     if (!many && (points >= least_enough * wanted || sizes.scale() == first_scale))

@@ -1,7 +1,7 @@
 #ifndef bindpose_inside_inner_points_h
 #define bindpose_inside_inner_points_h
 
-// Points inside a closed surface at a graded distance, as vertices of tets.
+// Points inside a closed surface, at graded distances from each other, as vertices of tets.
 
 #include "base/execution.h"
 #include "base/mesh.h"

@@ -275,8 +275,8 @@ private:
       });
   }
 
-  /// Return the position 0 … 1 on the edge, from its first vertex, at which it crosses the boundary
-  /// of the region.
+  /// Return the position at which the edge crosses the boundary of the region, from 0 at the first
+  /// vertex of the edge to 1 at the second.
   double cut_of(const Edge2& edge) const
   {
     const bool first_inside = this->sign_[edge.first] > 0;
@@ -297,7 +297,8 @@ private:
     struct End
     {
       Index vertex, edge;
-      double distance; // in units of the length of a long edge
+      // Distance of the vertex from the cut point, in units of the length of a long edge.
+      double distance;
       bool too_near;
     };
     std::vector<End> ends;
@@ -516,8 +517,9 @@ private:
   const LatticeRegion& region_;
   std::vector<signed char> sign_;
   std::vector<Vec3> points_;
-  std::vector<Edge2> edges_; // cut edges, sorted
-  std::vector<double> at_; // cut position on each edge, from its first vertex, 0 … 1
+  std::vector<Edge2> edges_; // lattice edges that the boundary of the region cuts, sorted
+  // Position of the cut point on each edge, from 0 at the first vertex to 1 at the second.
+  std::vector<double> at_;
   std::vector<Index> cut_vertex_;
 };
 } // namespace

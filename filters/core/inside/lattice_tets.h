@@ -15,8 +15,8 @@ namespace bindpose
 
 /// A body-centered cubic lattice: the corners and centers of cubes of side `spacing`. Each pair of
 /// neighboring cubes gives four congruent tets around the shared face. The vertices of each tet are
-/// the two cube centers and the ends of an edge of the face. Its dihedral angles are 60 and 90
-/// degrees, and its circumradius is 0.559 spacing.
+/// the two cube centers and the ends of an edge of the face. The dihedral angles of a tet are 60
+/// and 90 degrees, and its circumradius is 0.559 spacing.
 struct Lattice
 {
   Vec3 origin = Vec3::Zero(); ///< corner (0, 0, 0)

@@ -85,7 +85,8 @@ private:
 /// corner k of triangle f to the next corner.
 struct Skin
 {
-  std::vector<std::array<Index, 3>> corners; ///< ids of the tets' vertices
+  /// Corners of the triangles, as ids of the tets' vertices.
+  std::vector<std::array<Index, 3>> corners;
   std::vector<Index> opposite; ///< per side: the side of the neighboring triangle
 };
 
@@ -124,7 +125,7 @@ Index next_side(Index side)
   return side % 3 == 2 ? side - 2 : side + 1;
 }
 
-/// Find sides that join the same two vertices as a side of another edge. This happens if the solid
+/// Find sides whose two vertices are also joined by a different edge. This happens if the solid
 /// touches itself along an edge and is connected around both ends of the edge.
 std::vector<char> doubled_sides(const std::vector<Index>& vertex)
 {
@@ -182,7 +183,8 @@ TriangleMesh manifold_boundary(const TetMesh& tets)
   }
   for (Index first = 0; first < count; first += 3)
   {
-    std::vector<Index> ring; // starts at a midpoint, if there is one
+    // Vertices and midpoints around the triangle, starting at a midpoint if there is one.
+    std::vector<Index> ring;
     for (Index side = first; side < first + 3; ++side)
     {
       ring.push_back(vertex[side]);

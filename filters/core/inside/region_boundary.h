@@ -60,7 +60,7 @@ struct BoundarySampling
 {
   double smallest = 0.0; ///< length of the shortest requested edges, > 0
   double largest = 0.0; ///< length of the longest requested edges, >= smallest
-  /// Maximum difference of two edge lengths divided by the distance of their sites.
+  /// Maximum of the difference of two edge lengths divided by the distance of their sites.
   double growth = 0.3;
 };
 

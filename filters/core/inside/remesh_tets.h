@@ -32,10 +32,10 @@ struct RemeshOptions
 /// Result of remesh_tets().
 struct RemeshResult
 {
-  TetMesh mesh; ///< positive tets, no unused vertices
+  TetMesh mesh; ///< mesh of positive tets without unused vertices
   /// #V, ascending: id of the input vertex with the same coordinates; then -1 for new vertices.
   std::vector<Index> original_vertices;
-  Index boundary_vertices = 0; ///< input vertices on the region's boundary
+  Index boundary_vertices = 0; ///< number of input vertices on the region's boundary
   /// Distance between the boundary of the tets and the part of the input that bounds the region.
   SurfaceDistance distance;
 };

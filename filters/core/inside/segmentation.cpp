@@ -92,8 +92,8 @@ Status segment_tets(PointsView points, TetsView tets, const Eigen::VectorXd& win
   result.energy = energy.of(result.inside);
   if (result.energy >= result.threshold_energy)
   {
-    // If both energies are equal, the labels of the threshold are used, because they agree with a
-    // map of the winding numbers.
+    // If both energies are equal, the labels of the threshold are used, because they follow
+    // directly from the winding numbers.
     result.inside = above;
     result.energy = result.threshold_energy;
   }

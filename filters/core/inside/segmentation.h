@@ -27,7 +27,7 @@ const char* to_string(SegmentationMethod method);
 struct SegmentationOptions
 {
   SegmentationMethod method = SegmentationMethod::graph_cut;
-  /// Tets with at least this winding number are inside by the threshold, > 0.
+  /// The threshold labels tets with at least this winding number as inside, > 0.
   double winding_threshold = 0.5;
   /// Weight of smoothness relative to the winding number (gamma), >= 0. With 0 the labels are those
   /// of the threshold.

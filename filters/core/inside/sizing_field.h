@@ -34,7 +34,7 @@ private:
     Box box;
     double smallest = 0.0; ///< smallest length of the node's sites
     Index begin = 0, end = 0; ///< range of the node's sites in order_
-    Index right = -1; ///< second child; the first child is the next node; -1: a leaf
+    Index right = -1; ///< index of the second child; the first child is the next node; -1: a leaf
   };
   void build(Index begin, Index end);
   double bound(const Node& node, const Vec3& p) const;

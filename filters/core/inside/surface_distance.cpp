@@ -14,7 +14,8 @@ namespace bindpose
 
 namespace
 {
-/// A sample point and the area that it represents. Samples with weight 0 are skipped.
+/// A sample point and its weight, which is the area that it represents. Samples with weight 0 are
+/// skipped.
 struct Sample
 {
   Vec3 point = Vec3::Zero();
@@ -156,8 +157,8 @@ bool measure_distance(const TetMesh& mesh, const RegionBoundary& region, Surface
     const double size = std::sqrt(std::max((b - a).squaredNorm(), (c - a).squaredNorm()));
     return !lids.contain(center, (b - a).cross(c - a).normalized(), 0.5 * size);
   };
-  // A vertex is included if one of its triangles is included. At the border between a lid and the
-  // surface, this is acceptable because the surface is near.
+  // A vertex is a sample if one of its triangles is not part of a lid. This includes the vertices
+  // at the border of a lid, which is acceptable because the surface is near them.
   return collect(
            mesh.points, skin, on_surface, [](Index, int, bool counts) { return counts; }, samples,
            context) &&

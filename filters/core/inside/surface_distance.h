@@ -9,16 +9,17 @@ namespace bindpose
 /// Distance between two surfaces.
 struct SurfaceDistance
 {
-  double maximum = 0.0; ///< infinity if one of the surfaces is empty
-  double mean = 0.0; ///< area-weighted mean; the maximum over the two directions
+  double maximum = 0.0; ///< largest distance; infinity if one of the surfaces is empty
+  /// Area-weighted mean distance, the larger of the values of the two directions.
+  double mean = 0.0;
   Index samples = 0;
 };
 
 /// Measure the distances between the boundary of tets and the part of the surface that bounds the
 /// region. They are measured from the vertices and triangle centers of the surface to the boundary,
-/// and vice versa. Parts of the boundary that close a hole of the surface are excluded: there is no
-/// triangle at the end of the region. Parts of the region without tets, and tets outside the
-/// region, increase the distances. Cost: about 10 us per sample.
+/// and vice versa. Parts of the boundary that close a hole of the surface are excluded. They are
+/// recognized because the region ends there without a triangle. Parts of the region without tets,
+/// and tets outside the region, increase the distances. Cost: about 10 us per sample.
 /// @return false if canceled.
 bool measure_distance(const TetMesh& mesh, const RegionBoundary& region, SurfaceDistance& distance,
   ExecutionContext& context);

@@ -44,7 +44,7 @@ bool CavitySearch::in_sphere(const Tet& tet, const Vec3& p) const
              w = this->tets_.point(tet[3]) - a, q = p - a;
   const Vec3 vw = v.cross(w);
   const Vec3 center = u.squaredNorm() * vw + v.squaredNorm() * w.cross(u) +
-    // Center of the circumsphere relative to a, times twice the determinant.
+    // Circumcenter relative to a, multiplied by 2 det(u, v, w).
     w.squaredNorm() * u.cross(v);
   return q.squaredNorm() * u.dot(vw) < q.dot(center);
 }
@@ -111,8 +111,8 @@ CavitySearch::Facet CavitySearch::facet_inwards(Index t, int k) const
   return { tet[f[0]], tet[f[2]], tet[f[1]] };
 }
 
-/// Remove tets from the cavity whose facet would form too flat a tet with p. After each removal,
-/// check the neighbors of the removed tet again. @return false if `start` is removed.
+/// Remove each tet of the cavity that has a facet with which p would form too flat a tet. After
+/// each removal, check the neighbors of the removed tet again. @return false if `start` is removed.
 bool CavitySearch::shrink(const Vec3& p, Index start, double least)
 {
   for (std::size_t next = 0; next < this->queue_.size(); ++next)

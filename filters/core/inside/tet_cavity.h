@@ -47,7 +47,8 @@ private:
   {
     static constexpr Index unknown = -2;
     std::array<Index, 4> beyond{ unknown, unknown, unknown, unknown };
-    std::array<double, 4> fits{ NAN, NAN, NAN, NAN }; ///< qualities of new tets on the facets
+    /// Qualities of the new tets on the four facets; NAN: not yet computed.
+    std::array<double, 4> fits{ NAN, NAN, NAN, NAN };
   };
   bool in_sphere(const Tet& tet, const Vec3& p) const;
   Site& site_of(Index t) { return this->sites_[this->site_ids_[t]]; }
@@ -62,10 +63,10 @@ private:
   bool keeps_all(const Vec3& p, const TetCavity& cavity) const;
 
   const TetComplex& tets_;
-  /// Per tet: the index of the last search whose cavity contained the tet. Negative if the tet is
-  /// connected to the start.
+  /// Per tet: the index of the last search whose cavity contained the tet. The index is negative if
+  /// the tet is connected to the start.
   std::vector<Index> cavity_;
-  std::vector<Site> sites_; ///< sites of the current search
+  std::vector<Site> sites_; ///< tets of the cavity in the current search
   std::vector<Index> site_ids_; ///< per tet: its index in sites_, if it is in the cavity
   std::vector<Index> queue_; ///< tets that the current search will visit
   Index searches_ = 0;

@@ -12,8 +12,8 @@ namespace bindpose
 
 namespace
 {
-/// If the quality is below this, the sign of a volume in doubles is not reliable. Corresponds to an
-/// angle of 0.001 degrees.
+/// If the quality is below this, the sign of a volume in doubles is not reliable. This quality
+/// corresponds to an angle of 0.001 degrees.
 constexpr double doubtful = 3e-10;
 } // namespace
 
@@ -91,7 +91,7 @@ double TetComplex::quality(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
   double least = 1.0;
   const auto add = [&](const Vec3& m, const Vec3& n, double edge, double lengths)
   {
-    // The dihedral angle is acute and its sine is the smallest so far.
+    // True if the dihedral angle is acute and its sine is the smallest so far.
     if (m.dot(n) < 0.0 && !(edge >= least * lengths))
     {
       least = edge / lengths;

@@ -83,7 +83,7 @@ public:
   /// positive.
   std::pair<Index, Index> others(Index t, Index a, Index b) const;
   /// Find the ring of edge a-b. @return false if the tets of the edge do not form a single ring, or
-  /// if there are more than longest_ring.
+  /// if there are more than longest_ring of them.
   bool find_ring(Index a, Index b, Ring& ring) const;
   /// Return the tet on the other side of a facet, or -1 on the boundary.
   Index beyond(Index t, Index a, Index b, Index c) const;

@@ -70,8 +70,8 @@ public:
   }
 
 private:
-  /// Constants of the limit for the computed tet qualities (evaluations). Small meshes get more
-  /// evaluations per tet than large meshes.
+  /// Constants of the limit for the number of evaluations (computed tet qualities). Small meshes
+  /// get more evaluations per tet than large meshes.
   static constexpr Index small = 1000; // tets
   static constexpr double large = 2.5e7; // evaluations
   static constexpr double per_tet_of_large = 400.0;
@@ -324,7 +324,7 @@ private:
   TetStepRules rules_;
   Improvement& done_;
   ExecutionContext& context_;
-  ExecutionContext quiet_; ///< reports no progress from the parallel loops
+  ExecutionContext quiet_; ///< context of the parallel loops; it reports no progress
   double most_evaluations_ = 0.0;
   Index evaluations_ = 0;
   std::vector<char> moved_;
@@ -332,7 +332,7 @@ private:
   std::vector<std::uint64_t> tried_;
   std::vector<Index> claims_; ///< per vertex: the last batch that reserved it
   Index turn_ = 0;
-  std::vector<TetStep> steps_; ///< steps of the tets of this batch
+  std::vector<TetStep> steps_; ///< steps found for the tets of the current batch
   PerThread<TetStepSearch> searches_;
 };
 } // namespace

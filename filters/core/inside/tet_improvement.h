@@ -20,11 +20,13 @@ struct ImproveOptions
   /// Held (constrained) vertices may move if a tet at them remains below this angle, degrees.
   double least_angle = 8.5;
   Index passes = 20; ///< maximum number of passes over the tets that are too flat
-  bool keep_boundary = false; ///< boundary triangles do not change, except as `coplanar` allows
+  /// Whether boundary triangles stay unchanged, except as `coplanar` allows.
+  bool keep_boundary = false;
   /// With keep_boundary: a boundary edge may be swapped if its two triangles are coplanar within
   /// this length. 0: no boundary edge is swapped.
   double coplanar = 0.0;
-  /// Whether vertices may be inserted near tets below insert_angle that no other step improves.
+  /// Whether vertices may be inserted near tets whose smallest angle is below insert_angle, if no
+  /// other step improves them.
   bool insert = false;
   double insert_angle = 8.0; ///< degrees
   /// A step may reduce the smallest angle of the tets that it touches by this factor if it improves
@@ -38,11 +40,12 @@ struct ImproveOptions
 /// Numbers of applied steps.
 struct Improvement
 {
-  Index moved_vertices = 0; ///< moved vertices that were not held
-  Index released_vertices = 0; ///< moved vertices that were held
-  Index removed_tets = 0; ///< removed tets: flat tets at the boundary, and tets without a neighbor
-  Index collapsed_edges = 0; ///< edges contracted; each contraction removes one vertex
-  Index inserted_vertices = 0; ///< new vertices inside
+  Index moved_vertices = 0; ///< number of moved vertices that were not held
+  Index released_vertices = 0; ///< number of moved vertices that were held (constrained)
+  /// Number of removed tets: flat tets at the boundary, and tets without a neighbor.
+  Index removed_tets = 0;
+  Index collapsed_edges = 0; ///< number of contracted edges; each contraction removes one vertex
+  Index inserted_vertices = 0; ///< number of new vertices inside
 };
 
 /// Move p along the unit vector n, at most `reach` in either direction, onto the surface that must

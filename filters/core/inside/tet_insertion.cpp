@@ -275,7 +275,7 @@ public:
   bool insert(const TetMesh& mesh, const Points& places, std::vector<Index>& vertices)
   {
     const std::vector<std::int32_t> near = order_by_place(as_vectors(places));
-    constexpr double looked = 0.2; // fraction of the time for locating the places
+    constexpr double looked = 0.2; // fraction of the total time for locating the places
     {
       const ProgressRange range(this->context_, 0.0, looked);
       if (!this->finder_.look_for(mesh, places, near, this->context_))
@@ -327,7 +327,8 @@ public:
           later.push_back(now[i]);
         }
       }
-      // The number is reduced if more than one in four places must be searched again.
+      // The number of places that are searched in parallel is reduced if more than one in four
+      // places must be searched again.
       constexpr std::size_t seldom = 4;
       const bool overlap = seldom * (later.size() - waiting) > now.size();
       at_once =
@@ -378,7 +379,8 @@ private:
   /// Memory for up to half as many replaced tets is allowed.
   static Index most_ids_of(Index tets)
   {
-    constexpr Index few = 100000; // always allowed, because they take little memory
+    // Number of ids of replaced tets that is always allowed, because they take little memory.
+    constexpr Index few = 100000;
     return few + tets + tets / 2;
   }
 
@@ -432,7 +434,8 @@ private:
   bool find_edge(const Vec3& p, Index t, Site& site) const
   {
     const Tet& tet = this->tets_.tet(t);
-    constexpr double rounding = 1e-9; // relative to the length of the edge
+    // Maximum distance of p from the edge, relative to the length of the edge.
+    constexpr double rounding = 1e-9;
     for (int i = 0; i < 4; ++i)
     {
       for (int j = 0; j < i; ++j)
@@ -474,7 +477,7 @@ private:
   TetComplex& tets_;
   PlaceFinder finder_;
   ExecutionContext& context_;
-  ExecutionContext quiet_; ///< reports no progress from the parallel loops
+  ExecutionContext quiet_; ///< context of the parallel loops; it reports no progress
   PerThread<CavitySearch> searches_;
   std::array<Site, most_at_once> sites_;
   const double thick_ = TetComplex::quality_of_angle(1.0);

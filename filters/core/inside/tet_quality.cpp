@@ -25,7 +25,8 @@ double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   const double volume = std::abs((b - a).cross(c - a).dot(d - a)); // six times the volume
   constexpr double nearly_one = 0.9999;
   double largest_cosine = -1.0;
-  double least_sine = 1.0; // used for small angles, because their cosines are all rounded to 1
+  // Smallest sine, used for small angles, because their cosines are all rounded to 1.
+  double least_sine = 1.0;
   for (int i = 0; i < 4; ++i)
   {
     for (int j = 0; j < i; ++j)
@@ -107,9 +108,9 @@ bool is_wedge(PointsView points, const Triangles& boundary, const TriangleSide& 
 
 /// Report whether another boundary triangle is so near to the inner side of triangle t that every
 /// tet at t has a dihedral angle of at most `angle` degrees. A tet with larger angles would contain
-/// the roof over the triangle: the pyramid whose three faces have this slope. The test checks
-/// whether another triangle intersects a ridge of the roof, or the segment from the center of the
-/// inscribed circle to the top of the roof.
+/// the roof over the triangle: the pyramid whose three faces have the slope `angle`. The test
+/// checks whether another triangle intersects a ridge of the roof, or the segment from the center
+/// of the inscribed circle to the top of the roof.
 bool is_blocked(
   PointsView points, const Triangles& boundary, const TriangleTree& tree, Index t, double angle)
 {
@@ -128,7 +129,8 @@ bool is_blocked(
   }
   center /= around;
   const double radius = normal.norm() / around;
-  constexpr double within = 0.999; // fraction of the roof's height, with a margin for rounding
+  // Height of `top` as a fraction of the roof's height, with a margin for rounding.
+  constexpr double within = 0.999;
   const Vec3 top = center - within * std::tan(angle / degrees) * radius * normal.normalized();
   const auto others = [&](Index other)
   {

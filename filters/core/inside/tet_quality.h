@@ -38,7 +38,7 @@ struct TetQuality
   double volume = 0.0; ///< sum of the volumes of all tets
   double min_volume = 0.0;
   double min_dihedral_angle = 0.0; ///< smallest dihedral angle of all tets, degrees
-  Index below_5_degrees = 0; ///< tets whose smallest dihedral angle is below 5 degrees
+  Index below_5_degrees = 0; ///< number of tets whose smallest dihedral angle is below 5 degrees
   DihedralHistogram histogram;
 };
 
@@ -46,7 +46,7 @@ TetQuality measure_tets(PointsView points, TetsView tets);
 
 /// Count the tets with a smallest dihedral angle (angles: #T, degrees) below `angle` of which at
 /// least one edge is forced by the boundary:
-/// - an edge of a boundary triangle that has a corner of less than `angle`,
+/// - an edge of a boundary triangle in which a corner is less than `angle`,
 /// - an edge of a boundary triangle with another boundary triangle so close in front of it that
 ///   every tet on it has an angle below `angle`, or
 /// - an edge at which two boundary triangles meet at less than `angle`, measured inside.

@@ -132,7 +132,8 @@ double TetStepSearch::penalty(double quality) const
     return 0.0;
   }
   constexpr double least = 1e-24;
-  constexpr double half = 0.5; // because the quality is the square of the sine
+  // The logarithm is halved, because the quality is the square of the sine.
+  constexpr double half = 0.5;
   return half * std::log(this->good_ / std::max(quality, least));
 }
 
@@ -495,9 +496,9 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
   }
   constexpr double margin = 0.3; // minimum decrease of the cost by a new vertex
   const double enough = old.sum - margin;
-  // Limits relative to the old cost. If the cost of the first position exceeds the first limit, or
-  // the cost of the best position after the first search step exceeds the second limit, the search
-  // ends.
+  // Limits relative to the old cost. The search ends if the cost of the first position exceeds the
+  // first limit. It also ends if the cost of the best position after the first search step exceeds
+  // the second limit.
   constexpr double hopeful = 3.0;
   constexpr double promising = 1.5;
   double value = this->sum_of_cavity(step.cavity, p, least, never);

@@ -152,7 +152,8 @@ private:
     Status status;
     {
       const Phase phase(this->context_, "cdt", 0.0, cdt_built);
-      constexpr double share = 0.75; // the rest of the time is for inserting vertices inside
+      // Fraction of the time limit for build(); the rest is for inserting vertices inside.
+      constexpr double share = 0.75;
       status = cdt.build(share * this->time_limit_);
     }
     if (status.ok() || status.code == StatusCode::canceled)
@@ -357,7 +358,7 @@ private:
       }
       const double finer_cubes = 8.0 * static_cast<double>(lattice.cubes[0]) *
         static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);
-      constexpr Index finest = 4; // in units of the first resolution
+      constexpr Index finest = 4; // finest resolution, in units of the first resolution
       if (!finer_when_needed || this->inside_.volume() <= 0.0 || finer_cubes > most_cubes ||
         resolution >= finest * this->remesh_resolution())
       {
@@ -394,8 +395,8 @@ private:
       this->time_left() - lattice_share * this->time_limit_, least_share * this->time_limit_);
     if (this->options_.method == TetMethod::automatic)
     {
-      // This is several times the duration for most surfaces. A surface of needle-shaped triangles
-      // would take minutes.
+      // This limit is several times the duration for most surfaces. A surface of needle-shaped
+      // triangles would take minutes.
       constexpr double patience = 8.0; // seconds
       constexpr double per_triangle = 1e-4;
       constexpr double most_patience = 14.0;
@@ -481,7 +482,8 @@ private:
     CdtTets cdt(wrap, around, options, this->log_, this->context_);
     {
       const Phase phase(this->context_, "cdt", 0.5, 0.7);
-      constexpr double share = 0.75; // the rest of the time is for inserting vertices inside
+      // Fraction of the time limit for build(); the rest is for inserting vertices inside.
+      constexpr double share = 0.75;
       status = cdt.build(share * options.time_limit);
     }
     if (status.ok())
@@ -513,7 +515,8 @@ private:
     options.alpha = this->options_.wrap_alpha;
     options.offset = this->options_.wrap_offset;
     options.memory_limit = this->options_.memory_limit;
-    constexpr double share = 0.75; // the rest of the time is for filling the wrap
+    // Fraction of the time limit for the wrap; the rest is for filling it.
+    constexpr double share = 0.75;
     options.time_limit = share * this->time_limit_;
     Points points;
     Triangles triangles;
@@ -737,10 +740,10 @@ private:
   static constexpr double time_limit_per_triangle = 1.2e-4;
   const double time_limit_;
   double climb_start_ = 0.0;
-  std::vector<char> inside_tets_; ///< #T with keep_outside: 1 for tets inside; otherwise empty
-  TetMesh lattice_mesh_; ///< lattice tets of remesh whose volume is wrong
+  std::vector<char> inside_tets_; ///< with keep_outside, #T: 1 for tets inside; otherwise empty
+  TetMesh lattice_mesh_; ///< lattice tets of method remesh with a wrong volume
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
-  const Report& diagnosis_; ///< report before the first attempt
+  const Report& diagnosis_; ///< report of the preparation, before the first attempt
   Report report_;
   RungLog log_;
   std::vector<std::string> warnings_;
@@ -840,8 +843,8 @@ const char* to_string(TetMethod method)
 
 namespace
 {
-/// Return a failure with the warnings and the report of the preparation, in the same form as
-/// Ladder.
+/// Return a failure with the warnings and the report of the preparation, in the same form as the
+/// failures of the class Ladder.
 Status failed(Status status, const PreparedSurface& prepared)
 {
   status.warnings.insert(

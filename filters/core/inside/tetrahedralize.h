@@ -18,7 +18,7 @@ namespace bindpose
 /// Method of tetrahedralization. vtkTetrahedralizeSurface uses the same integer values.
 enum class TetMethod
 {
-  automatic, ///< cdt and, if that fails, remesh
+  automatic, ///< method cdt and, if it fails, method remesh
   /// Constrained Delaunay tets of the convex hull, reduced to the tets in which the winding number
   /// reaches the threshold.
   cdt,
@@ -107,14 +107,15 @@ enum class TetLabel
 /// Result of tetrahedralize().
 struct TetrahedralizeResult
 {
-  TetMesh mesh; ///< positive tets, no unused vertices
+  TetMesh mesh; ///< mesh of positive tets without unused vertices
   /// #V: id of the input vertex, ascending, then -1 for new vertices.
   std::vector<Index> original_vertices;
-  /// Winding numbers at the centers of the tets, #T. With keep_outside, these are the winding
-  /// numbers that the segmentation used. For large tets near the threshold, these are the means of
-  /// four points.
+  /// Winding numbers at the centers of the tets, #T. With keep_outside, they are the winding
+  /// numbers that the segmentation used: for a large tet near the threshold, the mean of four
+  /// points.
   Eigen::VectorXd winding_numbers;
-  std::vector<TetLabel> labels; ///< #T; a tet of method embed is inside if its center is inside
+  /// Label of each tet, #T; a tet of method embed is inside if its center is inside.
+  std::vector<TetLabel> labels;
   Eigen::VectorXd min_dihedral_angles; ///< #T, degrees
   std::vector<DefectPlace> defects; ///< defects of the surface with their locations
   std::vector<Index> handle_vertices; ///< for cdt, #H: vertex at the handle's point, or -1

@@ -23,7 +23,7 @@ namespace
 {
 constexpr Index deepest = 100; // maximum nesting of brackets in the JSON text
 constexpr Index most_frames = 100000;
-constexpr double frames_per_second = 24.0; // used if keys are not evenly spaced
+constexpr double frames_per_second = 24.0; // frame rate if the keys are not evenly spaced
 
 using Transforms = std::vector<Eigen::Affine3d>;
 
@@ -647,7 +647,7 @@ struct Parts
   Index skipped = 0;
   Index morph_targets = 0;
   Index meshes = 0;
-  bool more_attributes = false; ///< further sets of texture coordinates or colors
+  bool more_attributes = false; ///< whether there are more sets of texture coordinates or colors
   Index unweighted = 0;
   /// The first vertex of each combination of accessors. Primitives with different materials can
   /// share their vertices.
@@ -973,7 +973,7 @@ std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& a
   }
   else
   {
-    return {}; // animates weights of morph targets, which are not read
+    return {}; // the channel animates weights of morph targets, which are not read
   }
   if (track.node < 0)
   {

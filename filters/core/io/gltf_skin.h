@@ -17,7 +17,7 @@ namespace bindpose
 struct GltfNote
 {
   std::string kind;
-  Vec3 head = Vec3::Zero(); ///< at rest; position of the handle or head of a bone
+  Vec3 head = Vec3::Zero(); ///< rest position of the handle or of the head of a bone
   Vec3 tail = Vec3::Zero();
   Index region = 0;
   std::vector<std::array<Index, 3>> cage; ///< cage elements as joint ids; the third id may be -1
@@ -30,8 +30,8 @@ struct GltfJoint
   Index parent = -1; ///< index of the parent joint, or -1
   /// Joint-to-mesh transform in the bind pose: the inverse of the file's inverse bind matrix.
   Eigen::Affine3d rest = Eigen::Affine3d::Identity();
-  /// Joint-to-scene transform in the pose of the nodes. The joint moves the mesh by the transform
-  /// posed * rest^-1.
+  /// Joint-to-scene transform in the pose that the file's nodes define. The joint moves the mesh by
+  /// the transform posed * rest^-1.
   Eigen::Affine3d posed = Eigen::Affine3d::Identity();
   std::optional<GltfNote> note;
 };
@@ -42,7 +42,7 @@ struct GltfFrame
   /// Joint-to-scene transforms like GltfJoint::posed, one per joint; may be empty.
   std::vector<Eigen::Affine3d> posed;
   Points points; ///< posed positions of the vertices; 0 rows: computed from the joints
-  Points normals; ///< 0 rows: no normals
+  Points normals; ///< normals of the vertices; 0 rows: no normals
 };
 
 /// A triangle mesh with its skin (joints and weights) and an animation. Optional arrays have no
@@ -56,7 +56,7 @@ struct GltfSkin
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> texture;
   Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 4, Eigen::RowMajor> colors;
   Triangles triangles;
-  std::vector<GltfJoint> joints; ///< empty: a mesh without a skin
+  std::vector<GltfJoint> joints; ///< joints of the skin; empty: a mesh without a skin
   /// #V x #joints. If the sum of a row is below one, the missing weight is assigned to the rest
   /// position.
   Weights weights;

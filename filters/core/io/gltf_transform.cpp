@@ -19,12 +19,13 @@ Trs nearest_trs(const Eigen::Affine3d& map)
   Trs result;
   result.translation = map.translation();
   const Eigen::Matrix3d linear = map.linear();
-  // M = R P with a positive definite P. If M mirrors, -M = R P has such a P.
+  // The linear part M is R P with a positive definite P. If M mirrors, -M = R P has such a P.
   const double sign = linear.determinant() < 0.0 ? -1.0 : 1.0;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
     sign * linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
-  if (rotation.determinant() < 0.0) // M is singular, and the sign of its smallest axis is arbitrary
+  // The linear part is singular, and the sign of its smallest axis is arbitrary.
+  if (rotation.determinant() < 0.0)
   {
     Eigen::Matrix3d u = svd.matrixU();
     u.col(2) *= -1.0;

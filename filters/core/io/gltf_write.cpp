@@ -20,7 +20,8 @@ namespace bindpose
 
 namespace
 {
-constexpr std::size_t largest_file = 0xf0000000; // in bytes; a .glb file stores its size in 32 bits
+// Maximum size of a file in bytes; a .glb file stores its size in 32 bits.
+constexpr std::size_t largest_file = 0xf0000000;
 // Smaller weights have no effect next to a float of value 1.
 constexpr float smallest_weight = 0x1p-24F;
 constexpr double exact_row = 1e-6; // tolerance of the row sums of weights
@@ -91,7 +92,7 @@ std::vector<Influence> influences_of(
   {
     sum += influence.weight;
   }
-  if (row.empty()) // all weights are tiny or negative
+  if (row.empty()) // all weights of the row are tiny or negative
   {
     return { { 1.0, joints } };
   }
@@ -173,7 +174,8 @@ Vec3 moved(const Transforms& maps, const Vec3& p, const PackedWeights& packed, I
 
 /// Return the largest distance between the position of a vertex according to the file and its
 /// correct position.
-/// @param wanted, held exact and stored joint-to-scene maps.
+/// @param wanted exact joint-to-scene maps.
+/// @param held joint-to-scene maps according to the file.
 /// @param points correct positions; if empty, computed from `wanted`.
 double largest_error(const GltfSkin& skin, const PackedWeights& packed, const Transforms& wanted,
   const Transforms& held, const Points& points)
@@ -192,7 +194,8 @@ double largest_error(const GltfSkin& skin, const PackedWeights& packed, const Tr
   return largest;
 }
 
-/// Return the joint ids, each after its parent. Joints in a cycle are missing.
+/// Return the joint ids in an order in which each joint follows its parent. Joints in a cycle are
+/// missing.
 std::vector<Index> parents_first(const std::vector<GltfJoint>& joints)
 {
   // children[j + 1] are the children of joint j; children[0] are the joints without a parent.
@@ -470,7 +473,8 @@ void add_nodes(Builder& builder, const GltfSkin& skin, const std::vector<Trs>& l
     }
     model.nodes[parent < 0 ? 1 : first_joint + parent].children.push_back(id);
     bound.joints.push_back(id);
-    for (int k = 0; k < 16; ++k) // column by column, which is also Eigen's storage order
+    // Write the matrix column by column, which is also Eigen's storage order.
+    for (int k = 0; k < 16; ++k)
     {
       inverse_binds.push_back(static_cast<float>(inverse.data()[k]));
     }

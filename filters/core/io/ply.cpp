@@ -232,7 +232,7 @@ private:
   Encoding encoding_;
 };
 
-/// The use of a property's values.
+/// The use that the reader makes of a property's values.
 enum class Role
 {
   skipped,

@@ -59,8 +59,8 @@ std::string to_json(const Report& report, int indent)
         }
         else
         {
-          // The value is a list: a list of values ("h[]", "h"), or one property of a list of
-          // objects ("h[].x").
+          // The value is a list of values (key "h[]" or "h"), or one property of a list of objects
+          // (key "h[].x").
           const bool column = brackets != std::string::npos && brackets + 2 < name.size();
           std::string last;
           Json& object = object_of(root, name.substr(0, brackets), last);

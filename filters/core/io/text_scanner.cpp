@@ -39,7 +39,7 @@ std::size_t find_first(std::string_view text)
 
 std::string system_reason()
 {
-  return std::strerror(errno); // NUL-terminated, never null
+  return std::strerror(errno); // the text ends with NUL, and the pointer is never null
 }
 
 struct CloseFile

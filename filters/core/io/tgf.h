@@ -25,8 +25,8 @@ struct Tgf
     bool cage = false;
     Index line = 0;
   };
-  std::vector<Node> nodes; ///< in file order
-  std::vector<Edge> edges; ///< in file order
+  std::vector<Node> nodes; ///< the nodes in the order of the file
+  std::vector<Edge> edges; ///< the edges in the order of the file
 };
 
 /// Read Jacobson's Trivial Graph Format: lines "id x y z [text]", a line "#", lines "from to

@@ -187,9 +187,9 @@ public:
   }
 
 private:
-  Index lower_[3], upper_[3]; // bounds of the extent
+  Index lower_[3], upper_[3]; // first and last voxel of the extent along each axis
   Index first_[3]; // first voxel of the first block
-  Index count_[3]; // number of blocks
+  Index count_[3]; // number of blocks along each axis
   Index size_[3];
 };
 
@@ -198,8 +198,8 @@ using Sides = std::vector<unsigned char>;
 constexpr unsigned char below = 1;
 constexpr unsigned char above = 2;
 
-/// Set every entry of a line to the union of the sides (below, above) that occur within `width`
-/// entries.
+/// Set every entry of a line to the union of the sides of the threshold (below, above) that occur
+/// within `width` entries of it.
 /// @param outside the sides beyond the ends of the line.
 /// @param found memory for the result.
 void spread_along_line(
@@ -438,7 +438,7 @@ protected:
   {
     if (this->context_.canceled())
     {
-      return 0; // the stream treats this as a failure and throws
+      return 0; // the stream treats the result 0 as a failure and throws
     }
     this->bytes_ += static_cast<double>(size);
     this->context_.progress(std::min(1.0, this->bytes_ / this->expected_bytes_));
@@ -457,7 +457,7 @@ class StreamArchive : public openvdb::io::Archive
 public:
   void write_grid(std::ostream& stream, const openvdb::GridBase::Ptr& grid) const
   {
-    // True: with offsets, like files that support seeking.
+    // The argument `true` writes offsets, as for files that support seeking.
     this->write(stream, openvdb::GridCPtrVec{ grid }, true);
   }
 };
@@ -588,13 +588,13 @@ Status write_any(const std::string& path, const SampleGrid& samples, const Value
   Status status = check(samples, options);
   if (status.ok())
   {
-    status = AtomicFile::check(path, options.overwrite); // check before the computation
+    status = AtomicFile::check(path, options.overwrite); // check the target before the computation
   }
   if (!status.ok())
   {
     return status;
   }
-  openvdb::initialize(); // may be called repeatedly and from any thread
+  openvdb::initialize(); // this function may be called repeatedly and from any thread
   Sides sides;
   if (options.band == VdbBand::narrow && !find_sides(samples, values, options, context, sides))
   {

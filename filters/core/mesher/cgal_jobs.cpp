@@ -254,7 +254,7 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
       axis = k;
     }
   }
-  if (normal[axis] == 0) // to_double() may have rounded tiny components to 0
+  if (normal[axis] == 0) // to_double() may have rounded tiny components of the normal to 0
   {
     axis = normal[0] != 0 ? 0 : (normal[1] != 0 ? 1 : 2);
   }
@@ -427,7 +427,8 @@ std::string refine(MesherData& data, const RefineOptions& options)
   const auto face_limit = static_cast<std::size_t>(
     options.growth_limit * static_cast<double>(std::max(soup.faces.size(), small)));
   constexpr std::size_t few = 64; // number of pairs below which an increase is ignored
-  constexpr int patience = 3; // number of rounds with more crossings after which the job gives up
+  // The job gives up after this many rounds in which the number of crossings increased.
+  constexpr int patience = 3;
   // Maximum number of crossing pairs. More pairs would exceed the time limit or the growth limit,
   // because each pair adds at least two triangles.
   constexpr double seconds_per_pair = 2.5e-4;

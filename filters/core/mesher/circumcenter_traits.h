@@ -16,11 +16,11 @@ using RobustTraits = CGAL::Robust_weighted_circumcenter_filtered_traits_3<
   CGAL::Exact_predicates_inexact_constructions_kernel>;
 using RobustCircumcenter = RobustTraits::Construct_weighted_circumcenter_3;
 
-/// Constructs circumcenters that have the same distance from all corners. Without it, Mesh_3
-/// accepts any point within the circumsphere as the center. For a flat cell (four points on a
-/// circle, as in every square of a grid) rounding may give a point far from the exact center. Then
-/// the segments between centers of neighboring cells cross the surface at a wrong position, and
-/// refinement repeatedly splits there, down to edges of 1e-7 of the bounding-box diagonal.
+/// Constructs circumcenters that have the same distance from all corners. Without this class,
+/// Mesh_3 accepts any point within the circumsphere as the center. For a flat cell (four points on
+/// a circle, as in every square of a grid) rounding may give a point far from the exact center.
+/// Then the segments between centers of neighboring cells cross the surface at a wrong position,
+/// and refinement repeatedly splits there, down to edges of 1e-7 of the bounding-box diagonal.
 class Circumcenter : public RobustCircumcenter
 {
 public:

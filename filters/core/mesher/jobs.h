@@ -82,9 +82,10 @@ std::string tetgen(MesherData& data, const TetgenOptions& options);
 struct RemeshJobOptions
 {
   double winding_threshold = 0.5;
-  double smallest_edge = 0.0; ///< length, > 0; increased if there would be more tets than tet_limit
-  double largest_edge = 0.0; ///< length, >= smallest_edge
-  /// Maximum difference of two edge lengths divided by the distance of their sites.
+  /// Smallest edge length, > 0; increased if there would be more tets than tet_limit.
+  double smallest_edge = 0.0;
+  double largest_edge = 0.0; ///< largest edge length, >= smallest_edge
+  /// Maximum of the difference of two edge lengths divided by the distance of their sites.
   double growth = 0.3;
   double tet_limit = 5e5; ///< approximate maximum number of tets
 };

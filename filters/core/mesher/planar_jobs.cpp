@@ -169,15 +169,15 @@ using Filling = CGAL::Constrained_Delaunay_triangulation_2<Inexact,
   CGAL::Triangulation_data_structure_2<FillVertex, FillFace>, CGAL::Exact_predicates_tag>;
 
 /// Quality criteria for the refinement: bounds for angles and lengths. Triangles with a side
-/// shorter than the floor are not refined for their angles. Otherwise refinement could continue
-/// down to the resolution of doubles where a bound above 20.6 degrees cannot be satisfied.
+/// shorter than `floor` are not refined for their angles. Otherwise refinement could continue down
+/// to the resolution of doubles where a bound above 20.6 degrees cannot be satisfied.
 class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Filling>
 {
 public:
   using Base = CGAL::Delaunay_mesh_size_criteria_2<Filling>;
 
   Criteria(double sine_squared, double longest_edge, double floor)
-    // Required because it is a virtual base.
+    // The constructor is called here, because the class is a virtual base.
     : CGAL::Delaunay_mesh_criteria_2<Filling>(sine_squared), Base(sine_squared, longest_edge),
       floor_(floor)
   {
@@ -433,7 +433,7 @@ std::string arrange(MesherData& data, double grid)
     {
       const Index a = e->first->vertex(Arrangement::ccw(e->second))->info().value;
       const Index b = e->first->vertex(Arrangement::cw(e->second))->info().value;
-      if (a != b) // rounding may have merged the two ends
+      if (a != b) // rounding may have merged the two ends of the edge
       {
         edges.insert(edge_of(a, b));
       }

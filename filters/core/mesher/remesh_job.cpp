@@ -74,7 +74,8 @@ constexpr double cell_radius = 0.85;
 constexpr double facet_distance = 0.2;
 constexpr double facet_angle = 25.0; // degrees
 constexpr double radius_edge = 2.0;
-// Facets and cells with circumradii smaller than this are not split.
+// Facets and cells with circumradii smaller than this, in units of the desired edge length, are not
+// split.
 constexpr double least_facet_radius = 0.25;
 constexpr double least_cell_radius = 0.25;
 
@@ -305,8 +306,8 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
     constexpr double sparse = 1.0;
     start.insert(sites.points.row(i), sparse);
   }
-  // If the surface is open, the part that bounds the region may lie in one plane. Then points in
-  // other planes are needed.
+  // If the surface is open, the part that bounds the region may lie in one plane. Then the initial
+  // triangulation needs points in other planes.
   std::vector<std::pair<Kernel::Point_3, Domain::Index>> more;
   constexpr int some = 100;
   if (complex.triangulation().dimension() < 3)
@@ -324,8 +325,8 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   }
   tell_report("seconds.start", clock.seconds());
 
-  // There are about five tets per vertex. If there are far more vertices than expected, refinement
-  // does not end.
+  // There are about five tets per vertex. If there are far more vertices than expected, the
+  // refinement would not end by itself.
   const auto most_vertices =
     static_cast<std::size_t>(options.tet_limit) + 2 * complex.triangulation().number_of_vertices();
   CGAL::Mesh_error_code code = CGAL::CGAL_MESH_3_NO_ERROR;

@@ -6,8 +6,8 @@
 //    triangles meet. Components of negative volume ("hollow") are omitted, because they have no
 //    inside.
 // 2. Each component is remeshed to some thousands of triangles of even size. In every step the flow
-//    solves a linear system whose unknowns are the vertices, so coarse parts would have too few
-//    vertices to contract along.
+//    solves a linear system whose unknowns are the vertices, so parts with large triangles
+//    would have too few vertices for the contraction.
 // 3. The flow contracts the surface and pulls it to its medial axis. Short edges are collapsed,
 //    flat triangles are split, and vertices that cannot shrink further are fixed. The flow ends
 //    when the area is almost constant.
@@ -141,8 +141,8 @@ void contract(const Mesh& mesh, const SkeletonJobOptions& options, double begin,
     {
       break;
     }
-    // The change in area decreases approximately as a power of the step number, so its logarithm is
-    // used as progress.
+    // The change in area decreases approximately as a power of the step number, so the logarithm of
+    // the change is used as progress.
     furthest =
       std::max(furthest, std::log(std::min(change, 1.0)) / std::log(flow.area_variation_factor()));
     tell_progress(begin + (end - begin) * std::min(furthest, 1.0));

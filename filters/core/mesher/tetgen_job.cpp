@@ -104,7 +104,8 @@ void run_steps(tetgenbehavior& behavior, tetgenio& in, tetgenio& out)
   mesh.transfernodes();
   exactinit(behavior.verbose, behavior.noexact, behavior.nostaticfilter, mesh.xmax - mesh.xmin,
     mesh.ymax - mesh.ymin, mesh.zmax - mesh.zmin);
-  // Fractions of the total time, measured on scans and models for 3D printing.
+  // Progress after each step, as a fraction of the total time, measured on scans and models for 3D
+  // printing.
   constexpr double triangulated = 0.3, facets_found = 0.4, recovered = 0.7, carved = 0.85;
   mesh.incrementaldelaunay(unused);
   tell_progress(triangulated);

@@ -28,7 +28,7 @@ struct Copies
 struct CancelingTriangles
 {
   std::vector<Copies> copies;
-  Triangles triangles; ///< with the orientation of the forward copies
+  Triangles triangles; ///< the triangles, with the orientation of the forward copies
 };
 
 CancelingTriangles find_canceling(TrianglesView triangles)
@@ -37,7 +37,7 @@ CancelingTriangles find_canceling(TrianglesView triangles)
   {
     std::array<Index, 3> key;
     Index triangle;
-    bool forward; ///< whether the triangle has the orientation of the key
+    bool forward; ///< whether the triangle has the orientation of its sorted corners (`key`)
   };
   std::vector<Item> items;
   for (Index t = 0; t < triangles.rows(); ++t)

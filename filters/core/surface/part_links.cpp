@@ -130,8 +130,9 @@ private:
     return a == none || a == b ? b : b == none ? a : several;
   }
 
-  /// Call at_triangle(g) for the triangles in all leaf boxes whose label is different and whose
-  /// distance is at most `limit`. at_triangle() may lower `limit`. Nearer boxes are visited first.
+  /// Call at_triangle(g) for the triangles in all leaf boxes whose label differs from `label` and
+  /// whose distance from `box` is at most `limit`. at_triangle() may lower `limit`. Nearer boxes
+  /// are visited first.
   template <typename AtTriangle>
   void visit_others(const Box& box, Index label, const double& limit, const AtTriangle& at_triangle)
   {

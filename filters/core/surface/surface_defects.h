@@ -12,14 +12,15 @@ namespace bindpose
 /// vertices, then edges, then triangles. The array `Defect` of the filter uses the same order.
 enum class Defect
 {
-  duplicate_vertex, ///< has the coordinates of a vertex of lower id
+  duplicate_vertex, ///< vertex with the coordinates of a vertex of lower id
   unreferenced_vertex,
-  boundary_edge, ///< used by one triangle
-  nonmanifold_edge, ///< used by three triangles or more
-  misoriented_edge, ///< used by two triangles in the same direction
-  degenerate_triangle, ///< has area zero
-  duplicate_triangle, ///< has the vertices of a triangle of lower id
-  self_intersection, ///< intersects another triangle outside of their shared vertices and edges
+  boundary_edge, ///< edge used by one triangle
+  nonmanifold_edge, ///< edge used by three triangles or more
+  misoriented_edge, ///< edge used by two triangles in the same direction
+  degenerate_triangle, ///< triangle with area zero
+  duplicate_triangle, ///< triangle with the vertices of a triangle of lower id
+  /// Triangle that intersects another triangle outside of their shared vertices and edges.
+  self_intersection,
   inward_component ///< triangle of a closed component that is inside out
 };
 constexpr int defect_kinds = 9;
@@ -32,10 +33,10 @@ struct DefectPlace
 {
   Defect defect;
   std::vector<Index> vertices; ///< 1, 2 or 3 vertex ids of the input
-  Index triangle = -1; ///< id in the input, if the defect is a triangle
-  Index crossed = -1; ///< self_intersection: the lowest id of the triangles that it intersects
-  Index component = -1; ///< component number, from 0; -1 if the defect belongs to no component
-  Index inward = -1; ///< inward_component: number of the inside-out component, from 0
+  Index triangle = -1; ///< input id of the triangle, if the defect is a triangle
+  Index crossed = -1; ///< for self_intersection: the lowest id of the triangles that it intersects
+  Index component = -1; ///< index of the component; -1 if the defect belongs to no component
+  Index inward = -1; ///< for inward_component: index among the inside-out components
 };
 
 /// List every defect that is counted in `repaired.found`, sorted by type, then by id. Edges are

@@ -1,10 +1,10 @@
 // Approximate geodesic distances around a point (see surface_disc.h). Vertices are processed in the
 // order of Dijkstra's algorithm. The distance of a vertex c is the minimum of two values: along an
 // edge, and through a triangle a b c whose vertices a and b have distances. In the triangle's plane
-// the source is at the intersection of circles around a and b, on the side of ab that does not
-// contain c. If the straight line from the source to c crosses ab, its length is the distance
-// through the triangle. (M. Novotni and R. Klein, "Computing geodesic distances on triangular
-// meshes", 2002.)
+// the source is at the intersection of two circles, whose centers are a and b and whose radii are
+// the distances of a and b, on the side of ab that does not contain c. If the straight line from
+// the source to c crosses ab, its length is the distance through the triangle. (M. Novotni and R.
+// Klein, "Computing geodesic distances on triangular meshes", 2002.)
 #include "surface/surface_disc.h"
 
 #include <algorithm>

@@ -32,9 +32,9 @@ private:
 
   PointsView points_;
   TrianglesView triangles_;
-  std::vector<Index> first_; // #V + 1: offset of each vertex in around_
+  std::vector<Index> first_; // #V + 1: index in around_ of each vertex's first triangle
   std::vector<Index> around_; // triangles around each vertex
-  mutable std::vector<double> distance_; // #V; infinity, except while within() runs
+  mutable std::vector<double> distance_; // #V: distances; infinity, except while within() runs
   mutable std::vector<char> done_;
 };
 

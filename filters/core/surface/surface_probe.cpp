@@ -14,7 +14,7 @@ namespace bindpose
 {
 namespace
 {
-constexpr double same_place = 1e-9; // tolerance for equal hits, in segment lengths
+constexpr double same_place = 1e-9; // hits at most this far apart count as one, in segment lengths
 } // namespace
 
 SurfaceProbe::SurfaceProbe(PointsView points, TrianglesView triangles)

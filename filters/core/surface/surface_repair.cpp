@@ -87,7 +87,8 @@ double area(const Points& points, const Triangles& triangles, Index t)
   return 0.5 * (b - a).cross(c - a).norm();
 }
 
-/// In every patch with inconsistent orientations, flip the triangles of the minority by area.
+/// In every patch with inconsistent orientations, flip the triangles of the orientation with the
+/// smaller area.
 /// @return the number of flipped triangles.
 Index agree_within_patches(const Points& points, Triangles& triangles)
 {
@@ -398,7 +399,7 @@ private:
 struct InwardShells
 {
   std::vector<Index> roots; ///< shells that are inside out
-  std::vector<Index> turn; ///< the roots and the closed shells inside them
+  std::vector<Index> turn; ///< the shells in `roots` and the closed shells inside them
 };
 
 /// Find the shells that are inside out. Return false if canceled.

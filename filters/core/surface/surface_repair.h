@@ -17,16 +17,19 @@ struct SurfaceDiagnosis
 {
   Index vertices = 0; ///< number of input vertices
   Index triangles = 0; ///< number of input triangles
-  Index duplicate_vertices = 0; ///< used vertices with the coordinates of a vertex of lower id
+  /// Number of used vertices with the coordinates of a vertex of lower id.
+  Index duplicate_vertices = 0;
   Index unreferenced_vertices = 0;
-  Index degenerate_triangles = 0; ///< triangles with three collinear points (exact test)
-  Index duplicate_triangles = 0; ///< same vertices as a triangle of lower id, in any order
-  Index boundary_edges = 0; ///< used by one triangle
-  Index nonmanifold_edges = 0; ///< used by three triangles or more
-  Index misoriented_edges = 0; ///< used by two triangles in the same direction
-  Index components = 0; ///< sets of triangles that are connected by vertices
-  Index inward_components = 0; ///< closed, of negative volume, and not inside another component
-  /// Pairs of triangles that intersect outside of their shared vertices and edges.
+  Index degenerate_triangles = 0; ///< number of triangles with three collinear points (exact test)
+  /// Number of triangles with the vertices of a triangle of lower id, in any order.
+  Index duplicate_triangles = 0;
+  Index boundary_edges = 0; ///< number of edges used by one triangle
+  Index nonmanifold_edges = 0; ///< number of edges used by three triangles or more
+  Index misoriented_edges = 0; ///< number of edges used by two triangles in the same direction
+  Index components = 0; ///< number of sets of triangles that are connected by vertices
+  /// Number of closed components of negative volume that are not inside another component.
+  Index inward_components = 0;
+  /// Number of pairs of triangles that intersect outside of their shared vertices and edges.
   Index self_intersections = 0;
   Index crossing_triangles = 0; ///< number of triangles in these pairs
   /// True if opposite directions cancel at every edge. Winding numbers are then integers.
@@ -59,16 +62,16 @@ struct RepairedSurface
   Points points;
   Triangles triangles;
   std::vector<Index> original_vertices; ///< #V: the lowest input id of the welded vertices
-  std::vector<Index> original_triangles; ///< #F: input ids
-  /// #input V: the lowest id of the input vertices welded with this one, usually its own id.
+  std::vector<Index> original_triangles; ///< #F: input ids of the triangles
+  /// #V of the input: the lowest id of the input vertices welded with this one, usually its own id.
   std::vector<Index> lowest_equal;
-  /// Triangles of closed components that are inside out, ascending. The second index is the number
-  /// of the component, from 0 to found.inward_components - 1.
+  /// Pairs of a triangle and its component, for all triangles of closed components that are inside
+  /// out, ascending. These components have the indices 0 to found.inward_components - 1.
   std::vector<std::pair<Index, Index>> inward_triangles;
   SurfaceDiagnosis found; ///< defects of the input, before any triangle was flipped
   Index turned_triangles = 0; ///< number of triangles flipped to agree with their neighbors
   Index turned_components = 0; ///< number of closed components that were inside out
-  std::vector<std::pair<Index, Index>> crossings; ///< pairs of triangles of this surface
+  std::vector<std::pair<Index, Index>> crossings; ///< pairs of crossing triangles of this surface
   bool closed = false; ///< value of found.closed after triangles were flipped
 
   /// Report whether the surface is valid input for TetGen: it is not flat, has no crossings and no

@@ -63,7 +63,7 @@ private:
   PointsView points_;
   TrianglesView triangles_;
   std::vector<Index> order_;
-  std::vector<Box> boxes_; ///< one box per triangle, in the order of order_
+  std::vector<Box> boxes_; ///< one box per triangle, in the order of the ids in order_
   std::vector<Node> nodes_;
   std::vector<Index> leaves_; ///< indices of the leaf nodes
 };

@@ -33,7 +33,7 @@ std::vector<Index> order_by_place(const PointsView& points, const std::vector<ch
 {
   struct Entry
   {
-    double x; // stored with the id, because most comparisons need only x
+    double x; // x coordinate of the vertex, stored here because most comparisons need only x
     Index vertex;
   };
   std::vector<Entry> entries;

@@ -29,7 +29,8 @@ void cap_path(const std::vector<Index>& path, std::size_t first, std::size_t las
     return;
   }
   const std::size_t middle = first + (last - first) / 2;
-  // Reversed, because the cap must use each edge in the direction opposite to the surface.
+  // The corners are in reverse order, because the cap must use each edge in the direction opposite
+  // to the surface.
   caps.push_back({ path[last], path[middle], path[first] });
   cap_path(path, first, middle, caps);
   cap_path(path, middle, last, caps);
@@ -49,8 +50,8 @@ Triangles boundary_caps(const std::vector<Edge>& edges)
   }
   std::stable_sort(open.begin(), open.end(),
     [](const DirectedEdge& x, const DirectedEdge& y) { return x.from < y.from; });
-  // Vertices are numbered by rank, so that the arrays have the size of the boundary, not of the
-  // mesh.
+  // Boundary vertices are referred to by their index in `vertices`, so that the arrays have the
+  // size of the boundary, not of the mesh.
   std::vector<Index> vertices;
   std::vector<std::size_t> next; // index of the first unvisited edge at each vertex
   for (std::size_t i = 0; i < open.size(); ++i)

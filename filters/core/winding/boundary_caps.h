@@ -11,10 +11,9 @@ namespace bindpose
 /// caps.
 ///
 /// @param edges edges of the surface's triangles, as mesh_edges() returns them
-/// @return #C x 3 ids of the surface's vertices, without new ones: n - 2 triangles per boundary
-///   loop of n edges. The cap of an isolated triangle is the same triangle with reversed
-///   orientation.
-/// Cost: O(#open edges log #open edges).
+/// @return #C x 3 vertex ids of the surface; no vertices are added. A boundary loop of n edges gets
+///   n - 2 triangles. The cap of an isolated triangle is the same triangle with reversed
+///   orientation. Cost: O(#open edges log #open edges).
 Triangles boundary_caps(const std::vector<Edge>& edges);
 
 /// Return the smaller closure of each connected component: its caps from `boundary_caps`, or the
@@ -22,7 +21,7 @@ Triangles boundary_caps(const std::vector<Edge>& edges);
 /// grows with the size of the triangles: the caps of a long strip or of a leaf can be larger than
 /// the component itself.
 /// @param points #V x 3
-/// @param triangles #F x 3; the caps close their net boundary
+/// @param triangles #F x 3; the caps close the open edges of these triangles
 /// @param caps #C x 3
 Triangles smaller_caps(const Points& points, const Triangles& triangles, const Triangles& caps);
 

@@ -16,9 +16,9 @@
 // twice.
 //
 // Crossings are counted in a tree over the pieces of the loop. If the point is outside a piece's
-// box, the piece crosses the ray as often as the straight line between its ends, because both
-// together do not wind around the point. The loops are also sorted into a tree of boxes; outside
-// its box a loop has the winding number 0.
+// box, the piece crosses the ray as often as the straight line between its ends, because the piece
+// and the line together do not wind around the point. The loops are also sorted into a tree of
+// boxes; outside its box a loop has the winding number 0.
 //
 // If the point touches a segment, the angles of the other segments are summed instead, in the same
 // tree. Outside its box, a piece has the angle of the straight line between its ends.
@@ -74,9 +74,9 @@ int crossing(const Vec2& a, const Vec2& b, const Vec2& p)
   return side == 0 || side == downwards ? downwards : 0;
 }
 
-/// Return the signed angle from a to b seen from p, in [-pi, pi]. If p is on the line between them,
-/// its sign agrees with crossing(). The sign is exact, because the wrong sign of a half turn would
-/// change the sum by a full turn.
+/// Return the signed angle from a to b seen from p, in [-pi, pi]. If p is on the line between a and
+/// b, the sign of the angle agrees with crossing(). The sign is exact, because the wrong sign of a
+/// half turn would change the sum by a full turn.
 double signed_angle(const Vec2& a, const Vec2& b, const Vec2& p)
 {
   const Vec2 u = a - p;
@@ -168,8 +168,8 @@ struct Segment
 
 struct Welded
 {
-  std::vector<Vec2> points; ///< in the exact frame; equal points are merged
-  std::vector<Segment> segments; ///< without segments from a vertex to itself
+  std::vector<Vec2> points; ///< vertices in the exact frame (ExactFrame); equal points are merged
+  std::vector<Segment> segments; ///< all segments except those from a vertex to itself
   Index merged_vertices = 0;
 };
 
@@ -252,7 +252,7 @@ struct Degree
 /// A closed curve of segments, which may end with a chord.
 struct Loop
 {
-  Id first, last; ///< indices on the path; both refer to the same vertex
+  Id first, last; ///< indices of the two ends on the path; both ends are the same vertex
   bool open; ///< whether the last segment is a chord
 };
 
@@ -320,7 +320,7 @@ struct Node
 {
   Vec2 lower, upper; ///< box with a margin, so that it contains every point that touches the node
   double first_y, last_y; ///< y coordinates of the ends of a piece; equal for loops
-  /// Indices on the path of the ends of a piece; equal if the node has several loops.
+  /// Indices of the ends of a piece on the path; equal if the node has several loops.
   Id first, last;
   Id skip; ///< index of the node after this node's descendants
   bool leaf;
@@ -474,8 +474,8 @@ private:
   bool stopped_ = false;
 };
 
-/// Return the area of the inside, multiplied by the winding number, by the shoelace formula about
-/// the first point of each loop.
+/// Return the area of the inside, multiplied by the winding number. It is computed by the shoelace
+/// formula, with the first point of each loop as the origin.
 double area_of(const std::vector<Vec2>& path, const std::vector<Loop>& loops)
 {
   double two_areas = 0.0;
@@ -544,7 +544,7 @@ Status CurveWindingNumber::build(
   if (done)
   {
     std::vector<Degree> degrees(welded.points.size());
-    // Segments as triangles, for connected_components().
+    // Convert the segments to triangles without area for connected_components().
     Triangles flat(static_cast<Index>(welded.segments.size()), 3);
     for (std::size_t e = 0; e < welded.segments.size(); ++e)
     {
@@ -590,7 +590,7 @@ Status CurveWindingNumber::build(
     }
     report.set("area", area_of(parts.path, loops) / parts.frame.scale / parts.frame.scale);
     const ProgressRange range(context, 0.7, 1.0);
-    // Twice the tolerance, because box coordinates are rounded.
+    // The boxes are enlarged by twice the tolerance, because their coordinates are rounded.
     done = TreeBuilder(
       parts.path, loops, 2.0 * parts.frame.tolerance, context, parts.nodes, parts.chords)
              .run();
@@ -712,9 +712,9 @@ double CurveWindingNumber::Parts::at_touching(const Vec2& p) const
 }
 
 /// Return the gradient of the winding number. Up to full turns, the angle from s to t seen from p
-/// is arg(t - p) - arg(s - p). Let (X, Y) = v - p. Then d arg(v - p) = (X dY - Y dX) / (X^2 + Y^2)
-/// and (dX, dY) = -dp, so the derivative of arg(v - p) along p is (Y, -X) / (X^2 + Y^2). Only open
-/// ends contribute, because the contributions of all other vertices cancel.
+/// is arg(t - p) - arg(s - p). For a vertex v, let (X, Y) = v - p. Then d arg(v - p) = (X dY - Y
+/// dX) / (X^2 + Y^2) and (dX, dY) = -dp, so the derivative of arg(v - p) along p is (Y, -X) / (X^2
+/// + Y^2). Only open ends contribute, because the contributions of all other vertices cancel.
 Vec2 CurveWindingNumber::Parts::gradient_at(const Vec2& query) const
 {
   if (!query.allFinite())

@@ -37,8 +37,8 @@ using SegmentsView = MatrixView<Segments>;
 ///   curves are exact; the error is about 1e-16 per pair of open ends.
 /// - **Cost**: build O(#E log #E), 30 ms for 100k segments, about 40 bytes per segment. A point
 ///   takes O(log #E + open ends). On one core this is 0.08 us for a smooth closed curve of 100k
-///   segments, 0.2 us close to it, 5 us if all segments cross half of the picture, and 25 ns per
-///   pair of open ends.
+///   segments, 0.2 us close to it, 5 us if every segment extends over half of the bounding box, and
+///   25 ns per pair of open ends.
 ///
 /// Build once, evaluate often; evaluation is thread-safe and deterministic for any thread count.
 class CurveWindingNumber

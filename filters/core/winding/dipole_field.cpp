@@ -143,8 +143,8 @@ DipoleField::Leaf DipoleField::leaf_at(const Vec3& point) const
     Place{ this->place(point[0], 0), this->place(point[1], 1), this->place(point[2], 2) });
 }
 
-/// Return the result of `use` for the coefficients of a leaf's expansion, which are floats or
-/// doubles.
+/// Call `use` with the coefficients of a leaf's expansion, which are floats or doubles, and return
+/// its result.
 template <typename Use>
 auto DipoleField::with_numbers(Id leaf, const Use& use) const
 {

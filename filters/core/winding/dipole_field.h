@@ -26,7 +26,8 @@ class DipoleField
 public:
   struct Options
   {
-    /// Largest error of a value, 1e-8 … 0.1. The build reduces the error on a sample to half of it.
+    /// Largest error of a value, 1e-8 … 0.1. The build reduces the errors at sample points to half
+    /// of this value.
     double tolerance = 1e-3;
     /// Region that contains most query points; the build enlarges it by the box of the triangles.
     /// Points outside the region take more time.
@@ -37,8 +38,9 @@ public:
     /// Degree of the polynomials, 2 … 14. 0: chosen from the tolerance.
     int order = 0;
     /// Number of points that will be evaluated, most of them in the region; 0: very many. A cell is
-    /// split only if this saves the expected points more time than it takes. For up to a few
-    /// thousand points no cells are made, and every value is the sum over all triangles.
+    /// split only if this saves more time in the evaluation of the expected points than the split
+    /// takes. For up to a few thousand points no cells are made, and every value is the sum over
+    /// all triangles.
     Index expected_points = 0;
   };
 
@@ -49,8 +51,8 @@ public:
   /// Build the field. Points must be centered and scaled to a size of about 1, with ids below 2^31,
   /// and must outlive the field. There is one multiplicity per triangle. A triangle touches a point
   /// within touch_tolerance. Cost: O(#F log #F); on one thread 20 us per triangle at a tolerance of
-  /// 1e-3, and 50 us for the caps of few patches. Memory: 0.8 to 3 kB per triangle; fields of few
-  /// triangles need the most, because their cells are finer.
+  /// 1e-3, and 50 us per triangle for the caps of a few patches. Memory: 0.8 to 3 kB per triangle;
+  /// fields of few triangles need the most, because their cells are finer.
   /// @return false if canceled; the field is then empty.
   bool build(const Points& points, const Triangles& triangles,
     const std::vector<int>& multiplicities, double touch_tolerance, const Options& options,
@@ -94,21 +96,23 @@ private:
   struct OuterNode
   {
     Vec3 center = Vec3::Zero();
-    double bound = 0.0; ///< error at distance r: bound / r^(order + 3)
+    double bound = 0.0; ///< error of the multipoles at distance r: bound / r^(order + 3)
     double radius = 0.0;
-    Id skip = 0; ///< index of the node after this subtree; the next node is its first child
+    /// Index of the node after this node's descendants; the first child is the next node.
+    Id skip = 0;
     BlockRun blocks{ 0, 0 };
     bool leaf = false;
   };
   using Corners = std::array<Vec3, 3>;
-  using Place = std::array<std::uint32_t, 3>; ///< cell coordinates, in units of the smallest
-                                              ///< possible cell
+  /// Coordinates of a cell, in units of the smallest possible cell.
+  using Place = std::array<std::uint32_t, 3>;
   struct Leaf
   {
     Id id;
-    /// Shifting a Place in the leaf right by this gives the coordinates of the leaf on its level.
+    /// Number of bits. A Place in the leaf, shifted right by this number, gives the coordinates of
+    /// the leaf among the cells of its level.
     int shift;
-    double inverse; ///< 2 / (size of the leaf)
+    double inverse; ///< 2 divided by the edge length of the leaf
     Vec3 center;
   };
   struct Build;
@@ -148,12 +152,14 @@ private:
   std::vector<float> float_locals_;
   std::vector<double> double_locals_;
 
-  // Octree below a lattice of top cells. The entry of a cell is its first child, or ~leaf.
+  // Octree below a lattice of top cells. The entry of a cell is the index of its first child or,
+  // for a leaf, ~(index of the leaf).
   Vec3 lower_ = Vec3::Zero();
   double size_ = 0.0;
   int top_level_ = 0;
   std::vector<Id> cells_;
-  std::vector<Id> first_run_; ///< index in runs_ for each leaf, and the end
+  /// Index of each leaf's first run in runs_; the last entry is the number of runs.
+  std::vector<Id> first_run_;
   std::vector<BlockRun> runs_;
 
   std::vector<OuterNode> outer_;

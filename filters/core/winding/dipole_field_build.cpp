@@ -42,7 +42,8 @@ struct Tuning
   int order;
   double finest_cell;
 };
-/// Measured values. All polynomials up to order 7 have the same cost.
+/// Order and cell size for each tolerance, from measurements. All polynomials up to order 7 have
+/// the same cost.
 constexpr Tuning tunings[] = { { 1e-2, 4, 0.8 }, { 2e-3, 6, 0.8 }, { 1e-3, 7, 0.8 },
   { 1e-4, 7, 0.8 }, { 1e-5, 9, 0.8 }, { 1e-6, 11, 0.8 }, { 0.0, 13, 1.0 } };
 /// Cells that are smaller by the factor `finer` take 1.2 times less time and twice the memory. They
@@ -57,8 +58,8 @@ constexpr double first_threshold = 1.2;
 /// point has few interactions and their estimates are tighter: they do not contain the radius of a
 /// cell.
 constexpr double outer_share = 0.2;
-/// Largest accepted error on the sample, in units of the tolerance. The other half is a margin for
-/// points not in the sample.
+/// Largest accepted error on the sample, in units of the tolerance. This is half of the tolerance;
+/// the other half is a margin for points not in the sample.
 constexpr double wanted_error = 0.5;
 /// Measured nanoseconds to sum a block, to make a cell, and to test one inherited node in a cell.
 /// The last two costs apply to order 7 and grow with the cube of the order. Splitting a cell halves
@@ -149,7 +150,7 @@ struct DipoleField::Build
   {
     std::vector<Id> cells{ 0 };
     std::vector<double> locals;
-    std::vector<Id> run_count; ///< number of runs per leaf
+    std::vector<Id> run_count; ///< number of block runs (BlockRun) of each leaf
     std::vector<BlockRun> runs;
     std::vector<DoubtfulLeaf> leaves;
   };
@@ -227,7 +228,8 @@ struct DipoleField::Build
   std::vector<Vec3> centers; // centroids of the triangles
   std::vector<Id> order;
   std::vector<Node> nodes;
-  // Real and imaginary part of each coefficient (n, m), node after node.
+  // Multipoles of the nodes, one node after the other: the real and the imaginary part of each
+  // coefficient (n, m).
   std::vector<double> moments;
   std::vector<double> bounds; // order + 2 error bounds per node
   std::vector<double> nodes_of_quadrature, weights_of_quadrature;
@@ -268,7 +270,7 @@ void DipoleField::Build::cut_long_triangles()
       { (c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm() }));
   }
   const double shortest_cut = 2.5 * std::sqrt(2.0 * area / static_cast<double>(count));
-  // Allow fewer pieces if fewer points are expected.
+  // Allow fewer pieces of cut triangles if fewer points are expected.
   const std::size_t factor = this->options.expected_points == 0 ? 8
     : this->options.expected_points < 500000                    ? 2
                                                                 : 4;
@@ -515,7 +517,8 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
       }
     }
     cut = cut ? cut : count / 2;
-    // Round the left count down to whole blocks if this moves few triangles.
+    // In a node of more than 512 triangles, round the number of triangles in the left group down to
+    // whole blocks. This moves few triangles.
     const Id whole = cut / triangle_lanes * triangle_lanes;
     cut = whole > 0 && count > 512 ? whole : cut;
     std::nth_element(begin, begin + cut, begin + count, before);
@@ -821,7 +824,7 @@ void DipoleField::Build::sum_all()
   f.fine_ ? f.double_locals_.assign(numbers, 0.0) : f.float_locals_.assign(numbers, 0.0F);
   OuterNode all;
   all.blocks = f.runs_[0];
-  all.radius = 1e300; // every point counts as near
+  all.radius = 1e300; // with this radius, no point is far from the node
   all.leaf = true;
   all.skip = 1;
   f.outer_.assign(1, all);
@@ -1179,7 +1182,7 @@ bool DipoleField::Build::fill_cells()
     tree = Subtree();
   }
   f.first_run_.push_back(run);
-  // Padding, because the last row is read beyond its end.
+  // Padding, because contract_local() reads beyond the end of the last row.
   f.fine_ ? f.double_locals_.resize(coefficients + polynomial_lanes)
           : f.float_locals_.resize(coefficients + polynomial_lanes);
   return true;

@@ -47,7 +47,7 @@ template <int Order>
 constexpr int room_of = (Order / polynomial_lanes + 1) * polynomial_lanes;
 
 /// Add the products with the harmonics (L + 2Q, L), (L + 2Q + 2, L) … to the polynomial. r and i
-/// are the real and imaginary parts of zeta^L rho^2Q.
+/// are the real and imaginary parts of zeta^L |zeta|^2Q, and rho2 is |zeta|^2.
 template <int Order, int L, int Q, typename Real>
 BINDPOSE_ALWAYS_INLINE void add_terms(const Real* row, Real r, Real i, Real rho2, Real* polynomial)
 {
@@ -68,7 +68,8 @@ BINDPOSE_ALWAYS_INLINE void add_terms(const Real* row, Real r, Real i, Real rho2
   }
 }
 
-/// Add the products of the rows L … Order. re and im are the real and imaginary parts of zeta^L.
+/// Add the products of the rows L … Order of coefficients with their harmonics. re and im are the
+/// real and imaginary parts of zeta^L.
 template <int Order, int L, typename Real>
 BINDPOSE_ALWAYS_INLINE void add_rows(
   const Real* row, Real re, Real im, Real y, Real z, Real* polynomial)
@@ -148,7 +149,7 @@ std::array<double, 2> slopes(int order, const Real* numbers, const Vec3& local)
   for (int l = 0; l <= order; ++l)
   {
     const int size = order - l + 1;
-    double power = 1.0, slope = 0.0; // rho2^q and its derivative
+    double power = 1.0, slope = 0.0; // rho2^q and its derivative with respect to rho2
     for (int q = 0; l + 2 * q <= order; ++q)
     {
       double real = 0.0, imaginary = 0.0;

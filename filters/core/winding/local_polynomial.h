@@ -4,9 +4,10 @@
 // Evaluation of a cell's local expansion, which approximates the winding number of the far
 // triangles (see dipole_field.h and solid_harmonics.h).
 //
-// The polar axis of the harmonics is x. For given y and z, the expansion is a polynomial in x. Its
-// coefficient j is the sum of F(k, l) times the harmonic (k - j, l) in the plane x = 0, divided by
-// j!, because d/dx lowers the degree of a harmonic by one.
+// The polar axis of the harmonics is x. Let F(k, l) be the coefficients of the expansion. For given
+// y and z, the expansion is a polynomial in x. Coefficient j of the polynomial is the sum of F(k,
+// l) times the harmonic (k - j, l) in the plane x = 0, divided by j!, because d/dx lowers the
+// degree of a harmonic by one.
 //
 // The coefficients of an expansion are stored for l = 0 … order: first the real parts of (k, l), k
 // = l … order, then for l > 0 their imaginary parts. All coefficients with l > 0 are doubled. The

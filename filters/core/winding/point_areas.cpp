@@ -1,7 +1,8 @@
 // Area of the Voronoi cell of each sample, clipped to a disc. A cell starts as the square around
 // the disc and is cut by the bisector of each neighbor. Then the area of the intersection of the
-// polygon and the disc is computed: triangles with the center of the disc where the edge of the
-// polygon is inside the disc, circular sectors elsewhere.
+// polygon and the disc is computed. It is a sum over the edges of the polygon: the part of an edge
+// inside the disc contributes the triangle with the center of the disc, a part outside the disc
+// contributes a circular sector.
 #include "winding/point_areas.h"
 
 #include "base/parallel.h"
@@ -21,7 +22,7 @@ double cross(const Vec2& a, const Vec2& b)
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Keep the part of a convex polygon where x . toward <= limit.
+/// Keep the part of a convex polygon whose points p satisfy p . `toward` <= `limit`.
 void cut(std::vector<Vec2>& polygon, const Vec2& toward, double limit, std::vector<Vec2>& room)
 {
   room.clear();

@@ -61,7 +61,7 @@ struct Tuning
   double tolerance;
   int order;
 };
-/// Orders per tolerance, measured on 100k points.
+/// Order of the multipoles for each tolerance, measured on 100k points.
 constexpr Tuning tunings[] = { { 1e-2, 6 }, { 1e-3, 8 }, { 1e-5, 10 }, { 0.0, 12 } };
 
 /// Eight points with m = area n / (4 pi). Empty lanes repeat a point with m = 0.
@@ -77,17 +77,18 @@ struct Boxes
   HarmonicLanes center[3];
   /// Multipoles are used beyond this squared distance; infinite in an unused lane.
   HarmonicLanes squared_reach;
-  HarmonicLanes bound; ///< bound of the omitted terms, times r^(order+2)
+  HarmonicLanes bound; ///< bound of the omitted terms at distance r, times r^(order+2)
   Id first_block[harmonic_lanes]; ///< first block of the dipoles in the box
   Id block_count[harmonic_lanes];
   Id group[harmonic_lanes]; ///< group that contains the children of the box; -1: a leaf
 };
 
-/// Data of a box that determines its reach for a threshold.
+/// Data of a box from which its reach is computed for a threshold. Multipoles are used beyond the
+/// reach.
 struct Extent
 {
   double radius = 0.0; ///< distance of the farthest point from the center
-  double power = 0.0; ///< A in the comment at the top of the file
+  double power = 0.0; ///< the number A of the error bound in the comment at the top of the file
 };
 
 /// Return the number of moments per box. A moment is the real or imaginary part of a coefficient;
@@ -378,12 +379,12 @@ struct PointCloudWindingNumber::Parts
   WindingMethod method = WindingMethod::direct;
   ExactFrame frame;
   Eigen::VectorXd areas;
-  std::vector<Dipoles> dipoles; ///< sorted like the points of the tree
+  std::vector<Dipoles> dipoles; ///< the points in the order of the tree, eight per entry
   int order = 0; ///< degree of the multipoles, even
   double tolerance = 0.0;
-  std::vector<Boxes> boxes; ///< one per group of the tree
-  std::vector<HarmonicLanes> moments; ///< moments of each group
-  std::vector<Extent> extents; ///< eight per group; used by the build only
+  std::vector<Boxes> boxes; ///< one entry per group of the tree
+  std::vector<HarmonicLanes> moments; ///< multipole moments of each group
+  std::vector<Extent> extents; ///< eight extents per group; used by the build only
 
   void take_dipoles(const Points& points, const Points& moments_of, const PointTree& tree);
   bool find_multipoles(const PointTree& tree, ExecutionContext& context);
@@ -560,8 +561,8 @@ void PointCloudWindingNumber::Parts::find_multipole(
     each(
       [&](const Vec3& at, double weight)
       {
-        // Points without a moment are included: a query point that touches such a point must
-        // descend to it.
+        // The radius includes points without a moment, because a query point that touches such a
+        // point must descend to it.
         const double distance = (at - center).norm();
         extent.radius = std::max(extent.radius, distance);
         extent.power += weight * std::pow(distance, this->order);
@@ -594,7 +595,8 @@ void PointCloudWindingNumber::Parts::find_multipole(
       (to++)->lane[c] = sum_of(sum.real[harmonic_index(n, 0)]);
       for (int m = 1; m <= n; ++m)
       {
-        // The coefficients for m and -m have the same contribution.
+        // The coefficients for m and -m have the same contribution, so only one of them is stored,
+        // doubled.
         (to++)->lane[c] = 2.0 * sum_of(sum.real[harmonic_index(n, m)]);
         (to++)->lane[c] = 2.0 * sum_of(sum.imaginary[harmonic_index(n, m)]);
       }

@@ -28,9 +28,10 @@ namespace bindpose
 namespace
 {
 constexpr double epsilon = 0x1p-53;
-/// Error of an orientation in the plane, in units of the area of the triangle's projected box.
+/// Error bound of an orientation in the projection plane, in units of the area of the triangle's
+/// projected box.
 constexpr double edge_error = 8.0 * epsilon;
-/// Error of a volume, in units of the volume of the triangle's box.
+/// Error bound of a volume, in units of the volume of the triangle's box.
 constexpr double plane_error = 96.0 * epsilon;
 /// Measured nanoseconds to project a triangle, to test a point against a triangle, to sort a point,
 /// to process a triangle of a slab, and to test a row of a grid.
@@ -59,7 +60,8 @@ int sign_of(double x)
   return (x > 0.0) - (x < 0.0);
 }
 
-/// Return the orientation of a, b and a point moved by an infinitesimal amount; 0 if a equals b.
+/// Return the orientation of the triangle of a, b and p, where p is moved by an infinitesimal
+/// amount; 0 if a equals b.
 int moved_orientation(double ay, double az, double by, double bz, double py, double pz)
 {
   int sign = orientation_2d(ay, az, by, bz, py, pz);
@@ -99,17 +101,18 @@ struct RayCrossings::Facet
   int axis;
   double x[3], y[3], z[3];
   double lower[3], upper[3]; ///< box of the triangle, enlarged by the tolerance
-  /// If the absolute orientation is larger than this, its computed sign is right.
+  /// If the absolute value of an orientation is larger than this, the computed sign is right.
   double edge_bound;
-  /// A point does not touch if it has an orientation below -outside and another above outside.
+  /// A point does not touch the triangle if one of its orientations is below -`outside` and another
+  /// one is above `outside`.
   double outside;
   double normal[3]; ///< normal vector, not normalized
-  /// If the absolute volume is larger than this, its computed sign is right and the point does not
-  /// touch.
+  /// If the absolute value of the volume is larger than this, the computed sign is right and the
+  /// point does not touch the triangle.
   double plane_bound;
 
-  /// Return six times the signed volume of the tetrahedron with the point, which is the distance
-  /// from the plane times the length of `normal`.
+  /// Return six times the signed volume of the tetrahedron of the triangle and the point. It is the
+  /// distance of the point from the triangle's plane times the length of `normal`.
   double height(double px, double py, double pz) const
   {
     return this->normal[0] * (px - this->x[0]) + this->normal[1] * (py - this->y[0]) +
@@ -285,7 +288,7 @@ bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& con
   const int u = (this->axis_ + 1) % 3, v = (this->axis_ + 2) % 3;
   const Vec3 lower = this->box_.lower.array() - this->tolerance_;
   const Vec3 upper = this->box_.upper.array() + this->tolerance_;
-  // A grid of cells in the projection plane; u varies fastest.
+  // A grid of cells in the projection plane. The index along axis u varies fastest.
   const double width = upper[u] - lower[u], height = upper[v] - lower[v];
   const double cells = std::clamp(std::clamp(static_cast<double>(this->faces_),
                                     fewest_cells_per_point * static_cast<double>(number),
@@ -296,7 +299,7 @@ bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& con
   const auto vs = static_cast<Index>(std::ceil(std::sqrt(cells / aspect)));
   const double per_u = width > 0.0 ? static_cast<double>(us) / width : 0.0;
   const double per_v = height > 0.0 ? static_cast<double>(vs) / height : 0.0;
-  // Both functions are monotone, so the cells of a triangle's box contain all points in the box.
+  // u_of() and v_of() are monotone, so the cells of a triangle's box contain all points in the box.
   const auto u_of = [&](double x)
   { return std::clamp<Index>(static_cast<Index>((x - lower[u]) * per_u), 0, us - 1); };
   const auto v_of = [&](double x)
@@ -398,8 +401,8 @@ bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& con
           return;
         }
         const Index face = slabs > 1 ? faces[face_begin[slab] + i] : i;
-        // If points are few, the projected box is sufficient for most triangles, because it
-        // contains no point.
+        // If there are few points, the projected boxes of most triangles contain no point, and
+        // these triangles need no other test.
         const std::array<Vec3, 3> c = this->corners(face);
         const Index u0 = u_of(std::min({ c[0][u], c[1][u], c[2][u] }) - this->tolerance_);
         const Index u1 = u_of(std::max({ c[0][u], c[1][u], c[2][u] }) + this->tolerance_);
@@ -513,8 +516,8 @@ RayCrossings::Layers RayCrossings::layers_of(const Grid& grid) const
   return layers;
 }
 
-/// Crossings of the rows of samples in a slab. A crossing adds `sign` to the samples [0, end) of a
-/// row.
+/// Crossings of triangles with the rows of samples in a slab. A crossing adds `sign` to the samples
+/// [0, end) of a row.
 class RayCrossings::RowHits
 {
 public:
@@ -617,8 +620,8 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
         }
         const Index row = (k - first_layer) * rows + j;
         const bool certain = least > f.edge_bound || most < -f.edge_bound;
-        // Samples from `x` to `y` are tested one by one. If the triangle is parallel to the rows,
-        // `center` is NaN and the comparisons select the ends of the box.
+        // Samples with coordinates from `x` to `y` are tested one by one. If the triangle is
+        // parallel to the rows, `center` is NaN and the comparisons select the ends of the box.
         const double center = f.x[0] + (f.normal[1] * ay + f.normal[2] * az) * per_normal;
         const double x =
           center - reach > f.lower[0] ? std::min(center - reach, f.upper[0]) : f.lower[0];

@@ -17,7 +17,8 @@ namespace bindpose
 /// Rays run along a coordinate axis, so that only the rays of points in a triangle's projection can
 /// cross the triangle. Points are sorted into a grid in the projection plane, and one pass over the
 /// triangles finds all crossings. No data structure is built beforehand. Rays are faster than
-/// WindingCells for grids, and for fewer points than a few times the number of triangles.
+/// WindingCells for grids. They are also faster for scattered points if the number of points is
+/// less than a few times the number of triangles.
 ///
 /// Rays through edges and vertices are resolved exactly, as if each point were moved by an
 /// infinitesimal amount. `resolved` is 0 for points that touch a triangle or a cap (within the
@@ -45,16 +46,17 @@ public:
   {
     std::array<std::vector<double>, 3> at;
   };
-  /// For each slab of a grid, its triangles. A slab consists of layers (samples of equal z). Slabs
-  /// can be evaluated independently.
+  /// The triangles that overlap each slab of a grid. A slab consists of layers (samples of equal
+  /// z). Slabs can be evaluated independently.
   struct Layers
   {
     Index per_slab = 1; ///< number of layers per slab
-    std::vector<Index> begin; ///< first index in `faces` of each slab, and the end
+    /// Index of each slab's first triangle in `faces`; the last entry is the size of `faces`.
+    std::vector<Index> begin;
     std::vector<std::int32_t> faces;
-    double nanoseconds = 0.0; ///< expected time of all slabs on one thread, without writing values;
-                              ///< infinite if the surface is too large for rays, and `faces` is
-                              ///< then empty
+    /// Expected time of all slabs on one thread, without the time to write values. Infinite if the
+    /// surface is too large for rays; `faces` is then empty.
+    double nanoseconds = 0.0;
   };
   Layers layers_of(const Grid& grid) const;
   /// Write the winding numbers of the samples of a slab to `values`. x varies fastest, and the

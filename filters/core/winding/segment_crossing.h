@@ -15,7 +15,7 @@ namespace bindpose
 enum class Crossing
 {
   none,
-  outwards, ///< in the direction of the triangle's normal
+  outwards, ///< the segment crosses in the direction of the triangle's normal
   inwards,
   unclear
 };

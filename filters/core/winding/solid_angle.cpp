@@ -9,9 +9,9 @@
 // parts are as small as its squared width, so that even double-double arithmetic would lose all
 // digits. Let u = |a|b + |b|a and v = |a|c + |c|a, which bisect the angles between a and b and
 // between a and c. The angle of the complex number above equals the angle from u to v around a,
-// that of the complex number |a| u.v + i a.(u x v). If b and c are on the other side of the point
-// than a, u and v are small. Both vectors are then exact to double-double precision, and their
-// products lose no more digits.
+// which is the angle of the complex number |a| u.v + i a.(u x v). If b and c are on the other side
+// of the point than a, u and v are small. Both vectors are then exact to double-double precision,
+// and their products lose no more digits.
 //
 // The solid angle of a triangle that touches the point is undefined, because it jumps there. Such a
 // triangle contributes 0, the mean of the values on its two sides.

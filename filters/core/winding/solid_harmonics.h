@@ -6,8 +6,8 @@
 //
 //   1 / |x - y| = sum over n >= 0, |m| <= n of conj(regular(y)) irregular(x),   |x| > |y|
 //
-// Only the (n, m) with m >= 0 are stored; f(n, -m) = (-1)^m conj(f(n, m)). The eight lanes are
-// independent: the bits of a lane depend on that lane only, on every instruction set.
+// Only coefficients (n, m) with m >= 0 are stored; f(n, -m) = (-1)^m conj(f(n, m)). The eight lanes
+// are independent: the bits of a lane depend on that lane only, on every instruction set.
 
 namespace bindpose
 {

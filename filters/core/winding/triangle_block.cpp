@@ -1,9 +1,10 @@
 // Solid angles of eight triangles in parallel, by the formula of solid_angle.cpp. The half angle of
 // a triangle is the angle of a complex number. For blocks far from the point, the complex numbers
 // of four blocks are multiplied lane by lane before the angle is computed. For near blocks the
-// angle of each triangle is computed, by a polynomial arc tangent (fitted at Chebyshev nodes). A
-// lane would lose digits if the point is next to an edge or a vertex, and its sign is uncertain if
-// the point is almost in its plane. Such lanes contribute 0 and are passed to the CarefulSum.
+// angle of each triangle is computed, by a polynomial arc tangent (fitted at Chebyshev nodes). The
+// angle of a triangle would lose digits if the point is next to an edge or a vertex. Its sign is
+// uncertain if the point is almost in the plane of the triangle. The lanes of such triangles
+// contribute 0 and are passed to the CarefulSum.
 #include "winding/triangle_block.h"
 
 #include "base/simd.h"
@@ -23,13 +24,18 @@ template <>
 struct Precision<float>
 {
   using Flag = std::int32_t;
-  static constexpr float lost = 1e-2f; ///< smallest relative size of the complex number
-  static constexpr float flat = 1e-4f; ///< smallest relative distance from the plane
-  /// Smallest squared distance of a vertex, relative to the squared block size.
+  /// Smallest accepted size of the complex number, relative to |a||b||c|.
+  static constexpr float lost = 1e-2f;
+  /// Smallest accepted volume() relative to |a||b||c|, a measure of the distance from the plane.
+  static constexpr float flat = 1e-4f;
+  /// Smallest accepted squared distance of a vertex from the point, relative to the squared block
+  /// size.
   static constexpr float reach = 1e-4f;
-  /// Squared distance of a far block's center, relative to the squared block size.
+  /// A block is far if the squared distance of its center, relative to the squared block size, is
+  /// larger than this.
   static constexpr float apart = 2.5f;
-  /// Beyond this squared distance, products of four complex numbers would overflow.
+  /// Beyond this squared distance, relative to the squared block size, products of four complex
+  /// numbers would overflow.
   static constexpr float remote = 1e4f;
   static BINDPOSE_ALWAYS_INLINE float arc_tangent(float t)
   {

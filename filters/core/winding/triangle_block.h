@@ -19,7 +19,7 @@ struct TriangleBlock
 {
   double center[3];
   double inverse_size;
-  Real corner[9][triangle_lanes]; ///< x, y, z of a, then of b, then of c
+  Real corner[9][triangle_lanes]; ///< coordinates x, y, z of corner a, then of b, then of c
   Real weight[triangle_lanes]; ///< multiplicity; 0 in an unused lane
   bool single; ///< whether every multiplicity is -1, 0 or 1
 };

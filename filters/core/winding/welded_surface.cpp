@@ -30,7 +30,7 @@ bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c)
 
 struct Vertex
 {
-  std::uint32_t key; ///< ascends with x
+  std::uint32_t key; ///< leading bits of x, which ascend with x
   std::int32_t id;
 };
 
@@ -44,7 +44,8 @@ std::uint32_t leading_bits(double x)
   return leading & 0x80000000U ? ~leading : leading | 0x80000000U;
 }
 
-/// Sort vertices by x, y, z and id. `at` contains their points by id. Return false if canceled.
+/// Sort vertices by x, y, z and id. `at` contains the point of each vertex id. Return false if
+/// canceled.
 bool sort_vertices(
   ExecutionContext& context, const std::vector<Vec3>& at, std::vector<Vertex>& vertices)
 {

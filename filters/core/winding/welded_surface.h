@@ -15,9 +15,10 @@ namespace bindpose
 /// number.
 struct WeldedSurface
 {
-  Points points; ///< in the exact frame (ExactFrame), sorted by coordinates
+  Points points; ///< vertices in the exact frame (ExactFrame), sorted by coordinates
   Triangles triangles;
-  std::vector<Index> original_vertices; ///< #V, one input id per vertex
+  /// #V: id of one input point that was merged into the vertex.
+  std::vector<Index> original_vertices;
   std::vector<Edge> open_edges; ///< the edges of mesh_edges() whose directions do not cancel
   Index boundary_edges = 0; ///< number of edges used by one triangle
   Index nonmanifold_edges = 0; ///< number of edges used by three triangles or more

@@ -11,8 +11,6 @@
 // distance between p and r. An undecided sign is computed again in doubles, from volumes of the
 // corners themselves. If the sign is still undecided, the point touches the triangle or the segment
 // touches an edge. Then the point is unresolved.
-//
-// winding_cells_build.cpp builds the cells.
 #include "winding/winding_cells.h"
 
 #include "base/simd.h"
@@ -72,8 +70,8 @@ BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* en
   std::int32_t counts[lanes] = {};
   for (const Block* block = begin; block != end; ++block)
   {
-    // A separate loop, because compilers would not vectorize the next loop if it contained this
-    // conversion.
+    // The conversion to floats is a separate loop, because compilers would not vectorize the next
+    // loop if it contained the conversion.
     float plane[Block::numbers * lanes];
     for (int k = 0; k < Block::numbers * lanes; ++k)
     {

@@ -64,7 +64,7 @@ private:
     Vec3 reference;
     float per_length; ///< stored plane distances are lengths multiplied by this
     int count; ///< winding number at the reference
-    Id begin, end; ///< range of blocks
+    Id begin, end; ///< range of the leaf's blocks
   };
   /// A box that is divided into a grid of cells; x varies fastest.
   struct Node
@@ -72,11 +72,11 @@ private:
     Vec3 lower;
     double inverse; ///< 1 / cell size
     std::array<Id, 3> size;
-    Id first; ///< index of its first cell
+    Id first; ///< index of the node's first cell
   };
   enum Kind : std::uint32_t
   {
-    holds_nothing, ///< value: the constant winding number of the cell
+    holds_nothing, ///< `value` is the constant winding number of the cell
     holds_leaf,
     holds_node
   };
@@ -85,7 +85,7 @@ private:
     Id value : 30;
     std::uint32_t kind : 2;
   };
-  /// Faces whose crossing single precision cannot decide.
+  /// Faces for which single precision cannot decide whether the segment crosses them.
   struct Unclear
   {
     static constexpr Id most = 32;
@@ -123,7 +123,7 @@ private:
   Vec3 upper_ = Vec3::Zero();
   struct Arrays
   {
-    std::vector<Node> nodes; ///< the first node is the whole box
+    std::vector<Node> nodes; ///< the first node is the box around the whole surface
     std::vector<Cell> cells;
     std::vector<Leaf> leaves;
     std::vector<Block> blocks;

@@ -2,7 +2,7 @@
 // triangles of a box are sorted into the cells of the box. A cell with many triangles is divided
 // like the box. The winding number at the reference of a cell is computed from the winding number
 // at the reference of a neighboring cell, or of the enclosing box for the first cell. The cells of
-// the whole box are built on all threads, and the parts are joined in order.
+// the surface's box are built on all threads, and the parts are joined in order.
 #include "winding/winding_cells.h"
 
 #include "base/large_pages.h"
@@ -27,8 +27,8 @@ constexpr std::size_t few = 40;
 /// Intended number of triangles in a new cell.
 constexpr double wanted = 18;
 constexpr int most_cells_along = 32;
-/// Minimum number of cells along the whole box, so that most points around a few large triangles
-/// are in cells without triangles.
+/// Minimum number of cells along the longest side of the surface's box, so that most points around
+/// a few large triangles are in cells without triangles.
 constexpr double fewest_cells_along = 8.0;
 constexpr int deepest = 12;
 /// Stored distance of a plane at the distance of one cell size: slightly less than the range of 16
@@ -243,7 +243,8 @@ bool WindingCells::Builder::build()
   this->owner_.upper_ = all.lower + all.size;
   if (all.faces.empty())
   {
-    this->owner_.upper_ = this->owner_.lower_ - Vec3::Ones(); // then every point counts as outside
+    // With this empty box, every point counts as outside.
+    this->owner_.upper_ = this->owner_.lower_ - Vec3::Ones();
     return true;
   }
   return this->cut_whole(all);
@@ -355,8 +356,8 @@ bool WindingCells::Builder::find(
   return true;
 }
 
-/// Sort the faces of the box into its cells. Return false if canceled or if the cells would contain
-/// more than `most` entries in total.
+/// Sort the faces of the box into its cells. Return false if canceled or if there would be more
+/// than `most` pairs of a cell and a face.
 bool WindingCells::Builder::sort(
   const Box& box, bool on_all_threads, std::size_t most, Grid& grid) const
 {
@@ -468,10 +469,10 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
 
 bool WindingCells::Builder::cut_whole(const Box& whole)
 {
-  // Largest number of entries of all cells together. It is divided among the cells in proportion to
-  // the number of faces that each contains. For every arrangement of the faces, the limit bounds
-  // the memory to a multiple of the surface's memory. Surfaces with triangles as large as the
-  // surface get fewer cells.
+  // Largest number of pairs of a cell and a face in all cells together. It is divided among the
+  // cells in proportion to the number of faces that each contains. For every arrangement of the
+  // faces, the limit bounds the memory to a multiple of the surface's memory. Surfaces with
+  // triangles as large as the surface get fewer cells.
   const double most = 16.0 * static_cast<double>(this->faces_.size()) + 1e5;
   Grid grid;
   {
@@ -542,7 +543,7 @@ bool WindingCells::Builder::cut_whole(const Box& whole)
   return !this->context_.canceled();
 }
 
-/// Append the contents of the cells [first, end) of the whole box to the arrays of the owner.
+/// Append the contents of the cells [first, end) of the surface's box to the arrays of the owner.
 void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
 {
   Arrays& all = this->owner_.arrays_;
@@ -569,8 +570,8 @@ void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
   }
 }
 
-/// Add the box as a new node. Return false if canceled. Return false and add nothing if its cells
-/// would contain more than `entries` entries.
+/// Add the box as a new node. Return false if canceled. Return false and add nothing if there would
+/// be more than `entries` pairs of a cell and a face.
 bool WindingCells::Builder::cut(const Box& box, Arrays& made, std::size_t entries) const
 {
   Grid grid = this->cells_of(box, most_cells_along);
@@ -704,7 +705,7 @@ WindingCells::Id WindingCells::Builder::add_leaf(
           direction(product, shortest_product * longest * std::max(1.0, reach / cell), one);
         const double distance =
           static_cast<double>(leaf.per_length) * product.dot(seen[0]) / product.norm();
-        // This is the normal case, because the face overlaps the cell.
+        // This is true for most faces, because they overlap the cell.
         const bool is_near = std::abs(distance) < one;
         std::copy(normal.begin(), normal.end(), plane.begin() + 9);
         plane[12] = is_near && normal != std::array<double, 3>{} ? distance : 0.0;

@@ -104,7 +104,7 @@ struct WindingNumber::Parts
   Points points;
   Triangles triangles;
   Index max_leaf_size = 64;
-  // Built on first use, because touching points are rare.
+  // The tree is built on first use, because points that touch the surface are rare.
   mutable WindingTree tree;
   mutable std::mutex tree_mutex;
   mutable std::atomic<bool> tree_built{ false };
@@ -118,7 +118,7 @@ struct WindingNumber::Parts
   std::unique_ptr<RayCrossings> rays;
   std::vector<Edge> rim; ///< edges whose directions do not cancel
   Triangles caps; ///< triangles that close the surface (boundary_caps.h)
-  SurfaceBoundary boundary; ///< in ids and units of the input
+  SurfaceBoundary boundary; ///< boundary edges and components, in ids and units of the input
   DipoleField field; ///< field of the caps, used by the method `fast`
 
   bool by_crossings() const

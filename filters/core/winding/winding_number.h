@@ -24,10 +24,10 @@ enum class WindingMethod
   /// point.
   fast,
   direct, ///< exact: sum over all triangles; no build time; ~20 ns x #F per point
-  hierarchical, ///< exact: tree of boxes with caps; tens of microseconds per point for 100k
-                ///< triangles
-  crossings ///< exact: ray crossings minus the sum over all caps; ~40 ns + 20 ns x #open edges per
-            ///< point
+  /// Exact: tree of boxes with caps; tens of microseconds per point for 100k triangles.
+  hierarchical,
+  /// Exact: ray crossings minus the sum over all caps; ~40 ns + 20 ns x #open edges per point.
+  crossings
 };
 
 /// Return "automatic", "exact", "fast", "direct", "hierarchical" or "crossings".

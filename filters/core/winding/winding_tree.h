@@ -50,7 +50,9 @@ private:
     Id first = 0, count = 0; ///< range of the node's triangles in `order_`
     Id left = -1, right = -1; ///< children; -1: a leaf
     Id cap_first = 0;
-    Id cap_count = -1; ///< -1: no cap, because it would not be smaller than the triangles
+    /// Number of triangles of the cap; -1: no cap, because it would not be smaller than the node's
+    /// triangles.
+    Id cap_count = -1;
   };
 
   bool build_node(Id node, ExecutionContext& context, std::vector<NetEdge>& boundary);

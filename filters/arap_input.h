@@ -23,8 +23,8 @@ struct ArapElements
 /// @param energy  a value of vtkReducedARAP::EnergyType
 Status to_arap(vtkPointSet* mesh, int energy, ArapElements& elements, ArapEnergy& result);
 
-/// Bind a kernel of reduced as-rigid-as-possible deformation with the filter's energy, clusters and
-/// extra weights.
+/// Run the bind of a kernel of reduced as-rigid-as-possible deformation with the filter's energy,
+/// clusters and extra weights.
 /// @param input  the filter's PoseInput, from pose_input.h
 /// @param options  all other options of the filter
 template <typename Filter, typename Kernel, typename Input>

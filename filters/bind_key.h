@@ -10,8 +10,9 @@ namespace bindpose
 
 /// Cache key of a bind, the computation that does not depend on the pose. It contains the addresses
 /// and modification times of all objects that the bind reads. If two keys are equal, the bind is
-/// still valid. The key contains arrays instead of datasets: editing a transform raises the handle
-/// dataset's own time, and a filter that executes again raises the time of its output.
+/// still valid. The key contains arrays instead of datasets, because a dataset's own modification
+/// time also changes when the bind stays valid: when a transform is edited, or when an upstream
+/// filter executes again.
 class BindKey
 {
 public:
@@ -21,7 +22,7 @@ public:
     this->parts_.push_back(reinterpret_cast<vtkMTimeType>(object));
     this->parts_.push_back(object ? object->GetMTime() : 0);
   }
-  /// Add the filter's own bind time (see BindModified).
+  /// Add the time of the last change of a bind parameter of the filter (see BindModified).
   void add(vtkMTimeType time) { this->parts_.push_back(time); }
 
   bool operator==(const BindKey& other) const { return this->parts_ == other.parts_; }

@@ -36,7 +36,7 @@ namespace
 {
 static_assert(sizeof(Index) == sizeof(vtkTypeInt64), "connectivity is shared");
 
-/// Share a cell array's connectivity if all its cells have as many points as Matrix has columns.
+/// Share a cell array's connectivity if all its cells have as many points as `Matrix` has columns.
 template <typename Matrix>
 bool share_connectivity(vtkCellArray* cells, SharedMatrix<Matrix>& matrix)
 {
@@ -516,7 +516,8 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
       cells->push_back(cell);
     }
   }
-  // The array Parent contains cells of the dataset; the kernel's `parent` is the index of a handle.
+  // The array Parent contains cell ids of the dataset; the kernel's `parent` is the index of a
+  // handle.
   for (std::size_t i = 0; i < handles.size(); ++i)
   {
     const Index cell = parents[i];

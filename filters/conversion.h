@@ -68,7 +68,7 @@ public:
 
 private:
   vtkSmartPointer<vtkObject> keep_;
-  bool is_part_ = false; // a range of rows of another matrix
+  bool is_part_ = false; // true: the matrix is a range of rows of another matrix
   const typename Matrix::Scalar* data_ = nullptr;
   Index rows_ = 0;
   Index cols_ = 0;
@@ -84,8 +84,9 @@ struct SurfaceInput
   SharedMatrix<Triangles> triangles;
   /// Cell of each triangle; empty if triangle i is cell i.
   std::vector<Index> cell_of_triangle;
-  Index triangulated_cells = 0; ///< polygons, quads and strips that were split into triangles
-  Index ignored_cells = 0; ///< vertices, lines and volume cells
+  /// Number of polygons, quads and strips that were split into triangles.
+  Index triangulated_cells = 0;
+  Index ignored_cells = 0; ///< number of vertices, lines and volume cells, which are ignored
 };
 
 /// Convert the 2D cells of a polydata or unstructured grid to triangles; strips and polygons are
@@ -127,23 +128,24 @@ BINDPOSEFILTERS_EXPORT Status to_domain(
 BINDPOSEFILTERS_EXPORT Status to_handles(
   vtkPolyData* data, Handles& handles, std::vector<Index>* cells = nullptr);
 
-/// Return a handle dataset with all documented cell arrays, in the rest pose, mode full.
+/// Convert handles to a dataset with all documented cell arrays. All handles are in the rest pose
+/// and in mode full.
 BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles);
 
-/// Return Mode, Transform, Stretch and Twist of the cells. A missing array means the rest pose and
-/// mode full. Return invalid_input, with the handle's name, for values that are not finite or
-/// arrays of a wrong size.
+/// Return Mode, Transform, Stretch and Twist of the cells. If an array is missing, its values are
+/// those of the rest pose and mode full. Return invalid_input, with the handle's name, for values
+/// that are not finite or arrays of a wrong size.
 BINDPOSEFILTERS_EXPORT Status to_pose(
   vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells, Pose& pose);
 
-/// Return a cell array of layers, one value per handle; 0 if the array is missing. Return
-/// invalid_input for an array of several components and, with the handle's name, for a value that
-/// is not finite.
+/// Return the layer of each handle from the cell array `name`; all layers are 0 if the array is
+/// missing. Return invalid_input for an array of several components and, with the handle's name,
+/// for a value that is not finite.
 BINDPOSEFILTERS_EXPORT Status to_layers(vtkPolyData* data, const Handles& handles,
   const std::vector<Index>& cells, const std::string& name, Eigen::VectorXd& layers);
 
-/// Write a pose into the cell arrays of a handle dataset. The written arrays are new; all others
-/// stay shared.
+/// Write a pose into the cell arrays of a handle dataset. The written arrays are new objects; all
+/// other arrays of the dataset stay the same objects.
 BINDPOSEFILTERS_EXPORT void set_pose(
   vtkPolyData* data, const std::vector<Index>& cells, const Pose& pose);
 

@@ -13,8 +13,8 @@ namespace bindpose
 /// Set the time steps of an output port, in ascending order; an empty list removes them.
 void offer_times(vtkInformation* output, const std::vector<double>& times);
 
-/// Set the time steps of an output port to the times of the frames, the first at 0 s. Fewer than
-/// two frames remove the time steps.
+/// Set the time steps of an output port to the times of the frames, the first at 0 s. If there are
+/// fewer than two frames, remove the time steps.
 void offer_frames(vtkInformation* output, int frames, double frames_per_second);
 
 /// Report whether a time is requested from a port with time steps; `time` is then the requested

@@ -24,8 +24,8 @@ std::vector<GltfJoint> to_joints(const Handles& handles, const std::vector<Affin
 /// Contents of a glTF file.
 struct GltfData
 {
-  vtkSmartPointer<vtkPolyData> mesh; ///< with `Weights` if there is a skin
-  vtkSmartPointer<vtkPolyData> handles; ///< without cells if there is no skin
+  vtkSmartPointer<vtkPolyData> mesh; ///< the mesh; with the array `Weights` if there is a skin
+  vtkSmartPointer<vtkPolyData> handles; ///< the joints as handles; no cells if there is no skin
   Handles handle_list;
   std::vector<Pose> poses; ///< the frames of the animation, one pose per frame
   double frames_per_second = 24.0;
@@ -44,7 +44,7 @@ public:
   const GltfData& data() const { return this->data_; }
 
 private:
-  std::string path_; ///< empty: no file has been read
+  std::string path_; ///< path of the file that was read; empty if there is none
   vtkMTimeType modified_ = 0;
   std::filesystem::file_time_type written_;
   std::uintmax_t size_ = 0;

@@ -12,12 +12,14 @@ namespace bindpose
 /// samples_along_longest_side that is specified determines the resolution.
 struct GridRequest
 {
-  int dimensions[3] = { 0, 0, 0 }; ///< samples along x, y, z; all 0: not specified
+  int dimensions[3] = { 0, 0, 0 }; ///< number of samples along x, y, z; all 0: not specified
   double spacing[3] = { 0.0, 0.0, 0.0 }; ///< distance between samples; all 0: not specified
   Index count = 0; ///< maximum number of samples in total, at least 8; 0: not specified
   int samples_along_longest_side = 64;
-  double bounds[6] = { 0.0, -1.0, 0.0, -1.0, 0.0, -1.0 }; ///< lower > upper: not specified
-  double padding = 0.1; ///< added to `around`, in its diagonals; not used with bounds
+  /// Lower and upper bound along x, y, z; lower > upper: not specified.
+  double bounds[6] = { 0.0, -1.0, 0.0, -1.0, 0.0, -1.0 };
+  /// Distance added on each side of `around`, as a fraction of its diagonal; not used with bounds.
+  double padding = 0.1;
   int flat = -1; ///< axis along which there is neither padding nor more than one sample; -1: none
 };
 

@@ -57,8 +57,8 @@ vtkDataArray* colors_of(vtkPolyData* data)
   return data->GetCellData()->GetArray("Color");
 }
 
-/// Copy the arrays of `before` that `now` lacks. Also copy the values of the pose arrays, which are
-/// assigned to the same handles as before.
+/// Copy the arrays of `before` that `now` lacks. Also copy the values of the pose arrays, so that
+/// each handle keeps its values.
 void carry_arrays(vtkPolyData* before, vtkPolyData* now, const std::vector<Index>& source,
   const std::vector<Index>& model)
 {

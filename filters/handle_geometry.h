@@ -19,8 +19,8 @@ namespace bindpose
 struct HandleGeometry
 {
   std::vector<Vec3> points;
-  std::vector<std::array<Index, 2>> bones; ///< ids of points
-  std::vector<std::vector<Index>> cage_elements; ///< edges and faces of cages, ids of points
+  std::vector<std::array<Index, 2>> bones; ///< head and tail of each bone, as ids of points
+  std::vector<std::vector<Index>> cage_elements; ///< edges and faces of cages, as ids of points
   std::vector<std::string> names; ///< names of all handles
   std::vector<Index> point_of; ///< the point of each handle, for a bone its head; -1 for regions
 };

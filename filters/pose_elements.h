@@ -14,7 +14,7 @@ struct PoseElements
   SharedMatrix<Triangles> triangles;
   /// Cell of each simplex; empty if simplex i is cell i.
   std::vector<Index> cell_of_element;
-  bool volume = false; ///< the elements are the tets, otherwise the triangles
+  bool volume = false; ///< true: the elements are tets; false: triangles
 };
 
 /// Split the volume cells into tets (including hexes and other cell types). If there are none,

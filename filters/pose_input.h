@@ -13,7 +13,8 @@ struct vtkBindAlgorithm::PoseInput
   bindpose::WeightsView weights; ///< #V x #handles
   const bindpose::Handles& handles;
   const bindpose::Pose& pose;
-  vtkPolyData* handle_data; ///< also has cells that are not handles (pseudo-edges)
+  /// Handle dataset; it may also have cells that are not handles (pseudo-edges).
+  vtkPolyData* handle_data;
   const std::vector<bindpose::Index>& cells; ///< the cell of each handle in handle_data
 };
 
@@ -24,8 +25,8 @@ struct vtkPoseAlgorithm::PosedPoints
   /// The transforms that were used, one per handle. If empty, the output gets no array of
   /// transforms.
   std::vector<bindpose::Affine> transforms;
-  /// The vertex groups and the rotations of the energy if the filter adds them to the output;
-  /// otherwise null and empty.
+  /// The groups of vertices that share a rotation, and these rotations, if the filter adds them to
+  /// the output; otherwise null and empty.
   const bindpose::RotationGroups* groups = nullptr;
   std::vector<Eigen::Matrix3d> rotations;
 };

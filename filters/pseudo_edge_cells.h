@@ -13,7 +13,8 @@ namespace bindpose
 constexpr int pseudo_edge_kind = -2;
 
 /// Return the pseudo-edges of a handle dataset without duplicates. Their ends must be the points of
-/// point handles, or have the same positions. Otherwise return invalid_input, with the cell.
+/// point handles, or have the same positions. Otherwise return invalid_input, with the index of the
+/// cell in the message.
 /// @param cells  the cells of the handles, from to_handles()
 BINDPOSEFILTERS_EXPORT Status to_pseudo_edges(
   vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells, PseudoEdges& edges);

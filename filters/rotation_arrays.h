@@ -12,7 +12,7 @@ namespace bindpose
 {
 
 /// Add two point arrays. RotationCluster is the index of the rotation that each vertex follows (-1:
-/// none). Rotation is that rotation as axis times angle in degrees.
+/// none). Rotation is the rotation of each vertex as axis times angle in degrees.
 /// @param clusters  the array RotationCluster; created if null and then reused, because all poses
 /// of a bind have the same clusters
 void add_rotations(const RotationGroups& groups, const std::vector<Eigen::Matrix3d>& rotations,

@@ -31,7 +31,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectPlace>& places,
   crossed_ids->SetName("CrossedCellIds");
   components->SetName("Component");
   inward->SetName("InwardComponent");
-  std::array<vtkNew<vtkCellArray>, 3> cells; // vertices, lines and triangles
+  std::array<vtkNew<vtkCellArray>, 3> cells; // cells of each type: vertices, lines and triangles
   std::unordered_map<Index, vtkIdType> id_of;
   const auto cell_of = [&](Index triangle)
   { return triangle < 0 || cell_of_triangle.empty() ? triangle : cell_of_triangle[triangle]; };

@@ -28,8 +28,9 @@ struct TermArrayNames
   std::vector<std::string> all() const;
 };
 
-/// Convert the mesh's arrays to terms; a missing array disables its term. Return invalid_input if
-/// an array has the wrong number of components, or a label or id is not an integer.
+/// Convert the mesh's arrays to terms of the weights problem (see TermArrayNames); a missing array
+/// disables its term. Return invalid_input if an array has the wrong number of components, or a
+/// label or id is not an integer.
 Status to_terms(
   vtkDataSet* mesh, const TermArrayNames& names, Index handle_count, WeightTerms& terms);
 
@@ -38,7 +39,7 @@ Status to_terms(
 constexpr const char* handle_bounds_name = "WeightBounds";
 
 /// Read the bounds of the handles' weights. NaN is replaced by the default `everywhere` (lower,
-/// upper). If there is no array and `everywhere` is 0, 1, the terms have no bounds.
+/// upper). If there is no array and `everywhere` is (0, 1), the terms have no bounds.
 /// @param cells  cells of the dataset, one per handle
 Status to_handle_bounds(vtkPolyData* handles, const std::vector<Index>& cells,
   const double (&everywhere)[2], WeightTerms& terms);

@@ -120,8 +120,8 @@ public:
   ///@}
 
   ///@{
-  /// SKELETON: largest length of a bone, as a fraction of the diagonal, at least 0.01; longer bones
-  /// are split. 0 (default): no limit.
+  /// SKELETON: largest length of a bone, as a fraction of the bounding-box diagonal, at least 0.01;
+  /// longer bones are split. 0 (default): no limit.
   vtkSetMacro(LongestBone, double);
   vtkGetMacro(LongestBone, double);
   ///@}

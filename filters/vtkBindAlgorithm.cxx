@@ -35,7 +35,7 @@ struct vtkBindAlgorithm::Cache
   SharedMatrix<Weights> weights;
   Status status; // status of the bind: its report and warnings are part of every output
 
-  // state of the current execution
+  // State of the current execution; `bound_now` is true if this execution has computed the bind.
   bool bound_now = false;
   std::vector<std::string> pose_warnings;
   Pose pose;

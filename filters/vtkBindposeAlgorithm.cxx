@@ -7,9 +7,10 @@
 // updates.
 //
 // Pieces: by default the executive requests from a filter's inputs the piece that is requested from
-// its output. But half a surface encloses nothing, and half a mesh has other weights. Therefore
-// piece 0 is computed from the whole input. The other pieces are empty. They request the same piece
-// upstream, which is also empty and costs nothing.
+// its output. But a piece of a surface has no interior, and the weights of a piece of a mesh differ
+// from those of the whole mesh. Therefore piece 0 of the output is computed from the whole input,
+// and all other pieces are empty. For an empty piece, the same piece is requested upstream, which
+// is also empty and costs nothing.
 #include "vtkBindposeAlgorithm.h"
 
 #include "base/execution.h"

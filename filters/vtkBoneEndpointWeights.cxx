@@ -29,7 +29,8 @@ namespace
 {
 constexpr const char* array_name = "EndpointWeights";
 
-/// Compute bounded biharmonic weights and return the rows of the domain's own points.
+/// Compute bounded biharmonic weights. Return the weights at the points of the domain, without
+/// points that the solver adds.
 Status solve_bounded(const bindpose::Domain& domain, WeightsDomain where, const Handles& handles,
   ExecutionContext& context, Weights& weights)
 {
@@ -62,7 +63,8 @@ Status solve_bounded(const bindpose::Domain& domain, WeightsDomain where, const 
   }
   if (status.usable())
   {
-    weights = result.weights.topRows(domain.points.rows()); // the mesh's own points are first
+    // The first points are those of the domain.
+    weights = result.weights.topRows(domain.points.rows());
   }
   return status;
 }

@@ -59,8 +59,8 @@ public:
   ///@}
 
   ///@{
-  /// Domain in which a surface is solved: vtkWeightsAlgorithm's SURFACE, AUTO (default), VOLUME or
-  /// EMBEDDING.
+  /// Domain in which the endpoint weights of a surface are solved: vtkWeightsAlgorithm's SURFACE,
+  /// AUTO (default), VOLUME or EMBEDDING.
   vtkSetClampMacro(Domain, int, 0, 3);
   vtkGetMacro(Domain, int);
   ///@}

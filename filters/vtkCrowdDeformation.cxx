@@ -63,7 +63,8 @@ vtkSmartPointer<vtkDoubleArray> to_array(const std::vector<Affine>& transforms, 
   return array;
 }
 
-/// Append all instances to one dataset. `Append` is VTK's filter for their class `Data`.
+/// Append all instances to one dataset. `Append` is VTK's filter that appends datasets of class
+/// `Data`.
 template <typename Append, typename Data>
 void append(const std::vector<vtkSmartPointer<vtkPointSet>>& instances, vtkDataObject* result)
 {

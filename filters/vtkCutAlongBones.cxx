@@ -24,7 +24,8 @@ vtkStandardNewMacro(vtkCutAlongBones);
 
 namespace
 {
-/// Color arrays of bones (left, right) and other handles; null if absent.
+/// Cell arrays with the colors of bones (left and right sides) and of other handles; null if
+/// absent.
 struct ColorArrays
 {
   vtkDataArray* left = nullptr;
@@ -53,7 +54,8 @@ Status to_color_arrays(vtkPolyData* handles, ColorArrays& colors)
   return {};
 }
 
-/// Return the first bone of the curve of each bone. For other handles return the handle itself.
+/// Return for each bone the first bone of its curve (the bones with the same value of the cell
+/// array `Curve`). For any other handle return the handle itself.
 Status to_curves(vtkPolyData* handle_data, const Handles& handles, const std::vector<Index>& cells,
   std::vector<Index>& first)
 {

@@ -55,7 +55,7 @@ public:
 
   ///@{
   /// Length of one layer along z, above 0. With 0 (default) it is a thousandth of the mesh's
-  /// diagonal.
+  /// bounding-box diagonal.
   vtkSetClampMacro(Scale, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Scale, double);
   ///@}

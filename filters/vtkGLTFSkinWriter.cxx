@@ -31,8 +31,8 @@ namespace
 /// The part of the mesh that is written: its surface.
 struct Surface
 {
-  Triangles triangles; ///< ids are indices into `points`
-  std::vector<Index> points; ///< ids of points of the mesh
+  Triangles triangles; ///< corners of the triangles, as indices into `points`
+  std::vector<Index> points; ///< the written points, as ids of points of the mesh
 
   Points take(PointsView all) const
   {
@@ -236,7 +236,8 @@ Status take_poses(const std::string& path, const Handles& handles, const Pose& b
   {
     return status;
   }
-  std::vector<std::string> made_warnings; // usually the same for every frame
+  // Warnings of the last frame, which usually are those of all frames.
+  std::vector<std::string> made_warnings;
   std::string unused;
   for (const PoseEdits& edits : sequence.frames)
   {

@@ -152,7 +152,8 @@ Status read_tgf(const std::string& path, vtkPolyData* output)
 Status read_vtp(const std::string& path, vtkPolyData* output)
 {
   vtkNew<vtkMeshFileReader> reader;
-  vtkNew<vtkCallbackCommand> silent; // this filter's status repeats the reader's message
+  // Silence the reader, because this filter's status repeats its message.
+  vtkNew<vtkCallbackCommand> silent;
   reader->AddObserver(vtkCommand::ErrorEvent, silent);
   reader->SetFileName(path.c_str());
   reader->Update();
@@ -197,7 +198,7 @@ Status read_gltf_handles(const std::string& path, vtkPolyData* output)
 {
   bindpose::GltfData gltf;
   Status status = bindpose::read_gltf(path, gltf);
-  status.warnings.clear(); // the warnings of the glTF reader are about the mesh
+  status.warnings.clear(); // omit these warnings, because they are about the mesh
   status.report = {};
   if (status.ok() && gltf.handle_list.empty())
   {

@@ -168,7 +168,8 @@ template <typename Reader>
 void watch(ErrorCatcher& errors, Reader* reader)
 {
   errors.Watch(reader);
-  errors.Watch(reader->GetExecutive()); // the executive reports a failed request a second time
+  // The executive reports a second error for the same failed request; catch it too.
+  errors.Watch(reader->GetExecutive());
   if constexpr (std::is_base_of_v<vtkXMLReader, Reader>)
   {
     // Observe the internal reader and parser of an XML reader too.

@@ -92,16 +92,17 @@ public:
   ///@}
 
   ///@{
-  /// Threshold that is used if the mesh has no list of extrema: extrema of the data are kept if
-  /// their persistence exceeds this fraction of the data's range. At least 0 and below 1, default
-  /// 0.05.
+  /// Threshold that is used if the mesh has no point array of extrema (see ExtremaArrayName):
+  /// extrema of the data are kept if their persistence exceeds this fraction of the data's range.
+  /// At least 0 and below 1, default 0.05.
   vtkSetMacro(Persistence, double);
   vtkGetMacro(Persistence, double);
   ///@}
 
   ///@{
-  /// Number of extrema that are kept if the mesh has no list: the most persistent ones, and at
-  /// least a maximum and a minimum per connected component. Default 0: use Persistence.
+  /// Number of extrema that are kept if the mesh has no point array of extrema (see
+  /// ExtremaArrayName): the most persistent ones, and at least a maximum and a minimum per
+  /// connected component. Default 0: use Persistence.
   vtkSetMacro(NumberOfExtrema, vtkIdType);
   vtkGetMacro(NumberOfExtrema, vtkIdType);
   ///@}
@@ -147,7 +148,8 @@ public:
   ///@}
 
   ///@{
-  /// Largest accepted relative gap and residual, above 0 and below 1. Default 1e-6; 1e-9 is strict.
+  /// Largest accepted relative duality gap and KKT residual of the optimality certificate, above 0
+  /// and below 1. Default 1e-6; 1e-9 is strict.
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);
   ///@}

@@ -67,7 +67,8 @@ void add_point_arrays(
     for (int k = 0; k < 2; ++k)
     {
       const double share = (shape.points(v, k) - input.lower[k]) / size[k];
-      texture->SetComponent(v, k, std::clamp(share, 0.0, 1.0)); // clamp rounding errors
+      // Rounding may give texture coordinates slightly outside of 0 to 1.
+      texture->SetComponent(v, k, std::clamp(share, 0.0, 1.0));
     }
     ids->SetValue(v, shape.original_vertices[v]);
   }

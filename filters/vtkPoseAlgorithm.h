@@ -74,8 +74,8 @@ protected:
     bindpose::ExecutionContext& context, const PosedPoints& posed, PosedPoints& normals);
 
   /// Return how the method uses the `Stretch` and `Twist` of bones. A warning is issued if the pose
-  /// has values that the method ignores. The default is the use by methods that compute transforms
-  /// (as-rigid-as-possible).
+  /// has values that the method ignores. The default implementation returns StretchUse::ends, the
+  /// value for methods that compute the transforms of handles (as-rigid-as-possible).
   virtual bindpose::StretchUse GetStretchUse();
 
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,

@@ -243,7 +243,8 @@ Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose
   }
   const std::vector<std::string> warnings = status.warnings;
   const GltfData& data = this->Internal->gltf.data();
-  std::vector<Pose> standing; // the transforms of the nodes, if there is no animation
+  // The pose from the transforms of the nodes; empty if there is an animation.
+  std::vector<Pose> standing;
   if (data.poses.empty())
   {
     std::vector<Index> cells;

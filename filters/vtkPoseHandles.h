@@ -77,8 +77,8 @@ public:
   ///@}
 
   ///@{
-  /// Path of the pose file (.json, .dmat; .glb and .gltf for their animation). It is read again at
-  /// every update. If it is set, PoseJSON is not used.
+  /// Path of the pose file: .json, .dmat, or a .glb or .gltf file with an animation. The file is
+  /// read again at every update. If it is set, PoseJSON is not used.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}

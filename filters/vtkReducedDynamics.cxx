@@ -37,8 +37,8 @@ struct vtkReducedDynamics::Internals
   Index target = 0; ///< time step that is requested
   Index next = 0; ///< time step for which the handles are requested; 0 starts the simulation
   bool more = false; ///< more time steps are needed after this one
-  std::vector<vtkMTimeType> upstream; ///< pipeline modification times at which the steps were
-                                      ///< simulated
+  /// Pipeline modification times of everything upstream when the time steps were simulated.
+  std::vector<vtkMTimeType> upstream;
 };
 
 vtkReducedDynamics::vtkReducedDynamics() : Internal(new Internals) {}
@@ -227,7 +227,9 @@ Status vtkReducedDynamics::Deform(
   options.solve.mixed_precision = this->MixedPrecision;
   if (!state.started && state.next > 0)
   {
-    state.more = true; // a new bind starts at time 0, but these handles are of a later time
+    // A new bind restarts the simulation at time 0, but the handles of this request are those of a
+    // later time.
+    state.more = true;
   }
   else
   {

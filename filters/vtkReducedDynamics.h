@@ -43,7 +43,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// See the setters of vtkReducedARAP. All four are bind parameters: a change runs the bind again.
+  /// Energy, clusters and extra weights; see the setters of the same names in vtkReducedARAP. These
+  /// four are bind parameters: a change runs the bind again.
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);
   void SetNumberOfClusters(int clusters);

@@ -47,7 +47,7 @@ Status check_endpoints(WeightsView endpoints, const Handles& handles, const std:
 struct vtkSkinningDeformation::Internals
 {
   Skinning skinning;
-  SharedMatrix<Weights> endpoints; // no columns: the mesh has no endpoint weights
+  SharedMatrix<Weights> endpoints; // endpoint weights; no columns if the mesh has none
   Points centers; // centers of rotation at rest, computed on first use
   Status of_centers;
   std::optional<bindpose::PseudoEdges> edges; // the automatic pseudo-edges, computed on first use

@@ -50,8 +50,9 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Method, a word of the table above; default "biharmonic". An unknown word is INVALID_INPUT when
-  /// the filter executes. All parameters of this class are bind parameters.
+  /// Method, a word of the table above; default "biharmonic". With an unknown word the filter fails
+  /// with the status INVALID_INPUT when it executes. All parameters of this class are bind
+  /// parameters.
   void SetMethod(const std::string& word);
   std::string GetMethod() { return this->Method; }
   ///@}
@@ -63,7 +64,8 @@ public:
   ///@}
 
   ///@{
-  /// smoothed-harmonic: the smoothing length, as a fraction of the diagonal, >= 0. Default 0.05.
+  /// smoothed-harmonic: the smoothing length, as a fraction of the bounding-box diagonal, >= 0.
+  /// Default 0.05.
   void SetSmoothing(double smoothing);
   vtkGetMacro(Smoothing, double);
   ///@}

@@ -80,7 +80,7 @@ public:
   };
 
   ///@{
-  /// Boundary condition at the edge of the patch. Default REGION. This is a bind parameter.
+  /// Boundary condition at the border of the patch. Default REGION. This is a bind parameter.
   void SetBoundary(int boundary);
   vtkGetMacro(Boundary, int);
   ///@}

@@ -98,8 +98,10 @@ vtkSmartPointer<vtkAbstractArray> extended(
 struct SolvedMesh
 {
   vtkSmartPointer<vtkDoubleArray> weights;
-  vtkSmartPointer<vtkDoubleArray> raw; // null: not requested
-  vtkSmartPointer<vtkUnsignedCharArray> mask; // null: all vertices have weights
+  // Weights before rows are divided by their sums; null: not requested.
+  vtkSmartPointer<vtkDoubleArray> raw;
+  // Mask of the vertices that have weights; null: all vertices have weights.
+  vtkSmartPointer<vtkUnsignedCharArray> mask;
   std::vector<vtkSmartPointer<vtkDoubleArray>> certificates;
   // The following members are null unless handles were inserted.
   vtkSmartPointer<vtkPoints> points;
@@ -241,7 +243,8 @@ struct vtkWeightsAlgorithm::Cache
   Status status;
   SolvedMesh mesh;
   vtkSmartPointer<vtkPolyData> extrema;
-  vtkSmartPointer<vtkUnstructuredGrid> volume; // null: the weights were solved on the mesh itself
+  // The dataset of output 2; null if the weights were solved on the mesh itself.
+  vtkSmartPointer<vtkUnstructuredGrid> volume;
 };
 
 vtkWeightsAlgorithm::vtkWeightsAlgorithm() : TermNames(new TermArrayNames), Bound(new Cache)

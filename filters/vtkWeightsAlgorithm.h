@@ -304,7 +304,8 @@ protected:
     const bindpose::WeightsOptions& options, bindpose::ExecutionContext& context,
     bindpose::WeightsResult& result) = 0;
 
-  /// Report whether the method supports terms.
+  /// Report whether the method supports terms, i.e. the optional constraints and energies of
+  /// TermArrayNames.
   virtual bool TakesTerms() const { return false; }
 
   /// Mark a parameter as modified; called by setters. All parameters of these filters are bind

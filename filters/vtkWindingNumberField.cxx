@@ -52,10 +52,10 @@ vtkStandardNewMacro(vtkWindingNumberField);
 
 namespace
 {
-/// The arrays of the last grid; weak pointers, so they are available only while an output uses
-/// them. With several processes ParaView requests the field and then the boundary with ghost
-/// levels, which only unstructured outputs can have. For the executive this is another request;
-/// without this cache the field would be computed twice.
+/// Cache of the arrays of the last grid. Weak pointers, so the arrays are available only while an
+/// output uses them. With several processes, ParaView requests the field and then, in a second
+/// request, the boundary with ghost levels, which only unstructured outputs can have. Without this
+/// cache the second request would compute the field again.
 struct LastGrid
 {
   vtkMTimeType parameters = 0;
@@ -131,9 +131,9 @@ vtkSmartPointer<Array> make_array(const char* name, int components, Index count)
 struct Outputs
 {
   vtkSmartPointer<vtkDataArray> values;
-  vtkSmartPointer<vtkDataArray> gradient; ///< null: not requested
+  vtkSmartPointer<vtkDataArray> gradient; ///< array of gradients; null: not requested
   vtkSmartPointer<vtkUnsignedCharArray> on_surface;
-  vtkSmartPointer<vtkUnsignedCharArray> inside; ///< null: not requested
+  vtkSmartPointer<vtkUnsignedCharArray> inside; ///< array of inside flags; null: not requested
   double threshold = 0.5;
 
   Outputs(Index count, bool single, bool with_gradient, bool with_inside)
@@ -410,14 +410,15 @@ int vtkWindingNumberField::RequestInformation(
   vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(surface_info);
   if (producer && !is_block)
   {
-    AskForAll(surface_info); // another consumer may have requested only a piece
+    // Request the whole surface, because another consumer may have requested only a piece.
+    AskForAll(surface_info);
     producer->Update(vtkExecutive::PRODUCER()->GetPort(surface_info));
     data = vtkDataObject::GetData(surface_info);
   }
 
   int whole[6] = { 0, 0, 0, 0, 0, 0 };
   SampleGrid grid;
-  // otherwise Execute() reports the error
+  // If this fails, Execute() reports the error.
   if (this->Grid(vtkPointSet::SafeDownCast(data), grid).ok())
   {
     std::copy(grid.extent.begin(), grid.extent.end(), whole);
@@ -601,7 +602,9 @@ bindpose::Status vtkWindingNumberField::Execute(
     if (!points)
     {
       last = { parameters, grid.extent, { arrays.begin(), arrays.end() }, sum, evaluated };
-      last.status.warnings.clear(); // warnings are issued only once
+      // The warnings were issued by this execution. Executions that reuse the arrays must not
+      // repeat them.
+      last.status.warnings.clear();
     }
   }
   if (points)

@@ -148,14 +148,14 @@ public:
 
   ///@{
   /// Number of samples along x, y, z, each at least 1. With 0, 0, 0 (default) another option
-  /// determines it.
+  /// determines the numbers.
   vtkSetVector3Macro(Dimensions, int);
   vtkGetVector3Macro(Dimensions, int);
   ///@}
 
   ///@{
   /// Distance between samples along x, y, z, in world units, above 0. With 0, 0, 0 (default)
-  /// another option determines it.
+  /// another option determines the distance.
   vtkSetVector3Macro(Spacing, double);
   vtkGetVector3Macro(Spacing, double);
   ///@}

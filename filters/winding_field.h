@@ -90,8 +90,8 @@ public:
   /// Compute the gradients: 3 x samples.count() derivatives.
   Status evaluate_gradient(const Samples& samples, ExecutionContext& context, double* out) const;
 
-  /// Report whether values depend, within the tolerance, on Options::expected_queries. If so,
-  /// another number of queries needs a new build.
+  /// Report whether Options::expected_queries changes the computed values, by no more than the
+  /// tolerance. If so, another number of queries needs a new build.
   bool depends_on_expected_queries() const;
 
   /// Return the open boundary of a surface; empty for curves and points.

@@ -1,7 +1,8 @@
-// Benchmarks of pose time on one thread. Reduced as-rigid-as-possible (ARAP) is measured for
-// different numbers of handles and clusters and different energies, with bind, memory and changes
-// of modes. Its time does not depend on the mesh, as three mesh sizes show. Full ARAP depends only
-// on the mesh. Further rows measure skinning of 100k vertices, the report of stretch, and a crowd.
+// Benchmarks of pose time on one thread. For reduced as-rigid-as-possible (ARAP) deformation, the
+// benchmarks vary the numbers of handles and clusters and the energy. They measure iterations, the
+// bind, its memory, and changes of modes. Three mesh sizes show that the time of an iteration does
+// not depend on the mesh. The time of full ARAP depends only on the mesh. Further rows measure
+// skinning of 100k vertices, the report of stretch, and a crowd.
 //
 // Weights are inverse distances, which need no solver. The weights of the crowd, and of skinning
 // where stated, are bounded biharmonic. pose_table.py creates the tables of README.md from the
@@ -97,8 +98,8 @@ Status add_bounded_weights(Rig& rig)
   return status;
 }
 
-/// Return a pose in which every second handle is moved by `by` in mode position; all other handles
-/// are in mode free.
+/// Return a pose in which every second handle is in mode position and moved by the distance `by`.
+/// All other handles are in mode free.
 Pose dragged(const Handles& handles, double by)
 {
   Pose pose(handles.size());
@@ -294,7 +295,7 @@ Index iterations_until(const std::vector<double>& energies, double energy)
 
 /// Measure a cold solve until its energy is within 1e-4 of the lowest energy that thousands of
 /// iterations reach. Arguments: handles, clusters, number of iterates used by the acceleration,
-/// drag in tenths of the radius.
+/// distance of the drag in tenths of the radius.
 void reduced_arap_to_energy(benchmark::State& state)
 {
   const Rig rig = make_rig(20000, state.range(0));

@@ -8,9 +8,10 @@
 //
 //   build/bin/bindpose_benchmarks --benchmark_filter=winding
 //
-// With BINDPOSE_BENCHMARK_MESHES=FOLDER the rows named elephant use refined_elephant.off, and those
-// named holes elephant-with-holes.off, from that folder (see the Debian package libcgal-demo).
-// Without it these rows are left out.
+// The rows named `elephant` use the file refined_elephant.off, and the rows named `holes` use
+// elephant-with-holes.off (from the Debian package libcgal-demo). The environment variable
+// BINDPOSE_BENCHMARK_MESHES names the folder of these files. If it is not set, these rows are left
+// out.
 #include "surfaces.h"
 
 #include "base/parallel.h"
@@ -163,14 +164,14 @@ enum Where
 {
   grid,
   scattered,
-  near, ///< 1e-4 diagonals away from the surface
-  far_from_origin ///< scattered; surface and points are moved by 1e6 diagonals
+  near, ///< 1e-4 bounding-box diagonals away from the surface
+  far_from_origin ///< scattered; surface and points are moved by 1e6 bounding-box diagonals
 };
 
 struct Row
 {
   const char* surface;
-  Index triangles; ///< 0: the number of triangles of the file
+  Index triangles; ///< number of triangles; 0: as in the file
   Where where;
   Index samples; ///< number of samples along the grid's longest side
   WindingMethod method;

@@ -44,7 +44,7 @@ def volume(points, tets):
 
 
 def make(options):
-    # ignore warnings about inverted tets; the numbers contain their count
+    # ignore warnings about inverted tets; the result contains their number
     warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)
     weighted, handles = weighted_cylinder(options.small)
     rest, tets = points_of(weighted), tets_of(weighted)

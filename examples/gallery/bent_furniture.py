@@ -101,7 +101,7 @@ def make(options):
         handles = bindpose.automatic_handles(mesh, method="points", number_of_points=HANDLES // (2 if options.small else 1),
                                               place_inside=False, distance="straight")
         with warnings.catch_warnings():
-            # ignore warnings about surface defects; the numbers contain them
+            # ignore warnings about surface defects; the result contains their number
             warnings.simplefilter("ignore", bindpose.BindposeWarning)
             weighted = bindpose.weights(mesh, handles, domain="auto")
         report = bindpose.report(weighted)

@@ -39,7 +39,7 @@ def weighted_cylinder(small):
 
 
 def make(options):
-    # ignore warnings about inverted tets; the numbers contain their count
+    # ignore warnings about inverted tets; the result contains their number
     warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)
     weighted, handles = weighted_cylinder(options.small)
     rest = points_of(weighted)

@@ -78,7 +78,7 @@ def make(options):
     bones, left, right = drawing(options.small)
     curves = bindpose.handles(bones=bones, parents=[-1] * len(bones))
     corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
-    # Find the points of the outline at which the ridges end.
+    # Find the points on the left and right sides of the square at which the ridges end.
     ends = bones.reshape(-1, 3)[:, :2]
     on_left, on_right = (np.unique(ends[np.abs(ends[:, 0] - x) < 1e-12], axis=0) for x in (0.0, 1.0))
     outline = np.concatenate([corners[:2], on_right[np.argsort(on_right[:, 1])], corners[2:], on_left[np.argsort(-on_left[:, 1])]])

@@ -23,7 +23,7 @@ import planar
 import posing
 
 FREE = ("body", "head", "arm", "other arm", "tail")
-# displacements of hand and tip, as fractions of the picture
+# displacements of hand and tip, as fractions of the image size
 HAND, TIP = np.array([-0.02, -0.24]), np.array([0.05, -0.05])
 
 
@@ -35,7 +35,7 @@ def make(options):
     shape = bindpose.planar_shape(picture, handles=handles)
     weighted = bindpose.weights(shape, handles, domain="surface")
     names = list(planar.BONES)
-    # indexed by bone, end, coordinate
+    # ends of the bones, indexed by bone, end and coordinate
     ends = np.array([[planar.BONES[name][k] for k in (0, 1)] for name in names]) * size - 0.5
     pose = {name: {"mode": "free"} for name in FREE}
     pose["hand"] = {"translate": [*(HAND * size), 0], "rotate": {"axis": [0, 0, 1], "degrees": 60}}

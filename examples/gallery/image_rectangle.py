@@ -15,12 +15,12 @@ import numpy as np
 
 import planar
 
-# Position and displacement of each point, as fractions of the picture. Points with displacement 0 keep their
+# Position and displacement of each point, as fractions of the image size. Points with displacement 0 keep their
 # surroundings in place.
 MOVES = {"eye": ((0.438, 0.76), (-0.035, 0.02)), "other eye": ((0.562, 0.76), (0.035, 0.02)),
          "mouth": ((0.5, 0.645), (0.0, -0.035)), "hand": ((0.13, 0.80), (0.03, -0.07)), "belly": ((0.5, 0.33), (0.0, 0.0)),
          "hip": ((0.66, 0.36), (0.05, 0.02)), "tail": ((0.82, 0.45), (-0.03, 0.09))}
-# points on the border, which do not move
+# points on the border of the image, which do not move
 HOLD = [(x / 6, y / 6) for x in range(7) for y in range(7) if x in (0, 6) or y in (0, 6)]
 
 

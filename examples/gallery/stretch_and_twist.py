@@ -102,7 +102,7 @@ def cats(options, numbers):
 
 
 def make(options):
-    # ignore warnings about inverted tets; the numbers contain their count
+    # ignore warnings about inverted tets; the result contains their number
     warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)
     numbers = {}
     above = mallets(options, numbers)

@@ -1,11 +1,12 @@
-// Computes cameras that fit a shape into the picture. A camera at c with axes r (right), u (up) and
-// f (forward) and the tangent tx of half its horizontal view angle sees a point p if
-// |(p - c)·r| <= tx (p - c)·f
-// and likewise for u. For the right and left borders of the picture this means
-// c·r - tx c·f >= max(p·r - tx p·f) =: A and
-// -c·r - tx c·f >= max(-p·r - tx p·f) =: B.
-// The sum of both inequalities is an upper bound of c·f: -(A + B) / (2 tx). Their difference gives
-// the c·r that centers the shape.
+// Computes cameras that fit a shape into the picture. A camera is at `c` with the axes `r` (right),
+// `u` (up) and `f` (forward); `tx` is the tangent of half its horizontal view angle. It sees a
+// point `p` if
+// `|(p - c)·r| <= tx (p - c)·f`
+// and likewise for `u`. For the right and left borders of the picture this means
+// `c·r - tx c·f >= A` with `A = max(p·r - tx p·f)` over all points, and
+// `-c·r - tx c·f >= B` with `B = max(-p·r - tx p·f)`.
+// The sum of both inequalities gives an upper bound of `c·f`: `-(A + B) / (2 tx)`. Their difference
+// gives the `c·r` that centers the shape.
 #include "scene/camera.h"
 
 #include "vtkCamera.h"
@@ -39,7 +40,9 @@ Frame choose_frame(const Box& box, const std::string& up)
   {
     if (named)
     {
-      frame.flat = false; // a floor is viewed from the side and above
+      // A shape that is flat in the direction `up`, such as a floor, is viewed obliquely from
+      // above.
+      frame.flat = false;
     }
     else
     {
@@ -86,7 +89,9 @@ void fit_along(vtkCamera* camera, PointsView points, const Axes& axes, double an
   const double free = 1.0 - 2.0 * margin;
   const double ty = std::tan(0.5 * angle * pi / 180.0);
   const double tx = ty * aspect;
-  double high[4] = { -1e300, -1e300, -1e300, -1e300 }; // right, left, up, down
+  // The terms A and B of the comment at the top of this file, for the right, left, upper and lower
+  // borders.
+  double high[4] = { -1e300, -1e300, -1e300, -1e300 };
   double near_point = 1e300;
   double far_point = -1e300;
   for (Index i = 0; i < points.rows(); ++i)
@@ -241,7 +246,7 @@ void fit_parallel_camera(
   const Vec3 vertical = std::abs(normal.y()) > 0.999 ? Vec3::UnitZ() : Vec3::UnitY();
   const Vec3 up = (vertical - vertical.dot(normal) * normal).normalized();
   const Vec3 right = up.cross(normal);
-  Box box; // along right, up, and toward the eye
+  Box box; // bounding box along `right`, `up` and `normal`
   for (Index i = 0; i < points.rows(); ++i)
   {
     const Vec3 p = points.row(i);

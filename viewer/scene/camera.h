@@ -19,10 +19,11 @@ namespace bindpose
 /// perspective with a view angle of 30 degrees.
 struct View
 {
-  std::string up = "auto"; ///< "x", "y", "z"; "auto": y, or z for a shape that is flat in y
-  double azimuth = 0.0; ///< degrees to the right, added to the default view
-  double elevation = 0.0; ///< degrees up, added to the default view
-  double zoom = 1.0; ///< factor on the size in the picture; must be above 0
+  /// Axis that is up: "x", "y", "z"; "auto": y, or z for a shape that is flat in y.
+  std::string up = "auto";
+  double azimuth = 0.0; ///< camera rotation to the right in degrees, added to the default view
+  double elevation = 0.0; ///< camera rotation upward in degrees, added to the default view
+  double zoom = 1.0; ///< factor on the size of the shape in the picture; must be above 0
 };
 
 /// Axes of the default view. The `View` angles are relative to them, and cuts and slices are

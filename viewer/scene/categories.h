@@ -61,9 +61,9 @@ bool is_defect_data(vtkDataSet* data);
 /// components are counted per component.
 void count_defects(vtkPolyData* defects, std::vector<Category>& categories);
 
-/// Return a legend and a lookup table of the categories that occur, in their order from the bottom.
-/// The i-th such category has the value i + 0.5 in the table. Tick texts contain its name and
-/// count.
+/// Return a legend and a lookup table of the categories that occur, the first at the bottom. The
+/// category with index i in this legend has the value i + 0.5 in the table. Each tick text contains
+/// the name and the count of a category.
 ColorMap category_map(const std::vector<Category>& categories);
 /// Shorten the legend to a maximum of `most` lines. The last line states how many categories are
 /// omitted.

@@ -265,8 +265,8 @@ vtkSmartPointer<vtkDoubleArray> strongest_columns(vtkDataSet* data)
   return strongest;
 }
 
-/// Replace category indices by the categories' values in the table. Negative indices become NaN,
-/// which is drawn without color.
+/// Replace each category index by the value of this category in the lookup table. Negative indices
+/// become NaN, which is drawn without color.
 void look_up(vtkDoubleArray* numbers, const std::vector<double>& table)
 {
   for (vtkIdType i = 0; i < numbers->GetNumberOfValues(); ++i)
@@ -278,7 +278,8 @@ void look_up(vtkDoubleArray* numbers, const std::vector<double>& table)
   }
 }
 
-// Return the table value of the strongest column (handle) of each cell.
+// Return for each cell the lookup-table value of its strongest column, i.e. of the handle with the
+// largest weights.
 vtkSmartPointer<vtkDoubleArray> handle_values(vtkDataSet* data, const Coloring& coloring)
 {
   const auto columns = strongest_columns(data);
@@ -355,7 +356,7 @@ Status choose_handle_coloring(
   return {};
 }
 
-// Return the table value of the rotation cluster of each cell.
+// Return for each cell the lookup-table value of its rotation cluster.
 vtkSmartPointer<vtkDoubleArray> cluster_values(vtkDataSet* data, const Coloring& coloring)
 {
   const auto values = clusters_of_cells(data);
@@ -388,7 +389,7 @@ Status choose_cluster_coloring(
   coloring.categories = cluster_categories(datasets);
   coloring.kind = Coloring::Kind::other;
   coloring.map = category_map(coloring.categories);
-  coloring.map.ticks.clear(); // clusters have no names
+  coloring.map.ticks.clear(); // no ticks, because clusters have no names
   coloring.map.texts.clear();
   return {};
 }
@@ -417,7 +418,8 @@ void choose_weight_map(
   coloring.map = !options.bands ? sequential_map(from, to, 0)
     : from == 0.0 && to == 1.0  ? weight_map()
                                 : sequential_map(from, to, static_cast<int>(bands));
-  for (int i = 1; i < static_cast<int>(bands); ++i) // no isoline at the ends of the scale
+  // Add isolines between the bands, but not at the ends of the scale.
+  for (int i = 1; i < static_cast<int>(bands); ++i)
   {
     coloring.isolines.push_back(from + (to - from) * i / bands);
   }

@@ -34,15 +34,16 @@ struct Coloring
   Kind kind = Kind::none;
   ColorBy by = ColorBy::array;
   std::string array;
-  std::string component; ///< as requested: name or index
-  std::string component_name; ///< as displayed: name or index; empty for arrays of one component
-                              ///< and for vector lengths
+  std::string component; ///< component as requested: name or index
+  /// Component as displayed: name or index. Empty for arrays of one component and for vector
+  /// lengths.
+  std::string component_name;
   ColorMap map;
   std::vector<Category> categories; ///< categories of labels, meshing methods or handles
-  std::vector<double> isolines; ///< levels of the isolines of weights: the borders of the bands,
-                                ///< multiples of 0.1
+  /// Values of the isolines of weights: the borders of the bands, usually multiples of 0.1.
+  std::vector<double> isolines;
   vtkSmartPointer<vtkDataSet> minus; ///< the dataset whose values are subtracted; may be null
-  Report numbers; ///< statistics over all tiles, for row sums and differences
+  Report numbers; ///< statistics of row sums and of differences over all tiles
 
   std::string legend_name() const;
 };

@@ -143,12 +143,13 @@ ColorMap sequential_map(double lower, double upper, int bands)
 ColorMap diverging_map(double lower, double upper, double center)
 {
   ColorMap map;
-  // The half width of the table if all values equal the center.
+  // Half the width of the range if all values equal the center.
   const double least = std::max(1e-12, 1e-9 * std::abs(center));
   const bool constant = !(upper - lower > 2.0 * least);
   map.lower = constant ? center - least : lower;
   map.upper = constant ? center + least : upper;
-  constexpr int count = 257; // odd, so that the center of a symmetric range has its own entry
+  // An odd number of entries, so that the center of a symmetric range has its own entry.
+  constexpr int count = 257;
   map.table = make_table(map.lower, map.upper, count);
   const double reach = std::max(map.upper - center, center - map.lower);
   for (int i = 0; i < count; ++i)
@@ -175,7 +176,7 @@ ColorMap winding_map()
   ColorMap map;
   map.lower = -1.0;
   map.upper = 2.0;
-  // entries of width 0.01, so that -0.02 and 1.02 are between two entries
+  // number of table entries; each is 0.01 wide, so that -0.02 and 1.02 are between two entries
   constexpr int count = 300;
   map.table = make_table(map.lower, map.upper, count);
   for (int i = 0; i < count; ++i)

@@ -22,7 +22,7 @@ namespace bindpose
 {
 namespace
 {
-constexpr int classes = 3; // multiplicity 1, 2, and 3 or more
+constexpr int classes = 3; // number of classes of tubes: multiplicity 1, 2, and 3 or more
 constexpr double widths[classes] = { 1.0, 1.5, 2.0 };
 
 vtkSmartPointer<vtkPolyData> lines_of_class(vtkPolyData* data, int wanted)

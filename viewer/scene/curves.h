@@ -12,9 +12,9 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Report whether a dataset consists only of curves: lines without faces that are not handles.
-/// Lines of two points are bones unless the cell array Multiplicity marks them as the boundary of a
-/// surface.
+/// Report whether a dataset consists only of curves: it has lines but no faces, and it is not a
+/// handle dataset. Lines of two points are bones unless the cell array Multiplicity marks them as
+/// the boundary of a surface.
 bool is_curve_data(vtkDataSet* data);
 
 /// Return actors that show the lines of a polydata as round tubes, and as faint lines where

@@ -62,7 +62,7 @@ private:
   std::vector<Place> places_;
   double radius_ = 1.0;
   std::array<vtkNew<vtkPolyData>, 2> clouds_; // minima, maxima
-  std::array<vtkNew<vtkSphereSource>, 2> spheres_; // of a ball and of its rim
+  std::array<vtkNew<vtkSphereSource>, 2> spheres_; // the ball and its rim
   std::vector<vtkSmartPointer<vtkActor>> actors_;
 };
 

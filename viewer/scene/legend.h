@@ -23,7 +23,8 @@ enum class TextAlign
   right
 };
 
-/// Add one line of text. (x, y) is its left end, center or right end, and the middle of its height.
+/// Add one line of text. Horizontally, `x` is the left end, the center or the right end of the
+/// text, as `align` states. Vertically, `y` is the middle of the text.
 /// @param size  font size in pixels
 void add_text(vtkRenderer* renderer, const std::string& text, double x, double y, int size,
   TextAlign align, bool bold = false, const Rgb& ink = palette::text);

@@ -43,7 +43,7 @@ std::vector<vtkMTimeType> state_of(MovedSurfaceMapper& mapper, vtkActor* actor)
   { add(object, object ? object->GetMTime() : 0); };
   vtkPolyData* surface = mapper.GetInput();
   add(surface, 0);
-  add_object(&mapper); // its time includes that of the lookup table
+  add_object(&mapper); // the mapper's modification time includes that of the lookup table
   add_object(actor->GetProperty());
   add_object(actor->GetTexture());
   for (vtkCellArray* cells :
@@ -103,7 +103,7 @@ void MovedSurfaceMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* act
     this->drawn_.clear();
     if (this->CurrentInput)
     {
-      // after the upload, because the first upload creates a lookup table
+      // Record the state after the upload, because the first upload creates a lookup table.
       this->drawn_ = state_of(*this, actor);
     }
   }
@@ -136,7 +136,8 @@ void MovedSurfaceMapper::choose_shift()
   double bounds[6];
   this->GetBounds(bounds);
   const vtkBoundingBox box(bounds);
-  constexpr double far = 1000.0; // in diagonals: VTK's own limit
+  // VTK's own limit: distance from the origin, in bounding-box diagonals.
+  constexpr double far = 1000.0;
   double center[3] = { 0.0, 0.0, 0.0 };
   if (box.IsValid())
   {
@@ -156,6 +157,7 @@ void MovedSurfaceMapper::choose_shift()
   }
 }
 
+/// Upload only the positions and normals of the moved points.
 /// @return false if the buffers cannot be updated in place
 bool MovedSurfaceMapper::upload_moved()
 {

@@ -24,13 +24,12 @@ Outline::Outline(vtkRenderer* renderer) : renderer_(renderer)
   this->lines_->SetPoints(vtkNew<vtkPoints>());
   this->mapper_->SetInputData(this->lines_);
   this->mapper_->ScalarVisibilityOff();
-  // The lines are in the surface on which they are drawn. The depth offset draws them in front of
-  // it.
+  // The lines lie exactly on the surface. The depth offset draws them in front of the surface.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->mapper_->SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, -1.0);
   this->actor_->SetMapper(this->mapper_);
   this->actor_->PickableOff();
-  this->actor_->UseBoundsOff(); // the bounds are those of the surface actor
+  this->actor_->UseBoundsOff(); // the bounds of the surface actor are sufficient
   this->actor_->VisibilityOff();
   vtkProperty* property = this->actor_->GetProperty();
   property->LightingOff();

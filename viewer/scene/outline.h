@@ -33,7 +33,8 @@ public:
   /// Set the shape, which must exist until another shape is set or this object is destroyed; null:
   /// no shape.
   void set_shape(const ShadedSurface* shape);
-  /// @param width  in pixels of the window
+  /// Show or hide the lines.
+  /// @param width  line width in pixels of the window
   void show(bool shown, double width = 1.0);
   /// Return the silhouette edges of the last picture.
   const std::vector<Silhouette::Edge>& edges() const { return this->edges_; }

@@ -44,8 +44,8 @@ struct Legend
 struct Layout
 {
   std::vector<PixelBox> tiles; // the area of each tile in the window
-  std::vector<PixelBox> label_boxes; // below each tile
-  std::vector<PixelBox> legends; // right of the tiles, from top to bottom
+  std::vector<PixelBox> label_boxes; // area of the label below each tile
+  std::vector<PixelBox> legends; // areas of the legends right of the tiles, from top to bottom
   int font = 12; // window pixels
   double title_y = 0.0;
 };

@@ -34,8 +34,8 @@ namespace bindpose
 struct Tile
 {
   vtkSmartPointer<vtkDataSet> data;
-  vtkSmartPointer<vtkPolyData> handles; ///< drawn on top; may be null
-  std::string label; ///< below the tile; may be empty
+  vtkSmartPointer<vtkPolyData> handles; ///< drawn on top of `data`; may be null
+  std::string label; ///< text below the tile; may be empty
   /// Additional datasets that are drawn uncolored: surfaces and tets see-through, curves as tubes.
   std::vector<vtkSmartPointer<vtkDataSet>> context{};
   /// Output of vtkSurfaceDefects, drawn over a surface, which is then see-through; may be null.
@@ -47,10 +47,10 @@ enum class ColorBy
 {
   array, ///< the array named by PictureOptions::array
   winding_number, ///< the array WindingNumber
-  label, ///< tets: the decision inside or outside, in the cell array Label
+  label, ///< tets: inside or outside, from the cell array Label
   quality, ///< tets: the smallest dihedral angle, degrees
   rung, ///< tets: the meshing method, from the field data Method
-  handle, ///< cells of meshes: the handle with the largest Weights at the cell, by name
+  handle, ///< cells of meshes: the name of the handle with the largest Weights at the cell
   row_sum, ///< the sum of each point's `RawWeights`
   rotation_cluster, ///< cells: the rotation cluster of most of their points (RotationCluster)
   rotation ///< the angle of each point's `Rotation`, in degrees
@@ -60,13 +60,13 @@ enum class ColorBy
 struct Plane
 {
   Vec3 origin = Vec3::Zero();
-  Vec3 normal = Vec3::UnitZ(); ///< any length above 0
+  Vec3 normal = Vec3::UnitZ(); ///< normal vector of any length above 0
 };
 
 enum class Background
 {
   white,
-  gradient, ///< very light gray
+  gradient, ///< gradient of very light grays
   transparent
 };
 
@@ -81,8 +81,9 @@ struct PictureOptions
   /// Point or cell array that is displayed as colors. Empty: no colors; for an image volume, the
   /// array WindingNumber, or its first array if that is missing.
   std::string array;
-  ColorBy color_by = ColorBy::array; ///< `array` must be empty for all values except
-                                     ///< ColorBy::array
+  /// The quantity that is displayed as colors. For all values except ColorBy::array, `array` must
+  /// be empty.
+  ColorBy color_by = ColorBy::array;
   /// Dataset whose values are subtracted from the displayed values, point by point or cell by cell.
   /// It needs the same array and component and the same number of points or cells. Null: no
   /// subtraction.
@@ -100,13 +101,13 @@ struct PictureOptions
   std::array<double, 2> range = { 0.0, -1.0 };
   View view;
   Background background = Background::white;
-  int columns = 0; ///< number of columns of tiles; 0: chosen to show the shapes as large as
-                   ///< possible
+  /// Number of columns of tiles; 0: the number for which the shapes appear largest.
+  int columns = 0;
   std::string title;
   bool legend = true;
   bool bands = true; ///< show weights in bands of 0.1; otherwise their colors change smoothly
   bool isolines = true; ///< lines of weights at the borders of the bands (steps of 0.1)
-  bool edges = false; ///< triangle edges of surfaces
+  bool edges = false; ///< draw the triangle edges of surfaces
   bool handle_names = false; ///< draw the name next to each handle
   bool cut = true; ///< tets: expose the interior; otherwise only the outside is visible
   /// If true, the plane cuts through tets. If false, tets stay whole, and a tet is shown if its
@@ -117,8 +118,8 @@ struct PictureOptions
   double section = 0.5;
   /// Plane of cuts and slices; replaces `section`.
   std::optional<Plane> section_plane;
-  double shrink = 1.0; ///< size factor of each tet about its center, in (0, 1]; below 1 there are
-                       ///< gaps between tets
+  /// Size factor of each tet about its center, in (0, 1]. Below 1 there are gaps between tets.
+  double shrink = 1.0;
   /// Levels of the isosurfaces that image volumes show instead of a slice, each in the map's color.
   /// The innermost surfaces are opaque: that of the highest level, and that of the lowest level if
   /// it is below 0. All other surfaces are see-through.
@@ -139,8 +140,10 @@ struct PictureGeometry
 {
   struct TileView
   {
-    Eigen::Matrix4d world_to_pixel; ///< from homogeneous world coordinates to rows x, y, depth, w
-    int x = 0, y = 0, width = 0, height = 0; ///< the tile, in pixels from the lower left corner
+    /// Matrix from homogeneous world coordinates to rows x, y, depth, w.
+    Eigen::Matrix4d world_to_pixel;
+    /// Area of the tile, in pixels from the lower left corner.
+    int x = 0, y = 0, width = 0, height = 0;
   };
   std::vector<TileView> tiles;
 

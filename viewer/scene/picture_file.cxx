@@ -1,5 +1,5 @@
-// Reads picture files. libpng reads PNG files, because VTK's reader crashes on damaged files. VTK
-// reads the other formats.
+// Reads image files. libpng reads PNG files, because VTK's reader crashes on damaged files. VTK's
+// readers read the other formats.
 #include "scene/picture_file.h"
 
 #include "file_kind.h"
@@ -39,7 +39,7 @@ Status read_png(const std::string& path, vtkSmartPointer<vtkImageData>& image)
   pixels->SetName("Pixels");
   pixels->SetNumberOfComponents(static_cast<int>(PNG_IMAGE_PIXEL_CHANNELS(png.format)));
   pixels->SetNumberOfTuples(static_cast<vtkIdType>(png.width) * png.height);
-  // The negative stride stores the top line of the picture last.
+  // The negative stride stores the top line of the image last.
   const auto stride = static_cast<png_int_32>(PNG_IMAGE_ROW_STRIDE(png));
   if (!png_image_finish_read(&png, nullptr, pixels->GetPointer(0), -stride, nullptr))
   {

@@ -11,12 +11,13 @@
 namespace bindpose
 {
 
-/// Report whether the file name's extension is png, jpg, jpeg, tif, tiff or bmp.
+/// Report whether the extension of a file name is that of an image file that read_picture()
+/// supports: png, jpg, jpeg, tif, tiff or bmp.
 bool is_picture_file(const std::string& path);
 
-/// Read a picture. Its top line is at the largest y. A PNG file gives red, green, blue and, if the
-/// file has it, alpha, in bytes. Other formats give the data of VTK's readers. Return invalid_input
-/// if the file is missing, damaged or in another format.
+/// Read an image file. The top line of the image is at the largest y. A PNG file gives red, green,
+/// blue and, if the file has it, alpha, as bytes. For other formats the result is that of VTK's
+/// readers. Return invalid_input if the file is missing, damaged or in another format.
 Status read_picture(const std::string& path, vtkSmartPointer<vtkImageData>& image);
 
 } // namespace bindpose

@@ -1,7 +1,7 @@
 // Finds the first triangle or tet that a ray through a pixel intersects. In the coordinates of the
 // ray, a triangle is hit if it contains the origin. The signs of three areas decide this. Triangles
-// that share an edge compute its area from the same coordinates with opposite signs, so that at
-// least one of them is hit.
+// that share an edge compute the area for this edge from the same coordinates with opposite signs,
+// so that at least one of them is hit.
 #include "scene/ray_cast.h"
 
 #include <algorithm>
@@ -93,7 +93,8 @@ bool first_tet(const SightRay& ray, PointsView points, TetsView tets,
     };
     if (beside(0) || beside(1))
     {
-      continue; // the shrunk tet is inside of this tet, so it is not hit either
+      // The ray misses this tet, and therefore also the shrunk tet, which is inside of it.
+      continue;
     }
     Eigen::Matrix<double, 3, 4> own;
     for (int k = 0; k < 4; ++k)

@@ -27,8 +27,8 @@ bool surrounds_ray(const double* a, const double* b, const double* c, Vec3& area
 /// The first intersection of a ray with a mesh.
 struct SightHit
 {
-  double distance = 0.0; ///< from the ray's origin
-  Index element = -1; ///< triangle or tet
+  double distance = 0.0; ///< distance from the ray's origin
+  Index element = -1; ///< index of the triangle or tet
   Vec3 shares = Vec3::Zero(); ///< barycentric coordinates in the triangle; zero for tets
 };
 

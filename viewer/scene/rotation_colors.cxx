@@ -52,10 +52,10 @@ void for_each_cell(vtkDataSet* data, const Cell& each)
   }
 }
 
-using Pairs = std::set<std::pair<int, int>>; // pairs of a higher and a lower cluster
+using Pairs = std::set<std::pair<int, int>>; // pairs of clusters that touch, the higher index first
 
-/// Return a handle color for each cluster. It differs from the colors of the lower clusters that
-/// touch the cluster.
+/// Return a handle color for each cluster. The color differs from those of all clusters with a
+/// lower index that touch the cluster.
 std::vector<std::size_t> deal_colors(std::size_t clusters, const Pairs& touching)
 {
   std::vector<std::size_t> colors;

@@ -16,7 +16,7 @@ namespace bindpose
 struct Sequence
 {
   std::vector<std::string> files;
-  std::vector<double> times; ///< seconds, one per file
+  std::vector<double> times; ///< time of each file, in seconds
 };
 
 /// Return the file of one frame of a sequence: OUT_0007.vtp for OUT.vtp.

@@ -52,16 +52,17 @@ private:
   void find_triangles_of_points();
   void update_normals();
 
-  vtkSmartPointer<vtkPolyData> input_; ///< points and cells only
+  vtkSmartPointer<vtkPolyData> input_; ///< the input's points and cells, without its arrays
   vtkSmartPointer<vtkPolyData> display_;
   std::vector<Index> input_points_;
   std::vector<Index> input_cells_; ///< input cell of each triangle
   Triangles triangles_;
-  std::vector<Index> first_triangle_; ///< index of each point's first entry in
-                                      ///< triangles_of_points_, and the total number of entries
+  /// Index of each point's first entry in triangles_of_points_; at the end the total number of
+  /// entries.
+  std::vector<Index> first_triangle_;
   std::vector<Index> triangles_of_points_; ///< triangles at each point, in ascending order
   Points triangle_normals_; ///< temporary
-  vtkNew<vtkFloatArray> normals_; ///< of the drawn points
+  vtkNew<vtkFloatArray> normals_; ///< normals of the drawn points
 };
 
 /// Apply the material of surfaces in Bindpose: soft, with a slight gloss.

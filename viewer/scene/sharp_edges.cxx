@@ -1,5 +1,6 @@
-// The corners of the triangles are listed by vertex. Every vertex is then processed on its own: an
-// edge at the vertex that two of its triangles share connects their corners.
+// Splits vertices along sharp edges. The corners of the triangles are listed by vertex, and every
+// vertex is processed on its own. If an edge at the vertex belongs to exactly two triangles and is
+// not sharp, the corners of both triangles join one group.
 #include "scene/sharp_edges.h"
 
 #include "base/execution.h"
@@ -44,7 +45,8 @@ public:
   {
   }
 
-  /// Write the group of each corner, 0 and up in the order of their first corners.
+  /// Write the index of each corner's group. Groups are numbered from 0, in the order of their
+  /// first corners.
   /// @param corners  3 * triangle + position in the triangle, ascending
   /// @return the number of groups
   Id group(const Id* corners, Id count, Id* groups)
@@ -103,8 +105,9 @@ private:
   const Triangles& triangles_;
   const Points& normals_;
   double cosine_;
-  std::vector<std::pair<Index, Id>> edges_; ///< other end of an edge at the vertex, and the corner
-  std::vector<Id> parents_; ///< of a union-find forest over the corners
+  /// The far end of an edge at the vertex, and a corner at this edge.
+  std::vector<std::pair<Index, Id>> edges_;
+  std::vector<Id> parents_; ///< parent of each corner in a union-find forest
 };
 } // namespace
 
@@ -129,7 +132,7 @@ std::vector<Index> split_sharp_edges(PointsView points, double feature_angle, Tr
     corners[next[triangles.data()[k]]++] = static_cast<Id>(k);
   }
   std::vector<Id> groups(corners.size());
-  std::vector<Id>& group_counts = next; // done with its first use
+  std::vector<Id>& group_counts = next; // reuses the memory of `next`, which is no longer needed
   constexpr double degree = 3.14159265358979323846 / 180.0;
   const double cosine = std::cos(feature_angle * degree);
   parallel_for(context, static_cast<Index>(vertices), 2048,

@@ -1,5 +1,6 @@
-// Finds silhouette edges. Triangles are adjacent if they share an edge by position. If more than
-// two triangles share an edge, each triangle is compared with the next one.
+// Finds silhouette edges. Triangles are adjacent if they share an edge, which is identified by the
+// positions of its ends. If more than two triangles share an edge, each triangle is compared with
+// the next one.
 #include "scene/silhouette.h"
 
 #include "base/parallel.h"

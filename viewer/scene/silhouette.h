@@ -41,12 +41,13 @@ private:
     std::array<int, 2> points;
     int triangle;
     int other; ///< triangle on the other side; -1 if there is none
-    bool same_way; ///< both triangles traverse the edge in the same direction, so their
-                   ///< orientations differ
+    /// True if both triangles traverse the edge in the same direction, so their orientations
+    /// differ.
+    bool same_way;
   };
   TrianglesView triangles_;
   std::vector<Side> sides_;
-  std::vector<signed char> facing_; ///< temporary; one value per triangle
+  std::vector<signed char> facing_; ///< temporary: whether each triangle faces the eye
 };
 
 } // namespace bindpose

@@ -18,7 +18,7 @@ TetCut::TetCut(PointsView points, TetsView tets)
   struct Entry
   {
     std::array<Index, 3> key;
-    Index at; // 4 * tet + k of the face
+    Index at; // 4 * tet + index of the face in the tet
   };
   std::vector<Entry> entries;
   entries.reserve(4 * static_cast<std::size_t>(tets.rows()));
@@ -55,7 +55,7 @@ TetCut::TetCut(PointsView points, TetsView tets)
     const auto t = static_cast<Index>(at / 4);
     if (other[at] < t && other[at] >= 0)
     {
-      continue; // the facet is stored with the other tet
+      continue; // the face is already stored as a facet of the other tet
     }
     const int* k = side[at % 4];
     this->facets_.push_back({ { tets(t, k[0]), tets(t, k[1]), tets(t, k[2]) }, t, other[at] });

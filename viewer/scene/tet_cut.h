@@ -46,11 +46,11 @@ private:
   {
     std::array<Index, 3> vertices;
     Index tet;
-    Index other; ///< -1 if there is no second tet
+    Index other; ///< the second tet; -1 if there is none
   };
   void find_sides();
 
-  std::vector<Facet> facets_; // in the order of the tets
+  std::vector<Facet> facets_; // sorted by tet
   Points centers_; // #T x 3
   std::vector<char> kept_;
   Index kept_count_ = 0;
@@ -62,7 +62,7 @@ private:
 struct ShrunkTets
 {
   Points points; ///< 4 #kept x 3
-  Triangles triangles; ///< 4 #kept x 3, oriented outward
+  Triangles triangles; ///< triangles of the kept tets, 4 #kept x 3, oriented outward
   std::vector<Index> tets; ///< 4 #kept: the tet of each triangle
   std::vector<Index> vertices; ///< 4 #kept: the input vertex of each point
 };

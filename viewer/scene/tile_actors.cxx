@@ -444,7 +444,7 @@ void add_lines_and_points(
     {
       return;
     }
-    vtkNew<vtkCellArray> verts; // a point cloud without cells
+    vtkNew<vtkCellArray> verts; // draw the points of a point cloud without cells as vertices
     for (vtkIdType v = 0; v < copy->GetNumberOfPoints(); ++v)
     {
       verts->InsertNextCell(1, &v);
@@ -453,7 +453,8 @@ void add_lines_and_points(
   }
   if (data->GetNumberOfCells() != copy->GetNumberOfCells())
   {
-    copy->GetCellData()->Initialize(); // the values include those of the removed cells
+    // Remove the cell values, because they include those of the removed cells.
+    copy->GetCellData()->Initialize();
   }
   const auto actor = add_actor(renderer, copy, coloring);
   actor->GetProperty()->SetLineWidth(static_cast<float>(2.0 * scale));
@@ -658,7 +659,8 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
     const auto actor = add_surface(renderer, surface, options, coloring, scale);
     if (actor && tile.defects)
     {
-      actor->GetProperty()->SetOpacity(0.4); // most defects are inside or behind
+      // See-through, because most defects are inside or behind the surface.
+      actor->GetProperty()->SetOpacity(0.4);
       sort_by_depth(renderer);
     }
     add_lines_and_points(renderer, surface, coloring, scale);

@@ -22,7 +22,7 @@ bool is_handle_data(vtkDataSet* data);
 Points shown_points(const Tile& tile, const PictureOptions& options, const Coloring& coloring,
   const Frame* frame = nullptr);
 
-/// Numbers of the elements that a picture shows.
+/// Numbers of tets and extrema that a picture shows.
 struct Drawn
 {
   Index tets = 0;

@@ -1,5 +1,5 @@
-// Runs ffmpeg to write moving pictures. ffmpeg is a separate program: it is found on the PATH, run
-// on a folder of pictures, and killed when the user cancels.
+// Runs ffmpeg to write animations. ffmpeg is a separate program: it is found on the PATH, reads a
+// folder of image files, and is killed when the user cancels.
 #include "scene/video_file.h"
 
 #include "file_kind.h"
@@ -63,7 +63,7 @@ Status write_video(const std::string& folder, double frames_per_second, const st
     folder + "/%06d.png" };
   const std::vector<std::string> codec = codec_of(file_extension(path));
   request.arguments.insert(request.arguments.end(), codec.begin(), codec.end());
-  request.arguments.push_back("file:" + path); // the prefix allows a name with a colon
+  request.arguments.push_back("file:" + path); // the prefix "file:" allows a file name with a colon
   request.time_limit = time_limit;
   std::string said;
   ChildEnd end;

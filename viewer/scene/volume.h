@@ -41,9 +41,9 @@ bool value_at(vtkImageData* image, const std::string& array, const Vec3& place, 
 /// Return the total area of the polygons.
 double surface_area(vtkPolyData* surface);
 
-/// Return the bounding box of all samples next to a crossing of a level. With `far_from_zero`, also
-/// include samples whose absolute value is above 0.1. If there are no such samples, return the box
-/// of the whole image.
+/// Return the bounding box of all pairs of neighboring samples between which the value crosses one
+/// of the levels. With `far_from_zero`, also include all samples whose absolute value is above 0.1.
+/// If there are no such samples, return the box of the whole image.
 Box occupied_box(vtkImageData* image, const std::string& array, const std::vector<double>& levels,
   bool far_from_zero);
 

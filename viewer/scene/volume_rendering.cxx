@@ -66,7 +66,8 @@ vtkSmartPointer<vtkVolume> make_winding_volume(
   const double step = *std::min_element(spacing, spacing + 3);
   vtkNew<vtkColorTransferFunction> colors;
   vtkNew<vtkPiecewiseFunction> opacities;
-  // entries of width 0.005, so that the map's jumps at -0.02 and 1.02 stay sharp
+  // number of table entries; each is 0.005 wide, so that the jumps of the map at -0.02 and 1.02
+  // stay sharp
   constexpr int count = 600;
   for (int i = 0; i <= count; ++i)
   {

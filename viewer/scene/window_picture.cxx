@@ -125,7 +125,8 @@ public:
     camera->SetParallelScale(share * this->camera_->GetParallelScale());
     const double half = std::tan(0.5 * vtkMath::RadiansFromDegrees(this->camera_->GetViewAngle()));
     camera->SetViewAngle(2.0 * vtkMath::DegreesFromRadians(std::atan(share * half)));
-    // Offset from the center of the view to the center of the part, in half sizes of the part.
+    // Offset from the center of the view to the center of the part, in units of half the part's
+    // size.
     camera->SetWindowCenter(
       (2.0 * (part.x - this->whole_.x) + part.width - this->whole_.width) / part.width,
       (2.0 * (part.y - this->whole_.y) + part.height - this->whole_.height) / part.height);
@@ -163,10 +164,10 @@ private:
   vtkSmartPointer<vtkRenderer> renderer_;
   vtkSmartPointer<vtkCamera> camera_;
   int drawn_;
-  Color below_{}, above_{}; // background colors of the renderer
+  Color below_{}, above_{}; // lower and upper background colors of the renderer
   bool gradient_ = false;
   std::array<double, 4> viewport_{};
-  Rect whole_; // the area of the renderer in the picture
+  Rect whole_; // the area of the renderer's view in the picture
   std::vector<std::pair<vtkSmartPointer<vtkActor2D>, std::array<double, 2>>> flat_;
 };
 
@@ -223,7 +224,7 @@ void fill_image(const Samples& on_white, const Samples& on_black, const Rect& ti
         seen += (white[k] - black[k]) / (3.0 * 255.0);
       }
       const double opacity = 1.0 - seen;
-      // almost clear: planes that are drawn only so that they can be picked
+      // Pixels that are almost clear show planes that are drawn only so that they can be picked.
       const bool clear = opacity < 1.5 / 255.0;
       to = std::transform(black.begin(), black.end(), to,
         [&](double value) { return clear ? byte(0.0) : byte(value / opacity); });
@@ -334,7 +335,8 @@ Status draw_in_tiles(
     }
   }
   renderers.clear();
-  if (size[0] > 0 && size[1] > 0) // a window that was never shown has no size
+  // Restore the size, except for a window that was never shown, which has none.
+  if (size[0] > 0 && size[1] > 0)
   {
     window->SetSize(size[0], size[1]);
   }

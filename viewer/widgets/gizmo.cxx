@@ -31,7 +31,8 @@ struct Layout
 // One layout per GizmoKind, in the same order.
 constexpr Layout layouts[5] = { {}, { 74, 92, 33, 0, 0, 0 }, { 0, 0, 0, 0, 78, 96 },
   { 76, 0, 0, 80, 0, 104 }, { 84, 102, 27, 45, 64, 124 } };
-constexpr double gap = 15.0; // space around the ball of the handle
+// Distance from the origin that is kept free for the ball of the handle.
+constexpr double gap = 15.0;
 constexpr double plate_half = 7.0;
 constexpr double cone_radius = 5.6;
 constexpr double box_half = 4.6;
@@ -41,7 +42,8 @@ constexpr double outline = 1.2;
 constexpr double twist_radius = 20.0;
 constexpr double stretch_from = 10.0;
 constexpr double stretch_to = 30.0;
-constexpr double stretch_room = 32.0; // distance kept free around tips
+// Minimum distance of the box for stretching from the tip of an arrow.
+constexpr double stretch_room = 32.0;
 constexpr int ring_sides = 72;
 // an axis with a larger cosine to the viewing direction points at the viewer
 constexpr double along_sight = 0.985;
@@ -538,7 +540,7 @@ std::optional<Vector2d> Gizmo::grip(int wanted) const
     }
     else
     {
-      // away from the middle of the ring, where another ring in front crosses an axis
+      // Grab the ring away from its middle, where another ring in front of it crosses an axis.
       place = part.path[part.path.size() * 2 / 5];
     }
     return Vector2d(this->view_.to_display(place).head<2>());

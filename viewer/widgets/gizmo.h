@@ -35,7 +35,7 @@ enum GizmoPart : int
   turn_x = 20,
   turn_y,
   turn_z,
-  turn_view, ///< about the viewing direction
+  turn_view, ///< rotates about the viewing direction
   scale_x = 30,
   scale_y,
   scale_z,
@@ -62,10 +62,11 @@ struct GizmoSetup
 {
   GizmoKind kind = GizmoKind::all;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< axes as columns
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< axes of the gizmo as columns
   bool only_moves = false; ///< true: the gizmo has no parts for rotating, scaling or stretching
   std::optional<Eigen::Vector3d> tail; ///< tail of a bone, whose head is the origin
-  bool twists_apart = true; ///< two twist rings, at head and tail; otherwise one ring in the middle
+  /// True: two twist rings, at head and tail; false: one ring in the middle.
+  bool twists_apart = true;
   double pixels = 80.0; ///< length of the axes of a gizmo that only moves
   /// Red, green and blue by convention, in shades that viewers with any type of color blindness can
   /// distinguish.
@@ -101,7 +102,9 @@ public:
   /// nearest to the mouse wins, then the nearest to the camera.
   /// @param tolerance  distance in pixels from the drawn part that still counts as a hit
   int pick(const Eigen::Vector2d& mouse, double tolerance) const;
-  /// @param outline  receives the same shapes, slightly larger, for the outline hull
+  /// Draw the parts.
+  /// @param solid  receives the shapes of the parts
+  /// @param outline  receives the same shapes, slightly larger, for the outlines
   void draw(HandleShapes& solid, HandleShapes& outline) const;
   /// The letter X, Y or Z next to a tip, or next to a ring under the mouse.
   struct Label

@@ -53,7 +53,7 @@ struct Binding
   /// The condition of the row: "pose", "drag" (in any mode), "move rest", "add points", "add
   /// bones", "add cage", "paint regions".
   const char* when;
-  const char* input; ///< in the form shown to users
+  const char* input; ///< the key or button, in the form shown to users
   const char* keys; ///< key names (KeySym of vtkRenderWindowInteractor), each between blanks; or ""
   const char* text; ///< description of the action
 };

@@ -18,20 +18,20 @@ namespace bindpose
 /// The interactively editable properties of one cell of a handle dataset.
 struct HandlePlace
 {
-  int kind = 0; ///< HandleKind; negative: a bar (cage element or pseudo-edge), which is not a
-                ///< handle
+  int kind = 0; ///< HandleKind; negative: not a handle but a bar (cage element or pseudo-edge)
   int mode = static_cast<int>(HandleMode::automatic); ///< HandleMode
   bool locked = false;
   vtkIdType parent = -1;
-  Vec3 rest_head = Vec3::Zero(); ///< for a bar: its first point
-  Vec3 rest_tail = Vec3::Zero(); ///< for a bar: its second point; for a bone: its tail; for all
-                                 ///< others: rest_head
-  Vec3 head = Vec3::Zero(); ///< posed, or at rest if that was requested
+  Vec3 rest_head = Vec3::Zero(); ///< head of a bone, first point of a bar, or position
+  /// Tail of a bone or second point of a bar; for all others equal to rest_head.
+  Vec3 rest_tail = Vec3::Zero();
+  Vec3 head = Vec3::Zero(); ///< posed head, or the head at rest if that was requested
   Vec3 tail = Vec3::Zero();
   Affine transform = identity_affine();
   double stretch = 1.0;
   Eigen::Vector2d twist = Eigen::Vector2d::Zero();
-  std::optional<Eigen::Vector3d> color; ///< from the array `Color`, 0 to 1
+  /// Color from the array `Color`, 0 to 1; empty: the handle has no color.
+  std::optional<Eigen::Vector3d> color;
 
   bool is_handle() const { return this->kind >= 0; }
   bool is_bone() const { return this->kind == static_cast<int>(HandleKind::bone); }

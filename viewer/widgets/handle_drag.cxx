@@ -1,12 +1,12 @@
 // Converts mouse motion to a motion in world coordinates. Every type of drag compares the current
-// mouse position (slowed down in fine mode) with that at the start:
+// mouse position (slowed down in fine mode) with the position at the start:
 //
 // - A move in a plane uses the intersections of both rays with the plane. A move along a line uses
 //   the plane through the line that faces the camera most, and the distance along the line.
 // - A rotation is the angle between the intersections at the start and now, in the plane of the
-//   ring. Angles are summed move by move, so that several turns are counted. A ring seen from its
-//   side has no usable intersections. There the mouse distance along the near side of the ring is
-//   used, as if a finger rolled the ring.
+//   ring. Angles are summed move by move, so that several turns are counted. For a ring seen
+//   edge-on, these intersections are unusable. Instead, the angle follows from the distance that
+//   the mouse moves along the near side of the ring, as if a finger rolled the ring.
 // - A scale is the ratio of distances from the pivot, on the screen or along an axis.
 // - An arm (from the pivot to the tail of a bone) uses the smallest rotation toward the mouse, in
 //   the plane that faces the camera.
@@ -27,12 +27,13 @@ namespace
 constexpr double fine_share = 0.1;
 // a line with a larger cosine to the viewing direction cannot be followed
 constexpr double seen_along = 0.998;
-// a ring whose axis has a smaller cosine to the viewing direction is seen from its side
+// a ring whose axis has a smaller cosine to the viewing direction is seen edge-on
 constexpr double seen_from_side = 0.12;
 constexpr double smallest_factor = 0.01;
-// a scale that starts nearer to the pivot does not use the ratio of distances
+// a scale uses a ratio of distances only if it starts farther than this from the pivot
 constexpr double near_pixels = 8.0;
-constexpr double double_pixels = 80.0; // mouse motion that then scales by a factor of two
+// Mouse motion for a factor of two if no ratio of distances is used.
+constexpr double double_pixels = 80.0;
 
 Affine3d about(const Vector3d& pivot, const Matrix3d& linear)
 {

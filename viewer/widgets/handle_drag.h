@@ -25,19 +25,20 @@ struct DragSetup
 {
   DragKind kind = DragKind::move;
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero(); ///< center of rotations and scales
-  Eigen::Vector3d grabbed = Eigen::Vector3d::Zero(); ///< moves are in a plane or along a line
-                                                     ///< through this position
-  Eigen::Vector3d arm = Eigen::Vector3d::Zero(); ///< aim, stretch, reach: vector from the pivot to
-                                                 ///< the end of the arm
+  /// Position through which the plane or the line of a move goes.
+  Eigen::Vector3d grabbed = Eigen::Vector3d::Zero();
+  /// Vector from the pivot to the end of the arm, for the kinds aim, stretch and reach.
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
   /// Axes of the constraint as columns, and a mask of the axes along which motion is allowed (bits
   /// 1, 2, 4). With all axes (7), a move is in the plane that faces the camera, a rotation is about
   /// the viewing direction, and a scale is uniform. With two axes, a rotation is about the third
   /// axis.
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
   int axes = 7;
-  double ring_pixels = 80.0; ///< mouse motion, in pixels, that rotates by 1 radian if the ring is
-                             ///< seen from its side
-  double length_step = 0.0; ///< 0: moves do not snap
+  /// Distance, in pixels, that the mouse moves for a rotation by 1 radian if the ring is seen
+  /// edge-on.
+  double ring_pixels = 80.0;
+  double length_step = 0.0; ///< moves snap to multiples of this length; 0: no snapping
   double degree_step = 15.0;
   double factor_step = 0.1;
 };
@@ -45,10 +46,11 @@ struct DragSetup
 /// The result of a drag at the current mouse position.
 struct DragMotion
 {
-  Eigen::Affine3d motion = Eigen::Affine3d::Identity(); ///< motion in world coordinates since the
-                                                        ///< start of the drag
+  /// Motion in world coordinates since the start of the drag.
+  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
   double amount = 0.0; ///< length of a move, degrees of a rotation, factor of a scale or stretch
-  double factor = 1.0; ///< stretch, reach: factor on the arm's length; not contained in `motion`
+  /// Kinds stretch and reach: factor on the arm's length, which `motion` does not contain.
+  double factor = 1.0;
 };
 
 /// The geometry of one drag, independent of handles. The input is display positions, the output a
@@ -64,7 +66,7 @@ public:
 
   /// Follow the mouse to a new position.
   void move_to(const Eigen::Vector2d& mouse, bool fine);
-  /// Change the constraint as if the drag had begun with it.
+  /// Change the constraint, as if the drag had begun with the new constraint.
   void constrain(const Eigen::Matrix3d& frame, int axes);
   void set_snapping(bool snap) { this->snap_ = snap; }
   /// Set a typed value that replaces the mouse: a length along the first axis on which motion is
@@ -95,7 +97,8 @@ private:
   DragSetup setup_;
   Eigen::Vector2d mouse_; // last position of the mouse
   Eigen::Vector2d start_;
-  Eigen::Vector2d now_; // position used by the drag: mouse motions are reduced in fine mode
+  // Mouse position that the drag uses; in fine mode it moves less than the mouse.
+  Eigen::Vector2d now_;
   double turned_ = 0.0; // angle of the rotation so far, in radians
   double last_angle_ = 0.0;
   bool snap_ = false;

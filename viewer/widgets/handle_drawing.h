@@ -11,13 +11,13 @@
 namespace bindpose
 {
 
-/// The appearance of handles; colors by mode.
+/// The appearance of handles: body colors by mode, outline colors and outline width.
 struct HandleLook
 {
   Color modes[3];
   Color outline;
-  Color selected; ///< outline color of selected handles; a second outline in the color `outline`
-                  ///< surrounds it
+  /// Outline color of selected handles. A second outline in the color `outline` surrounds this one.
+  Color selected;
   double pixel_scale = 1.0; ///< factor on the width of outlines
 };
 
@@ -38,8 +38,9 @@ void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places
   const std::vector<HandleData::Bar>& bars, const HandleSizes& sizes, const HandleLook& look,
   const HandleMarks& marks, HandleShapes& solid, HandleShapes& outline);
 
-/// Return the display position of a handle's name: right of a ball; for a bone, on the side that
-/// faces right, so that the name does not cover the bone.
+/// Return the display position of a handle's name: to the right of a ball. The name of a bone is
+/// next to its middle, on the side of the bone that faces right, so that the name does not cover
+/// the bone.
 /// @param ball  radius of a ball in pixels
 Eigen::Vector2d label_place(const ScreenView& view, const HandlePlace& place, double ball);
 

@@ -20,7 +20,7 @@ enum class HandlePart
 
 struct HandleSizes
 {
-  double ball = 7.0; ///< radius of a ball, pixels
+  double ball = 7.0; ///< radius of a ball, in pixels
   double bone_width = 0.08; ///< half of a bone's width, as a fraction of its length
   double tolerance = 4.0; ///< distance in pixels from the drawn part that still counts as a hit
 

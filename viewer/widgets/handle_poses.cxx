@@ -29,9 +29,9 @@ Affine after(const Affine3d& motion, const Affine& transform)
   return moved;
 }
 
-/// Return the position on the first grabbed bone at which the branch of a follower is attached: 0
-/// at the bone's head, 1 at its tail. Followers are handles below the grabbed handles in the
-/// hierarchy.
+/// Return the position on the first grabbed bone at which a follower is attached, directly or
+/// through its ancestors: 0 at the bone's head, 1 at its tail. Followers are handles below the
+/// grabbed handles in the hierarchy.
 double attachment(const std::vector<HandlePlace>& places, const HandleGroup& group, vtkIdType cell)
 {
   const HandlePlace& bone = places[static_cast<std::size_t>(group.cells.front())];
@@ -118,7 +118,8 @@ std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& pl
   const Vec3 arm = motion.linear() * (bone.tail - bone.head);
   const bool is_bone = bone.is_bone() && arm.norm() > 0.0;
   const Vec3 axis = is_bone ? Vec3(arm.normalized()) : Vec3::UnitY();
-  // Followers inherit stretch and twist as in transform_for_child().
+  // Followers (the handles below the grabbed handles in the hierarchy) inherit stretch and twist as
+  // in transform_for_child().
   const auto following = [&](vtkIdType cell)
   {
     const double along = attachment(places, group, cell);

@@ -20,7 +20,7 @@ struct HandleGroup
 {
   std::vector<vtkIdType> cells; ///< cell ids; the grabbed handles come first
   std::size_t grabbed = 0; ///< number of grabbed handles
-  std::vector<HandleData::CellPose> start; ///< pose of each cell at the start
+  std::vector<HandleData::CellPose> start; ///< pose of each cell at the start of the drag
 };
 /// Create a group from the grabbed handles.
 /// @param descend  true to include followers
@@ -30,8 +30,9 @@ HandleGroup make_group(
 /// Changes to the first grabbed handle of a group, in addition to the motion of the whole group.
 struct GrabbedChange
 {
-  double factor = 1.0; ///< factor on the handle's length
-  Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< degrees added at head and tail
+  double factor = 1.0; ///< factor on the length of the first grabbed handle
+  /// Twist angles in degrees that are added at head and tail.
+  Eigen::Vector2d twist = Eigen::Vector2d::Zero();
   /// True: write the changes to the arrays Stretch and Twist. False: multiply them into the
   /// transform.
   bool to_arrays = true;

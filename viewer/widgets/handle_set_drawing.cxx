@@ -94,7 +94,7 @@ void vtkHandleSetRepresentation::BuildRepresentation()
   }
   if (preview.ball)
   {
-    // A ring marks a snapped ball.
+    // A wider outline marks a ball that has snapped to an existing handle or vertex.
     const double pixel = view.pixel_at(*preview.ball);
     const double size = this->EditMode == ADD_BONES ? sizes.end() : sizes.ball;
     const double rim = this->PixelScale * (preview.snapped ? 4.5 : 1.6);
@@ -121,7 +121,8 @@ void vtkHandleSetRepresentation::BuildRepresentation()
       Vector2d at = bindpose::label_place(view, place, this->PixelScale * this->PointSize);
       if (dragged && self.Dragged->part() != bindpose::no_part)
       {
-        // below the gizmo, where nothing else is drawn
+        // Draw the text below the gizmo, or above it near the lower border of the window, because
+        // nothing else is drawn there.
         const double aside = this->PixelScale * (1.45 * this->GizmoSize + 14.0);
         at = view.to_display(place.head).head<2>();
         at += Vector2d(-0.25 * aside, at[1] > 1.2 * aside ? -aside : aside);

@@ -97,7 +97,7 @@ public:
   bindpose::RestEditor Editor{ this->Data };
   std::string Message; // reason why the last edit was refused
 
-  std::string LastName; // name of the last drag
+  std::string LastName; // type of the last drag; see GetInteractionName()
   std::string LastText;
 };
 

@@ -28,8 +28,8 @@ bool vtkHandleSetRepresentation::WriteHandle(vtkIdType handle, const HandlePlace
   const HandlePlace& before = places[static_cast<std::size_t>(handle)];
   const bindpose::HandleGroup group =
     bindpose::make_group(places, { handle }, this->MoveDescendants != 0);
-  // Followers move by the motion from the old to the new transform. The handle itself gets exactly
-  // the values that were set.
+  // The descendants of the handle move by the motion from the old to the new transform. The handle
+  // itself gets exactly the values that were set.
   Eigen::Affine3d motion = Eigen::Affine3d::Identity();
   const Eigen::Matrix3d inverse = before.transform.leftCols<3>().inverse();
   if (posed.transform != before.transform && inverse.allFinite())

@@ -15,11 +15,11 @@ namespace bindpose
 /// Settings for all drags of one widget.
 struct DragSettings
 {
-  bool local_space = false; ///< the gizmo and the keys X, Y, Z use the handle's own axes instead of
-                            ///< the world's
+  /// The gizmo and the keys X, Y, Z use the handle's own axes. If false, they use the world's axes.
+  bool local_space = false;
   bool descend = true;
-  bool bone_arrays = true; ///< write stretch and twist to their arrays; otherwise multiply them
-                           ///< into the transform
+  /// Write stretch and twist to their arrays. If false, multiply them into the transform.
+  bool bone_arrays = true;
   bool reach = false; ///< dragging a tail also stretches the bone
   double ring_pixels = 80.0;
   double length_step = 0.0;
@@ -56,7 +56,7 @@ public:
   bool type(char key);
   const std::string& typed() const { return this->typed_; }
 
-  /// Return the name of the drag: "move", "turn", "scale", "stretch", "twist".
+  /// Return the type of the drag: "move", "turn", "scale", "stretch", "twist".
   const char* name() const;
   /// Return the amount for display, such as "X 0.25" or "30.0°".
   std::string text();

@@ -120,7 +120,7 @@ std::optional<RestEditor::Target> RestEditor::find(const ScreenView& view, const
   }
   if (probe && !depth && !cage)
   {
-    return std::nullopt; // outside the shape
+    return std::nullopt; // the mouse is outside the shape
   }
   const Vec3 through = depth ? *depth : probe ? this->surface_.center() : settings.focus;
   if (!meet_plane(ray, through, view.sight(), target.place))
@@ -313,7 +313,7 @@ bool RestEditor::press_cage(const Target& target)
     const Index to = this->handle_of(target.cell);
     if (from < 0)
     {
-      this->cage_ = { name }; // continue the cage from that vertex
+      this->cage_ = { name }; // continue the cage from the clicked vertex
       return true;
     }
     // A click on the previous vertex, back along the edge that was just added, is ignored.

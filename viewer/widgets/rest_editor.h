@@ -39,18 +39,21 @@ struct Hand
 struct EditSettings
 {
   EditMode mode = EditMode::pose;
-  bool place_inside = true; ///< place points and bones inside the surface, at half of its
-                            ///< thickness; otherwise on the surface
-  double length_step = 0.0; ///< distance to which moves of rest positions snap
+  /// Place points and bones inside the surface, at half of its thickness. If false, place them on
+  /// the surface.
+  bool place_inside = true;
+  double length_step = 0.0; ///< moves of rest positions snap to multiples of this length
   HandleSizes sizes;
-  Eigen::Vector3d focus = Eigen::Vector3d::Zero(); ///< depth of new handles if there is no surface
+  /// Without a surface, new handles are placed in the plane through this position that faces the
+  /// camera.
+  Eigen::Vector3d focus = Eigen::Vector3d::Zero();
 };
 
 /// The effect of an edit on the dataset and the ids of its cells.
 struct EditResult
 {
   bool changed = false;
-  std::string message; ///< reason for a refusal; otherwise empty
+  std::string message; ///< reason why the edit was refused; empty if it was not refused
   std::vector<Index> cell_of;
   std::vector<Index> added;
 };
@@ -93,8 +96,8 @@ public:
 
   /// Return the result of the last edit and clear it.
   EditResult take_result();
-  /// Return the name of the edit: "move rest", "add point", "add bone", "add cage vertex", "add
-  /// cage edge", "close cage", "remove cage vertex".
+  /// Return the type of the last edit: "move rest", "add point", "add bone", "add cage vertex",
+  /// "add cage edge", "close cage", "remove cage vertex".
   const std::string& name() const { return this->name_; }
   /// Return the bone or other handle to whose end a press would snap; -1 if there is none.
   vtkIdType target() const { return this->target_ ? this->target_->cell : -1; }
@@ -139,7 +142,8 @@ private:
   std::string name_;
   bool busy_ = false;
   Target head_; // head of the unfinished bone
-  std::vector<std::string> cage_; // names of the added vertices, in order
+  // Names of the vertices of the unfinished cage, in the order of the clicks.
+  std::vector<std::string> cage_;
   // State of a move of rest positions: the dataset at its start, and the following members.
   vtkSmartPointer<vtkPolyData> start_;
   std::optional<Drag> drag_;

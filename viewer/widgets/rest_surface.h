@@ -41,8 +41,8 @@ public:
 
 private:
   vtkSmartPointer<vtkPolyData> data_;
-  std::vector<std::pair<const void*, vtkMTimeType>> read_; // inputs of the probe and their
-                                                           // modification times
+  // The objects from which the probe was built, and their modification times then.
+  std::vector<std::pair<const void*, vtkMTimeType>> read_;
   SurfaceInput input_;
   int builds_ = 0;
   std::unique_ptr<SurfaceProbe> probe_;

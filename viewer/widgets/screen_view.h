@@ -12,8 +12,9 @@ namespace bindpose
 /// The ray from the eye through a pixel of the window.
 struct Ray
 {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< in the near plane
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ(); ///< unit vector, away from the eye
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< start of the ray, in the near plane
+  /// Direction of the ray: unit vector, away from the eye.
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
 };
 
 /// A renderer's camera at one moment. It maps world positions to the screen and back. The camera is

@@ -67,7 +67,8 @@ void vtkHandleSetRepresentation::SetHandles(vtkPolyData* handles)
   {
     return;
   }
-  this->Internal->Editor.cancel(); // this writes into the old handles, so it must come first
+  // Cancel before the handles are replaced, because this writes into the old handles.
+  this->Internal->Editor.cancel();
   this->Internal->Editor.finish_cage();
   this->Internal->Data.set(handles);
   this->HoveredHandle = -1;

@@ -124,7 +124,7 @@ public:
     TURN_X = 20, ///< rings
     TURN_Y,
     TURN_Z,
-    TURN_VIEW, ///< about the viewing direction
+    TURN_VIEW, ///< rotates about the viewing direction
     SCALE_X = 30, ///< boxes
     SCALE_Y,
     SCALE_Z,
@@ -166,7 +166,7 @@ public:
   enum RefusalType
   {
     DRAGGABLE = 0,
-    IS_FREE = 1, ///< its Mode is free
+    IS_FREE = 1, ///< the handle is in mode free
     IS_LOCKED = 2,
     IS_NO_HANDLE = 3, ///< the cell does not exist, or is a cage element
     IS_AT_REST = 4 ///< ShowRest is on
@@ -332,9 +332,10 @@ public:
   ///@}
 
   ///@{
-  /// Colors by Mode: FullColor orange; position, tail and ends blue; free gray. There is also a
-  /// color of the outline. The outline of a selected handle has its own color and is surrounded by
-  /// the normal outline.
+  /// Colors of handles and outlines. FullColor (default orange) is for the mode full, PositionColor
+  /// (blue) for position, tail and ends, and FreeColor (gray) for free. OutlineColor is the color
+  /// of outlines. A selected handle has an outline in SelectedColor, which an outline in
+  /// OutlineColor surrounds.
   vtkSetVector3Macro(FullColor, double);
   vtkGetVector3Macro(FullColor, double);
   vtkSetVector3Macro(PositionColor, double);
@@ -379,13 +380,13 @@ public:
   int GetDragRefusal(vtkIdType handle);
 
   ///@{
-  /// Translation, rotation, scale, stretch and twist of a handle. The pivot c is its rest
-  /// position, for a bone its head. A point x moves to c + translation + R S (x - c), where R is
-  /// the rotation and S a scale along the handle's own axes at rest (the world's axes; for a bone,
-  /// y is along the bone). Each setter changes one part and keeps the other parts, but setting the
-  /// scale removes a shear. With MoveDescendants on, the descendants of the handle move with it. A
-  /// setter changes nothing and returns false if the handle does not exist or is locked, a value
-  /// is not finite, the axis has length 0, a factor is 0, or a stretch is not positive.
+  /// Translation, rotation, scale, stretch and twist of a handle. The pivot c is its rest position,
+  /// for a bone its head. A point x moves to c + translation + R S (x - c), where R is the rotation
+  /// and S a scale along the handle's own axes at rest (the world's axes; for a bone, y is along
+  /// the bone). Each setter changes one part and keeps the other parts, but setting the scale
+  /// removes a shear. With MoveDescendants on, the descendants of the handle move with it. A setter
+  /// changes nothing and returns false in these cases: the handle does not exist or is locked; a
+  /// value is not finite; the axis has length 0; a factor is 0; a stretch is not positive.
   bool SetHandleTranslation(vtkIdType handle, const double translation[3]);
   bool SetHandleRotation(vtkIdType handle, const double axis[3], double degrees);
   bool SetHandleScale(vtkIdType handle, const double factors[3]);
@@ -398,7 +399,7 @@ public:
   void GetHandleScale(vtkIdType handle, double factors[3]);
   double GetHandleStretch(vtkIdType handle);
   void GetHandleTwist(vtkIdType handle, double degrees[2]);
-  /// Return the handle to rest; its mode is kept.
+  /// Reset the handle to its rest pose; its mode is kept.
   bool ResetHandle(vtkIdType handle);
   ///@}
 
@@ -456,7 +457,7 @@ public:
   bool GetGizmoGrip(int part, double display[2]);
 
   ///@{
-  /// The methods of vtkWidgetRepresentation and vtkProp.
+  /// Overridden methods of vtkWidgetRepresentation and vtkProp.
   void BuildRepresentation() override;
   double* GetBounds() VTK_SIZEHINT(6) override;
   vtkMTimeType GetMTime() override;

@@ -144,7 +144,7 @@ bool vtkHandleSetWidget::Hover()
   {
     representation->LeaveHandles();
   }
-  // Away from the gizmo, the highlight does not depend on the part of the handle.
+  // Outside the gizmo, all parts of a handle have the same highlight.
   const bool on_gizmo = state >= vtkHandleSetRepresentation::MOVE_X ||
     state_before >= vtkHandleSetRepresentation::MOVE_X;
   if (representation->GetEditMode() > vtkHandleSetRepresentation::MOVE_REST &&
@@ -215,7 +215,8 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
   const bool on_gizmo = representation->GetInteractionState() >= vtkHandleSetRepresentation::MOVE_X;
   if (!on_gizmo && self->Interactor->GetShiftKey())
   {
-    // A position for a new handle is treated like a part of the gizmo.
+    // A position for a new handle (state PLACING) counts as a part of the gizmo, so Shift toggles
+    // only existing handles.
     representation->ToggleSelected(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
     self->Render();
@@ -309,7 +310,7 @@ void vtkHandleSetWidget::EndSelectAction(vtkAbstractWidget* widget)
   const bool click = !self->Moved && representation->GetNumberOfSelectedHandles() > 1 &&
     representation->GetInteractionState() < vtkHandleSetRepresentation::MOVE_X;
   self->EndDrag();
-  if (click) // a click on one of several selected handles, without a drag
+  if (click) // handle a click on one of several selected handles, without a drag
   {
     representation->SetSelectedHandle(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);

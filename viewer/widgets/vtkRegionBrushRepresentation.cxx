@@ -41,7 +41,7 @@ class vtkRegionBrushRepresentation::Internals
 public:
   bindpose::RestSurface Surface;
   std::unique_ptr<bindpose::SurfaceDisc> Disc;
-  int DiscOf = -1; // build number of the surface for which Disc was created
+  int DiscOf = -1; // RestSurface::builds() of the surface for which Disc was created
 
   bool HasPlace = false;
   Vector3d Place = Vector3d::Zero();
@@ -309,7 +309,8 @@ void vtkRegionBrushRepresentation::BuildRepresentation()
         self.Place + this->GetDiscRadius() * (std::cos(angle) * u + std::sin(angle) * v));
     }
     shapes.add_tube(circle, 2.0 * pixel, { 0.13, 0.13, 0.15 });
-    // Move the circle toward the eye. The dark circle behind it then appears as its edge.
+    // Draw a second, thinner circle nearer to the eye, so that the dark circle is visible as its
+    // outline.
     for (Vector3d& place : circle)
     {
       place -= 3.0 * pixel * view.sight_to(place);

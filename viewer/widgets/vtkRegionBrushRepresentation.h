@@ -92,7 +92,7 @@ public:
   bool IsPainting();
 
   ///@{
-  /// The methods of vtkWidgetRepresentation and vtkProp.
+  /// Overridden methods of vtkWidgetRepresentation and vtkProp.
   int ComputeInteractionState(int x, int y, int modify = 0) override;
   void StartWidgetInteraction(double eventPos[2]) override;
   void WidgetInteraction(double eventPos[2]) override;

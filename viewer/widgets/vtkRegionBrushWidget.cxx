@@ -18,7 +18,8 @@
 
 namespace
 {
-constexpr double growth = 1.15; // factor on the radius per turn of the wheel or press of a key
+// Factor on the brush radius per turn of the wheel or press of a key.
+constexpr double growth = 1.15;
 
 bool is_key(const char* keys, const char* key)
 {

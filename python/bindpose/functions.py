@@ -244,7 +244,7 @@ def _make_weights(method):
 
 
 def _set_arrays(solver, data, options, mirror):
-    """Pass the options that are names to the solver, and those that are arrays on a copy of the mesh."""
+    """Set the array options of a solver. Return a copy of the mesh with the arrays that are given as values."""
     named = shallow_copy(data)
     if isinstance(mirror, str) and mirror in ("x", "y", "z"):
         low, high = np.reshape(data.GetBounds(), (3, 2)).T
@@ -353,7 +353,7 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
 
 
 def _make_deformation(options):
-    """The filter of a method with the options that the method uses."""
+    """Return the filter of a method, with the options that the method uses."""
     if options.method == "variational":
         surface = filters.vtkVariationalSurface()
         options.apply(surface, "variational")

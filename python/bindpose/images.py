@@ -20,7 +20,7 @@ def is_image_file(path):
 
 
 def _is_whole_png(path):
-    """Check the chunks and checksums, and unpack the pixels: VTK's reader crashes on invalid files."""
+    """Report whether a png file has all chunks and valid checksums and pixels; VTK's reader crashes on others."""
     with open(path, "rb") as file:
         data = file.read()
     at, kind, pixels = 8, b"", zlib.decompressobj()

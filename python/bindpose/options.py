@@ -15,7 +15,7 @@ _TYPE_NAMES = {"flag": "bool", "integer": "int", "id": "int", "number": "float",
 
 
 def _type_text(option):
-    """The type in a numpydoc entry."""
+    """Return the type of an option, as in a numpydoc entry."""
     if option["type"] == "choice":
         text = "{" + ", ".join(repr(word) for word in option["choices"]) + "}"
     elif option["length"] > 1:
@@ -32,7 +32,7 @@ def _listed(words):
 
 
 def _entry(option):
-    """A numpydoc entry: name, type and default; help, unit and range, methods that use the option."""
+    """Return a numpydoc entry: name, type and default; help, unit and range, methods that use the option."""
     text = option["help"]
     if option["values"]:
         text += f" {option['values'][0].upper()}{option['values'][1:]}."
@@ -47,7 +47,7 @@ def _entry(option):
 
 
 def _number(option, value):
-    """The value as a number of the option's type, or None if it is not one."""
+    """Return the value as a number of the option's type, or None if it is not an allowed number."""
     try:
         number = operator.index(value) if option["type"] in ("integer", "integers", "id") else float(value)
     except (TypeError, ValueError):
@@ -59,7 +59,7 @@ def _number(option, value):
 
 
 def _checked(option, value):
-    """The value if the option allows it."""
+    """Return the value, converted to the option's type. Raise InvalidInput if the option does not allow it."""
     name = option["name"]
     if option["type"] in _ARRAYS or value is option["default"]:
         return value

@@ -16,7 +16,7 @@ _ERRORS = {error.status: error for error in (InvalidInput, Canceled, Unavailable
 def _deferred_interrupt():
     """Turn Ctrl-C into a flag, because VTK would end the process on an exception in an observer.
 
-    Yield a list that is not empty after Ctrl-C.
+    Yield a list that is empty until Ctrl-C is pressed.
     """
     pressed = []
     main = threading.current_thread() is threading.main_thread()
@@ -123,7 +123,10 @@ def report(result):
 
 
 def _is_part(own, whole):
-    """Report whether the data is still the filter's output, which may have been updated again since."""
+    """Report whether all entries of the report `own` are in the report `whole` with equal values.
+
+    If not, the filter was updated again since `own` was written.
+    """
     if isinstance(own, dict):
         return isinstance(whole, dict) and all(key in whole and _is_part(own[key], whole[key]) for key in own)
     if isinstance(own, list):

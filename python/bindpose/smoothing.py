@@ -14,7 +14,7 @@ _LIST = "GivenExtrema"
 
 
 def _to_list(maxima, minima, count):
-    """Return an array of 1, -1 and 0 from ids of vertices."""
+    """Return one value per vertex: 1 for the listed maxima, -1 for the listed minima, otherwise 0."""
     result = np.zeros(count, dtype=np.int8)
     for ids, kind, word in ((maxima, 1, "maximum"), (minima, -1, "minimum")):
         ids = np.asarray(() if ids is None else ids)

@@ -12,7 +12,7 @@ BarStack::BarStack(QWidget* picture) : QWidget(picture), column_(new QVBoxLayout
 {
   this->column_->setContentsMargins(0, 0, 0, 0);
   this->column_->setSpacing(6);
-  this->setCursor(Qt::ArrowCursor); // not the cursor of the picture below
+  this->setCursor(Qt::ArrowCursor); // use the arrow instead of the cursor of the 3D view below
   picture->installEventFilter(this);
   this->hide();
 }
@@ -32,7 +32,7 @@ void BarStack::begin_below(QWidget* widget)
 bool BarStack::event(QEvent* event)
 {
   const bool result = QWidget::event(event);
-  if (event->type() == QEvent::LayoutRequest) // the text of a bar has changed its size
+  if (event->type() == QEvent::LayoutRequest) // the size of a bar has changed with its text
   {
     this->arrange();
   }

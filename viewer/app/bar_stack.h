@@ -5,7 +5,7 @@
 
 class QVBoxLayout;
 
-/// A stack of bars over the upper edge of a picture. The picture keeps its position and size when a
+/// A stack of bars over the upper edge of the 3D view. The view keeps its position and size when a
 /// bar appears or disappears, so that nothing moves under the mouse.
 class BarStack : public QWidget
 {
@@ -14,7 +14,7 @@ public:
 
   /// Add a bar below the existing ones. A hidden bar takes no space.
   void add(QWidget* bar);
-  /// Set a child of the picture; while the child is visible, the stack begins below it.
+  /// Set a child widget of the 3D view; while the child is visible, the stack begins below it.
   void begin_below(QWidget* widget);
 
 protected:

@@ -16,14 +16,14 @@ struct BindInput
 {
   bindpose::TriangleMesh surface;
   bindpose::Handles handles;
-  /// Points, bones and cages of the handles, which become part of the tets.
+  /// Points, bones and cages of the handles, at which the mesher creates vertices of the tets.
   bindpose::HandlePlaces handle_places;
   std::vector<bindpose::Index> region_of_vertex; ///< #V labels, empty without regions
   /// The method, a row of weight_methods(); never null.
   const bindpose::WeightMethod* method = bindpose::weight_methods().data();
   bindpose::WeightsDomain domain = bindpose::WeightsDomain::automatic;
-  bool preview = true; ///< whether to compute preliminary weights, with which the user can pose
-                       ///< before the bind ends
+  /// True: compute preliminary weights, with which the user can pose before the bind ends.
+  bool preview = true;
 };
 
 /// Result of a bind: weights at the surface's own vertices and at the vertices of the domain on
@@ -34,9 +34,10 @@ struct BindResult
   bindpose::Weights weights; ///< #V x #handles
   bindpose::Weights raw; ///< the weights before rows are divided by their sums
   bindpose::WeightsDomain domain = bindpose::WeightsDomain::surface;
-  bindpose::Domain mesh; ///< the domain on which the weights were solved; it has tets unless it is
-                         ///< the surface itself
-  bindpose::WeightsResult solved; ///< at the vertices of `mesh`, with one certificate per column
+  /// The domain on which the weights were solved. It contains tets unless it is the surface itself.
+  bindpose::Domain mesh;
+  /// Weights at the vertices of `mesh`, with one certificate per column.
+  bindpose::WeightsResult solved;
 };
 
 /// Computes weights for a surface with the kernels on a separate thread (surface_weights). One job
@@ -49,7 +50,7 @@ public:
   explicit BindJob(QObject* parent = nullptr);
 
   void start(BindInput input);
-  /// Request the end of the job. finished() is still emitted, with the status canceled.
+  /// Request cancellation of the job. finished() is still emitted, with the status canceled.
   void cancel() { this->job_.cancel(); }
   bool is_running() const { return this->job_.is_running(); }
   /// Return the last result; valid after finished().

@@ -1,5 +1,6 @@
-// Starts binds and uses their results. The job works on copies of the surface and the handles. Both
-// may have been replaced when it ends, so the result is checked before it is used.
+// Starts binds and uses their results. The job works on copies of the surface and the handles.
+// While the job runs, the surface or the handles may be replaced, so the result is checked before
+// it is used.
 #include "binding.h"
 
 #include "document/document.h"

@@ -32,7 +32,7 @@ public:
   /// Convert surface and handles to the kernels' input. If these are invalid, emit failed() and
   /// return false.
   bool make_input(BindInput& input);
-  /// Offer another bind if the handles have changed since the last one, once for each reason.
+  /// Offer another bind if the handles have changed since the last bind, once for each reason.
   void offer_again();
 
 Q_SIGNALS:
@@ -41,7 +41,7 @@ Q_SIGNALS:
   /// Emitted when the document has new weights.
   void bound();
   void failed(const QString& sentence);
-  /// Emitted when a bind has ended with a message for the user.
+  /// Emitted with a message for the user after a bind has ended.
   void noticed(const QString& sentence);
 
 private:
@@ -54,7 +54,7 @@ private:
   NoticeBar* bar_;
   BindJob* job_;
   vtkSmartPointer<vtkPolyData> preview_; ///< preview of the running job
-  QString reason_; ///< the reason that was offered last
+  QString reason_; ///< the last reason for which a bind was offered
 };
 
 #endif

@@ -13,9 +13,11 @@ using namespace bindpose;
 namespace
 {
 constexpr int display_interval = 16; // milliseconds
-/// Maximum number of time steps per displayed frame. Time beyond these steps is skipped.
+/// Maximum number of time steps per displayed frame. Simulated time that would need more steps is
+/// skipped.
 constexpr int most_steps = 4;
-/// Maximum of vertices times columns for which a body is bound immediately, not in the background.
+/// A body is bound immediately, not in the background, if its number of vertices times its number
+/// of weight columns is at most this value.
 constexpr Index bound_at_once = 20000;
 } // namespace
 

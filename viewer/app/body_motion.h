@@ -72,8 +72,8 @@ private:
   bindpose::Status status_;
   QTimer playing_;
   QElapsedTimer clock_;
-  double due_ = 0.0; ///< simulated time: seconds of clock_ up to which steps were computed
-  KernelJob job_; // last member, so that it ends before the data it works on is destroyed
+  double due_ = 0.0; ///< seconds of clock_ up to which time steps were computed
+  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
 };
 
 #endif

@@ -9,7 +9,7 @@
 class Viewport;
 class vtkActor;
 
-/// Shows the defects of a surface in the picture, with a legend of their types and counts.
+/// Shows the defects of a surface in the 3D view, with a legend of their types and counts.
 class DefectView
 {
 public:

@@ -10,8 +10,9 @@ using namespace bindpose;
 
 namespace
 {
-/// Numbers of iterations: of the first slice (part of a solve) for a pose, of the longest slice,
-/// and of all slices for one pose. The last value is the maximum of vtkFullARAP.
+/// A slow method solves in slices of a few iterations. The constants are the number of iterations
+/// of the first slice for a pose, of the longest slice, and of all slices for one pose. The last
+/// value is the maximum of vtkFullARAP.
 constexpr Index first_slice = 2;
 constexpr Index longest_slice = 64;
 constexpr Index most_iterations = 500;

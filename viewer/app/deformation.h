@@ -96,17 +96,17 @@ private:
   bool binding_ = false;
   bool settled_ = false;
   bool canceled_ = false;
-  /// True while set_pose() runs. Signals are not necessary then, because its caller reads the
-  /// points itself.
+  /// True while set_pose() runs. The signals arrived() and failed() are not emitted then, because
+  /// the caller of set_pose() reads the points itself.
   bool asked_at_once_ = false;
   int restarts_ = 0;
 
   /// The task of the running job.
   struct Task
   {
-    std::shared_ptr<bindpose::Poser> poser; ///< null: no task
+    std::shared_ptr<bindpose::Poser> poser; ///< poser that the task uses; null: no task
     bool bind = false;
-    bool stale = false; ///< its result must be discarded
+    bool stale = false; ///< true: the result of the task must be discarded
     bindpose::Index slice = 0;
     int pose_number = 0;
     std::shared_ptr<bindpose::Points> points;
@@ -115,7 +115,7 @@ private:
   Task task_;
   bindpose::Index slice_ = 0; ///< iterations of the next slice
   bindpose::Index spent_ = 0; ///< iterations that were computed for the current pose
-  KernelJob job_; // last member, so that it ends before the data it works on is destroyed
+  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
 };
 
 #endif

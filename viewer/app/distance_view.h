@@ -7,9 +7,9 @@
 class Posing;
 class Viewport;
 
-/// Shows the distance between the shape of the compared method and the shape in the picture. It is
-/// shown as colors on the latter shape, with a scale in percent of the bounding-box diagonal of the
-/// shape at rest.
+/// Shows the distance between the displayed shape and the shape of the compared method. The
+/// distance is shown as colors on the displayed shape, with a scale in percent of the rest shape's
+/// bounding-box diagonal.
 class DistanceView
 {
 public:

@@ -18,10 +18,11 @@
 namespace
 {
 constexpr int margin = 5;
-constexpr int gap = 6; // pixels between groups
-constexpr int between = 2; // pixels between buttons
+constexpr int gap = 6; // pixels between groups of buttons
+constexpr int between = 2; // pixels between buttons of a group
 
-/// The slider is logarithmic: from 0.002 to 0.5 of the shape's diagonal.
+/// Range of the logarithmic slider for the radius of the brush, as fractions of the shape's
+/// diagonal.
 constexpr double least_radius = 0.002;
 constexpr double most_radius = 0.5;
 constexpr int radius_steps = 200;

@@ -11,7 +11,7 @@ class QPushButton;
 class QSlider;
 class QToolButton;
 
-/// The row of tools above the picture: groups of buttons, one button per action. If the row is too
+/// The row of tools above the 3D view: groups of buttons, one button per action. If the row is too
 /// narrow, only the buttons of the first group have text; if it is still too narrow, none have.
 class EditTools : public QFrame
 {
@@ -34,7 +34,7 @@ private:
   QList<QList<QToolButton*>> buttons_;
 };
 
-/// A bar with the options of the current edit mode, over the upper left corner of the picture.
+/// A bar with the options of the current edit mode, over the upper left corner of the 3D view.
 class ModeBar : public QFrame
 {
   Q_OBJECT
@@ -46,11 +46,12 @@ public:
   struct State
   {
     QString title;
-    bool places = false; ///< show the choice of placing points or bones inside or on the surface
+    /// True: show the switch that places points and bones inside the surface instead of on it.
+    bool places = false;
     bool cage = false;
     bool making_cage = false;
     bool paints = false;
-    bool has_region = false; ///< true: the next stroke continues an existing region
+    bool has_region = false; ///< true: the next stroke paints the label of an existing region
     double radius = 0.0; ///< radius of the brush, as a fraction of the shape's diagonal
   };
   void show_state(const State& state);

@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-/// Instructions for the first step, in the middle of the picture while no file is open.
+/// Instructions for the first step, in the middle of the 3D view while no file is open.
 class EmptyState : public QWidget
 {
   Q_OBJECT
@@ -12,7 +12,7 @@ public:
   explicit EmptyState(QWidget* parent);
 
 Q_SIGNALS:
-  /// Emitted when the user wants to choose a mesh, open it, and add handles automatically.
+  /// Emitted when the user wants to open a mesh for which handles are then created automatically.
   void open_and_rig_wanted();
 };
 

@@ -18,7 +18,7 @@ enum class ErrorKind
   export_file
 };
 
-/// Shows an error as one sentence over the picture. The bar is hidden when the user closes it or
+/// Shows an error as one sentence over the 3D view. The bar is hidden when the user closes it or
 /// the error is out of date.
 class ErrorBar : public QFrame
 {

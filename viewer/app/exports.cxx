@@ -42,7 +42,7 @@ QString short_path(const QString& path)
 Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path)
 {
   vtkNew<vtkGLTFSkinWriter> writer;
-  // keeps VTK from printing the writer's errors, which its status contains
+  // keeps VTK from printing the errors, which the writer's status also contains
   vtkNew<vtkCallbackCommand> nothing;
   nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, nothing);
@@ -165,7 +165,7 @@ bool Exports::save_pose(const QString& path)
 
 bool Exports::save_picture(const QString& path, int scale, bool transparent)
 {
-  QApplication::setOverrideCursor(Qt::WaitCursor); // a large picture takes seconds
+  QApplication::setOverrideCursor(Qt::WaitCursor); // a large image takes seconds
   vtkSmartPointer<vtkImageData> picture;
   Status status = this->window_->viewport()->take_picture(scale, transparent, picture);
   if (status.ok())

@@ -10,8 +10,8 @@ class NoticeBar;
 class QFileDialog;
 
 /// The exports of the menu File, except sessions: the visible shape, the rig (mesh, weights and
-/// handles), the pose, the picture, and key frames as a film or another animation. A bar shows what
-/// was written and to which path, and can open the folder.
+/// handles), the pose, an image of the 3D view, and key frames as a film or another animation. A
+/// bar shows what was written and to which path, and can open the folder.
 class Exports : public QObject
 {
   Q_OBJECT
@@ -34,7 +34,7 @@ public:
   /// handles.
   bool save_rig(const QString& path);
   bool save_pose(const QString& path);
-  /// Write the picture that Viewport::take_picture() returns to a .png file.
+  /// Write the image that Viewport::take_picture() returns to a .png file.
   bool save_picture(const QString& path, int scale, bool transparent);
 
 private:

@@ -84,6 +84,6 @@ bool FieldGuard::keep_from_undo(QAbstractSpinBox* box, QEvent* event) const
   {
     return false;
   }
-  event->ignore(); // Qt then searches for a shortcut of the window.
+  event->ignore(); // The field ignores the key, so Qt searches for a shortcut of the window.
   return true;
 }

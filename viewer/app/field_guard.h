@@ -12,7 +12,7 @@ class QWidget;
 /// - Number fields, combo boxes and sliders ignore the mouse wheel unless they have the keyboard
 ///   focus, and the wheel does not give them the focus. The wheel then scrolls the enclosing area.
 /// - Undo and redo act on a number field only while a number is being typed in it.
-/// - Enter in a number field ends the typing, so that the keys of the picture work again.
+/// - Enter in a number field ends the typing, so that the keys of the 3D view work again.
 class FieldGuard : public QObject
 {
 public:

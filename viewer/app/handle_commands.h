@@ -27,7 +27,7 @@ class HandleCommands : public QObject
   Q_OBJECT
 
 public:
-  /// The keys work in `picture` and in `list`, the list of handles.
+  /// The keys work in the 3D view `picture` and in `list`, the list of handles.
   HandleCommands(HandleEditing* editing, Document* document, QWidget* picture, QWidget* list);
   ~HandleCommands() override;
 
@@ -41,7 +41,7 @@ public:
   void update();
 
   bool rename(int handle, const QString& name);
-  /// Set the color of the selected handles; null: the color of their mode.
+  /// Set the color of the selected handles; empty: the color of their mode.
   void set_color(const std::optional<QColor>& color);
   void set_locked(bool locked);
   void remove();

@@ -96,8 +96,8 @@ HandleEditing::HandleEditing(
       }
     });
   // Poses that are typed or played must be visible, so leave the edit mode. A drag that was started
-  // by a key may be in progress. It is stopped, because canceling it later would restore the old
-  // pose.
+  // by a key may be in progress. It is stopped, because canceling the drag later would restore the
+  // old pose.
   QObject::connect(posing, &Posing::pose_changed, this,
     [this]
     {
@@ -415,7 +415,7 @@ void HandleEditing::select(const std::vector<int>& handles)
   this->show_selection();
 }
 
-/// Select the handles in names_ in the picture. Names of handles that do not exist now are kept
+/// Select the handles in names_ in the 3D view. Names of handles that do not exist now are kept
 /// until the next selection, because a redo may restore these handles.
 void HandleEditing::show_selection()
 {
@@ -445,7 +445,7 @@ void HandleEditing::remember_selection()
   }
 }
 
-/// The user has changed the selection in the picture: update the list.
+/// The user has changed the selection in the 3D view: update the list.
 void HandleEditing::selection_changed()
 {
   this->remember_selection();
@@ -586,7 +586,7 @@ void HandleEditing::document_changed(int parts)
   {
     if (this->is_committing_)
     {
-      this->selection_changed(); // the picture already has the new selection
+      this->selection_changed(); // the 3D view already shows the new selection
     }
     else
     {
@@ -684,8 +684,8 @@ QString HandleEditing::mode_sentence() const
 
 // ---- Keys and the right button -----------------------------------------------------------------
 
-/// Report whether a key in the picture is used by the current interaction, so that it must not
-/// trigger a shortcut of the window.
+/// Report whether the current interaction in the 3D view uses a key, so that it must not trigger a
+/// shortcut of the window.
 bool HandleEditing::takes_key(const QKeyEvent* event) const
 {
   if (event->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier))

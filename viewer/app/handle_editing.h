@@ -31,7 +31,7 @@ class vtkObject;
 
 /// Interactive editing of handles: the tools and edit modes of the handle widget and the region
 /// brush, and their messages. Each edit is one undo step of the document. Handles are selected in
-/// the picture or in the list. The selection is stored by name, so handles stay selected if an edit
+/// the 3D view or in the list. The selection is stored by name, so handles stay selected if an edit
 /// changes their indices.
 ///
 /// While rest positions are edited or regions are painted, the shape is shown at rest.
@@ -54,10 +54,10 @@ public:
   HandleEditing(
     Document* document, Viewport* viewport, Posing* posing, SidePanel* panel, QAction* auto_rig);
 
-  /// Return the row of tools, to be placed above the picture.
+  /// Return the row of tools, to be placed above the 3D view.
   EditTools* tools() const { return this->tools_; }
   /// Return the bar with the options of an edit mode, to be placed in the upper left corner of the
-  /// picture.
+  /// 3D view.
   ModeBar* mode_bar() const { return this->bar_; }
   HandleCommands* commands() const { return this->commands_; }
   void fill_menu(QMenu* menu);
@@ -68,8 +68,8 @@ public:
   void set_mode(int mode);
   /// Draw handles at rest in the mode `pose`. They can then be selected but not dragged.
   void show_rest(bool shown);
-  /// Handle Esc: cancel a drag or stroke; if there is none, remove the last vertex of an unfinished
-  /// cage; if there is none, leave the edit mode.
+  /// Handle Esc by the first of these actions that is possible: cancel a drag or a stroke, remove
+  /// the last vertex of an unfinished cage, leave the edit mode.
   void step_back();
 
   /// Return the indices of the selected handles, in the order of their selection.
@@ -85,7 +85,7 @@ public:
   /// the same step.
   bool edit(
     const QString& step, const bindpose::HandleListEdit& edit, vtkDataArray* labels = nullptr);
-  /// Commit changes that the cells of the document's handles already contain as one undo step.
+  /// Commit, as one undo step, changes that are already in the cells of the document's handles.
   bool commit(const QString& step, vtkDataArray* labels = nullptr);
   /// Rename a handle. Return false, and emit refused(), if the name is empty or belongs to another
   /// handle.
@@ -151,12 +151,12 @@ private:
   QAction* inside_ = nullptr;
   EditTools* tools_ = nullptr;
   ModeBar* bar_ = nullptr;
-  QWidget* nothing_ = nullptr; ///< shown over the picture while a mesh has no handles
+  QWidget* nothing_ = nullptr; ///< shown over the 3D view while a mesh has no handles
   int mode_ = pose;
   std::vector<std::string> names_; ///< names of the selected handles
   bool is_committing_ = false;
-  bool follows_ = false; ///< the list is being updated from the picture's selection
-  bool right_button_ = false; ///< the right button was pressed on a handle
+  bool follows_ = false; ///< true while the list is updated from the selection in the 3D view
+  bool right_button_ = false; ///< true: the right button was pressed on a handle
   QString warning_;
 };
 

@@ -22,7 +22,7 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
     box->setSingleStep(step);
     box->setDecimals(digits);
     box->setButtonSymbols(QAbstractSpinBox::NoButtons);
-    box->setKeyboardTracking(false); // only complete numbers are reported
+    box->setKeyboardTracking(false); // emit no signals while a number is being typed
     box->setAlignment(Qt::AlignRight);
     box->setMinimumWidth(box->fontMetrics().horizontalAdvance("-00.000") + 14);
     return box;

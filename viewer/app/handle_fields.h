@@ -29,7 +29,8 @@ public:
   /// Show the layer of a handle in a planar shape. Empty: the shape is not planar, or no handle is
   /// selected.
   void show_layer(const std::optional<double>& layer);
-  /// Show which of several selected handles the values belong to.
+  /// Show the number of selected handles, and the name of the handle whose values are displayed.
+  /// The line is visible only if several handles are selected.
   void show_count(const QString& name, int count);
   bindpose::HandleValues values() const;
   /// Return a field by its index. The order is: translate x y z, rotate x y z, scale, stretch,

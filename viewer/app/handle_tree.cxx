@@ -64,7 +64,7 @@ QIcon kind_icon(HandleKind kind)
     painter.end();
     pixmap.setDevicePixelRatio(scale);
     icon.addPixmap(pixmap);
-    icon.addPixmap(pixmap, QIcon::Selected); // otherwise the style tints the icon
+    icon.addPixmap(pixmap, QIcon::Selected); // otherwise the style tints the icon of a selected row
   }
   return icon;
 }
@@ -145,7 +145,7 @@ HandleTree::HandleTree(QWidget* parent)
       if (item && this->tree_->selectedItems().isEmpty() &&
         QApplication::mouseButtons() == Qt::NoButton)
       {
-        // the first arrow key then moves to the first row without selecting it
+        // the first arrow key moves to the first row without selecting it, so select the row here
         item->setSelected(true);
       }
     });

@@ -26,7 +26,7 @@ public:
   {
     QString name;
     bindpose::HandleKind kind = bindpose::HandleKind::point;
-    int parent = -1; ///< index of a row; -1: none
+    int parent = -1; ///< index of the parent in the list of rows; -1: no parent
     int mode = static_cast<int>(bindpose::HandleMode::automatic);
   };
   /// Set the handles and clear the selection. Collapsed handles stay collapsed; they are identified

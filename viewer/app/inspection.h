@@ -12,8 +12,8 @@
 class TetPanel;
 class Viewport;
 
-/// Inspection of a surface's tets and defects. They are computed in the background. While the panel
-/// is visible, they are shown as it requests.
+/// Inspection of a surface's tets and defects. Tets and defects are computed in the background.
+/// While the panel is visible, the class shows them as the panel requests.
 class Inspection : public QObject
 {
   Q_OBJECT
@@ -25,7 +25,7 @@ public:
   void set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets);
   /// Set whether the panel is visible. If not, the surface has its normal look.
   void set_active(bool active);
-  void make_tets(int method); ///< method: one of TetPanel::Method
+  void make_tets(int method); ///< compute tets with a meshing method, one of TetPanel::Method
   void cancel();
   /// Look for defects in the background after the surface was drawn, and emit defects_found() if
   /// there are any.
@@ -49,11 +49,12 @@ Q_SIGNALS:
   /// Emitted when the search of look_for_defects() has found defects. `counts` is a text with the
   /// counts per type.
   void defects_found(const QString& counts);
-  /// Emitted with one sentence if tets or colors are impossible; the picture is unchanged.
+  /// Emitted with one sentence if tets or their colors cannot be computed; the display is
+  /// unchanged.
   void failed(const QString& sentence);
   /// Emitted when tets were computed, or are shown as requested.
   void succeeded();
-  /// Emitted when tets were computed with a message for the user.
+  /// Emitted with a message for the user after tets were computed.
   void noticed(const QString& sentence);
 
 private:
@@ -73,7 +74,7 @@ private:
   vtkSmartPointer<vtkPolyData> surface_;
   bool active_ = false;
   bool looking_ = false; // true: emit defects_found() if the search finds defects
-  bool waiting_ = false; // true: the search begins after the first picture of the surface
+  bool waiting_ = false; // true: the search begins after the surface was drawn for the first time
   int colors_ = 0; // the displayed values, one of TetPanel::Colors
   std::shared_ptr<vtkSmartPointer<vtkUnstructuredGrid>> made_tets_;
   std::shared_ptr<vtkSmartPointer<vtkPolyData>> made_defects_;

@@ -26,7 +26,7 @@ public:
 
   /// Start a job. Do nothing if a job is running.
   void start(Work work);
-  /// Request the end of the job. finished() is still emitted, with the status canceled.
+  /// Request cancellation of the job. finished() is still emitted, with the status canceled.
   void cancel();
   bool is_running() const { return this->running_; }
   /// Return the status of the last job, with seconds.* in its report; valid after finished().

@@ -203,7 +203,7 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
   const QColor line = shade(on ? "scroll" : "line"), ink = shade(on ? "note" : "off");
   painter.setPen(QPen(line, 2));
   painter.drawLine(margin, middle, this->width() - margin, middle);
-  // Label as many times as fit.
+  // Draw as many time labels as there is space for.
   const double room = this->length() / (this->width() - 2.0 * margin) *
     (this->fontMetrics().horizontalAdvance("000 s") + 14);
   const double steps[] = { 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 300.0, 1800.0 };

@@ -10,7 +10,7 @@ class QLabel;
 class QPushButton;
 class KeyTrack;
 
-/// The strip of key frames below the picture: a track with one mark per key, and buttons that play
+/// The strip of key frames below the 3D view: a track with one mark per key, and buttons that play
 /// and set keys. On the track users drag the mouse to change the displayed time (scrub) and to move
 /// keys. The window sets the contents.
 class KeyStrip : public QFrame

@@ -706,7 +706,8 @@ bool MainWindow::show_file(const OpenedFile& file, const QString& path)
   }
 }
 
-/// Open a picture as a shape: the region where its alpha is opaque, or the whole rectangle.
+/// Open an image file as a textured shape: the region where its alpha is opaque, or the whole
+/// rectangle.
 bool MainWindow::open_picture(
   vtkImageData* picture, const QString& name, const Source& source, bool whole)
 {
@@ -907,9 +908,9 @@ void MainWindow::draw_pose()
   this->viewport_->refresh();
 }
 
-/// Show all parts of the picture in the same state. Data that belongs to the shape at rest (tets,
-/// defects, slices, winding numbers) is shown together with surface and handles at rest. A label
-/// then states that the shape is at rest.
+/// Show all data in the 3D view in the same state, posed or at rest. Data that belongs to the shape
+/// at rest (tets, defects, slices, winding numbers) is shown together with surface and handles at
+/// rest. A label then states that the shape is at rest.
 void MainWindow::show_state()
 {
   const QString inspected = this->inspection_->tet_view()->is_shown() ? tr("tets are shown at rest")
@@ -995,13 +996,14 @@ QString MainWindow::bound_note() const
 void MainWindow::show_outlines(bool shown)
 {
   this->viewport_->show_outlines(shown);
-  this->draw_pose(); // draw again, because the second half shows outlines too
+  this->draw_pose(); // draw again, because the right half of a split view shows outlines too
   this->menus_->update();
   this->links_->chosen("show.outlines");
 }
 
-/// Determine how the surface is drawn: tets hide it, defects make it see-through. Without tets and
-/// defects a slice of the weights determines the look, then the volume.
+/// Determine how the surface is drawn. Tets hide the surface, and defects make it see-through. If
+/// neither is shown, a slice of the weights determines the look. If there is no slice either, the
+/// panel of the volume determines it.
 void MainWindow::update_surface_look()
 {
   int look = this->inspection_->surface_look();

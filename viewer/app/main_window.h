@@ -62,7 +62,7 @@ public:
   WindowSessions* sessions() const { return this->sessions_; }
   Exports* exports() const { return this->exports_; }
 
-  /// Open a mesh, handles, weights, a picture, a volume, curves or a session. If the file cannot be
+  /// Open a mesh, handles, weights, an image, a volume, curves or a session. If the file cannot be
   /// used, show a sentence in the error bar, keep what is open, and return false.
   /// @param read  the contents of the file, if it was already read
   bool open(const QString& path, const OpenedFile* read = nullptr);
@@ -104,7 +104,7 @@ public:
   ShapeHandles* shape_handles() const { return this->shape_handles_; }
   KeyStrip* strip() const { return this->strip_; }
   WindingVolume* winding_volume() const { return this->winding_volume_; }
-  /// Report whether the key frames are shown below the picture. They are shown after the first key
+  /// Report whether the key frames are shown below the 3D view. They are shown after the first key
   /// frame was set, or on request.
   bool shows_timeline() const { return this->timeline_; }
   void show_timeline(bool shown);
@@ -120,7 +120,7 @@ public:
   void update_title();
   NoticeBar* rebind_bar() const { return this->rebind_bar_; }
   NoticeBar* recovery_bar() const { return this->recovery_bar_; }
-  /// Return the bar for notes about missing files of a session, the outline of a picture, and
+  /// Return the bar for notes about missing files of a session, the outline of an image, and
   /// defects of a surface.
   NoticeBar* note_bar() const { return this->note_bar_; }
   /// Return the bar that shows what was exported and to which path.
@@ -169,16 +169,16 @@ private:
   Inspection* inspection_ = nullptr;
   WeightInspection* weights_ = nullptr;
   Probe* probe_ = nullptr;
-  std::optional<bindpose::Vec3> plane_; // normal of a planar shape at rest
+  std::optional<bindpose::Vec3> plane_; // normal of a planar shape at rest; empty: not planar
   bool flat_wanted_ = true;
-  /// For each cutting plane, by the name of its options: the last orientation that the program has
-  /// chosen.
+  /// Last orientation that the program has chosen for each cutting plane. The key is the name of
+  /// the plane's options.
   std::map<QString, int> faced_;
   Posing* posing_ = nullptr;
   HandleEditing* editing_ = nullptr;
   Binding* binding_ = nullptr;
   ShapeHandles* shape_handles_ = nullptr;
-  KeyStrip* strip_ = nullptr; // below the picture
+  KeyStrip* strip_ = nullptr; // below the 3D view
   PanelColumn* panels_ = nullptr;
   std::unique_ptr<RotationView> rotations_;
   std::unique_ptr<DistanceView> distances_;
@@ -188,14 +188,14 @@ private:
   WindowSessions* sessions_ = nullptr;
   Exports* exports_ = nullptr;
   WindingVolume* winding_volume_ = nullptr;
-  BarStack* bars_ = nullptr; // stack of bars over the picture; contains the bars below
+  BarStack* bars_ = nullptr; // stack of bars over the 3D view; contains the next four bars
   ErrorBar* error_bar_ = nullptr;
   NoticeBar* recovery_bar_ = nullptr;
   NoticeBar* note_bar_ = nullptr;
   NoticeBar* rebind_bar_ = nullptr;
   NoticeBar* export_bar_ = nullptr;
   ElidedLabel* hint_ = nullptr;
-  EmptyState* empty_ = nullptr; // in the middle of the picture while no file is open
+  EmptyState* empty_ = nullptr; // in the middle of the 3D view while no file is open
   vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport shows
   bool timeline_ = false;
   bool has_keys_ = false;

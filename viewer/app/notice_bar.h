@@ -10,7 +10,7 @@ class QHBoxLayout;
 class QLabel;
 class QPushButton;
 
-/// A sentence over the picture with buttons for actions. It is shown until an action is chosen or
+/// A sentence over the 3D view with buttons for actions. It is shown until an action is chosen or
 /// the bar is closed. It never blocks the window.
 class NoticeBar : public QFrame
 {

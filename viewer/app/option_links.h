@@ -27,7 +27,7 @@ public:
   /// value.
   void tie(const QString& key, const std::function<QVariant()>& value,
     const std::function<void(const QVariant&)>& set);
-  /// Group options: a step of one of them stores all of them.
+  /// Group options: the undo step of one option stores all options of its group.
   void join(const QStringList& keys);
   /// Make an undo step, because the user has chosen the option. The step has the name of the
   /// option.
@@ -52,8 +52,9 @@ private:
 
   Document* document_;
   std::map<QString, Link> links_;
-  bool follows_ = false; ///< true while widgets are set from the document, when their signals are
-                         ///< not choices of the user
+  /// True while widgets are set from the document. Their signals are then caused by the program,
+  /// not by the user.
+  bool follows_ = false;
 };
 
 #endif

@@ -60,7 +60,7 @@ PanelColumn::PanelColumn(QWidget* parent)
   auto* below = new QVBoxLayout(panels);
   below->setContentsMargins(0, 0, 0, 0);
   below->setSpacing(0);
-  // All panels have the same width, so that the picture keeps its size.
+  // All panels have the same width, so that the 3D view keeps its size.
   const int width = this->side_->sizeHint().width();
   this->panels_ = { this->side_, this->scrolled(this->weight_, width),
     this->scrolled(this->tet_, width), this->scrolled(this->volume_, width) };

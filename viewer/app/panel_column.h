@@ -13,7 +13,7 @@ class TetPanel;
 class VolumePanel;
 class WeightPanel;
 
-/// The column to the right of the picture. Its panels are: bind and pose, weights, tets and
+/// The column to the right of the 3D view. Its panels are: bind and pose, weights, tets and
 /// defects, and volumes. If several panels apply, buttons at the top select one. The list of
 /// handles is above the panels that are about handles; the mouse can drag the border between list
 /// and panel.

@@ -57,7 +57,8 @@ QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent)
       translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the z axis")),
       translated(
         QT_TRANSLATE_NOOP("Panel", "Any orientation; drag the arrow of the plane to rotate it")) });
-  group->button(1)->setProperty("place", "second"); // its place in a row of four
+  // Style: no right border, as the second of four buttons.
+  group->button(1)->setProperty("place", "second");
   group->button(2)->setChecked(true);
   return group;
 }

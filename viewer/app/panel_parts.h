@@ -11,7 +11,7 @@ class QLabel;
 class QPushButton;
 class QWidget;
 
-// Functions that create the widgets and texts of the panels to the right of the picture.
+// Functions that create the widgets and texts of the panels to the right of the 3D view.
 
 QLabel* heading(const QString& text, QWidget* parent);
 /// Return a button that does not take the keyboard focus when it is clicked.

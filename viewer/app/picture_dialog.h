@@ -9,9 +9,9 @@ class QLabel;
 class QPushButton;
 class Viewport;
 
-/// A dialog that asks for the size of a picture, as a multiple of its size on the screen, and for a
-/// transparent background. It shows the size in pixels. The next dialog begins with the same
-/// choices.
+/// A dialog that asks for the size of an image of the 3D view, as a multiple of the size on the
+/// screen, and for a transparent background. It shows the size in pixels. The next dialog begins
+/// with the same choices.
 class PictureDialog : public QDialog
 {
   Q_OBJECT
@@ -21,8 +21,7 @@ public:
 
   int scale() const;
   bool is_transparent() const;
-  /// Return the text about the size: pixels, or the reason why a picture of this size is
-  /// impossible.
+  /// Return the text about the size: pixels, or the reason why an image of this size is impossible.
   QString size_note() const;
   void accept() override;
 

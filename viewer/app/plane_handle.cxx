@@ -50,7 +50,7 @@ PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent),
   this->widget_->SetCurrentRenderer(renderer);
   this->widget_->SetDefaultRenderer(renderer);
   this->widget_->SetPriority(0.4F); // handles have a higher priority
-  // Pass on the other mouse buttons, which move and zoom the view as elsewhere in the picture.
+  // Pass on the other mouse buttons, which move and zoom the camera as elsewhere in the 3D view.
   for (const unsigned long event :
     { vtkCommand::MiddleButtonPressEvent, vtkCommand::MiddleButtonReleaseEvent,
       vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent })
@@ -229,9 +229,10 @@ void PlaneHandle::widget_caught()
     : this->state_.origin;
 }
 
-/// Compute the plane from the mouse. The widget moves its plane by the mouse's motion along the
-/// projected normal, which is short if the view direction is nearly the normal. Instead, the
-/// grabbed point moves along its normal to the point that is nearest to the mouse's ray.
+/// Compute the plane from the mouse. The widget would move the plane by the mouse's motion along
+/// the projected normal. This projection is short if the view direction is nearly the normal.
+/// Instead, the grabbed point moves along the plane's normal to the point that is nearest to the
+/// mouse's ray.
 void PlaneHandle::widget_moved()
 {
   const bool pushed =
@@ -302,7 +303,7 @@ bool PlaneHandle::eventFilter(QObject* watched, QEvent* event)
     {
       this->cancel();
     }
-    event->accept(); // otherwise Esc would be a shortcut and leave an edit mode
+    event->accept(); // otherwise Esc would also leave the edit mode, as a shortcut of the window
     return true;
   }
   return QObject::eventFilter(watched, event);

@@ -13,8 +13,9 @@ class Viewport;
 class vtkImplicitPlaneRepresentation;
 class vtkImplicitPlaneWidget2;
 
-/// A plane in the picture that the mouse moves along its normal and, if the plane is free, rotates.
-/// This class draws only the outline of the plane; its owner draws the cut.
+/// A plane in the 3D view that the mouse moves along its normal. If the plane is free (not bound to
+/// an axis), the mouse also rotates it. This class draws only the outline of the plane; its owner
+/// draws the cut.
 ///
 /// Three values determine the plane, independently of the box: its orientation, its normal when it
 /// is free, and its relative position in the box, a fraction from 0 to 1.
@@ -49,10 +50,10 @@ public:
   int orientation() const { return this->state_.orientation; }
   /// Set the unit normal that is used when the plane is free.
   void set_free_normal(const bindpose::Vec3& normal);
-  /// Set the relative position: 0 is the first of positions(), 1 the second.
+  /// Set the relative position: 0 is the smallest value of positions(), 1 the largest.
   void set_place(double place);
   /// Move the plane along its normal to this position, in world units. If the normal is an axis,
-  /// this is the coordinate.
+  /// the position is the coordinate along the axis.
   void set_position(double position);
 
   double position() const { return this->state_.origin.dot(this->normal()); }

@@ -1,5 +1,5 @@
-// Draws the ghost, the shape of a second pose method, over the first shape or in a second half of
-// the picture. Both halves share one camera, so that rotating one half rotates the other.
+// Draws the ghost, the shape of a second pose method, over the first shape or in the right half of
+// a split view. Both halves share one camera, so that rotating one half rotates the other.
 #include "pose_ghost.h"
 
 #include "viewport.h"
@@ -24,8 +24,7 @@ namespace
 {
 constexpr bindpose::Rgb ghost_color{ 0.20, 0.50, 0.76 };
 constexpr double ghost_opacity = 0.38;
-/// Distance between both shapes at which the ghost reaches its full opacity, in bounding-box
-/// diagonals.
+/// Distance between both shapes at which the ghost becomes fully opaque, in bounding-box diagonals.
 constexpr double whole_from = 0.02;
 constexpr const char* distance_name = "bindpose.Distance";
 } // namespace
@@ -100,7 +99,7 @@ void PoseGhost::set_place(Place place, bindpose::PointsView points, bindpose::Po
 {
   this->place_ = place;
   this->make_shape();
-  this->move(points, first); // before the view is fitted to the moved points
+  this->move(points, first); // must precede update(), which fits the view to the moved points
   this->update();
 }
 
@@ -140,8 +139,8 @@ void PoseGhost::fade(bindpose::PointsView points, bindpose::PointsView first)
   this->shaded_->polydata()->GetPointData()->AddArray(this->distances_);
 }
 
-/// In the second half, draw the ghost like the first shape: with outlines, or with the picture as
-/// texture.
+/// In the right half of a split view, draw the ghost like the first shape: with outlines, or with
+/// the same texture.
 void PoseGhost::look_as_beside()
 {
   vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();
@@ -196,8 +195,8 @@ void PoseGhost::update()
   this->viewport_->set_ghosted(place == over);
 }
 
-/// Called when one half has set its clipping range. Set a range for both halves that contains both
-/// shapes.
+/// Called when one half of the split view has set its clipping range. Set a range for both halves
+/// that contains both shapes.
 void PoseGhost::clipped()
 {
   if (this->place_ != beside || this->clips_)

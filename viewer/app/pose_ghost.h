@@ -22,8 +22,8 @@ class vtkActor;
 class vtkRenderer;
 
 /// The ghost is the viewport's surface in a second pose, for comparison. It is drawn
-/// semitransparent over the first shape where both differ, or in a second half of the picture with
-/// the same camera.
+/// semitransparent over the first shape where both differ, or in the right half of a split view
+/// with the same camera.
 class PoseGhost
 {
 public:
@@ -32,8 +32,8 @@ public:
     hidden,
     over,
     beside,
-    in_colors ///< the ghost is not drawn: the colors of the surface show the distance
-              ///< (DistanceView)
+    /// The ghost is not drawn; the colors of the surface show the distance (DistanceView).
+    in_colors
   };
 
   explicit PoseGhost(Viewport* viewport);
@@ -66,10 +66,11 @@ private:
   vtkNew<vtkLookupTable> fading_;
   // distance between both shapes per drawn point, in bounding-box diagonals
   vtkNew<vtkDoubleArray> distances_;
-  vtkNew<vtkRenderer> renderer_; // renderer of the second half
+  vtkNew<vtkRenderer> renderer_; // renderer of the right half of the split view
   vtkSmartPointer<vtkPolyData> surface_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
-  std::unique_ptr<bindpose::Outline> outline_; ///< outline of the ghost in the second half
+  /// Outline of the ghost in the right half of the split view.
+  std::unique_ptr<bindpose::Outline> outline_;
   bool in_window_ = false;
   bool clips_ = false; // true while clipped() sets the range of both halves
 };

@@ -13,9 +13,9 @@
 class KeyStrip;
 class PoseList;
 
-/// Manages the stored poses: named poses in a list, and key frames, which it can play. The list and
-/// the strip request changes of the shelf (all stored poses). This class does not set the pose of
-/// the handles; it requests a pose by signals.
+/// Manages the stored poses: named poses in a list, and key frames, which it can play. The list of
+/// poses and the strip of key frames request changes of the shelf (all stored poses). This class
+/// does not set the pose of the handles; it requests a pose by signals.
 class PoseKeeper : public QObject
 {
   Q_OBJECT

@@ -178,7 +178,7 @@ void PosePanel::add_methods(QVBoxLayout* column)
   QObject::connect(this->cancel_, &QPushButton::clicked, this, &PosePanel::cancel_wanted);
 }
 
-/// Add a line with a name and a widget for an option. It is shown only for these methods.
+/// Add a line with a name and a widget for an option. The line is shown only for the methods `of`.
 QWidget* PosePanel::option(QVBoxLayout* column, const QString& name, QWidget* widget,
   const QString& tip, std::vector<PoseMethod> of)
 {
@@ -341,7 +341,8 @@ void PosePanel::add_comparison(QVBoxLayout* column)
         tr("Draw each shape in one half of the picture, from the same view"),
         tr("Color the shape by its distance from the second shape,\n"
            "in percent of the bounding-box diagonal of the rest shape") });
-  this->place_->button(2)->setChecked(true); // shows the size of the distance
+  // Default: Distance, which shows the size of the differences.
+  this->place_->button(2)->setChecked(true);
   this->place_->setObjectName("pose.ghost");
   this->difference_ = new QLabel(this->place_row_);
   this->difference_->setObjectName("note");

@@ -217,14 +217,15 @@ void Posing::options_changed()
   Q_EMIT this->moved();
 }
 
-/// Show in the picture how the method treats the modes of handles.
+/// Show in the 3D view how the method treats the modes of handles.
 void Posing::show_what_is_held()
 {
   const bool finds = finds_rotations(this->panels_.pose->options().method);
   this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetFindsRotations(finds);
 }
 
-/// Return the options for the compared method: those of the current method, with the other method.
+/// Return the options for the compared method: the options of the current method, with only the
+/// method replaced.
 PoseOptions Posing::compared_options() const
 {
   PoseOptions options = this->panels_.pose->options();
@@ -287,7 +288,7 @@ void Posing::handles_moved()
   }
   if (this->panels_.pose->ghost_place() != this->chosen_)
   {
-    this->show_comparison(); // needed because the method has changed
+    this->show_comparison(); // a change of the method can show or hide the ghost
   }
   else if (this->ghost_->place() != PoseGhost::hidden)
   {
@@ -322,7 +323,7 @@ void Posing::show_difference()
   const double diagonal = bounding_box(this->source_->points).diagonal();
   const double largest = std::sqrt(squares.maxCoeff());
   const double mean = std::sqrt(squares.mean());
-  constexpr double round_off = 1e-10; // in bounding-box diagonals
+  constexpr double round_off = 1e-10; // in units of the bounding-box diagonal
   if (largest <= round_off * diagonal)
   {
     this->panels_.pose->set_difference(tr("Both methods give the same shape."));
@@ -396,7 +397,7 @@ vtkPolyData* Posing::shape()
   {
     this->shape_ = vtkSmartPointer<vtkPolyData>::New();
     this->shape_->ShallowCopy(this->surface_);
-    this->shape_->GetPointData()->SetNormals(nullptr); // remove those of the rest shape
+    this->shape_->GetPointData()->SetNormals(nullptr); // remove the normals of the rest shape
     this->shape_->SetPoints(to_vtk_points(points));
     return this->shape_;
   }

@@ -48,9 +48,9 @@ public:
   void set_data(
     vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights);
   bool has_weights() const;
-  /// Set the normal, toward the eye, of a planar surface; empty: the surface is not planar. Where
-  /// a pose makes a planar surface overlap itself, the layers of its handles determine the order.
-  /// Must be called before set_data().
+  /// Set the normal, toward the eye, of a planar surface; empty: the surface is not planar. Where a
+  /// pose makes a planar surface overlap itself, the layers of its handles determine which part is
+  /// in front. Must be called before set_data().
   void set_plane(const std::optional<bindpose::Vec3>& normal) { this->plane_ = normal; }
   /// Report whether the method has all data that it needs.
   bool can_pose() const { return this->main_->can_pose(); }
@@ -74,10 +74,10 @@ public:
   vtkPolyData* seen() { return this->inspected_ ? this->surface_.Get() : this->shape(); }
   /// Update the viewport's surface and its ghost to seen().
   void draw();
-  /// Set whether the picture shows data that belongs to the shape at rest (tets, slices). draw()
+  /// Set whether the 3D view shows data that belongs to the shape at rest (tets, slices). draw()
   /// then draws the shape at rest, without a comparison. Posing continues.
   void inspect_at_rest(bool inspects);
-  /// Report whether the picture shows the shape at rest, regardless of the pose.
+  /// Report whether the 3D view shows the shape at rest, regardless of the pose.
   bool shows_rest() const { return this->inspected_ || this->at_rest_ || this->edits_at_rest_; }
   /// Report whether the pose moves a handle, or the simulated body moves.
   bool is_posed() const;
@@ -92,7 +92,7 @@ public:
 
   Deformation* deformation() const { return this->main_; }
   Deformation* compared() const { return this->compared_; }
-  /// Return the points of the current method's shape, even if the picture shows another shape.
+  /// Return the points of the current method's shape, even if the 3D view shows another shape.
   const bindpose::Points& points() const;
   /// Return the rotations of the current method's shape; null if the method fits none.
   const bindpose::PoseRotations* rotations();
@@ -113,14 +113,14 @@ public:
 Q_SIGNALS:
   /// Emitted to request this pose of the handles.
   void pose_changed(const bindpose::Pose& pose);
-  /// Emitted to make one undo step with this name of all changes since the first pose_changed().
+  /// Emitted to request an undo step, named `step`, for all changes since the first pose_changed().
   /// Consecutive steps with the same `merge` text become one step, until edit_ended().
   void pose_done(const QString& step, const QString& merge = {});
   void edit_ended();
   void shelf_changed(const QString& step);
   /// Emitted when the cell arrays of the handles have changed, to make an undo step.
   void handles_changed(const QString& step);
-  /// Emitted when the shape or the text about it has changed; the owner must call draw().
+  /// Emitted when the shape or the text about it has changed; the window must call draw().
   void moved();
   void failed(const QString& sentence);
   /// Emitted when a pose was applied without errors.
@@ -163,8 +163,9 @@ private:
   std::optional<bindpose::Vec3> plane_;
   bool at_rest_ = false;
   bool edits_at_rest_ = false;
-  bool inspected_ = false; ///< data that belongs to the shape at rest is inspected
-  PoseGhost::Place chosen_ = PoseGhost::hidden; ///< the choice in the panel at the last update
+  bool inspected_ = false; ///< true: data that belongs to the shape at rest is inspected
+  /// The way of comparison that the panel requested at the last update.
+  PoseGhost::Place chosen_ = PoseGhost::hidden;
   double drawing_microseconds_ = 0.0; ///< time that draw() took for points and normals
 };
 

@@ -75,7 +75,7 @@ QString value_words(const Coloring& coloring, double value)
 QString named_value(const Coloring& coloring, double value)
 {
   const QString name = QString::fromStdString(coloring.legend_name());
-  // omitted here, because the text of every tet contains the smallest angle
+  // no text here, because the text of every tet contains the smallest angle
   return name == "Min. angle (°)" ? QString()
                                   : Probe::tr("%1: %2").arg(name, value_words(coloring, value));
 }
@@ -99,7 +99,8 @@ std::optional<double> shown_value(vtkPolyData* data, const Index* corners, const
     : std::nullopt;
 }
 
-/// Compute the part of the ray that is inside a box. Return false if there is none.
+/// Compute the part of the ray that is inside a box, as distances `from` and `to` from its origin.
+/// Return false if the ray misses the box.
 bool stretch_in(const SightRay& ray, const double* bounds, double& from, double& to)
 {
   from = 0.0;
@@ -110,7 +111,7 @@ bool stretch_in(const SightRay& ray, const double* bounds, double& from, double&
     double b = (bounds[2 * axis + 1] - ray.origin[axis]) / ray.direction[axis];
     if (std::isnan(a) || std::isnan(b))
     {
-      continue; // the ray is parallel to this side of the box
+      continue; // the ray is in the plane of a face of the box
     }
     from = std::max(from, std::min(a, b));
     to = std::min(to, std::max(a, b));
@@ -123,8 +124,8 @@ Vec3 at(const SightRay& ray, double distance)
   return ray.origin + distance * ray.direction;
 }
 
-/// Call what(distance, value) at points along a ray through a volume, two points per sample, until
-/// it returns false.
+/// Call `what` with distance and value at points along a ray through a volume, two points per
+/// sample of the longest side, until `what` returns false.
 template <typename What>
 void walk(const SightRay& ray, vtkImageData* image, const What& what)
 {
@@ -245,7 +246,7 @@ QStringList Probe::read_at(int x, int y)
 {
   Viewport* viewport = this->views_.viewport;
   const int width = viewport->picture_size(1).width();
-  // If the picture is split, the right half shows the other shape with the same camera.
+  // If the view is split, the right half shows the other shape with the same camera.
   const bool other = viewport->is_split() && 2 * x >= width;
   SightRay ray;
   viewport->ray_at(other ? x - width / 2 : x, y, ray.origin, ray.direction);
@@ -290,8 +291,8 @@ Probe::Maybe Probe::surface(const SightRay& ray, bool other) const
   }
   Found found;
   found.distance = hit.distance;
-  // Show the coordinates of the surface's own points. The offsets of layers in the picture are not
-  // included.
+  // Show the coordinates of the surface's own points. The offsets with which the view draws layers
+  // are not included.
   const Vec3 seen = at(ray, hit.distance);
   Vec3 place = Vec3::Zero();
   Index nearest = -1;

@@ -20,8 +20,8 @@ class VolumeView;
 class WeightView;
 class vtkPolyData;
 
-/// Shows names and values of the object under the mouse, in a small label in a corner of the
-/// picture.
+/// Shows names and values of the object under the mouse, in a small label in a corner of the 3D
+/// view.
 /// - For the surface: its triangle, vertex and coordinates, the displayed weight, the handle with
 ///   the largest weight, a defect, and the distance from the shape of another method.
 /// - For tets, slices, isosurfaces and clouds (volume renderings): the displayed values.
@@ -53,7 +53,7 @@ public:
   /// Return the text of the label in one line.
   QString reading() const;
   QLabel* label() const { return this->label_; }
-  /// Clear the label until the mouse moves, because the picture has changed.
+  /// Clear the label until the mouse moves, because the view has changed.
   void clear();
   /// Return the milliseconds that the last mouse move took.
   double milliseconds() const { return this->milliseconds_; }

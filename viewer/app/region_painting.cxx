@@ -234,7 +234,8 @@ void RegionPainting::stroke_ended()
 }
 
 /// Update the handles from the labels: a new label gets a handle, and a handle whose label has
-/// disappeared is removed. The next stroke continues the region.
+/// disappeared is removed. If the stroke has painted, `region` becomes the name of the painted
+/// region. Return false if the changes were refused.
 bool RegionPainting::keep_stroke(std::string& region)
 {
   QString step = QString::fromStdString(this->viewport_->brush_widget()->GetInteractionName());

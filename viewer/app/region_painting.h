@@ -15,8 +15,8 @@ class vtkRegionBrushRepresentation;
 
 /// Painting of regions on the surface, with the brush of the viewport and one color per region.
 /// Every stroke is an undo step of the document. The first stroke of a region creates its handle,
-/// with the pivot in the middle of the painted vertices. Erasing the last vertex of a region
-/// removes its handle.
+/// with its pivot at the mean of the painted vertices. Erasing the last vertex of a region removes
+/// its handle.
 class RegionPainting : public QObject
 {
   Q_OBJECT
@@ -30,8 +30,8 @@ public:
   void cancel();
   /// Update after a change of the document's surface, handles or labels.
   void document_changed();
-  /// Let the next stroke continue the region of this handle. If the handle is not a region, or is
-  /// -1, the stroke begins a new region.
+  /// Let the next stroke paint the label of this handle. If the handle is not a region, or is -1,
+  /// the stroke begins a new region.
   void choose(int handle);
   bool has_region() const { return !this->region_.empty(); }
   QString region() const { return QString::fromStdString(this->region_); }

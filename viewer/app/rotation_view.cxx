@@ -143,7 +143,7 @@ QString RotationView::reading(Index point) const
   }
   const Vec3& turn = this->turns_[static_cast<std::size_t>(cluster)];
   const double degrees = turn.norm();
-  constexpr double least = 0.05; // smaller angles are displayed as 0.0 and left out
+  constexpr double least = 0.05; // smaller angles would be displayed as 0.0, so they are omitted
   const Vec3 axis = turn.normalized();
   const auto number = [](double x) { return QString::number(x, 'f', 2); };
   return Posing::tr("Rotation cluster %1 of %2: %3°%4")

@@ -36,7 +36,7 @@ namespace
 constexpr const char* mesh_endings = "vtp ply obj off stl";
 constexpr const char* rig_endings = "glb gltf";
 constexpr std::size_t most_tiles = 12;
-constexpr int tile_width = 400; // width of each picture of a strip, pixels
+constexpr int tile_width = 400; // width in pixels of each frame in a strip of frames
 
 Status cannot_write(const std::string& path)
 {
@@ -165,7 +165,7 @@ vtkSmartPointer<vtkPolyData> SequenceExport::posed(std::size_t frame) const
   own->ShallowCopy(this->input_.surface->GetFieldData());
   result->SetFieldData(own);
   result->SetPoints(to_vtk_points(this->frames_->points[frame]));
-  result->GetPointData()->SetNormals(nullptr); // remove those of the rest shape
+  result->GetPointData()->SetNormals(nullptr); // remove the normals of the rest shape
   if (frame < this->frames_->transforms.size())
   {
     vtkNew<vtkDoubleArray> transforms;
@@ -215,7 +215,7 @@ Status SequenceExport::write_datasets(const std::string& path)
 Status SequenceExport::write_rig(const std::string& path)
 {
   vtkNew<vtkGLTFSkinWriter> writer;
-  // keeps VTK from printing the writer's errors, which its status contains
+  // keeps VTK from printing the errors, which the writer's status also contains
   vtkNew<vtkCallbackCommand> nothing;
   nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, nothing);
@@ -244,12 +244,12 @@ QImage SequenceExport::picture(std::size_t frame)
   return this->viewport_->grabFramebuffer();
 }
 
-/// Write a picture of up to twelve evenly spaced frames, four per row.
+/// Write an image file of up to twelve evenly spaced frames, four per row.
 Status SequenceExport::write_strip(const std::string& path)
 {
   vtkHandleSetWidget* handles = this->viewport_->handle_widget();
   const bool shown = handles->GetEnabled();
-  // hide the handles: they have the current pose, which is not that of a frame
+  // hide the handles: they have the current pose, which is not the pose of the frame
   handles->SetEnabled(false);
   QImage strip;
   const std::vector<std::size_t> taken = evenly(this->frames_->points.size(), most_tiles);

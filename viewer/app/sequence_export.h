@@ -12,12 +12,12 @@
 class QImage;
 class Viewport;
 
-/// Writes an animation in the format of the file name's extension. .json is a pose file;
-/// extensions of mesh files are numbered datasets with a .pvd file; .glb and .gltf are an animated
-/// file; .png is one picture with several frames; .gif, .webm, .mp4 and .apng are films, which
-/// ffmpeg encodes. Frames are posed and films are encoded in the background. Pictures are taken
-/// from the viewport. Files are written completely or not at all. They replace existing files,
-/// because the file dialog has asked for confirmation.
+/// Writes an animation in the format of the file name's extension. The extension .json gives a pose
+/// file; extensions of mesh files give numbered datasets with a .pvd file; .glb and .gltf give one
+/// animated file; .png gives one image with several frames; .gif, .webm, .mp4 and .apng give films,
+/// which ffmpeg encodes. Frames are posed and films are encoded in the background. Images are
+/// rendered by the viewport. Files are written completely or not at all. They replace existing
+/// files, because the file dialog has asked for confirmation.
 class SequenceExport : public QObject
 {
   Q_OBJECT
@@ -29,8 +29,8 @@ public:
   struct Input
   {
     std::shared_ptr<const bindpose::PoseSource> source;
-    vtkSmartPointer<vtkPolyData> surface; ///< at rest
-    vtkSmartPointer<vtkPolyData> handles; ///< at rest
+    vtkSmartPointer<vtkPolyData> surface; ///< the surface at rest
+    vtkSmartPointer<vtkPolyData> handles; ///< the handles at rest
     bindpose::PoseOptions options;
     std::vector<bindpose::Pose> poses; ///< one per frame; not used if `run` is not empty
     bindpose::BodyRun run; ///< the recorded motion of a body
@@ -50,7 +50,7 @@ public:
 
 Q_SIGNALS:
   void progress(double fraction);
-  /// Emitted when all pictures were taken: the window must draw its own shape again.
+  /// Emitted when all images were rendered. The window must then draw its own shape again.
   void pictures_taken();
   void finished();
 
@@ -73,7 +73,7 @@ private:
   QString error_;
   QString said_;
   KernelJob encoder_;
-  KernelJob job_; // last member, so that it ends before the data it works on is destroyed
+  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
 };
 
 #endif

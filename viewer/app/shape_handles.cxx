@@ -18,8 +18,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Number of triangles from which auto_rig() computes the skeleton. With this number it takes half
-/// the time of the default number, but may miss fingers.
+/// Number of triangles from which auto_rig() computes the skeleton. The computation then takes half
+/// as long as with the default number, but the skeleton may miss fingers.
 constexpr Index quick_triangles = 5000;
 } // namespace
 

@@ -56,7 +56,7 @@ private:
   bool rigging_ = false;
   std::shared_ptr<bindpose::Handles> made_;
   const void* surface_ = nullptr; ///< the surface for which handles are being created
-  KernelJob job_; // last member, so that it ends before the data it works on is destroyed
+  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
 };
 
 #endif

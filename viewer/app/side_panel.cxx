@@ -68,7 +68,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
         tr("%1 weights").arg(QCoreApplication::translate("WeightPanel", method.label)));
     }
   }
-  // This line determines the width of the panel, in any font.
+  // This combo box determines the width of the panel, in any font.
   this->kind_->setMinimumContentsLength(0);
   this->kind_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   this->kind_->setToolTip(
@@ -345,7 +345,7 @@ void SidePanel::set_method(int method)
 
 const bindpose::WeightMethod& SidePanel::method() const
 {
-  // The constrained methods come first in the registry, in the order of the list.
+  // The constrained methods come first in the registry, in the order of the combo box.
   return bindpose::weight_methods()[static_cast<std::size_t>(this->kind_->currentIndex())];
 }
 

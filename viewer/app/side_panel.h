@@ -18,7 +18,7 @@ class HandleFields;
 class PoseList;
 class PosePanel;
 
-/// The panel to the right of the picture for binding and posing, and for the displayed weight. It
+/// The panel to the right of the 3D view for binding and posing, and for the displayed weight. It
 /// contains no state of the work. It emits signals when the user requests something, and the window
 /// sets the displayed values.
 class SidePanel : public QFrame

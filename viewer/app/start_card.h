@@ -5,7 +5,7 @@
 
 class QAction;
 
-/// A card over the picture while a mesh has no handles. It has a button that creates handles
+/// A card over the 3D view while a mesh has no handles. It has a button that creates handles
 /// automatically, and shows the keys to add handles manually.
 class StartCard : public QFrame
 {

@@ -6,7 +6,7 @@
 class QApplication;
 
 /// Apply the look of the window: a light or dark palette with one accent color, and the matching
-/// style sheet. All colors of the window, apart from the picture, are defined here.
+/// style sheet. All colors of the window, apart from the 3D view, are defined here.
 void apply_style(QApplication& application);
 
 /// Return the current color for a purpose ("ink", "panel", "accent", ...).

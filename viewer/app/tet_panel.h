@@ -11,7 +11,7 @@ class QProgressBar;
 class QPushButton;
 class ValueRow;
 
-/// The panel to the right of the picture for tets and defects of a surface: compute tets, cut them
+/// The panel to the right of the 3D view for tets and defects of a surface: compute tets, cut them
 /// open, inspect them. Like SidePanel it emits signals when the user requests something, and has no
 /// state of the work.
 class TetPanel : public QFrame

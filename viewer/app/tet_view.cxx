@@ -47,7 +47,7 @@ TetView::TetView(Viewport* viewport)
     actor->PickableOff();
     viewport->renderer()->AddActor(actor);
   }
-  this->plane_->draw_box(false); // the tets show its extent
+  this->plane_->draw_box(false); // not needed, because the tets show the extent of the box
   this->settle_.setSingleShot(true);
   this->settle_.setInterval(250);
   QObject::connect(&this->settle_, &QTimer::timeout, this, &TetView::update);
@@ -81,7 +81,7 @@ Status TetView::set_tets(vtkUnstructuredGrid* tets)
   Status status = tets && colored ? this->set_colors(by) : this->set_colors(std::nullopt);
   if (!status.ok())
   {
-    // the new tets do not have the values that colored the last ones
+    // the new tets lack the values that colored the previous tets
     this->set_colors(std::nullopt);
   }
   return {};
@@ -166,8 +166,8 @@ void TetView::draw(
     static_cast<float>(this->viewport_->devicePixelRatioF()));
 }
 
-/// Draw the tets with gaps between them. All of them are drawn, which is slow. During a drag only
-/// the tets are drawn that have a visible face when they are not shrunk.
+/// Draw the tets with gaps between them. All kept tets are drawn, which is slow. During a drag,
+/// only tets are drawn that would have a visible face without gaps.
 void TetView::draw_shrunk()
 {
   const bool dragging = QApplication::mouseButtons() != Qt::NoButton;

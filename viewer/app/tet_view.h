@@ -22,7 +22,7 @@
 
 class Viewport;
 
-/// Shows tets in the picture: cut open by a plane that the mouse drags, shrunk, colored. The cut
+/// Shows tets in the 3D view: cut open by a plane that the mouse drags, shrunk, colored. The cut
 /// removes whole tets; tets whose center is behind the plane are kept.
 class TetView : public QObject
 {
@@ -39,7 +39,7 @@ public:
   void show(bool shown);
   bool is_shown() const { return this->shown_ && this->grid_; }
   void set_cut(bool cut);
-  /// Keep the half on the other side of the plane.
+  /// Set whether the cut keeps the tets in front of the plane instead of the tets behind it.
   void set_other_side(bool other);
   PlaneHandle* plane() const { return this->plane_; }
   /// Set the drawn size of each tet relative to its own size, in (0, 1].
@@ -48,8 +48,8 @@ public:
   /// colors, if the tets have no such values.
   bindpose::Status set_colors(std::optional<bindpose::ColorBy> by);
 
-  /// Return the drawn data: the tets. The next functions return the tets that the cut keeps, and
-  /// their size factor.
+  /// Return the tets. The next two functions return which tets the cut keeps, and the drawn size of
+  /// a tet relative to its own size.
   const bindpose::TetInput& input() const { return this->input_; }
   const std::vector<char>& kept() const { return this->cut_.kept(); }
   double shrink() const { return this->shrink_; }

@@ -10,10 +10,10 @@
 namespace bindpose
 {
 
-/// A position of the mouse in the picture. It is computed when the step is played.
+/// A position of the mouse in the 3D view. It is computed when the step is played.
 struct TourPlace
 {
-  std::string handle; ///< name of a handle; empty: a position of the view
+  std::string handle; ///< name of a handle; empty: the position is relative to the view
   double along = 0.0; ///< position on a bone, from its head (0) to its tail (1)
   /// A part of the selected handle's gizmo, one of bindpose::GizmoPart, at the position where it is
   /// best grabbed; 0: no part.
@@ -30,7 +30,7 @@ enum class TourVerb
   action, ///< trigger an entry of the menus, by its object name
   push, ///< click a button, by its text
   option, ///< set an option, by its key (document/options.h)
-  panel, ///< show a panel to the right of the picture: pose, weights, tets or volume
+  panel, ///< show a panel to the right of the 3D view: pose, weights, tets or volume
   select, ///< select a handle in the list
   type, ///< type a text into a field, as with the keyboard
   mode, ///< set the mode of the selected handle: full, position, free, tail or ends
@@ -45,7 +45,7 @@ enum class TourVerb
   key, ///< press a key, in the notation of menus: "Ctrl+Z", "Esc"
   resize,
   wait, ///< wait for "bind", "idle", or a number of seconds
-  film, ///< begin to record every motion as pictures; the argument "end" stops the recording
+  film, ///< begin to record every motion as numbered images; the argument "end" stops the recording
   screenshot,
   check
 };
@@ -80,8 +80,8 @@ struct TourStep
   TourVerb verb = TourVerb::wait;
   std::string text; ///< file, name, key or sentence, depending on the verb
   std::string field; ///< accessible name of the field to type into
-  /// Name of a file in the folder of screenshots, for the file dialog that the step opens. If the
-  /// name is empty, it is an error if the step opens a dialog.
+  /// Name of a file in the folder of screenshots, for the file dialog that the step opens. With an
+  /// empty name, the step fails if it opens any dialog.
   std::string answer;
   std::string say; ///< text about the step for a tutorial
 
@@ -90,19 +90,19 @@ struct TourStep
   int moves = 8; ///< number of mouse moves of a drag
   TourButton button = TourButton::left;
   bool shift = false, ctrl = false, alt = false;
-  double turns = 0.0; ///< turns of the wheel, away from the user
+  double turns = 0.0; ///< notches of the mouse wheel; positive: away from the user
 
   double seconds = -1.0; ///< seconds to wait, or time to scrub to
   std::array<int, 2> size{ 0, 0 }; ///< window size to resize to
   TourPart part = TourPart::window; ///< the part that a screenshot shows
   int width = 0; ///< maximum width of a screenshot in pixels; 0: no limit
-  int scale = 1; ///< factor on the pixels of a screenshot of the view in each direction
+  int scale = 1; ///< Pixels of a screenshot of the view per pixel of the window, in each direction.
   bool transparent = false; ///< true: a screenshot of the view has a transparent background
 
   TourRelation relation = TourRelation::is;
   std::string wanted_text; ///< expected word, or the name of the screenshot for `as_at`
-  std::vector<double> wanted; ///< expected numbers, one per component; for the verb `option` its
-                              ///< new value
+  /// Expected numbers, one per component. For the verb `option`: the new value of the option.
+  std::vector<double> wanted;
   bool wants_text = false, wants_truth = false;
   double tolerance = 0.0;
 };

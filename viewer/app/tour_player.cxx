@@ -31,10 +31,10 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-// pictures per second that are recorded while the shape moves without user input
+// frames per second that are recorded while the shape moves without user input
 constexpr double film_rate = 20.0;
-// color difference, of 255, above which a pixel is not background; the background differs by less
-// within a row
+// A pixel belongs to the background if its color differs by at most this value, from 0 to 255, from
+// the background color of its row. Within a row the background itself differs by less.
 constexpr int drawn_level = 12;
 
 Qt::MouseButton button_of(const TourStep& step)
@@ -53,7 +53,7 @@ Qt::KeyboardModifiers held_in(const TourStep& step)
   return held;
 }
 
-/// Convert a picture to a QImage, with alpha if the picture has it.
+/// Convert an image to a QImage, with alpha if the image has alpha.
 QImage to_image(vtkImageData* picture)
 {
   const int* size = picture->GetDimensions();
@@ -63,7 +63,7 @@ QImage to_image(vtkImageData* picture)
     .mirrored();
 }
 
-/// Return the picture scaled down to this width if it is wider; 0: no limit.
+/// Return the image scaled down to this width if it is wider; 0: no limit.
 QImage at_most(const QImage& picture, int width)
 {
   return width > 0 && width < picture.width()
@@ -242,20 +242,20 @@ QString TourPlayer::out_of_time() const
   return QString("the tour exceeded its time limit of %1 s").arg(this->seconds_);
 }
 
-/// Let the window draw all requested pictures, without waiting for other work.
+/// Let the window process all requests to draw, without waiting for other work.
 void TourPlayer::let_draw()
 {
-  // Three rounds of events are needed: for a change, for the picture that it requests, and for the
-  // buffer swap.
+  // Three rounds of events are needed: for a change, for the rendering that the change requests,
+  // and for the buffer swap.
   for (int round = 0; round < 3; ++round)
   {
     QApplication::processEvents();
   }
 }
 
-/// Run a part of a step and answer the dialogs that it opens. Every form is accepted once, and a
-/// file dialog gets the step's answer as its file. Any other dialog is closed, and a sentence is
-/// returned.
+/// Run a part of a step and answer the dialogs that it opens. If `answer` is not empty, a file
+/// dialog gets it as the name of its file, and every dialog except a message box is accepted once.
+/// All other dialogs are closed, and a sentence about them is returned.
 QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const std::string& answer)
 {
   const QString file =
@@ -469,7 +469,7 @@ QString TourPlayer::wait(const TourStep& step)
       : QString("the window was still busy at the time limit of the tour");
   }
   // The timeout of the tour may shorten a wait. Report the timeout here, because timers may end a
-  // millisecond before it.
+  // millisecond too early.
   const double left = std::max(0.0, this->left());
   const double seconds = std::min(step.seconds, left);
   const QString sentence = step.seconds > left ? this->out_of_time() : QString();
@@ -493,7 +493,7 @@ QString TourPlayer::wait(const TourStep& step)
   return sentence;
 }
 
-// ---- Values and pictures -----------------------------------------------------------------------
+// ---- Values and images -----------------------------------------------------------------------
 
 Json TourPlayer::values() const
 {

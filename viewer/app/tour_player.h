@@ -20,13 +20,13 @@ class MainWindow;
 struct TourRequest
 {
   std::string path; ///< path of the tour
-  std::string folder; ///< folder for pictures and tour.json; empty: only the checks are run
+  std::string folder; ///< folder for screenshots and tour.json; empty: only the checks are run
   double seconds = 0.0; ///< maximum duration; 0: the duration that the tour specifies
   bool overwrite = false;
 };
 
 /// Plays a tour in a window, as a user would, and reports the first failure: a step that is
-/// impossible, an empty picture, a check that fails, a dialog without an answer, or a timeout.
+/// impossible, an empty screenshot, a check that fails, a dialog without an answer, or a timeout.
 /// Everything runs in the window's own event loop. The mouse and the keyboard of the display are
 /// ignored, but the window can be closed.
 class TourPlayer
@@ -71,10 +71,11 @@ private:
   WindowHand hand_;
   QElapsedTimer clock_;
   double seconds_ = 0.0;
-  double last_seconds_ = 0.0, last_cpu_seconds_ = 0.0; ///< total and CPU time of the last step
+  /// Elapsed time and CPU time of the last step, in seconds.
+  double last_seconds_ = 0.0, last_cpu_seconds_ = 0.0;
   double first_picture_ = -1.0, first_picture_cpu_ = 0.0;
-  bindpose::TourStep film_; ///< the step that began the film being recorded; its text is empty if
-                            ///< there is none
+  /// The step that began the current film. Its text is empty if no film is being recorded.
+  bindpose::TourStep film_;
   int frames_ = 0;
   nlohmann::ordered_json record_;
   QObject context_; ///< context of connections

@@ -9,7 +9,7 @@ namespace bindpose
 {
 
 /// Return the state that the window shows, as numbers and words with names. A tour compares these
-/// values with expected values, and writes them together with its pictures.
+/// values with expected values, and writes them together with its screenshots.
 /// viewer/sessions_and_tours.md documents the names. Values that do not apply are absent.
 nlohmann::ordered_json tour_values(MainWindow* window);
 

@@ -23,7 +23,7 @@ ValueRow::ValueRow(QWidget* parent)
   this->slider_->setPageStep(steps / 20);
   this->slider_->setMinimumWidth(80);
   this->field_->setButtonSymbols(QAbstractSpinBox::NoButtons);
-  this->field_->setKeyboardTracking(false); // only complete numbers are reported
+  this->field_->setKeyboardTracking(false); // emit no signals while a number is being typed
   this->field_->setAlignment(Qt::AlignRight);
   this->field_->setFixedWidth(this->field_->fontMetrics().horizontalAdvance("-0000.0000") + 18);
   row->addWidget(this->slider_, 1);

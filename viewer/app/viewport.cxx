@@ -81,7 +81,7 @@ public:
     this->StartPan();
   }
 
-  bool Flat = false; ///< true in 2D mode, in front of a plane: dragging pans the view
+  bool Flat = false; ///< true: 2D mode, in which dragging pans the view
 };
 vtkStandardNewMacro(CameraStyle);
 } // namespace
@@ -118,8 +118,8 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->tint_actor_->VisibilityOff();
   this->tint_actor_->PickableOff();
   this->tint_actor_->GetProperty()->LightingOff();
-  // The tint (the colors of values over a picture) has the same depth as the picture. Draw the tint
-  // in front of the picture, and isolines in front of both.
+  // The tint (the colors of values over a texture) has the same depth as the textured surface. Draw
+  // the tint in front of the surface, and isolines in front of both.
   this->tint_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(-1.0, -1.0);
   this->renderer_->AddActor(this->tint_actor_);
   bindpose::use_surface_material(this->actor_);
@@ -140,7 +140,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->brush_->SetInteractor(this->interactor());
   this->brush_->CreateDefaultRepresentation();
   // Disable direct rendering, so that all requests of widgets and camera during one event result in
-  // one picture after the event.
+  // one rendering after the event.
   this->interactor()->EnableRenderOff();
   this->interactor()->AddObserver(vtkCommand::RenderEvent, this, &Viewport::render_wanted);
   this->since_start_.start();
@@ -220,8 +220,8 @@ void Viewport::set_picture(vtkImageData* picture)
     texture->SetColorModeToDirectScalars();
   }
   this->actor_->SetTexture(texture);
-  // Treat a textured shape as opaque, because it contains only the opaque part of the picture;
-  // translucent shapes would be sorted.
+  // Treat a textured shape as opaque, because it contains only the opaque part of the image. A
+  // translucent shape would need sorting by depth.
   this->actor_->SetForceOpaque(picture != nullptr);
   this->mapper_->ScalarVisibilityOff();
   this->tint_mapper_->ScalarVisibilityOff();
@@ -239,8 +239,8 @@ void Viewport::set_tint(double share)
   this->refresh();
 }
 
-/// Return the mapper that shows values as colors: the mapper of the surface, or for a surface with
-/// a picture the mapper of the tint.
+/// Return the mapper that shows values as colors: the mapper of the tint for a textured surface,
+/// otherwise the mapper of the surface.
 vtkPolyDataMapper* Viewport::value_mapper() const
 {
   return this->picture_ ? this->tint_mapper_.Get()
@@ -251,7 +251,8 @@ void Viewport::show_tint()
 {
   this->tint_actor_->SetVisibility(this->picture_ && this->shaded_ && this->look_ == solid &&
     this->tint_ > 0.0 && this->tint_mapper_->GetScalarVisibility());
-  // Sorting by depth is not necessary, because the opaque picture hides everything behind it.
+  // Sorting by depth is not necessary, because the opaque textured surface hides everything behind
+  // it.
   this->tint_actor_->GetProperty()->SetOpacity(this->tint_);
 }
 
@@ -396,7 +397,7 @@ void Viewport::name_state(const QString& state)
   }
 }
 
-/// Return the aspect ratio of the half that shows the surface, or of the whole picture if it is not
+/// Return the aspect ratio of the half that shows the surface, or of the whole view if it is not
 /// split.
 double Viewport::aspect_of(const QSize& size) const
 {
@@ -563,9 +564,9 @@ void Viewport::draw_legend()
   bindpose::PixelBox box;
   box.x = static_cast<int>(20 * scale);
   box.y = static_cast<int>(24 * scale);
-  // The height of a legend with texts follows from its number of lines. If not all fit, the last
-  // line contains the number of the others.
-  // `line` is the height of a line and `around` the total margin, as factors on the font's size.
+  // The number of lines determines the height of a legend with texts. If there are too many lines,
+  // the last line states how many are omitted. `line` is the height of a line and `around` the
+  // total margin, both in units of the font size.
   constexpr double line = 1.7, around = 2.5;
   const double room = scale * this->height() - 2 * box.y;
   const int most = std::max(2, static_cast<int>((room / font - around) / line));
@@ -590,7 +591,7 @@ void Viewport::draw_legend()
   }
   if (this->beside_)
   {
-    // below the shapes, where the names cover nothing
+    // at the lower edge, where the names cover no shape
     this->add_name(0.25, 14.0, this->left_name_);
     this->add_name(0.75, 14.0, this->right_name_);
   }
@@ -643,7 +644,7 @@ void Viewport::initializeGL()
     renderer.contains("Software") || renderer.contains("SWR");
 }
 
-/// Qt paints during every resize, and the layout of a new window resizes its picture several times.
+/// Qt paints during every resize, and the layout of a new window resizes the view several times.
 /// Only the last size is painted, together with the window.
 void Viewport::paintGL()
 {
@@ -657,7 +658,7 @@ void Viewport::paintGL()
 
 void Viewport::render_wanted()
 {
-  // rendering is enabled only while a picture is being painted
+  // rendering is enabled only in paintGL()
   if (!this->interactor()->GetEnableRender())
   {
     this->refresh();
@@ -790,7 +791,7 @@ QSize Viewport::picture_size(int scale) const
   return scale * QSize(size[0], size[1]);
 }
 
-/// Return the factor on sizes that are specified in pixels.
+/// Return the number of rendered pixels per Qt pixel.
 double Viewport::pixel_scale() const
 {
   return this->picture_scale_ * this->devicePixelRatioF();
@@ -811,7 +812,7 @@ bindpose::Status Viewport::take_picture(
   wanted.width = size.width();
   wanted.height = size.height();
   wanted.transparent = transparent;
-  this->window_->Render(); // apply all changes since the last picture
+  this->window_->Render(); // apply all changes since the last rendering
   const bool smoothed = this->renderer_->GetUseFXAA();
   // switch off the driver's antialiasing, because samples are averaged instead
   this->renderer_->UseFXAAOff();

@@ -71,12 +71,12 @@ public:
   /// Set whether a translucent shape is drawn over the surface. Both shapes are then sorted by
   /// depth.
   void set_ghosted(bool ghosted);
-  /// Use only the left half of the picture. The renderer `beside` has the right half and the same
-  /// camera; `shape`, which it shows, is kept in view too. Null, null: use the whole picture.
-  /// Everything that was visible in the whole picture is visible in the half.
+  /// Draw the surface only in the left half of the view. The renderer `beside` has the right half
+  /// and the same camera; `shape`, which it shows, is kept in view too. Null, null: use the whole
+  /// view. Everything that was visible in the whole view is visible in the half.
   void set_split(vtkRenderer* beside, vtkPolyData* shape);
   bool is_split() const { return this->beside_ != nullptr; }
-  /// Show a text at the top of the picture that names the displayed shape, if it is not the posed
+  /// Show a text at the top of the view that names the displayed shape, if it is not the posed
   /// shape; empty: no text.
   void name_state(const QString& state);
   QString state_name() const { return this->state_name_; }
@@ -85,8 +85,8 @@ public:
   /// Return the microseconds that it took to upload the last drawn change of points to the graphics
   /// card.
   double upload_microseconds() const;
-  /// Return the pictures per second if two pictures follow each other within half a second;
-  /// otherwise 0.
+  /// Return the frames per second if the last two frames were drawn within half a second; otherwise
+  /// 0.
   double frames_per_second() const;
   /// Set the handles that the mouse moves and edits. The widget is enabled if `used` is true.
   void set_handles(vtkPolyData* handles, bool used);
@@ -109,20 +109,20 @@ public:
   const std::vector<bindpose::Index>& drawn_points() const;
   void set_surface_look(int look);
   int surface_look() const { return this->look_; }
-  /// Show or hide silhouette lines. Pictures have none.
+  /// Show or hide silhouette lines. Textured surfaces have none.
   void show_outlines(bool shown);
   bool has_outlines() const { return this->outlines_; }
-  /// Set the picture that is the texture of the surface. Colors of weights are drawn over it. Null:
-  /// no picture.
+  /// Set the image that is the texture of the surface. Colors of weights are drawn over it. Null:
+  /// no texture.
   void set_picture(vtkImageData* picture);
   bool has_picture() const { return this->picture_ != nullptr; }
-  /// Set the opacity of the colors over a picture, from 0 (only the picture) to 1 (only the
+  /// Set the opacity of the colors over a texture, from 0 (only the texture) to 1 (only the
   /// colors).
   void set_tint(double share);
   double tint() const { return this->tint_; }
-  /// Set the 2D mode: the view is parallel and in front of a plane perpendicular to this unit
-  /// vector, which points to the eye. Dragging pans the view. An empty value ends the 2D mode, and
-  /// the view can be rotated. The camera is unchanged until reset_view().
+  /// Set the 2D mode: a parallel projection onto the plane perpendicular to this unit vector, which
+  /// points to the eye. Dragging pans the view. An empty value ends the 2D mode, and the view can
+  /// be rotated. The camera is unchanged until reset_view().
   void set_plane(const std::optional<bindpose::Vec3>& normal);
   bool is_flat() const { return this->plane_.has_value(); }
   /// Set curves, which are drawn as tubes; null: no curves.
@@ -144,18 +144,18 @@ public:
   QString legend(LegendPlace place) const;
   /// Set a box that reset_view() shows in addition to surface and curves; an empty box removes it.
   void set_also_shown(const bindpose::Box& box);
-  /// Reset the camera: show everything from the side where it appears largest.
+  /// Reset the camera: show everything, seen from the direction in which it appears largest.
   void reset_view();
-  /// Request a new picture; several requests result in one picture. With software rendering, moving
-  /// shapes and the first picture of a surface are drawn without antialiasing, in a fifth of the
+  /// Request that the view is drawn again; several requests result in one rendering. With software
+  /// rendering, moving shapes and new surfaces are drawn without antialiasing, in a fifth of the
   /// time. A quarter of a second later they are drawn again with antialiasing.
   void refresh();
-  /// Take a picture of the view in `scale` times as many pixels in each direction, 1 to 8. Lines,
-  /// points, text and scalar bars are scaled, too. A transparent background has no color where
-  /// nothing is drawn.
+  /// Render an image of the view with `scale` times the number of pixels in each direction, 1 to 8.
+  /// Lines, points, text and scalar bars are scaled, too. A transparent background has no color
+  /// where nothing is drawn.
   bindpose::Status take_picture(
     int scale, bool transparent, vtkSmartPointer<vtkImageData>& picture);
-  /// Return the size in pixels of a picture that take_picture() returns.
+  /// Return the size in pixels of the image that take_picture() returns.
   QSize picture_size(int scale) const;
 
   vtkHandleSetWidget* handle_widget() const { return this->handles_; }
@@ -204,7 +204,7 @@ private:
   Eigen::VectorXd depths_;
   bindpose::Vec3 toward_ = bindpose::Vec3::UnitZ();
   std::optional<bindpose::Vec3> plane_;
-  // For a surface with a picture: draws the same surface again, in the colors of its values.
+  // For a textured surface: draws the same surface again, in the colors of its values.
   vtkNew<vtkPolyDataMapper> tint_mapper_;
   vtkNew<vtkActor> tint_actor_;
   double tint_ = 0.5;
@@ -214,7 +214,7 @@ private:
   bindpose::Box also_shown_;
   int column_ = -1;
   QString column_name_;
-  bool has_values_ = false; // values are displayed instead of the column
+  bool has_values_ = false; // true: values are displayed instead of the column
   std::map<LegendPlace, std::pair<QString, bindpose::ColorMap>> legends_;
   int look_ = solid;
   bool ghosted_ = false;
@@ -222,13 +222,14 @@ private:
   vtkSmartPointer<vtkPolyData> shape_beside_;
   QString left_name_, right_name_, state_name_;
   QElapsedTimer since_start_;
-  // time of the last picture and smoothed time between pictures, in seconds
+  // time of the last frame and smoothed time between frames, in seconds
   double last_drawn_ = -1e9, frame_seconds_ = 0.0;
-  double picture_scale_ = 1.0; // pixels of the picture that is being taken per pixel of the window
+  // Pixels per pixel of the window while take_picture() renders an image; otherwise 1.
+  double picture_scale_ = 1.0;
   bool refresh_pending_ = false;
   bool resizing_ = false;
   bool draws_on_processor_ = false;
-  bool first_picture_ = false; // the next picture is the first one of its surface
+  bool first_picture_ = false; // true: the next frame is the first frame of its surface
   QTimer settle_; // single-shot timer that starts after a drag
 };
 

@@ -20,7 +20,7 @@ namespace
 {
 struct Fineness
 {
-  int samples; // number of samples along the longest side
+  int samples; // number of samples along the longest side of the grid
   const char* name;
 };
 constexpr Fineness finenesses[] = {

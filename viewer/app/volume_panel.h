@@ -11,7 +11,7 @@ class QProgressBar;
 class QPushButton;
 class ValueRow;
 
-/// The panel to the right of the picture for a volume of winding numbers. With it the user computes
+/// The panel to the right of the 3D view for a volume of winding numbers. With it the user computes
 /// the volume of a surface, and shows the volume as a slice, an isosurface and a cloud (volume
 /// rendering). It also determines how the surface is drawn. Like SidePanel it emits signals when
 /// the user requests something, and has no state of the work.

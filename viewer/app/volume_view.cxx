@@ -1,4 +1,4 @@
-// Shows a volume in the picture. This class draws the slice, its colors and its contour, the
+// Shows a volume in the 3D view. This class draws the slice, its colors and its contour, the
 // isosurface and the cloud. PlaneHandle moves and rotates the plane of the slice.
 #include "volume_view.h"
 

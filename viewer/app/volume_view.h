@@ -16,7 +16,7 @@ class vtkActor;
 class vtkPolyDataMapper;
 class vtkVolume;
 
-/// Shows a volume of winding numbers in the picture while its panel is visible: a slice that the
+/// Shows a volume of winding numbers in the 3D view while its panel is visible: a slice that the
 /// mouse drags, an isosurface, and a cloud (volume rendering). Each of them can be shown or hidden;
 /// all have the colors of the legend.
 class VolumeView : public QObject

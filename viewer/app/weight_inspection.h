@@ -29,10 +29,10 @@ public:
   void set_data(vtkPolyData* surface, vtkUnstructuredGrid* volume, bool has_handles);
   void move_surface(vtkPolyData* shape) { this->view_->move_surface(shape); }
   void set_active(bool active);
-  /// Show the column of the handle that was chosen in the picture.
+  /// Show the column of the handle that was chosen in the 3D view.
   void choose_column(int column);
 
-  void compare(int method); ///< an index of weight_methods()
+  void compare(int method); ///< compute weights with another method, an index of weight_methods()
   void cancel() { this->job_.cancel(); }
   bool is_busy() const { return this->job_.is_running(); }
 
@@ -44,7 +44,7 @@ public:
 
 Q_SIGNALS:
   void surface_look_changed();
-  /// Emitted with one sentence if the requested data cannot be shown; the picture is unchanged.
+  /// Emitted with one sentence if the requested data cannot be shown; the display is unchanged.
   void failed(const QString& sentence);
   /// Emitted when the requested data is shown.
   void succeeded();

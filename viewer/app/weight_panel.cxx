@@ -245,7 +245,8 @@ void WeightPanel::set_facts(const Facts& facts)
   for (QWidget* inside : { static_cast<QWidget*>(this->inside_),
          static_cast<QWidget*>(this->slice_), static_cast<QWidget*>(this->position_) })
   {
-    inside->setVisible(!facts.has_picture); // hide the switch for inside: a picture has no inside
+    // Hide the switch for the inside: a textured planar shape has no inside.
+    inside->setVisible(!facts.has_picture);
   }
   for (QAbstractButton* orientation : this->orientations_->buttons())
   {

@@ -17,11 +17,11 @@ class QPushButton;
 class ValueRow;
 class vtkDataSet;
 
-/// Return the index in bindpose::weight_methods() of the method that solved for a surface's
-/// weights, from their report; -1: unknown.
+/// Return the method with which the weights of a surface were computed, according to their report.
+/// The result is an index of bindpose::weight_methods(); -1: unknown.
 int method_of_weights(vtkDataSet* surface);
 
-/// The panel to the right of the picture for inspecting weights. It chooses the displayed quantity,
+/// The panel to the right of the 3D view for inspecting weights. It chooses the displayed quantity,
 /// the type of display, the other method for comparison, and a slice through the volume. Like
 /// SidePanel it emits signals when the user requests something, and has no state of the work.
 class WeightPanel : public QFrame
@@ -49,7 +49,7 @@ public:
     /// The handles of the columns are open, so that another method can compute weights.
     bool has_handles = false;
     bool has_volume = false;
-    bool has_picture = false; ///< the surface has a picture, over which the colors are drawn
+    bool has_picture = false; ///< the surface has a texture, over which the colors are drawn
     bool comparing = false;
     bool compared = false;
     int method =
@@ -76,13 +76,13 @@ public:
   bool slice() const;
 
 Q_SIGNALS:
-  /// Emitted with the opacity of the colors over the picture, 0 to 1.
+  /// Emitted with the opacity of the colors over the texture, 0 to 1.
   void tint_chosen(double share);
   /// Emitted when another column was selected; -1: all columns.
   void column_chosen(int column);
   /// Emitted when the result of any getter has changed.
   void look_changed();
-  /// An index of bindpose::weight_methods().
+  /// Emitted to request a comparison with this method, an index of bindpose::weight_methods().
   void comparison_wanted(int method);
   void cancel_wanted();
   void orientation_chosen(int orientation); ///< orientation: one of PlaneHandle::Orientation
@@ -100,7 +100,7 @@ private:
   QCheckBox* isolines_;
   QCheckBox* extrema_;
   QLabel* extrema_note_;
-  QWidget* tint_row_; ///< the slider of the opacity, shown for surfaces with a picture
+  QWidget* tint_row_; ///< row with the slider of the opacity, shown for textured surfaces
   ValueRow* tint_;
   QComboBox* method_;
   QPushButton* compare_;

@@ -1,6 +1,6 @@
 // Draws weights. Values are computed on the surface at rest and copied to its drawn points, because
-// vertices on sharp edges have several drawn points. When the pose changes, only isolines and balls
-// are moved. The slice belongs to the tets at rest.
+// vertices on sharp edges have several drawn points. When the pose changes, only the isolines and
+// the balls at extrema are moved. The slice belongs to the tets at rest.
 #include "weight_view.h"
 
 #include "viewport.h"
@@ -58,7 +58,7 @@ WeightView::WeightView(Viewport* viewport)
   }
   this->balls_.face(Vec3::Zero()); // initialize; there are no balls yet
   renderer->AddObserver(vtkCommand::StartEvent, this, &WeightView::before_drawing);
-  this->plane_->draw_box(false); // the surface shows its extent
+  this->plane_->draw_box(false); // not needed, because the surface shows the extent of the box
   QObject::connect(this->plane_, &PlaneHandle::moved, this,
     [this]
     {

@@ -20,7 +20,7 @@
 
 class Viewport;
 
-/// Shows weights in the picture. They are shown on the surface, posed or at rest, in bands with
+/// Shows weights in the 3D view. They are shown on the surface, posed or at rest, in bands with
 /// isolines and with balls at their extrema. They are also shown on a plane through the inside that
 /// the mouse drags. PictureOptions determine the display, as in `bindpose render`.
 class WeightView : public QObject
@@ -30,8 +30,8 @@ class WeightView : public QObject
 public:
   explicit WeightView(Viewport* viewport);
 
-  /// Set the surface at rest, as the viewport has it, and the tets on which the weights were
-  /// solved, both with weights; null: no data.
+  /// Set the surface at rest, which must be the surface of the viewport, and the tets on which the
+  /// weights were solved, both with weights; null: no data.
   void set_data(vtkPolyData* surface, vtkUnstructuredGrid* volume);
   /// Move the points to those of `shape`, a pose of the surface.
   void move_surface(vtkPolyData* shape);
@@ -69,7 +69,7 @@ private:
 
   Viewport* viewport_;
   PlaneHandle* plane_;
-  vtkSmartPointer<vtkPolyData> surface_; // at rest
+  vtkSmartPointer<vtkPolyData> surface_; // the surface at rest
   vtkSmartPointer<vtkPolyData> shape_; // posed
   vtkSmartPointer<vtkUnstructuredGrid> volume_;
   // its only array contains the displayed values

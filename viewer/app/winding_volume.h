@@ -41,7 +41,7 @@ private:
   VolumePanel* panel_;
   const void* surface_ = nullptr; ///< the surface for which the volume is computed
   std::shared_ptr<vtkSmartPointer<vtkImageData>> made_;
-  KernelJob job_; // last member, so that it ends before the data it works on is destroyed
+  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
 };
 
 #endif

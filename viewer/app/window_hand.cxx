@@ -136,7 +136,7 @@ void WindowHand::send(QEvent::Type type, const QPoint& at, Qt::MouseButton butto
 
 void WindowHand::press(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held)
 {
-  // a click on the picture gives it the focus
+  // a click on the 3D view gives it the focus
   this->window_->viewport()->setFocus(Qt::MouseFocusReason);
   this->buttons_ |= button;
   this->send(QEvent::MouseButtonPress, at, button, this->buttons_, held);
@@ -174,7 +174,7 @@ void WindowHand::wheel(const QPoint& at, double turns, Qt::KeyboardModifiers hel
 
 void WindowHand::leave()
 {
-  // while a button is pressed, the picture keeps the mouse and is not left
+  // while a button is pressed, the 3D view keeps the mouse, so that no leave event occurs
   if (this->buttons_ == Qt::NoButton)
   {
     QEvent event(QEvent::Leave);

@@ -13,7 +13,7 @@
 class MainWindow;
 class QAction;
 
-/// Simulates a user of the window, for tours and tests: mouse events on the picture, keys, menu
+/// Simulates a user of the window, for tours and tests: mouse events on the 3D view, keys, menu
 /// entries, buttons and options. Each action uses the widget that a user would use. If a user could
 /// not perform an action, because a widget is disabled or missing, the function returns a sentence
 /// with the reason.
@@ -22,8 +22,8 @@ class WindowHand
 public:
   explicit WindowHand(MainWindow* window) : window_(window) {}
 
-  // ---- The mouse on the picture; positions in pixels from its upper left corner ----
-  QPoint place(double x, double y) const; ///< convert fractions of the picture's width and height
+  // ---- The mouse on the 3D view; positions in pixels from its upper left corner ----
+  QPoint place(double x, double y) const; ///< convert fractions of the view's width and height
   /// Find the screen position of a posed handle, between its head (`along` is 0) and its tail (1).
   /// Return a sentence if there is no such handle.
   QString place_of(const QString& handle, double along, QPoint& at) const;
@@ -35,7 +35,7 @@ public:
   void release(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
   void double_click(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
   void wheel(const QPoint& at, double turns, Qt::KeyboardModifiers held = {});
-  /// Move the mouse off the picture, as a user does before using another widget.
+  /// Move the mouse off the 3D view, as a user does before using another widget.
   void leave();
   /// Drag the mouse on the track of the key frames to this time.
   void scrub(double seconds);
@@ -78,7 +78,7 @@ private:
 };
 
 /// Report whether nothing runs in the background, nothing plays, and the displayed shape is that of
-/// the pose.
+/// the current pose.
 bool is_idle(const MainWindow* window);
 
 /// Run the event loop until the condition is true. The condition is checked after every event and

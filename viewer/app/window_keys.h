@@ -10,17 +10,18 @@
 
 // All keys and mouse buttons of the window in one table. Actions read their shortcuts from the
 // table. The shortcut sheet and `bindpose key-table` show it together with the bindings of the
-// widgets. It does not use Qt, because the program without the window contains it, too.
+// widgets. This header does not use Qt, because the program without the window contains it, too.
 
 namespace bindpose
 {
 
 struct WindowKey
 {
-  const char* action; ///< name of the action that uses the keys; "" for rows that are only
-                      ///< documentation
+  /// Name of the action that uses the keys. Empty for rows that are only documentation.
+  const char* action;
   const char* when; ///< heading of the group in the shortcut sheet
-  const char* input; ///< keys as shown to users and read by QKeySequence; ", " separates several
+  /// Keys as shown to users and read by QKeySequence; ", " separates several keys.
+  const char* input;
   const char* text; ///< the effect of the keys
 };
 

@@ -13,8 +13,9 @@ class NoticeBar;
 class QMenu;
 class OptionLinks;
 
-/// The session files of the window: open, save, and the question before changes are lost; the list
-/// of recent files; autosave, and recovery after a crash.
+/// Manages the session files of the window. The class opens and saves sessions, and asks before
+/// changes are lost. It also manages the list of recent files, autosave, and recovery after a
+/// crash.
 class WindowSessions : public QObject
 {
   Q_OBJECT

@@ -303,7 +303,7 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
   {
     app.parse(argc, argv);
   }
-  catch (const CLI::Success& wish) // --help, --version
+  catch (const CLI::Success& wish) // --help or --version was typed
   {
     return app.exit(wish);
   }

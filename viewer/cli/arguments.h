@@ -9,7 +9,7 @@
 namespace bindpose::cli
 {
 
-/// The values of the command line, as words, by the keys of the option table. Defaults are filled
+/// The values of the command line as words, with the keys of the option table. Defaults are filled
 /// in.
 class Arguments
 {

@@ -37,20 +37,20 @@ struct Range
 struct Option
 {
   const char* name; ///< "--resolution", "-o,--output" or "SURFACE"
-  const char* value; ///< placeholder of the value in --help; empty for flags and positional
-                     ///< arguments
+  /// Placeholder of the value in --help. Empty for flags and positional arguments.
+  const char* value;
   OptionKind kind;
   const char* fallback; ///< default value, as typed; empty if there is none
   const char* choices; ///< allowed words, such as "auto|exact"
   const char* help;
   const char* values; ///< unit and range, such as "degrees, 0 to 20"
-  const char* methods; ///< values of --method that use the option, such as "cdt|wrap"; empty if all
-                       ///< do
+  /// Values of --method that use the option, such as "cdt|wrap". Empty if all methods use it.
+  const char* methods;
   bool required;
-  bool repeated; ///< takes one or more values
+  bool repeated; ///< true: the option takes one or more values
   const char* unless; ///< flag that makes a required option optional
   Range range;
-  int length; ///< number of integers or numbers
+  int length; ///< number of values in a list of integers or numbers
 
   bool positional() const { return this->name[0] != '-'; }
   /// Return the key of the option in Arguments: "resolution", "output", "SURFACE".
@@ -66,7 +66,7 @@ struct Verb
 {
   const char* name;
   const char* summary;
-  std::vector<Option> options; ///< without the options that all verbs have
+  std::vector<Option> options; ///< options of this verb, without those that all verbs have
 };
 
 /// Return every verb with its options. Parsing, --help and the documentation use this table. It is

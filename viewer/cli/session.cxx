@@ -62,7 +62,8 @@ void on_progress(vtkObject* caller, unsigned long, void* stage_data, void*)
   const auto* stage = static_cast<Stage*>(stage_data);
   if (interrupted())
   {
-    algorithm->SetAbortExecute(1); // a signal arrived before the pipeline cleared the flag
+    // Repeat the request to abort, because the pipeline clears it when it starts the algorithm.
+    algorithm->SetAbortExecute(1);
   }
   const char* phase = algorithm->GetProgressText();
   const bool has_phase = phase && *phase && stage->name != phase;
@@ -74,9 +75,9 @@ void on_progress(vtkObject* caller, unsigned long, void* stage_data, void*)
 constexpr double reading = 0.02;
 constexpr double choosing_points = 0.01;
 constexpr double finding_bones = 0.2;
-constexpr double main_end = 0.97; ///< begin of writing the results
-constexpr double latest_main_begin = 0.5; ///< upper limit of the fraction at which the main work
-                                          ///< begins, for any number of input files
+constexpr double main_end = 0.97; ///< fraction at which the results begin to be written
+/// Upper limit of the fraction at which the main work begins, for any number of input files.
+constexpr double latest_main_begin = 0.5;
 
 bool starts_with(const std::string& text, const std::string& begin)
 {

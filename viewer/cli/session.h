@@ -23,9 +23,9 @@ int exit_code(StatusCode code);
 /// Selects the part of an algorithm's report that is merged into the verb's report.
 enum class Merge
 {
-  nothing, ///< only its warnings, and its total time as seconds.STAGE
-  numbers, ///< the same, and all entries with numbers except the times of its phases
-  all ///< warnings, numbers and seconds per phase
+  nothing, ///< only the warnings, and the total time as seconds.STAGE
+  numbers, ///< the same, and all other entries except the times of phases
+  all ///< the warnings and all other entries, including the times of phases
 };
 
 /// One run of a verb (a subcommand such as `weights`). It runs algorithms with progress and
@@ -68,7 +68,7 @@ public:
   /// Read like read(), including .tgf handle files.
   vtkSmartPointer<vtkDataSet> read_any(const std::string& path);
   /// Return the handles for the value of --handles, which is a file, auto[:N] (N points on the
-  /// surface) or skeleton[:N] (N bones in it). Return null on failure.
+  /// surface) or skeleton[:N] (N bones inside the surface). Return null on failure.
   vtkSmartPointer<vtkPolyData> read_handles(const std::string& value, vtkDataSet* surface);
 
   /// Check that the report file can be written.

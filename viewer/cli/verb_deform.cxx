@@ -211,8 +211,8 @@ void run_deform(Session& session)
   {
     return;
   }
-  // The number of frames of a sequence is in its file. For expressions and dynamic bodies, --frames
-  // specifies it.
+  // The number of frames of a sequence is in its file. For expressions and dynamic bodies, the
+  // option --frames specifies the number.
   const bool dynamic = arguments.has("dynamics");
   const int given = pose->GetNumberOfFrames(), asked = arguments.integer("frames");
   const bool moves = dynamic || (given == 1 && pose->GetHasExpressions());

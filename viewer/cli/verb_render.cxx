@@ -1,5 +1,5 @@
-// Implements bindpose render FILE… -o OUT.png, which draws pictures with the library
-// bindpose_scene. VTK 9.1 ends the process if there is no X server, even for offscreen pictures.
+// Implements bindpose render FILE… -o OUT.png, which renders images with the library
+// bindpose_scene. VTK 9.1 ends the process if there is no X server, even for offscreen rendering.
 // Without an X server the program therefore runs itself again under xvfb-run.
 #include "cli/interrupt.h"
 #include "cli/session.h"
@@ -64,8 +64,8 @@ bool parse_vector(const std::string& text, Vec3& vector)
     parse_number(words[1], vector[1]) && parse_number(words[2], vector[2]);
 }
 
-/// Parse --section. Its value is a fraction, a plane perpendicular to an axis, a normal and a
-/// point, or the word none.
+/// Parse --section. Its value is one of four: a fraction, a plane perpendicular to an axis, a
+/// normal and a point, or the word none.
 bool read_section(Session& session, PictureOptions& options)
 {
   const std::string text = session.arguments().text("section");
@@ -221,8 +221,8 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
     session.invalid("--defects needs a surface; add one with --context SURFACE");
 }
 
-/// List the files to draw; a collection is replaced by its files. For a single picture of a
-/// sequence, a limited number of evenly spaced frames is chosen.
+/// List the files to draw; a collection is replaced by its files. For a single image of a sequence,
+/// a limited number of evenly spaced frames is chosen.
 bool list_files(Session& session, bool moving, std::vector<std::string>& files,
   std::vector<std::string>& labels, double& rate)
 {
@@ -266,8 +266,8 @@ bool list_files(Session& session, bool moving, std::vector<std::string>& files,
       " frames per second; expected more than 0 and at most 1000 (see --fps)");
 }
 
-/// Render one picture per tile, all with the same view and color range, then run ffmpeg. The
-/// pictures are in a temporary folder, which is removed in all cases.
+/// Render one image per tile, all with the same view and color range, then run ffmpeg. The images
+/// are in a temporary folder, which is removed in all cases.
 Status render_video(Session& session, std::vector<Tile> tiles, const PictureOptions& wanted,
   double rate, const std::string& output)
 {
@@ -279,7 +279,7 @@ Status render_video(Session& session, std::vector<Tile> tiles, const PictureOpti
   PictureOptions options = wanted;
   for (Tile& tile : tiles)
   {
-    tile.label.clear(); // the label contains the time, which differs in each picture
+    tile.label.clear(); // the label contains the time, which differs in each image
   }
   options.around = tiles;
   Status status;

@@ -60,7 +60,7 @@ void run_smooth(Session& session)
   }
   if (arguments.typed("number-of-extrema") || arguments.typed("persistence"))
   {
-    // extrema are selected from the data, unless --extrema names an array
+    // select the extrema from the data, unless --extrema names an array
     smoothing->SetExtremaArrayName("");
   }
   set_monotone_smoothing_options(arguments, smoothing.Get());

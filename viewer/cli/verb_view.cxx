@@ -58,7 +58,7 @@ bool read_files(Session& session, std::vector<FirstFile>& files)
     {
       continue;
     }
-    if (ends || session.failed()) // also true after an interrupt
+    if (ends || session.failed()) // session.failed() is also true after an interrupt
     {
       return session.fail(status);
     }

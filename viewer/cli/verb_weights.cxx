@@ -265,7 +265,7 @@ void run_weights(Session& session)
   {
     return;
   }
-  session.report().merge(of_weights); // entries that only the transfer has are kept
+  session.report().merge(of_weights); // keep entries that only the transfer has reported
   auto result = own_copy(transfer->GetOutput());
   vtkNew<vtkTransferWeights> raw;
   if (arguments.has("keep-raw"))

@@ -1,6 +1,6 @@
 // Saves copies of the work for recovery after a crash. Each process has one folder,
 // ROOT/PID-RANDOM, with a lock file that names the process. If another process can acquire the lock
-// of a folder, the owner has ended.
+// of a folder, the process of this folder has ended.
 #include "document/autosave.h"
 
 #include <QCoreApplication>
@@ -39,7 +39,7 @@ Autosave::Autosave(MakeSession make_session, const QString& root, QObject* paren
 
 Autosave::~Autosave()
 {
-  this->next_ = nullptr; // a pending copy is not needed: the folder is removed immediately
+  this->next_ = nullptr; // discard the pending copy, because the folder is removed next
   if (this->is_saving())
   {
     this->writer_.join();
@@ -79,7 +79,8 @@ QString Autosave::path() const
 /// Create the folder of this process before the first save.
 bool Autosave::make_folder()
 {
-  // Before a new folder is locked, another process may find it and remove it. Then try again.
+  // Before a new folder is locked, another process may find it and remove it. If the folder was
+  // removed, try again with another one.
   constexpr int tries = 8;
   for (int k = 0; k < tries && this->folder_.isEmpty(); ++k)
   {
@@ -195,13 +196,14 @@ std::unique_ptr<RecoveredWork> RecoveredWork::find(const QString& root)
     auto lock = lock_of(folder.filePath());
     if (!lock->tryLock(0))
     {
-      continue; // the owner of this folder is running
+      continue; // the process of this folder is running
     }
     const QFileInfo session(folder.filePath() + '/' + session_name);
     if (!session.exists())
     {
       lock->unlock();
-      QDir(folder.filePath()).removeRecursively(); // the owner ended before its first save
+      // The process of this folder ended before its first save.
+      QDir(folder.filePath()).removeRecursively();
       continue;
     }
     if (latest && latest->time_ >= session.lastModified())

@@ -74,9 +74,12 @@ private:
   double milliseconds_ = 0.0;
   double writing_milliseconds_ = 0.0;
   std::thread writer_;
-  int round_ = 0; // counts the writers that were started
-  std::shared_ptr<const SessionFile::Prepared> writing_, next_; // destroyed on the window's thread
-  bindpose::Status written_; // set by the writer; read after its end
+  int round_ = 0; // number of writers that were started
+  // The session that is being written, and the session to write next. Both must be destroyed on the
+  // window's thread.
+  std::shared_ptr<const SessionFile::Prepared> writing_, next_;
+  // Status of the running writer, which sets it; read only after the writer has ended.
+  bindpose::Status written_;
   bindpose::Status status_; // status of the last copy that was written
 };
 

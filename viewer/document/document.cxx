@@ -35,7 +35,7 @@ vtkDataArray* weights_of(vtkPolyData* surface)
 }
 
 /// Name of the array of region labels for which the weights were solved; used if regions were
-/// painted since.
+/// painted after the solve.
 const char* const bound_labels = "BoundRegionId";
 
 vtkDataArray* labels_of(vtkPolyData* surface)
@@ -158,8 +158,8 @@ QString Document::rebind_reason() const
 
 void Document::push(const QString& step, const Work& after, const QString& merge, Live live)
 {
-  // Views may make changes during undo or redo; these are not pushed as steps. A pushed step would
-  // delete the step that is being redone.
+  // Changes that views make during undo or redo are not pushed as steps. A pushed step would delete
+  // the step that is being redone.
   if (this->in_history_ || differences(this->work_, after) == 0)
   {
     return;

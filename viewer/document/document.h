@@ -40,8 +40,8 @@ public:
   /// Mark the current state as unsaved although the history is empty, for work recovered after a
   /// crash.
   void set_unsaved() { this->history_->resetClean(); }
-  /// Report whether the work has changed since set_saved(). If only options have changed, the
-  /// result is `looks`.
+  /// Report whether the work has changed since set_saved(). `looks` states whether a change of
+  /// options alone counts as a change.
   bool is_changed(bool looks) const;
 
   // ---- State ----
@@ -77,7 +77,8 @@ public:
   /// Open weights for the surface's points and the open handles; return invalid_input if they do
   /// not fit.
   bindpose::Status set_weights(const bindpose::Weights& weights, const QString& name);
-  /// Open a surface that was cut out of a picture (vtkPlanarShape). The surface shows the picture.
+  /// Open a surface that was cut out of an image (vtkPlanarShape). The image becomes the texture of
+  /// the surface.
   bindpose::Status set_picture(
     vtkPolyData* shape, vtkImageData* picture, const QString& name, const Source& source = {});
   /// Open a volume; null closes the open volume.
@@ -170,7 +171,7 @@ private:
   vtkSmartPointer<vtkPolyData> live_; // the handles, edited in place
   bindpose::Handles handles_; // live_ as handles of the kernels
   std::vector<bindpose::Index> cells_;
-  // its weights have one column per handle, in the order of the handles
+  // surface whose weights have one column per handle, in the order of the handles
   vtkSmartPointer<vtkPolyData> surface_;
   vtkSmartPointer<vtkUnstructuredGrid> tets_;
   BoundColumns columns_;

@@ -45,13 +45,13 @@ struct OpenedFile
 using RunReader = std::function<bindpose::Status(vtkBindposeAlgorithm*)>;
 /// Read a file.
 /// @param run  function that updates a reader, for callers that show progress or can be
-/// interrupted; pictures and weights do not use it
+/// interrupted; not used for images and weights
 bindpose::Status read_file(
   const std::string& path, OpenedFile& file, const RunReader& run = nullptr);
 
-/// Make a textured shape from a picture: triangles with texture coordinates (vtkPlanarShape). The
-/// picture's alpha determines the shape. If the picture is opaque or `whole` is true, the shape is
-/// the whole rectangle.
+/// Make a textured shape from an image: triangles with texture coordinates (vtkPlanarShape). The
+/// image's alpha determines the shape. If the image is opaque or `whole` is true, the shape is the
+/// whole rectangle.
 bindpose::Status make_shape(
   vtkImageData* picture, bool whole, vtkSmartPointer<vtkPolyData>& shape, bool& cut_out);
 

@@ -13,8 +13,8 @@ constexpr double any = std::numeric_limits<double>::max();
 constexpr double columns = 1e6;
 const QVariant z_axis = QVariantList{ 0.0, 0.0, 1.0 };
 
-/// Check a direction and return three finite numbers of length one; the length may deviate
-/// slightly, because users round the numbers. Return an invalid variant for any other value.
+/// Return a direction if it consists of three numbers with norm one; otherwise an invalid variant.
+/// The norm may deviate slightly, because users round the numbers.
 QVariant checked_direction(const QVariant& value)
 {
   const QVariantList given = value.toList();
@@ -41,7 +41,8 @@ QVariant checked_direction(const QVariant& value)
 namespace
 {
 /// Return the words of the weight methods, in the order of the registry.
-/// @param constrained  only bounded and monotone weights, which come first
+/// @param constrained  true: return only the bounded and monotone methods, which are first in the
+/// registry
 std::vector<const char*> method_words(bool constrained)
 {
   std::vector<const char*> words;

@@ -11,7 +11,7 @@
 /// is that of `initial`: bool, int, double, or a direction (a list of three doubles of length one).
 struct OptionInfo
 {
-  const char* key; ///< in session files; also the object name of the option's widget
+  const char* key; ///< name of the option in session files, and object name of its widget
   const char* step; ///< name of the undo step, in the translation context Document
   QVariant initial;
   double lowest = 0.0;

@@ -48,7 +48,7 @@ bool write_xml(vtkDataSet* data, const std::string& path)
   writer->SetFileName(path.c_str());
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToNone(); // fast, so that users do not notice an autosave
+  writer->SetCompressorTypeToNone(); // compression would be so slow that users notice an autosave
   writer->SetHeaderTypeToUInt64();
   return writer->Write() == 1 && writer->GetErrorCode() == 0;
 }
@@ -341,7 +341,7 @@ private:
     };
     if (inputs.contains("handles"))
     {
-      // the handles themselves are in the session
+      // only the source; the handles are in the session file
       work.handle_source = this->source(inputs["handles"]);
     }
     if (inputs.contains("picture"))
@@ -433,8 +433,8 @@ Status SessionFile::write_companion(
 struct SessionFile::Prepared
 {
   QString path; // absolute path of the session file
-  json text; // the session without its companions
-  // Datasets that are not in an input file, for the companions; may be null.
+  json text; // contents of the session file; write() adds the companions
+  // Datasets to write as companions, because no input file contains them; may be null.
   vtkSmartPointer<vtkPolyData> surface;
   vtkSmartPointer<vtkUnstructuredGrid> tets;
   vtkSmartPointer<vtkImageData> volume;

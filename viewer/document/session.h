@@ -17,7 +17,7 @@ struct SessionView
   {
     std::array<double, 3> position{ 0, 0, 1 }, focal_point{ 0, 0, 0 }, up{ 0, 1, 0 };
     double angle = 30.0; ///< degrees
-    double scale = 1.0; ///< half the height of a parallel camera's view
+    double scale = 1.0; ///< half the height of the view in world units, for a parallel camera
     bool parallel = false;
   };
   std::optional<Camera> camera;
@@ -27,7 +27,7 @@ struct SessionView
 /// An input file of a session that is missing or cannot be read.
 struct LostInput
 {
-  QString role; ///< "mesh", "handles", "picture", "volume", "curves"
+  QString role; ///< role of the input: "mesh", "handles", "picture", "volume" or "curves"
   QString path; ///< the path at which the file was expected
   QByteArray checksum; ///< checksum of the file when the session was saved
 };

@@ -31,18 +31,18 @@ struct Source
 struct Work
 {
   QString name; ///< name of the mesh, for the window title
-  vtkSmartPointer<vtkPolyData> surface; ///< at rest; the array Weights is optional
+  vtkSmartPointer<vtkPolyData> surface; ///< surface at rest; the array Weights is optional
   bool made_here = true; ///< true if the surface or its weights differ from the mesh's file
   /// The tets whose boundary is the surface; or null.
   vtkSmartPointer<vtkUnstructuredGrid> mesh_tets;
   /// The tets on which the weights were solved; or null.
   vtkSmartPointer<vtkUnstructuredGrid> weighted_tets;
-  vtkSmartPointer<vtkPolyData> handles; ///< at rest; their pose arrays are not used
+  vtkSmartPointer<vtkPolyData> handles; ///< handles at rest; their pose arrays are not used
   /// The handles for which the weights were computed, one per column; null before a bind.
   vtkSmartPointer<vtkPolyData> bound_handles;
-  bindpose::Pose pose; ///< one entry per handle
+  bindpose::Pose pose; ///< current pose, one entry per handle
   std::shared_ptr<const bindpose::PoseShelf> key_poses;
-  /// The picture from which the surface was cut out; or null.
+  /// The image from which the surface was cut out; or null.
   vtkSmartPointer<vtkImageData> picture;
   vtkSmartPointer<vtkImageData> volume;
   QString volume_name;
@@ -54,9 +54,9 @@ struct Work
 /// Parts of the work, as flags. They state which parts differ between two states.
 enum WorkPart : int
 {
-  mesh_part = 1, ///< another surface
-  weights_part = 2, ///< other weights of the surface, or none
-  handles_part = 4, ///< handles at rest, apart from their pose
+  mesh_part = 1, ///< the surface (apart from its weights), its tets, texture and name
+  weights_part = 2, ///< the weights of the surface, with their tets and handles
+  handles_part = 4, ///< the handles at rest
   pose_part = 8,
   key_poses_part = 16,
   options_part = 32,

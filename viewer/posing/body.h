@@ -15,7 +15,7 @@ namespace bindpose
 /// that the same values suit shapes of any size.
 struct BodyOptions
 {
-  double gravity = 0.5; ///< diagonals / s^2, 0 to 20
+  double gravity = 0.5; ///< bounding-box diagonals / s^2, 0 to 20
   int down = 1; ///< gravity points along this axis in its negative direction: 0 x, 1 y, 2 z
   /// Elastic waves cross the diagonal sqrt(stiffness) times per second; 1 to 1e5.
   double stiffness = 100.0;
@@ -86,7 +86,7 @@ private:
   std::optional<PoseOptions> bound_;
   ReducedDynamics body_;
   PoseRotations rotations_; ///< cache for rotations()
-  Skinning on_surface_; ///< surface weights, used only if the body is simulated in tets
+  Skinning on_surface_; ///< blends the surface's points; used only if the body is simulated in tets
   BodyRun run_;
   bool whole_ = true;
   double diagonal_ = 0.0;

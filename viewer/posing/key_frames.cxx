@@ -16,9 +16,9 @@ constexpr double same_time = 5e-4; // seconds
 constexpr double longest = 36000.0;
 constexpr const char* interpolation_words[] = { "linear", "spline" };
 
-/// Return a handle's pivot, relative to its parent, at a time between keys 1 and 2. Keys 0 and 3
-/// are the keys before and after these two; at the ends of the sequence they are keys 1 and 2
-/// themselves.
+/// Return a handle's pivot, relative to its parent, at a time between keys 1 and 2. Key 0 precedes
+/// key 1, and key 3 follows key 2. At the start of the sequence key 0 equals key 1; at the end key
+/// 3 equals key 2.
 Vec3 on_spline(const Vec3 (&p)[4], const double (&t)[4], double time)
 {
   const double span = t[2] - t[1];

@@ -6,9 +6,9 @@
 namespace bindpose
 {
 
-/// Interpolation of pivots between keys. All other values do not depend on it: rotations are
-/// interpolated along the shorter arc (slerp), scale, shear, stretch and twist linearly, and modes
-/// change at the key.
+/// Interpolation of pivots between keys. All other values do not depend on this choice: rotations
+/// are interpolated along the shorter arc (slerp), scale, shear, stretch and twist linearly, and
+/// modes change at the key.
 enum class KeyInterpolation : int
 {
   linear = 0,

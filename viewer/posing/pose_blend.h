@@ -17,7 +17,8 @@ struct HandleValues
   Vec3 degrees = Vec3::Zero();
   double scale = 1.0;
   double stretch = 1.0; ///< for bones only
-  Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< for bones only; degrees at head and tail
+  /// Twist in degrees at head and tail, for bones only.
+  Eigen::Vector2d twist = Eigen::Vector2d::Zero();
   /// True if the transform has a shear, a non-uniform scale or a reflection, which these fields
   /// cannot express. They then contain the nearest rotation and the mean scale.
   bool more = false;

@@ -54,8 +54,8 @@ bool same_bind(const PoseOptions& a, const PoseOptions& b)
 {
   if (is_skinning(a.method) && is_skinning(b.method))
   {
-    // One bind is used by all four skinning methods; the options below add centers of rotation and
-    // endpoint weights to it.
+    // All four skinning methods use the same bind, apart from two additions: centers of rotation
+    // and endpoint weights.
     const auto extra = [](const PoseOptions& o)
     {
       return std::make_tuple(o.method == PoseMethod::rotation_centers,

@@ -10,7 +10,8 @@ namespace
 std::vector<Index> groups_on_surface(
   const PoseSource& source, const RotationGroups& groups, bool in_tets)
 {
-  if (!in_tets || groups.of_vertex.empty()) // empty: in full ARAP the groups may be elements
+  // Empty: full ARAP may group elements instead of vertices.
+  if (!in_tets || groups.of_vertex.empty())
   {
     return groups.of_vertex;
   }

@@ -26,7 +26,7 @@ struct PoseSource
   /// vtkVariationalSurface reads them. All other options are set when a method is bound.
   VariationalSurfaceOptions arrays;
   Handles handles;
-  PseudoEdges pseudo_edges; ///< from the handle dataset
+  PseudoEdges pseudo_edges; ///< pseudo-edges of the handle dataset
   Status of_pseudo_edges; ///< the reason why pseudo_edges cannot be used, or ok
   /// The tets on which the weights were solved; empty if they are unknown or were not tets.
   Points tet_points;

@@ -28,7 +28,7 @@ private:
   std::optional<PoseOptions> bound_;
   ReducedArap arap_;
   PoseRotations rotations_; ///< cache for rotations()
-  Skinning on_surface_; ///< with tets only: skins the surface by all columns
+  Skinning on_surface_; ///< blends the surface's points by all columns; used only with tets
 };
 
 /// Return the options of the reduced as-rigid-as-possible kernels.

@@ -14,7 +14,7 @@ namespace bindpose
 struct PosedFrames
 {
   std::vector<Points> points;
-  std::vector<std::vector<Affine>> transforms; ///< one list per frame, or empty
+  std::vector<std::vector<Affine>> transforms; ///< one list of transforms per frame, or empty
   double frames_per_second = 24.0;
 };
 

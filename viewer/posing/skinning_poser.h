@@ -27,7 +27,8 @@ private:
   bool has_endpoints(const PoseOptions& options) const;
   Status make_endpoints(ExecutionContext& context, EndpointMethod method);
 
-  std::optional<bool> single_; ///< precision of the bound weights; empty before a bind
+  /// True: the bound weights are in single precision; empty before a bind.
+  std::optional<bool> single_;
   Skinning skinning_;
   Points pivots_;
   Points centers_;

@@ -349,7 +349,7 @@ def test_near_limbs(tmp_path):
     for name in ("moving least squares", "inverse distance"):
         assert numbers[f"{name}: motion of the neighbor, fraction of the pull"] > 0.2 > 2 * through
     assert numbers["bounded biharmonic: flipped triangles"] == 0
-    # Values of the slit square in the literature.
+    # These are the published values of the slit square.
     assert numbers["slit square, bounded-biharmonic: weight across the slit"] == pytest.approx(2.69e-3, abs=5e-6)
     assert numbers["slit square, monotone: weight across the slit"] == pytest.approx(2.63e-3, abs=5e-6)
     assert numbers["slit square, inverse-distance: weight across the slit"] == pytest.approx(0.1552, abs=5e-5)
@@ -396,7 +396,7 @@ def test_spurious_extrema(tmp_path):
         assert sum(numbers[f"unconstrained {energy}: extrema by column"]) > 10
         assert numbers[f"monotone {energy}: extrema by column"] == [0] * 5
         assert min(numbers[f"unconstrained {energy}: lowest and highest"]) < -0.2
-        # The picture shows as many extrema as the certificate counts.
+        # The rendered view shows as many extrema as the certificate counts.
         for kind in ("unconstrained", "bounded", "monotone"):
             shown = numbers[f"{kind} {energy}: maxima, minima in the picture"]
             assert sum(shown) == numbers[f"{kind} {energy}: extrema by column"][3]

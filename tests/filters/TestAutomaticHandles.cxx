@@ -69,7 +69,7 @@ TEST_F(AutomaticBones, BindWithoutAHand)
   ASSERT_EQ(filter->GetStatus(), vtkAutomaticHandles::OK) << filter->GetStatusMessage();
   ASSERT_EQ(weights->GetStatus(), vtkAutomaticHandles::OK) << weights->GetStatusMessage();
   const Handles handles = handles_of(filter);
-  ASSERT_EQ(handles.size(), 4u); // one bone of length 7 in a shape with diagonal 8.12, halved twice
+  ASSERT_EQ(handles.size(), 4u); // the bone of length 7 (of the diagonal 8.12) is halved twice
   vtkDataArray* array = weights->GetOutput()->GetPointData()->GetArray("Weights");
   ASSERT_NE(array, nullptr);
   ASSERT_EQ(array->GetNumberOfComponents(), 4);

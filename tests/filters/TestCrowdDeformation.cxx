@@ -80,7 +80,8 @@ protected:
     set_pose(result, cells, this->pose(i));
     return result;
   }
-  /// Add the same poses as rows of arrays: the translation of one handle, and modes.
+  /// Add the same poses as arrays with one row per instance: the translations of the right handle,
+  /// and the modes of all handles.
   template <typename Attributes>
   void add_rows(Attributes* arrays, int rows) const
   {
@@ -326,7 +327,7 @@ TEST_F(CrowdDeformationFilter, SaysWhatIsWrong)
   table->GetRowData()->AddArray(places);
   EXPECT_THAT(message(table), HasSubstr("instance 1: its placement"));
 
-  // The handles of an instance are not those of the mesh.
+  // The handles of instance 1 differ from those of the mesh.
   blocks->SetBlock(0, this->posed_handles(0));
   Handles others = this->rig.handles;
   others[1].name = "another";

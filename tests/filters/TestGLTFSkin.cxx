@@ -238,8 +238,8 @@ TEST_F(GLTFSkin, TetsAreTheirBoundary)
   }
 }
 
-/// Request the frames in any order of times, from the reader and from a pose of its file, at 12
-/// frames per second.
+/// Request the frames at times in any order. The poses are those of the reader's output, and those
+/// that vtkPoseHandles reads from the same file. The file has 12 frames per second.
 void GLTFSkin::ExpectTheTimesOfTheFrames(const std::vector<Points>& expected)
 {
   vtkNew<vtkPoseHandles> posed;
@@ -316,8 +316,8 @@ TEST_F(GLTFSkin, PosesAndAnimationsAreThoseOfLinearBlendSkinning)
     EXPECT_EQ(this->Reader->GetFramesPerSecond(), 12.0);
     for (int k = 0; k < 3; ++k)
     {
-      // The three ways give the same result: the frames of the reader, its pose file, and the glTF
-      // file as a pose of the handles.
+      // Three ways to pose the mesh give the same result: the frames of the reader, the pose file
+      // that the reader returns, and the glTF file as the pose file of the handles.
       vtkNew<vtkSkinningDeformation> again;
       again->SetInputData(0, this->Mesh);
       vtkNew<vtkPoseHandles> posed;

@@ -59,8 +59,8 @@ TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
     spacing = image->GetSpacing()[0];
   }
   EXPECT_EQ(field->GetNumberOfBuilds(), 1);
-  // No sample is on a face of the cube, where the value would be another. The padding is 10 % of
-  // the diagonal on each side.
+  // No sample is on a face of the cube, where the winding number would be neither 0 nor 1. The
+  // padding is 10 % of the bounding-box diagonal on each side.
   const double side = 2.0;
   const double expected_spacing = (side + 0.2 * std::sqrt(3.0) * side) / (samples - 1);
   EXPECT_NEAR(spacing, expected_spacing, 1e-12);

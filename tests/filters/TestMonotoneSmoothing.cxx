@@ -149,8 +149,8 @@ TEST_F(MonotoneSmoothing, TakesTheListOfTheMeshAndItsOwn)
   EXPECT_EQ(range[0], data->GetTuple1(40));
   EXPECT_EQ(range[1], data->GetTuple1(200));
   EXPECT_EQ(read_report(this->smoothing->GetOutput()).text("extrema_from"), "list");
-  // The filter writes the list that it used as an array. A second filter accepts this array as
-  // input.
+  // The filter writes the list of extrema that it used as an array. A second filter accepts this
+  // array as input.
   vtkNew<vtkMonotoneSmoothing> again;
   again->SetInputConnection(this->smoothing->GetOutputPort());
   again->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Height");
@@ -164,7 +164,7 @@ TEST_F(MonotoneSmoothing, TakesTheListOfTheMeshAndItsOwn)
   {
     ASSERT_EQ(repeated->GetTuple1(v), smoothed->GetTuple1(v));
   }
-  // With an empty array name, the filter ignores the list in the mesh.
+  // With an empty array name, the filter ignores the list of extrema in the mesh.
   this->smoothing->SetExtremaArrayName("");
   this->smoothing->KeepValuesOff();
   this->smoothing->SetNumberOfExtrema(3);

@@ -1,4 +1,5 @@
-// vtkMovingLeastSquaresWarp: no weights, one bind, rotation of flat meshes in their plane.
+// vtkMovingLeastSquaresWarp needs no weights, binds once for many poses, and rotates flat meshes in
+// their plane.
 #include "TestFilter.h"
 
 #include "vtkMovingLeastSquaresWarp.h"

@@ -1,5 +1,5 @@
-// vtkReducedARAP (reduced as-rigid-as-possible deformation): one bind, many poses, modes, named
-// errors.
+// vtkReducedARAP (reduced as-rigid-as-possible deformation): one bind for many poses, modes of
+// handles, and errors that name the cause.
 #include "vtkReducedARAP.h"
 
 #include "TestFilter.h"

@@ -1,5 +1,5 @@
-// vtkSkinningDeformation: identity, rigid motion and joints as the kernel documents them, one bind,
-// clear errors.
+// vtkSkinningDeformation: identity, rigid motion and joints as the kernel documents them, one bind
+// for many poses, and clear errors.
 #include "vtkSkinningDeformation.h"
 
 #include "conversion.h"

@@ -1,5 +1,5 @@
-// vtkVariationalSurface: handles and arrays of the mesh, one bind, use without handles, named
-// errors.
+// vtkVariationalSurface: handles and arrays of the mesh, one bind for many poses, use without
+// handles, and errors that name the cause.
 #include "vtkVariationalSurface.h"
 
 #include "TestFilter.h"

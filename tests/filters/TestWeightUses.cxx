@@ -88,8 +88,8 @@ vtkSmartPointer<vtkPolyData> two_limbs()
   return to_polydata(points, triangles);
 }
 
-/// Return the z coordinate at rest of the material of one limb at a position of the posed shape, or
-/// NaN. Every triangle is tested.
+/// Return the z coordinate of the posed shape at (x, y) on one of the limbs, or NaN if this limb is
+/// not there. Every triangle is tested.
 double height_of(vtkPolyData* rest, vtkPolyData* posed, bool right_limb, double x, double y)
 {
   SurfaceInput surface;

@@ -407,7 +407,7 @@ TEST(WindingNumberField, ExecutesOnlyWhenSomethingChanged)
   field->UpdateInformation();
   field->Update();
   EXPECT_EQ(listener->starts, 1);
-  field->SetResolution(8); // the value does not change
+  field->SetResolution(8); // the resolution already has this value
   field->SetNumberOfThreads(1);
   field->Update();
   EXPECT_EQ(listener->starts, 1);

@@ -26,8 +26,8 @@ vtkSmartPointer<vtkImageData> three_spheres();
 /// Centers of the spheres with winding numbers +1, +1 (2 in the overlap) and -1.
 extern const Vec3 sphere_centers[3];
 extern const double sphere_radius;
-/// Return 49 x 49 x 49 samples of the field 1.5 - |p| over [-1.6, 1.6]. The level set of w is a
-/// sphere of radius 1.5 - w.
+/// Return 49 x 49 x 49 samples of the field 1.5 - |p| over [-1.6, 1.6]. The isosurface of level w
+/// is a sphere of radius 1.5 - w.
 vtkSmartPointer<vtkImageData> cone_field();
 /// Return two circles of radius 1 around the y axis, one polyline per circle. The array
 /// Multiplicity is -1 at y = -0.5, and 2 at y = 0.5.

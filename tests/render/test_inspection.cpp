@@ -218,8 +218,8 @@ TEST(Render, tets_slice)
       }
     }
   }
-  // The tets in front of the plane are removed. Their lower edge shows the paper, the lower edge of
-  // the plane does not.
+  // The tets in front of the plane are removed. At the position of their lower edge the paper is
+  // visible. At the lower edge of the slice it is not.
   EXPECT_TRUE(is_paper(drawing.at(Vec3(1.0, 0.02, 0.98))));
   EXPECT_FALSE(is_paper(drawing.at(on_plane(1.0, 0.02))));
   // The slice contains exactly the tets with vertices on both sides of the plane.

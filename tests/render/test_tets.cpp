@@ -50,8 +50,8 @@ TEST(Render, tets_shrunk)
   const Drawing whole = draw({ { tet_brick(), nullptr, "" } }, options);
   options.shrink = 0.5;
   const Drawing drawing = draw({ { tet_brick(), nullptr, "" } }, options);
-  // Nothing is drawn outside of the picture of the unshrunk tets, and the gaps between the tets
-  // show paper.
+  // Nothing is drawn outside of the pixels that the unshrunk tets cover, and the gaps between the
+  // tets show paper.
   long long gaps = 0;
   for (int y = 0; y < 300; ++y)
   {
@@ -133,11 +133,11 @@ TEST(Render, defects)
   tile.defects = vtkPolyData::SafeDownCast(filter->GetOutput());
   const Drawing drawing = draw({ tile }, options);
   const auto& kinds = defect_categories();
-  // The points are on the border of the opening, and on the two triangles of the lid that cross the
-  // sphere.
+  // The first point is on the border of the opening. The second point is on the face y = 1 of the
+  // cube, whose two triangles cross the sphere.
   EXPECT_LT(hue_distance(drawing.at(Vec3(0.3, -1.0, 1.0)), kinds[2].color), 0.08);
   EXPECT_LT(hue_distance(drawing.at(Vec3(0.85, 1.0, 0.7)), kinds[7].color), 0.08);
-  // Clean parts are translucent gray.
+  // Triangles without defects are translucent gray.
   const Pixel gray = drawing.at(Vec3(1.0, 0.0, 0.0));
   EXPECT_LT(std::max({ gray.r, gray.g, gray.b }) - std::min({ gray.r, gray.g, gray.b }), 30);
   expect_baseline(drawing.image);

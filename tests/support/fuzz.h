@@ -4,7 +4,7 @@
 // Support for fuzz tests, which try many random cases. The case of a round depends only on its
 // seed, so that a failure can be repeated alone. Environment variables control the rounds:
 // BINDPOSE_FUZZ_FACTOR=8   runs 8 times as many rounds (nightly)
-// BINDPOSE_FUZZ_NIGHT=3    uses the seeds that follow those of three such runs (nightly: the date)
+// BINDPOSE_FUZZ_NIGHT=3    uses the seeds after those of nights 0 to 2 (nightly: the date)
 // BINDPOSE_FUZZ_SEED=7     runs only the round with this seed
 // BINDPOSE_FUZZ_TRACE=1    prints each seed before its round, because a crash prints no seed
 

@@ -160,7 +160,7 @@ TEST(SkeletonBones, AStraightCurveIsOneBone)
   const SkeletonBones bones = run(drawing);
   ASSERT_EQ(bones.handles.size(), 1u);
   EXPECT_EQ(bones.handles[0].name, "b1");
-  // The head is the end that is nearer to the centroid.
+  // The head of the bone is the end that is nearer to the centroid of the shape.
   EXPECT_EQ(bones.handles[0].head, Vec3(0.0, 0.0, 0.0));
   EXPECT_EQ(bones.handles[0].tail, Vec3(1.0, 0.0, 0.0));
   EXPECT_EQ(bones.handles[0].parent, -1);
@@ -336,7 +336,7 @@ TEST(SkeletonBones, JunctionsWithinTheThicknessAreOne)
     EXPECT_LT(bone.head.norm(), 1e-15);
   }
   SkeletonBonesOptions options;
-  options.prune = 0.3; // the branch points are 0.04 apart, more than 0.3 * 0.1
+  options.prune = 0.3; // 0.3 radii are 0.03, and the branch points are 0.04 apart
   EXPECT_EQ(run(drawing, options).junctions, 2);
 }
 
@@ -371,10 +371,10 @@ TEST(SkeletonBones, ARingIsCutOnceOppositeItsRoot)
   ASSERT_EQ(bones.roots.size(), 1u);
   EXPECT_EQ(Vec3(bones.joints.row(bones.roots[0])), Vec3(1.0, 0.0, 0.0));
   expect_tree(bones);
-  // A tree has one joint more than bones.
+  // A tree of bones has one more joint than bones.
   EXPECT_EQ(bones.joints.rows(), static_cast<Index>(bones.handles.size()) + 1);
   EXPECT_EQ(bones.junctions, 0);
-  // Two bones end where the loop is cut at (-1, 0, 0), one segment apart.
+  // The loop is cut at (-1, 0, 0). Two bones end there, one segment apart from each other.
   int ends = 0;
   for (const Handle& bone : bones.handles)
   {

@@ -81,7 +81,7 @@ std::vector<double> straight(const TriangleMesh& mesh, Index from)
   return distance;
 }
 
-/// Return a unit square of two sheets at distance `thickness`, with a rim.
+/// Return the closed surface of a plate: two unit squares at distance `thickness`, joined by a rim.
 TriangleMesh plate(double thickness)
 {
   const TetMesh box = test::tet_box(10, 10, 1, Vec3::Zero(), Vec3(1.0, 1.0, thickness));
@@ -124,7 +124,7 @@ TEST(SpreadPoints, AreFartherFromEachOtherThanAnyVertexIsFromThem)
     }
     const double covering = *std::max_element(nearest.begin(), nearest.end());
     EXPECT_GE(closest_pair * (1.0 + 1e-12), covering);
-    EXPECT_LT(covering, 1.3); // the outer half circle has the length 4.1
+    EXPECT_LT(covering, 1.3); // half of the torus's outer circle has the length 4.1
   }
 }
 

@@ -12,7 +12,8 @@ TEST(ExecutionContext, ProgressNeverGoesBack)
   std::vector<double> told;
   ExecutionContext context(
     [&](double fraction, const std::string&) { told.push_back(fraction); }, [] { return false; });
-  // Every phase reports its begin, or the largest fraction that was reported before.
+  // A phase reports the fraction at which it begins. If a larger fraction was reported before, the
+  // phase reports that fraction again.
   for (const double begin : { 0.0, 0.4, 0.1, 0.0, 0.7 })
   {
     const Phase phase(context, "again", begin, 0.9);

@@ -128,8 +128,8 @@ TEST_F(FloatCholeskyTest, ResidualsAreThoseOfSinglePrecisionAtAnyScale)
   solver.solve(rhs, expected);
   for (const double scale : { 1.0, 1e-60, 1e60 })
   {
-    // The rows and columns of one matrix also have very different scales. They exceed the range of
-    // float.
+    // Scale the rows and columns of the matrix by very different factors. The factors exceed the
+    // range of float.
     Eigen::VectorXd rows(a.rows());
     for (Index i = 0; i < rows.size(); ++i)
     {

@@ -60,7 +60,7 @@ TEST(Laplacian, LinearFunctionsAreHarmonicAndHaveTheirDirichletEnergy)
   TetMesh tets = test::tet_box(4, 3, 3);
   const SparseMatrix k = stiffness_matrix(tets.points, tets.tets);
   const Eigen::VectorXd f = tets.points * Vec3(1, 2, -3);
-  EXPECT_NEAR(f.dot(k * f), 14.0, 1e-10); // squared gradient length 14 times the volume 1
+  EXPECT_NEAR(f.dot(k * f), 14.0, 1e-10); // squared gradient length 14, multiplied by the volume 1
   EXPECT_LT((k * Eigen::VectorXd::Ones(k.rows())).cwiseAbs().maxCoeff(), 1e-12);
 
   TriangleMesh plane = test::grid(5, 4);

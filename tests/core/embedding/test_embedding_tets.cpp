@@ -38,7 +38,8 @@ EmbeddingTets embedded(const TriangleMesh& mesh, Index resolution = 0, int threa
   return result;
 }
 
-/// Return the vertices of the tets to which the points with chosen(point) == true are bound.
+/// Return the vertices of the tets to which the chosen points are bound: the points for which
+/// chosen(point) is true.
 template <typename Chosen>
 std::set<Index> vertices_of(const EmbeddingTets& result, const Points& points, const Chosen& chosen)
 {
@@ -660,8 +661,9 @@ TEST(EmbeddingTets, CancelEndsSoon)
 
 TEST(EmbeddingTets, ALinkConnectsWhatIsAtItsEnds)
 {
-  // Two boxes at a distance of 3, linked from the middle of a side to a corner of the other box,
-  // and two boxes in the same tets, linked at one point.
+  // In mesh `apart`, the distance of two boxes is 3, and the link leads from the middle of a side
+  // of one box to a corner of the other box. In mesh `near`, the gap of 0.01 between the boxes is
+  // much smaller than a tet, and the link connects them at one point of the gap.
   const TriangleMesh apart =
     test::join(box(Vec3(0, 0, 0), Vec3(1, 1, 1)), box(Vec3(4, 0, 0), Vec3(5, 1, 1)));
   const TriangleMesh near =

@@ -231,7 +231,7 @@ TriangleMesh blob(Random& random, Index most)
   {
     mesh.points.col(random.below(3)) *= magnitude(random, -12.0, 0.0);
   }
-  if (chance(random, 0.25)) // make one half much finer than the other
+  if (chance(random, 0.25)) // make the triangles of half of the surface much smaller
   {
     for (Index v = 0; v < mesh.points.rows(); ++v)
     {

@@ -8,10 +8,10 @@
 namespace bindpose::test
 {
 
-/// Return about `most` triangles or fewer of a random type, of size about 1 near the origin. The
-/// types are: random triangles with corners on a lattice or anywhere, needles, slivers, layers,
-/// fans, closed surfaces, surfaces with holes, with reversed or repeated triangles or with parts of
-/// very different sizes, and one or two triangles.
+/// Return a surface of a random type with at most about `most` triangles, of size about 1 near the
+/// origin. The types are: random triangles with corners on a lattice or anywhere, needles, slivers,
+/// layers, fans, closed surfaces, surfaces with holes, with reversed or repeated triangles or with
+/// parts of very different sizes, and one or two triangles.
 TriangleMesh hostile_surface(Random& random, Index most);
 
 /// Return a closed surface: the directions of its triangles cancel at every edge. The types are

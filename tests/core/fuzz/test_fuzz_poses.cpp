@@ -235,7 +235,8 @@ TEST(FuzzPoses, Skinning)
         }
         else if (weights.row(v).maxCoeff(&j) == 1.0 && weights.row(v).cwiseAbs().sum() == 1.0)
         {
-          // A point with a single handle moves by its transform, even if it is not rigid.
+          // If a point has the weight 1 for one handle, it moves by the transform of this handle,
+          // even if the transform is not rigid.
           const Vec3 expected = transforms[j] * rest.row(v).transpose().homogeneous();
           const double near = 1e-12 * std::max(1.0, transforms[j].cwiseAbs().maxCoeff());
           ASSERT_LE((quaternions.row(v).transpose() - expected).cwiseAbs().maxCoeff(), near);

@@ -503,7 +503,8 @@ Handles named_handles()
   return handles;
 }
 
-/// Return the largest value in an edit. Products of huge values may exceed the range of double.
+/// Return the largest number in an edit of a handle. Products of huge numbers may exceed the range
+/// of double.
 double largest_number(const HandleEdit& edit)
 {
   double largest = std::max(std::abs(edit.scale.value_or(0)), edit.stretch.value_or(0));

@@ -153,8 +153,8 @@ TriangleMesh abused(test::Random& random)
   return mesh;
 }
 
-/// Estimate the volume of {winding number >= threshold} in the surface's bounding box with the
-/// plain sum at random points.
+/// Estimate the volume of {winding number >= threshold} in the surface's bounding box from random
+/// points. At each point the winding number is the plain sum over the triangles.
 double sampled_volume(
   test::Random& random, const TriangleMesh& mesh, double threshold, Index samples)
 {
@@ -348,7 +348,8 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
     const bool told = std::any_of(status.warnings.begin(), status.warnings.end(),
       [](const std::string& text)
       { return text.find("but the enclosed volume by winding number") != std::string::npos; });
-    // The volume is sampled with 20,000 points inside, or with fewer if that takes too long.
+    // The volume `winding` is estimated from 20,000 samples inside of the surface, or from fewer
+    // samples if these take too long.
     EXPECT_TRUE(told || std::abs(volume / winding - 1.0) < 0.15)
       << volume << " instead of " << winding << ", and no word of it";
   }
@@ -356,7 +357,8 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
     [](const std::string& text) { return text.find("flipped") != std::string::npos; });
   if (!turned)
   {
-    // The tolerance is six standard deviations of both samplings.
+    // Both volumes are estimated from samples. The tolerance is six standard deviations of the
+    // difference between the estimates.
     constexpr Index samples = 2000;
     const double expected = sampled_volume(random, surface, options.winding_threshold, samples);
     EXPECT_NEAR(winding, expected, 0.1 * box);

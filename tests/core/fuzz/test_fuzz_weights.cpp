@@ -125,8 +125,8 @@ double measure(const Domain& domain)
                             : surface_area(domain.points, domain.triangles);
 }
 
-/// Return the smallest height of an element in bounding-box diagonals. It is tiny if two handles
-/// almost touch.
+/// Return the smallest height of all elements, in units of the bounding-box diagonal. It is tiny if
+/// two handles almost touch.
 double smallest_height(const Domain& domain)
 {
   const double size = bounding_box(domain.points).diagonal();
@@ -188,7 +188,7 @@ void expect_weights(const WeightsProblem& problem, const WeightMethod& method, c
   for (Index v = 0; v < problem.vertex_count(); ++v)
   {
     const bool empty = problem.constraints.roles[v] == VertexRole::unreferenced;
-    // Without bounds, large weights of both signs increase the round-off of the sum.
+    // Without bounds, large weights of both signs increase the round-off of the sum of a row.
     const double size = std::max(1.0, result.weights.row(v).cwiseAbs().sum());
     ASSERT_NEAR(result.weights.row(v).sum(), empty ? 0.0 : 1.0, 1e-12 * size) << v;
   }
@@ -237,7 +237,7 @@ TEST(FuzzWeights, HandlesAnywhere)
       {
         EXPECT_EQ(problem.constraints.values.col(h).maxCoeff(), 1.0) << "a handle without a vertex";
       }
-      // Every second case is bounded or monotone weights.
+      // Half of the cases use bounded or monotone weights, the other half use the other methods.
       const std::vector<WeightMethod>& methods = weight_methods();
       const WeightMethod& method =
         methods[random.below(2) == 0 ? random.below(2)
@@ -248,8 +248,8 @@ TEST(FuzzWeights, HandlesAnywhere)
       expect_spoken(status);
       if (!status.usable())
       {
-        // Only tiny elements may make the solver fail: second differences over their lengths exceed
-        // the range of double.
+        // The solver may fail only if elements are tiny: second differences divided by the lengths
+        // of their edges then exceed the range of double.
         EXPECT_EQ(status.code, StatusCode::invalid_input);
         EXPECT_LT(smallest_height(problem.mesh.domain), 1e-4) << status.message;
         ++unsolvable;

@@ -3,8 +3,8 @@
 //
 // The tolerances are those of the documentation. Exact methods have an error of 1e-14 plus the
 // round-off of the sum of unsigned contributions, and integers are exact. Fast methods satisfy
-// their tolerance. The flags of all methods agree. Rows of grids and batches of points have the
-// same bits as single points.
+// their tolerance. All methods agree on which points are on the input. Rows of grids and batches of
+// points have the same bits as single points.
 #include "winding/curve_winding_number.h"
 #include "winding/exact_frame.h"
 #include "winding/point_cloud_winding_number.h"
@@ -60,8 +60,9 @@ WindingNumber make(Random& random, const TriangleMesh& mesh, const Way& way)
   return winding;
 }
 
-/// Report whether the point is at about the tolerance of touching a triangle. There the result
-/// depends on rounding, and on the order of the triangle's corners.
+/// Report whether the distance between the point and a triangle is about the tolerance for
+/// touching. Whether such a point touches the triangle depends on rounding, and on the order of the
+/// triangle's corners.
 bool is_borderline(const TriangleMesh& mesh, const Vec3& point)
 {
   const ExactFrame frame(bounding_box(mesh.points, mesh.triangles));
@@ -134,8 +135,8 @@ struct Tally
   Index touching = 0;
   /// Number of queries on the borderline of touching a triangle, which are not compared.
   Index borderline = 0;
-  double exact_error = 0.0; ///< largest absolute error
-  double fast_error = 0.0; ///< largest error divided by the tolerance
+  double exact_error = 0.0; ///< largest absolute error of exact methods
+  double fast_error = 0.0; ///< largest error of fast methods, divided by their tolerance
 
   void add(const WindingNumber& winding, const Way& way, bool closed, const Truth& truth, Index i,
     double value, bool touches)
@@ -187,7 +188,8 @@ struct Tally
   }
 };
 
-/// Compare one method with the truth: all points in one call, one by one, and on the grid.
+/// Compare one method with the true winding numbers: at all points in one call, at single points,
+/// and on the grid.
 void compare(Random& random, const TriangleMesh& mesh, const Way& way, const Truth& points,
   const SampleGrid& grid, const Truth& samples, Tally& tally)
 {
@@ -298,7 +300,7 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
         ASSERT_TRUE(touches || value == std::round(value)) << p.transpose() << ": " << value;
         if (!chance(random, 1500.0 / static_cast<double>(mesh.triangles.rows())))
         {
-          return; // the tree is slow for a heap of triangles
+          return; // `tree` is slow for many triangles, so fewer points are compared
         }
         bool expected_touch = false;
         const double expected = tree.evaluate_at(p, &expected_touch);
@@ -411,7 +413,8 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
           std::array<Index, 3> cell;
           for (int axis = 0; axis < 3; ++axis)
           {
-            const Index halves = place[axis] - 3; // in half cubes from the lattice's corner
+            // The distance from the corner of the lattice, in units of half a cube.
+            const Index halves = place[axis] - 3;
             cell[axis] = halves % 2 == 0 ? halves / 2 - 1 + (k >> axis & 1) : (halves - 1) / 2;
           }
           expected += 0.125 * is_filled(cell[0], cell[1], cell[2]);
@@ -468,8 +471,9 @@ TEST(FuzzWinding, GradientIsThatOfThePlainSum)
         {
           continue;
         }
-        // Compute the distance to the boundary curve, and the sum of its multiplicities. The sum
-        // scales the round-off and the error of the finite differences.
+        // Compute the distance of the point from the boundary curve, and the sum of the
+        // multiplicities of the boundary edges. Round-off and the error of the finite differences
+        // are proportional to this sum.
         double rim = 1e300, weights = 0.0;
         for (const SurfaceBoundary::BoundaryEdge& edge : exact.boundary().edges)
         {
@@ -694,8 +698,8 @@ Cloud hostile_cloud(Random& random)
   return cloud;
 }
 
-/// Evaluate the formula, and the sum of its unsigned contributions. Samples of the cloud within the
-/// tolerance contribute nothing.
+/// Evaluate the formula of the winding number, and the sum of the absolute values of its terms.
+/// Samples of the cloud within the tolerance of the point contribute nothing.
 void plain_sum(const Cloud& cloud, const Vec3& p, double tolerance, double& sum,
   double& unsigned_sum, bool& touches)
 {

@@ -88,7 +88,7 @@ TEST(MesherProcess, MissingHelperNamesItsPackages)
 
 TEST(MesherProcess, CopiesThroughAnHonestHelper)
 {
-  // This fake helper returns the record that it reads unchanged.
+  // This fake helper returns its input record unchanged.
   FakeHelper helper("echo progress 0.5 >&2; echo report rounds 3 >&2; cat");
   const Status status = helper.run();
   ASSERT_TRUE(status.ok()) << status.message;
@@ -226,8 +226,8 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
     const MesherData& refined = answer.data;
     EXPECT_GT(refined.triangles.rows(), mesh.triangles.rows());
     EXPECT_EQ(refined.points.topRows(mesh.points.rows()), mesh.points) << "vertices keep their ids";
-    // Check with the exact predicates of Bindpose: no triangles cross after the refinement, and
-    // before it as many pairs cross as CGAL reports.
+    // Check with the exact predicates of Bindpose. After the refinement no triangles cross. Before
+    // the refinement as many pairs of triangles cross as CGAL reports.
     ExecutionContext context;
     std::vector<std::pair<Index, Index>> pairs;
     ASSERT_TRUE(crossing_pairs(refined.points, refined.triangles, pairs, context));

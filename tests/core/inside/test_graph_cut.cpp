@@ -29,7 +29,7 @@ CutEnergy random_energy(Index nodes, Index edges, Random& random)
   for (Index e = 0; e < edges; ++e)
   {
     const Index a = random.below(nodes);
-    // This is any node except a; pairs may repeat.
+    // Node b is any node except a. Pairs of nodes may repeat.
     const Index b = (a + 1 + random.below(nodes - 1)) % nodes;
     energy.edges.push_back({ a, b, random.below(4) == 0 ? 0.0 : random.uniform() });
   }

@@ -202,7 +202,7 @@ TEST_F(Remesh, OpenCubeGetsALid)
   EXPECT_NEAR(outcome.volume(), 8.0, 0.01);
   EXPECT_EQ(outcome.kept(), 8);
   EXPECT_LT(outcome.status.report.number("distance_max", 100.0), 0.5) << "the lid does not count";
-  // A higher threshold moves the lid over the opening inwards.
+  // A higher threshold moves the boundary of the tets across the opening inwards.
   RemeshOptions high;
   high.winding_threshold = 0.9;
   const Outcome lower = run(cube, high);

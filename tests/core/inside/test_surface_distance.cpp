@@ -34,8 +34,8 @@ TEST(SurfaceDistance, OfBoxesIsKnown)
   EXPECT_NEAR(none.maximum, 0.0, 1e-12);
   EXPECT_NEAR(none.mean, 0.0, 1e-12);
   EXPECT_GT(none.samples, 12);
-  // The top is too low by 0.25. It is a sixth of the surface, and a slightly larger fraction of the
-  // boundary of the tets.
+  // The top of the tets is too low by 0.25. The top is a sixth of the surface, and a slightly
+  // larger fraction of the boundary of the tets.
   const SurfaceDistance low = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 0.75)), cube);
   EXPECT_NEAR(low.maximum, 0.25, 1e-12);
   EXPECT_GT(low.mean, 0.25 / 7.0);

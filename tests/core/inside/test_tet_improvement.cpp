@@ -319,7 +319,7 @@ TEST(TetImprovement, HeldVerticesNeverGo)
   const Index inside = vertex_at(mesh, Vec3(0.5, 0.5, 0.5));
   const Index fresh = split_edge(mesh, inside, vertex_at(mesh, Vec3(0.5, 0.5, 0.75)), 1e-6);
   ImproveOptions options;
-  options.least_angle = 0.0; // held vertices do not move
+  options.least_angle = 0.0; // no angle is below 0 degrees, so held vertices do not move
   ExecutionContext context;
   Improvement done;
   for (const bool both : { true, false })

@@ -116,10 +116,10 @@ TEST(TetQuality, CrumbsAndLoneTetsGo)
 
 TEST(TetQuality, TrianglesInFrontOfOthersForceFlatTets)
 {
-  // A plate of 6 x 6 cells. The inscribed circles of its large triangles have the radius 0.0488. If
-  // all dihedral angles of a tet on such a triangle are at least 5 degrees, the tet is higher than
-  // 0.00427. If the plate is thinner, all its tets are forced to be flat; otherwise only those next
-  // to the needles at the rim.
+  // The mesh is a plate of 6 x 6 cells. The inscribed circles of its large triangles have the
+  // radius 0.0488. A tet on such a triangle is higher than 0.00427 if all its dihedral angles are
+  // at least 5 degrees. In a thinner plate all tets are therefore forced to be flat. In a thicker
+  // plate only the tets next to the needles at the rim are forced to be flat.
   for (const double height : { 0.004, 0.005 })
   {
     TetMesh plate = test::tet_box(6, 6, 1);

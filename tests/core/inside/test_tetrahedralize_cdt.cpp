@@ -32,8 +32,8 @@ Index surface_characteristic(const TriangleMesh& mesh)
   return mesh.points.rows() - count_edges(mesh.triangles).edges + mesh.triangles.rows();
 }
 
-/// Return the largest distance from the surface of the vertices and facet centers of the tets'
-/// boundary.
+/// Return the largest distance between the tets' boundary and the surface. It is measured at the
+/// vertices and facet centers of the boundary.
 double boundary_distance(const TetMesh& mesh, const TriangleMesh& surface)
 {
   const TriangleTree tree(surface.points, surface.triangles);
@@ -245,8 +245,9 @@ TEST_F(Cdt, UncleanCubesHoldTheirVolume)
 
 TEST_F(Cdt, ManyPartsMostlyInsideOutOthersTouchOneIsOpen)
 {
-  // The first part is every second cube of 4 x 4 x 4; they touch at edges and vertices. Below are
-  // 16 separate cubes, most of them inside out. Next to them is a cube without a top.
+  // The first part consists of every second cube of a 4 x 4 x 4 lattice. These cubes touch at edges
+  // and vertices. Below them are 16 separate cubes, most of them inside out. Next to them is a cube
+  // without a top.
   TriangleMesh mesh = test::translated(test::open_cube(), Vec3(8.0, 0.0, 0.0));
   Index turned = 0;
   for (int k = 0; k < 64; ++k)

@@ -129,7 +129,7 @@ TEST_F(WrapSurface, IsClosedAndAroundWhateverItIsGiven)
   {
     const char* name;
     TriangleMesh mesh;
-    Index characteristic; ///< 2 for each ball, 0 for a torus, -1 if unknown
+    Index characteristic; ///< Euler characteristic: 2 per ball, 0 per torus, -1 if unknown
   };
   const WrapOptions options{ 0.05, 0.002, 60.0, 0 };
   for (const Case& c :

@@ -213,7 +213,7 @@ TEST(GltfSkin, RowsInTheFileSumToOne)
   ASSERT_TRUE(status.ok());
   EXPECT_EQ(status.report.text("rest_joint"), "yes");
   const json written = json_of(folder.read("rig.glb"));
-  // Includes an additional joint that stays at rest.
+  // The skin in the file has an additional joint that stays at rest.
   EXPECT_EQ(written["skins"][0]["joints"].size(), 7u);
   // Read the sums of the weights of each vertex from the bytes of the file.
   const std::string glb = folder.read("rig.glb");

@@ -193,7 +193,7 @@ TEST_F(Vdb, RegionsOfOneValueAreTiles)
   EXPECT_EQ(grid->activeVoxelCount(), 128u * 128u * 128u);
 
   this->options.overwrite = true;
-  // One layer of voxels in addition to the tile.
+  // The field has one layer of voxels in addition to the tile.
   ASSERT_TRUE(this->write(Field({ 0, 8, 0, 7, 0, 7 }, one)).ok());
   grid = this->read();
   EXPECT_EQ(grid->tree().leafCount(), 1u);

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 namespace
 {
-using Picture = std::vector<std::vector<float>>; // row by row, beginning with y = 0
+using Picture = std::vector<std::vector<float>>; // pixel values row by row, from y = 0
 
 Status outline_of(const Picture& picture, ImageOutline& outline, double simplify = 0.5)
 {

@@ -194,7 +194,7 @@ std::vector<Vec2> pentagram()
   return ring(5, 1.0, 2.0);
 }
 
-/// Return the area of the whole star, or of its inner pentagon.
+/// Return the area of the whole star if `all` is true, otherwise the area of its inner pentagon.
 double pentagram_area(bool all)
 {
   const double inner_radius = std::cos(2.0 * M_PI / 5.0) / std::cos(M_PI / 5.0);
@@ -258,7 +258,7 @@ TEST_F(PlanarShapeTest, PentagramByThreshold)
   EXPECT_EQ(status.report.number("counts.crossings", -1), 5);
   EXPECT_EQ(shape.winding_numbers.maxCoeff(), 2.0);
   EXPECT_EQ(shape.winding_numbers.minCoeff(), 1.0);
-  EXPECT_GE(smallest_angle(shape), 30.0 - 1e-9); // the angles at its tips are 36 degrees
+  EXPECT_GE(smallest_angle(shape), 30.0 - 1e-9); // the star's tips have 36 degrees
   for (int k = 0; k < 5; ++k) // the lines of the star remain edges inside of the pentagon
   {
     const Vec2 a = star.points.row(k);
@@ -425,8 +425,8 @@ TEST_F(PlanarShapeTest, ScaleAndPlaceDoNotMatter)
 
 TEST_F(PlanarShapeTest, CurvesThatAlmostTouch)
 {
-  // These are corners of a coarse lattice with errors of up to 1e-14. They are closer to each other
-  // than the spacing of doubles allows refining.
+  // The corners are points of a coarse lattice with errors of up to 1e-14. Curves with such small
+  // gaps cannot be refined: the new points would be between adjacent doubles.
   std::mt19937 random(11);
   std::uniform_real_distribution<double> any(0.0, 1.0);
   std::vector<Vec2> corners;

@@ -43,14 +43,15 @@ inline Pose posed(const Handles& handles, HandleMode mode, const Affine& t = ide
   return pose;
 }
 
-/// Return options for iterations in double precision without acceleration, which start from the
-/// rest shape.
+/// Return options for iterations in double precision without acceleration. The iterations start
+/// from the rest shape.
 constexpr ReducedArap::SolveOptions iterations_from_rest(Index count)
 {
   return { 0.0, count, ReducedArap::Start::rest, 0, 0.0, false };
 }
 
-/// Return options for iterations in double precision, which start from the guess.
+/// Return options for accelerated iterations in double precision. The iterations start from
+/// rotations that depend on the pose only (Start::guess).
 constexpr ReducedArap::SolveOptions iterations(Index count)
 {
   return { 0.0, count, ReducedArap::Start::guess, 5, 0.0, false };

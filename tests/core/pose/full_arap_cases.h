@@ -17,7 +17,7 @@ struct Held
 {
   TetMesh mesh;
   Handles handles;
-  std::vector<Index> labels; ///< region of each vertex, #V
+  std::vector<Index> labels; ///< region label of each vertex
 };
 
 /// Return the bar [0, 4] x [0, 1] x [0, 1]. Regions 1, 2 and 3 are the cross sections at x = 0, 2

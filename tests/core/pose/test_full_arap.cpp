@@ -216,7 +216,7 @@ TEST(FullArap, AccelerationReachesTheSameEnergyInFewerIterations)
       std::to_string(slow) + " plain iterations, " + std::to_string(quick) + " accelerated");
     EXPECT_LT(2 * quick, slow);
     EXPECT_NEAR(fast.back(), plain_energies.back(), 1e-6 * least);
-    // After the same number of iterations, the energy with acceleration is never higher.
+    // With acceleration, the energy is never higher than after the same number of plain iterations.
     for (std::size_t i = 0; i < fast.size(); i += 2)
     {
       EXPECT_LE(fast[i], plain_energies[i] + 1e-12 * arap.rest_energy()) << i;

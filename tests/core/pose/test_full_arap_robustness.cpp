@@ -42,8 +42,8 @@ TEST(FullArapRobustness, APivotInsideAnElementIsThatPointOfTheMesh)
   {
     FullArap arap;
     ASSERT_TRUE(bind(arap, bar, energy).usable());
-    // First the ends of the bar are constrained, then only the points, which determine the pose of
-    // the bar.
+    // In the last round the ends of the bar are free. Then the two point handles determine the pose
+    // of the bar.
     for (const HandleMode ends : { HandleMode::full, HandleMode::position, HandleMode::free })
     {
       for (const HandleMode mode : { HandleMode::full, HandleMode::position })
@@ -156,7 +156,7 @@ TEST(FullArapRobustness, TheMiddleOfARegionGoesWhereItsPositionIs)
       middle += arap.posed().row(v).transpose();
       count += 1.0;
     }
-    else if (bar.labels[v] == 1) // mode full, at rest
+    else if (bar.labels[v] == 1) // this region has mode full and is at rest
     {
       EXPECT_EQ(arap.posed().row(v), bar.mesh.points.row(v));
     }

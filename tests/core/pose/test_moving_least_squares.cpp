@@ -358,10 +358,10 @@ TEST(MovingLeastSquares, ModesPositionAndFree)
 
 TEST(MovingLeastSquares, SharesOfABoneAreTheIntegrals)
 {
-  // The point v is at distance d above the point a of the unit bone on the x axis. The exponent is
-  // 1. The integral of 1 / (d^2 + s^2) from -a to 1 - a is (atan((1 - a) / d) + atan(a / d)) / d.
-  // Its first moment is 1/2 log((d^2 + (1 - a)^2) / (d^2 + a^2)). Its second moment is 1 - d^2
-  // times the integral.
+  // The bone is the unit interval of the x axis. The point is at (`a`, `d`, 0), and the exponent is
+  // 1. The integral of 1 / (d^2 + s^2) for s from -a to 1 - a is (atan((1 - a) / d) + atan(a / d))
+  // / d. The first moment of this function is 1/2 log((d^2 + (1 - a)^2) / (d^2 + a^2)). Its second
+  // moment is 1 - d^2 times the integral.
   ExecutionContext context;
   for (const double d : { 1e-9, 1e-4, 0.1, 1.0, 50.0 })
   {

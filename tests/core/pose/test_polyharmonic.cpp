@@ -69,7 +69,7 @@ struct Square
     return status;
   }
 
-  /// Return the largest difference from u, divided by the largest value of u.
+  /// Return the largest difference between the solution and u, divided by the largest value of u.
   double error(const Function& u) const
   {
     double largest = 0.0, difference = 0.0;
@@ -104,8 +104,8 @@ double plate(int n, PatchBoundary boundary)
   return square.x((n / 2) * (n + 1) + n / 2, 0);
 }
 
-/// Solve the complete mixed system of u, its Laplacian v and, for order 3, its second Laplacian w
-/// on all vertices. The values in a band are given.
+/// Solve the complete mixed system. Its unknowns on all vertices are u, the Laplacian v of u and,
+/// for order 3, the Laplacian w of v. The values of u in a band are given. @return u
 Eigen::VectorXd mixed_solution(const Square& square, int order)
 {
   const SparseMatrix k = stiffness_matrix(square.mesh.points, square.mesh.triangles);
@@ -121,8 +121,9 @@ Eigen::VectorXd mixed_solution(const Square& square, int order)
     given[square.given[i]] = 1;
     right[square.given[i]] = square.values(static_cast<Index>(i), 0);
   }
-  // Row block 0 fixes u at the given vertices and contains the equation of the last Laplacian at
-  // the others. Row block q contains M unknown_q = K unknown_(q - 1).
+  // Call the unknowns x_0 = u, x_1 = v and x_2 = w. The first block of rows fixes u at the given
+  // vertices and contains K x_(order - 1) = 0 at the others. Row block q contains M x_q = K x_(q -
+  // 1).
   for (Index column = 0; column < n; ++column)
   {
     for (SparseMatrix::InnerIterator it(k, column); it; ++it)

@@ -174,7 +174,7 @@ TEST(PoseFile, ChildrenFollowTheirParents)
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
   EXPECT_DOUBLE_EQ(pose[1].stretch, 2.0);
-  // The tail is at the position of its own head.
+  // The specified tail coincides with the posed head of the same bone.
   pose = read_new(upper + R"(, "fore": {"tail": [0, 1, 0]})");
   EXPECT_EQ(pose[1].stretch, 1.0);
   EXPECT_TRUE(pose[1].transform.allFinite());
@@ -199,7 +199,7 @@ TEST(PoseFile, FollowersKeepTheirPlaceRelativeToTheParent)
     base[2].twist << 20, 50;
     const Pose pose = read(
       R"({"version": 2, "handles": {"upper": {"translate": [0, 2, 0], "stretch": 0.5}}})", base);
-    // The transform relative to the tail of the parent has not changed.
+    // The child's transform relative to the tail of its parent has not changed.
     Affine back, back_then;
     ASSERT_TRUE(invert(transform_for_child(rig()[2], pose[2], Vec3(1, 0, 0)), back));
     ASSERT_TRUE(invert(transform_for_child(rig()[2], base[2], Vec3(1, 0, 0)), back_then));
@@ -207,7 +207,7 @@ TEST(PoseFile, FollowersKeepTheirPlaceRelativeToTheParent)
                 .cwiseAbs()
                 .maxCoeff(),
       1e-13);
-    // If the parent does not move, the transform keeps its bits.
+    // If the parent does not move, the child's transform keeps its bits.
     EXPECT_EQ(
       read(R"({"version": 2, "handles": {"p": {"translate": [0, 2, 0]}}})", base)[1].transform,
       base[1].transform);

@@ -211,7 +211,7 @@ TEST(PseudoEdges, FreeAndCollapsedEndsSayNothing)
   const Handles pair = points({ Vec3(0, 0, 0), Vec3(1, 0, 0) });
   Pose pose(2);
   pose[0].mode = pose[1].mode = HandleMode::position;
-  pose[1].transform.col(3) = Vec3(-1, 0, 0); // the handle is at the position of the other one
+  pose[1].transform.col(3) = Vec3(-1, 0, 0); // both handles are now at the same position
   turn_by_pseudo_edges(pair, { { 0, 1 } }, true, pose);
   EXPECT_EQ(linear(pose, 0), Eigen::Matrix3d::Identity());
   EXPECT_EQ(pose[1].mode, HandleMode::position);

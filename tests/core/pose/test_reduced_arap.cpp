@@ -192,7 +192,7 @@ TEST(ReducedArap, EveryIterateIsThatOfTheDenseTwin)
   }
 }
 
-// In the space of all vertices, the reduced method has the same iterates as the full method.
+// If every vertex has its own handle, the reduced method has the same iterates as the full method.
 TEST(ReducedArap, TheWholeSpaceIsFullArapIterateByIterate)
 {
   const test::Rig rig = whole_space();

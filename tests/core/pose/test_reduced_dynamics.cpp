@@ -212,7 +212,7 @@ TEST(ReducedDynamics, AReleasedDragKeepsItsVelocity)
   {
     for (HandlePose& handle : pose)
     {
-      // The handle moves with the speed 2.5 lengths per second.
+      // Each handle moves by 0.05 per time step of 0.02, which is a speed of 2.5.
       handle.transform.col(3) = Vec3(0.0, 0.05 * n, 0.0);
     }
     body.step(pose, options);
@@ -275,7 +275,7 @@ TEST(ReducedDynamics, ReplaysAreTheSameBitsOnAnyNumberOfThreads)
   }
   const Points at_end = first.points();
   EXPECT_EQ(at_end, second.points());
-  // Repeat the second half of the simulation from a state that was saved on the way.
+  // Repeat the second half of the simulation from the state that was saved at its beginning.
   first.dynamics.set_state(half);
   EXPECT_NE(first.points(), at_end);
   for (int n = 30; n < 60; ++n)

@@ -231,7 +231,7 @@ TEST(RotationCenters, GroupsMoveThemLittle)
   Points centers;
   const Status few =
     rotation_centers(context, coarse, bar.points, TetsView(bar.tets), weights, centers);
-  // Counted over all ten pairs of handles.
+  // The report contains the total number of groups of all ten pairs of handles.
   EXPECT_LT(few.report.number("counts.groups", 0), bar.tets.rows() / 10);
   EXPECT_EQ(few.report.number("counts.centers", 0), bar.points.rows());
 }

@@ -124,8 +124,8 @@ TEST(RotationFit, ReflectionsGiveTheBestRotation)
     Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
     fit_rotation(s, r);
     expect_best(s, r);
-    // If two singular values have equal magnitude, the optima form a circle; if all three do, a
-    // sphere.
+    // If two singular values have equal magnitude, the optimal rotations form a circle. If all
+    // three have equal magnitude, the optimal rotations form a sphere.
     s = random_rotation(random) * Vec3(3, 1, -1).asDiagonal();
     fit_rotation(s, r);
     expect_best(s, r);
@@ -158,8 +158,8 @@ TEST(RotationFit, RankOneTakesTheNearestOfTheBest)
     Eigen::Matrix3d r = before;
     fit_rotation(rest * (before * rest).transpose(), r);
     ASSERT_LT((r - before).cwiseAbs().maxCoeff(), 1e-12);
-    // Otherwise the nearest optimum is the previous rotation, followed by the minimal rotation to
-    // the posed edge.
+    // If the previous rotation is not optimal, the nearest optimum is this rotation, followed by
+    // the minimal rotation to the posed edge.
     const Vec3 posed = random.in_box(-Vec3::Ones(), Vec3::Ones());
     fit_rotation(rest * posed.transpose(), r);
     expect_best(rest * posed.transpose(), r);

@@ -671,7 +671,7 @@ TEST(Skinning, SinglePrecisionIsRightToAMillionthOfTheDiagonal)
       std::vector<Affine> transforms = wild_transforms(random, shears);
       for (Affine& t : transforms)
       {
-        // The transform has the same effect at this position.
+        // The points are translated by `place`. Translate the effect of the transform with them.
         t.col(3) += place - t.leftCols<3>() * place;
       }
       const Blends exact = blends_of(points, rig.weights, transforms, centers, {});

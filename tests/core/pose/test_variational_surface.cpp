@@ -147,8 +147,9 @@ TEST(VariationalSurface, AMotionOfAllThatIsHeldMovesAll)
   struct Case
   {
     bool bent, fair;
-    // Rotation in radians. It is 0 for displacements on a bent mesh, because the displacements of a
-    // rotation are only as smooth as the mesh there.
+    // Angle of the tested rotation in radians. On a bent mesh, the displacements of a rotation are
+    // only as smooth as the mesh. If displacements are smoothed there, the test therefore uses the
+    // angle 0.
     double angle;
   };
   for (const Case& c :
@@ -260,8 +261,8 @@ TEST(VariationalSurface, AFlatPatchFairedOnItsOwnPlaneIsItself)
 
 TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
 {
-  // Fair the flat square. The tangents at the border are the derivatives of the plane itself,
-  // dx/dn.
+  // Fair the flat square. The tangents at the border are those of the flat surroundings: the
+  // derivatives dx/dn of the positions x.
   Bump bump;
   bump.handles.clear();
   bump.pose.clear();

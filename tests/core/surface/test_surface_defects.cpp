@@ -169,7 +169,7 @@ TEST(SurfaceDefects, CrossingTrianglesNameEachOther)
   {
     EXPECT_EQ(met.count(t), 1u);
   }
-  // The pairs of crossing triangles contain the same number of triangles.
+  // The pairs of crossing triangles contain as many different triangles as the list of crossings.
   std::map<Index, int> in_pairs;
   for (const auto& [s, t] : found.repaired.crossings)
   {

@@ -14,7 +14,7 @@ TEST(SurfaceDisc, OnAFlatGridDistancesAreThoseOfThePlane)
   const TriangleMesh flat = test::grid(40, 40);
   const SurfaceDisc disc(flat.points, flat.triangles);
   const Vec3 place(0.513, 0.507, 0.0);
-  Index triangle = 0; // the triangle that contains the place
+  Index triangle = 0; // the triangle that contains `place`
   for (Index f = 0; f < flat.triangles.rows(); ++f)
   {
     Eigen::Matrix3d m;

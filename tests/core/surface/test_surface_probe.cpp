@@ -10,7 +10,7 @@ namespace
 {
 const Vec3 far_left(-7.0, 0.11, 0.07);
 
-// Return the distance from the plane through the center perpendicular to the ray.
+// Return the distance of p from the plane through the origin that is perpendicular to `direction`.
 double off_center(const Vec3& p, const Vec3& direction)
 {
   return std::abs(p.dot(direction.normalized()));

@@ -346,7 +346,7 @@ TEST(SurfaceRepair, ExactSigns)
     {
       q = random.in_box(Vec3::Zero(), Vec3::Ones());
     }
-    // Next to the plane of the first three points.
+    // Move the fourth point close to the plane of the first three points.
     p[3] = p[0] + (p[1] - p[0]) * 0.25 + (p[2] - p[0]) * 0.5;
     const int sign = orientation_3d(p[0], p[1], p[2], p[3]);
     EXPECT_EQ(orientation_3d(p[1], p[2], p[0], p[3]), sign);

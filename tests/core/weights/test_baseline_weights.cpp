@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 namespace
 {
-/// Solve with the method of a word in the registry.
+/// Solve with the weight method that has this word in the registry.
 WeightsResult solve(const WeightsProblem& problem, const char* word,
   const WeightsOptions& options = {}, Status* status = nullptr)
 {
@@ -46,7 +46,8 @@ WeightsResult baseline(
   return result;
 }
 
-/// Return the largest |sum w_j p_j - p|, where p_j is the vertex of point handle j.
+/// Return the largest |sum over j of w_j p_j - p| of all vertices p with the weights w_j. Here p_j
+/// is the vertex of point handle j.
 double affine_error(const WeightsProblem& problem, const WeightsResult& result)
 {
   Points handles(problem.handle_count(), 3);

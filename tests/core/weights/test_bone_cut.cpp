@@ -109,7 +109,7 @@ TEST(BoneCut, BonesThatMeetAndCross)
   const BoneCut crossed = cut(mesh, cross);
   EXPECT_EQ(crossed.points.rows() - mesh.points.rows(), 2 + 2 + 3);
   EXPECT_EQ(euler(crossed.triangles), 0);
-  EXPECT_EQ(count(crossed, 1), 2 + 2); // the middle belongs to the first bone in the list
+  EXPECT_EQ(count(crossed, 1), 2 + 2); // the middle vertex belongs to the first bone
   EXPECT_EQ(count(crossed, 3), 2);
   // Four bones that form a closed square separate its inside from the rest.
   const Vec3 corners[4] = { Vec3(0.25, 0.25, 0), Vec3(0.75, 0.25, 0), Vec3(0.75, 0.75, 0),

@@ -130,7 +130,8 @@ TEST(BoxQp, MinimizersWithoutBoundsHaveNoGradient)
       }
     }
     EXPECT_LE((w.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-7);
-    // The inverse of the block times the block must be the identity.
+    // Multiply by the block of Q for the free vertices, then by its inverse. The result must be
+    // unchanged.
     SplitForm form(q, fixed);
     Eigen::MatrixXd some = Eigen::MatrixXd::Zero(form.a.rows(), 2);
     some(5, 0) = some(100, 1) = 1.0;
@@ -344,9 +345,10 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
   for (const double scale : { 1.0, 1e6, 1e-6 })
   {
     const SparseMatrix scaled = scale * q;
-    // The two solutions have errors of 1.5e-6 or 5e-9 each (box_qp_workspace.h), on any processor.
-    // A column with a given start uses the interior-point method, the others do not. Slivers alone
-    // cause round-off errors of 1e-7.
+    // Each of the two solutions of a column has an error of 1.5e-6 for the tolerance 1e-6, and of
+    // 5e-9 for the tolerance 1e-9 (box_qp_workspace.h), on any processor. Columns with a given
+    // start are solved by the interior-point method, other columns are not. Slivers alone cause
+    // round-off errors of 1e-7.
     for (const auto& [tolerance, same] :
       { std::pair{ 1e-6, 3e-6 }, std::pair{ 1e-9, GetParam() ? 1e-6 : 1e-8 } })
     {
@@ -405,8 +407,8 @@ TEST(BoxQp, ThreadsDoNotChangeABit)
     ASSERT_TRUE(qp.prepare(context).ok());
     const std::vector<BoxQpSolution> solutions = qp.solve_all(columns, context);
     EXPECT_EQ(qp.analyses(), 1);
-    // Q is factored once, the starts of all columns need one factorization, and the columns need
-    // the others.
+    // Q is factored once. The starts of all columns together need one factorization. The columns
+    // report the other factorizations.
     Index factorizations = SparseSolver::has_cholmod() ? 2 : 1;
     for (const BoxQpSolution& solution : solutions)
     {

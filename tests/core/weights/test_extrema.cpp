@@ -31,8 +31,9 @@ VertexGraph path(Index count)
   return graph;
 }
 
-/// Return the climb from v over the lowest pass to a lower or exempt vertex. It is found with a
-/// queue that is ordered by height.
+/// Return the climb on the lowest path from vertex `from` to a lower or exempt vertex: the largest
+/// height on the path minus the height of `from`. The path is found with a queue that is ordered by
+/// height.
 double climb(
   const VertexGraph& graph, const Eigen::VectorXd& f, const std::vector<char>& exempt, Index from)
 {
@@ -71,9 +72,10 @@ TEST(Extrema, PersistenceOnAPathCanBeReadOff)
   f << 0.0, 0.5, 0.3, 0.9, 0.85, 1.0, 0.2, 0.4, 0.4;
   std::vector<char> exempt{ 1, 0, 0, 0, 0, 1, 0, 0, 0 };
   const auto found = interior_extrema(path(9), f, exempt);
-  // Minima: 0.2 (vertex 6) climbs over 1 at the handle, 0.3 (vertex 2) over 0.5, and 0.85 (vertex
-  // 4) over 0.9. Maxima: 0.4 (vertices 7 and 8) descends to 0.2, 0.9 (vertex 3) to 0.85, and 0.5
-  // (vertex 1) to 0.3.
+  // The lowest path from a minimum to a lower vertex or a handle climbs from 0.2 (vertex 6) to 1 at
+  // the handle, from 0.3 (vertex 2) to 0.5, and from 0.85 (vertex 4) to 0.9. The highest path from
+  // a maximum to a higher vertex or a handle descends from 0.4 (vertices 7 and 8) to 0.2, from 0.9
+  // (vertex 3) to 0.85, and from 0.5 (vertex 1) to 0.3.
   ASSERT_EQ(found.size(), 6u);
   EXPECT_EQ(found[0].vertex, 6);
   EXPECT_FALSE(found[0].maximum);

@@ -12,8 +12,8 @@ using Eigen::VectorXd;
 
 namespace
 {
-/// Expect that an unlisted vertex has neighbors before and after it. Expect that all unlisted
-/// neighbors of a listed vertex are on one side of it in the order.
+/// Expect that an unlisted vertex has neighbors before and after it in the order. Expect that the
+/// unlisted neighbors of a listed vertex are either all before it or all after it.
 void expect_order(const VertexGraph& graph, const ExtremaList& list, const std::vector<Index>& rank)
 {
   for (std::size_t v = 0; v < list.size(); ++v)

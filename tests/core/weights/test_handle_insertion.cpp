@@ -212,8 +212,8 @@ TEST(HandleInsertion, KeepMeshTakesTheCorners)
   EXPECT_EQ(same.code, StatusCode::invalid_input) << "all corners shared: nothing is p1's own";
   EXPECT_NE(same.message.find("'p1'"), std::string::npos);
 
-  // The handles are now joints of a rig. The first joint is skipped, and the second one owns the
-  // corners.
+  // The handles are now joints of a rig. The first joint has no vertex and is skipped. The corners
+  // belong to the second joint.
   Handles joints = handles;
   joints.push_back(test::point_handle("p3", Vec3(0.6, 0.2, 0.1)));
   for (Handle& joint : joints)

@@ -32,7 +32,7 @@ WeightsResult preview(const WeightsProblem& problem)
   return result;
 }
 
-/// Compute the same weights with a factorization of the energy.
+/// Compute clamped biharmonic weights with a factorization of the energy.
 Weights clamped_biharmonic(const WeightsProblem& problem)
 {
   ExecutionContext context;

@@ -330,7 +330,7 @@ TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
   expect_weights(result.weights, sheet.points.rows(), 2);
 
   status = solve(sheet, { handles[0], handles[1] }, in(WeightsDomain::volume), result);
-  // The status may be a failure: then the tets miss too much of the volume where the sheet's
+  // The status may be a failure. Then the tets do not fill enough of the region where the sheet's
   // winding number is high.
   if (status.usable())
   {

@@ -124,8 +124,8 @@ void expect_error(const Status& status, const std::vector<std::string>& words)
   }
 }
 
-/// Return the mirror image of each vertex of a square grid, left to right. The diagonals of the
-/// grid are not symmetric.
+/// Return the mirror image of each vertex of a square grid if left and right are exchanged. The
+/// diagonals of the grid are not symmetric.
 std::vector<Index> mirrored(int n)
 {
   std::vector<Index> mirror;
@@ -455,7 +455,7 @@ TEST(WeightTerms, MonotoneWeightsTakeThem)
   }
   options.terms.upper(3 * 21 + 9, 0) = std::nan("");
   options.terms.lower = no_values(domain, handles);
-  // This exceeds the upper bound of vertices nearer to the handle.
+  // This lower bound exceeds the upper bounds of vertices that are nearer to the handle.
   options.terms.lower(0, 0) = 0.999;
   options.terms.upper.col(0).setConstant(0.99);
   options.terms.upper(0, 0) = std::nan("");
@@ -606,9 +606,10 @@ TEST(WeightTerms, CoupledColumnsSumToOne)
   EXPECT_LE(solved.result.row_sum_error, 1e-12);
   EXPECT_GT(alone.result.row_sum_error, 0.01);
   EXPECT_LE((w - solved.result.weights).cwiseAbs().maxCoeff(), 1e-12);
-  // Compute the second bound of the certificate from the gradients alone. It is valid for any
-  // multipliers; here they are the mean gradients of the rows. The bound is 1/2 r' A^-1 r for
-  // weights inside of their bounds, and the linear bound for the others.
+  // Compute the second bound of the certificate (certificate.h) from the gradients alone. The bound
+  // is valid for any multipliers. Here a multiplier is minus the mean gradient of its row, averaged
+  // with the weights of the row. Weights inside of their bounds contribute 1/2 r' A^-1 r, and all
+  // other weights contribute the linear bound.
   const Eigen::MatrixXd g = q * w;
   std::vector<Index> free;
   for (Index v = 0; v < w.rows(); ++v)
@@ -713,8 +714,8 @@ TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
     first = threads == 1 ? result.weights : first;
     EXPECT_EQ((result.weights - first).cwiseAbs().maxCoeff(), 0.0);
   }
-  // With too few iterations, the result is the best rows so far. They sum to 1, and the report
-  // contains their duality gap.
+  // With too few iterations, the result contains the best rows that were found. They sum to 1, and
+  // the report contains their duality gap.
   options.maximum_iterations = 3;
   ExecutionContext context;
   WeightsResult result;

@@ -94,7 +94,7 @@ void expect_certified(
 /// the mass is divided by its maximum.
 double bar_energy(const Certificate& certificate, int n)
 {
-  const double width = 4.0 / n * 0.5; // two rows of height 1/n
+  const double width = 4.0 / n * 0.5; // the strip has two rows of height 1/n
   const double largest_mass = 1.0 / (double(n) * n);
   return 2.0 * certificate.energy / largest_mass / width;
 }

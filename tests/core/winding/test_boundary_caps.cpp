@@ -56,7 +56,7 @@ TEST(BoundaryCaps, CloseAllOfSeveralParts)
   EXPECT_TRUE(open_edges(stacked(both.triangles, caps)).empty());
   EXPECT_EQ(caps.rows(), (130 - 2) + 2);
 
-  // The caps of the strip cover all of it, and those of the open cube are its lid.
+  // The caps of the strip cover all of it, and those of the open cube are its missing face.
   const Triangles smaller = smaller_caps(both.points, both.triangles, caps);
   EXPECT_TRUE(open_edges(stacked(both.triangles, smaller)).empty());
   EXPECT_EQ(smaller.rows(), strip.triangles.rows() + 2);

@@ -126,7 +126,8 @@ TEST(CurveWindingNumber, SegmentSeenUnderARightAngleIsAQuarter)
   const Curve segment = curve_of({ { 1, -1 }, { 1, 1 } }, false);
   expect_winding(segment, Vec2::Zero(), 0.25);
   expect_winding(segment, Vec2(2, 0), -0.25);
-  // The angle is the same for a segment behind the point, which crosses the negative x axis.
+  // The angle is the same for a segment behind the point. Such a segment crosses the negative x
+  // axis.
   expect_winding(curve_of({ { -1, 1 }, { -1, -1 } }, false), Vec2::Zero(), 0.25);
   // At the third corner of an equilateral triangle, the opposite side subtends an angle of 60
   // degrees.

@@ -175,8 +175,8 @@ TEST(PointCloudWindingNumber, HalfASphereIsItsSolidAngle)
   const Index half = 20000; // these are the points with z > 0
   cloud = { cloud.points.topRows(half), cloud.normals.topRows(half), cloud.areas.head(half) };
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-6);
-  // The cap, evaluated below its rim on the axis, has the same value as the disc of its rim: (1 -
-  // cos) / 2.
+  // On the axis below its rim, the half sphere has the same winding number as the disc that its rim
+  // bounds. It is (1 - c) / 2, where c is the cosine of the angle between the axis and the rim.
   for (const double z : { 0.0, -0.3, -1.0, -4.0 })
   {
     const double expected = 0.5 * (1.0 + z / std::sqrt(1.0 + z * z));

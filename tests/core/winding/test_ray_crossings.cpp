@@ -38,8 +38,8 @@ TriangleMesh lattice_tets(test::Random& random, Index tets)
   return mesh;
 }
 
-/// Return the lattice of spacing 1/8 around this box. Its rays pass through vertices, along edges
-/// and in faces of the tetrahedra.
+/// Return a grid of spacing 1/8 around the box of lattice_tets(). The rays along its rows pass
+/// through vertices, along edges and in faces of the tetrahedra.
 SampleGrid lattice_grid()
 {
   SampleGrid grid;

@@ -86,7 +86,7 @@ TriangleMesh disc(int n)
   return triangles_of(corners);
 }
 
-/// Return the box [-1,1]^2 x [-1,0] without its lid at z = 0.
+/// Return the box [-1,1]^2 x [-1,0] without its face at z = 0.
 TriangleMesh open_half_cube()
 {
   TriangleMesh mesh = test::open_cube();
@@ -131,7 +131,7 @@ TEST(WindingNumber, GradientIsTheKnownOneAndThatOfTheField)
 TEST(WindingNumber, FlagsTellWhatTouchesTheSurface)
 {
   // The samples are on the faces of the cube and of the open cube, and on both sides of the missing
-  // lid.
+  // face.
   for (const TriangleMesh& mesh : { test::cube(), test::open_cube() })
   {
     for (const WindingMethod method : { WindingMethod::direct, WindingMethod::crossings,
@@ -229,8 +229,8 @@ TEST(WindingNumber, DiscsConvergeToTheirCap)
   EXPECT_NEAR(cap, 0.146446609407, 1e-12);
   expect_winding(disc(32), Vec3::Zero(), cap - 5.685e-4, 5e-8);
   expect_winding(disc(64), Vec3::Zero(), cap - 1.420e-4, 5e-8);
-  // On the axis of a disc, dw/dz is 1/4 sqrt(1/2) at this height. The polygon differs from the disc
-  // by less than 1e-5.
+  // At the origin, on the axis of the disc, dw/dz is 1/4 sqrt(1/2). The polygon differs from the
+  // disc by less than 1e-5.
   const TriangleMesh fine = disc(512);
   const double h = 1e-5;
   const double up = winding_number_direct(fine.points, fine.triangles, Vec3(0, 0, h));
@@ -486,8 +486,8 @@ TEST(WindingNumber, BoundaryTellsEdgesAndComponents)
     EXPECT_EQ(part.open_edges, 4);
     const bool flipped = from[0] > 1e5;
     EXPECT_NEAR(part.volume, flipped ? -8.0 : 8.0, 1e-9);
-    // Viewed from above, the directed edges of the walls run clockwise around the hole. The
-    // triangles of a lid would run counter-clockwise.
+    // Viewed from above, the directed edges of the walls run clockwise around the hole. Triangles
+    // that close the hole would run counter-clockwise.
     const Vec3 middle = flipped ? far_away : Vec3::Zero();
     EXPECT_EQ(from[2], 1.0);
     EXPECT_NEAR((from - middle).cross(to - middle)[2], flipped ? 2.0 : -2.0, 1e-9);

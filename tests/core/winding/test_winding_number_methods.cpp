@@ -35,9 +35,9 @@ WindingNumber make(const TriangleMesh& mesh, WindingMethod method, Index leaf = 
 
 using Lattice = Eigen::Matrix<std::int64_t, 3, 1>;
 
-/// Evaluate the winding number at a point on the lattice of spacing 1/8. Sides of planes are exact
-/// integer decisions. The sum in long double contains the triangles whose plane does not contain
-/// the point.
+/// Evaluate the winding number at a point on the lattice of spacing 1/8. Exact integers decide on
+/// which side of a triangle's plane the point is. The sum in long double contains the triangles
+/// whose plane does not contain the point.
 double lattice_twin(const TriangleMesh& mesh, const Vec3& p)
 {
   using Long3 = Eigen::Matrix<long double, 3, 1>;
@@ -240,7 +240,7 @@ TEST(WindingMethods, RaysThroughVerticesAndEdgesOfClosedSurfaces)
   TriangleMesh mesh = test::sphere(2);
   for (int turn = 0; turn < 3; ++turn)
   {
-    mesh.points.col(turn) *= 0.5; // changes the shortest axis
+    mesh.points.col(turn) *= 0.5; // flatten the sphere along one more axis
     const WindingNumber winding = make(mesh, WindingMethod::crossings);
     for (Index t = 0; t < mesh.triangles.rows(); ++t)
     {
@@ -287,10 +287,11 @@ TEST(WindingMethods, ThinTrianglesDoNotFlip)
 
 TEST(WindingMethods, SliversAreSeenUnderTheAngleOfTheirRectangle)
 {
-  // At height h above a corner of a rectangle x by y, the rectangle subtends the solid angle atan(x
-  // y / (h sqrt(x^2 + y^2 + h^2))). A rectangle below any point consists of four such rectangles.
-  // If h is about the width of the rectangle, the angle is a large fraction of the full solid
-  // angle, for any width. A width of 1e-14 is five tolerances.
+  // Consider a point at height h above a corner of a rectangle with sides x and y. The rectangle
+  // subtends the solid angle atan(x y / (h sqrt(x^2 + y^2 + h^2))). A rectangle below any other
+  // point consists of four such rectangles. If h is about the width of the rectangle, the angle is
+  // a large fraction of the full solid angle, for any width. A width of 1e-14 is five tolerances
+  // for touching.
   const double xs[2] = { -0.7, 1.3 };
   for (const double width : { 1e-3, 1e-8, 1e-12, 1e-13, 1e-14 })
   {
@@ -515,8 +516,8 @@ TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
 
 TEST(WindingMethods, FastKeepsItsTolerance)
 {
-  // The surfaces are unclean surfaces and a soup. The points are in the box, far outside, and close
-  // to the triangles.
+  // The surfaces are a soup and surfaces with defects. The points are in the box, far outside, and
+  // close to the triangles.
   const TriangleMesh sphere = test::sphere(4);
   TriangleMesh holes = sphere;
   Index kept = 0;

@@ -65,8 +65,8 @@ std::string Monkey::story() const
   return story;
 }
 
-/// Return a random position in the picture, or sometimes outside of it. Half of the positions are
-/// on handles.
+/// Return a random position in the view, or sometimes outside of it. Half of the positions are on
+/// handles.
 QPoint Monkey::anywhere()
 {
   const Handles& handles = this->window_->document()->handles();

@@ -224,7 +224,8 @@ TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
   this->press("Show the timeline");
   EXPECT_TRUE(this->window.strip()->isVisible());
   EXPECT_EQ(this->said(), QString());
-  // Two keys are enough for the export of a film. The export of a pose file needs no other program.
+  // Two key frames are enough for the export of a film. The export of a pose file needs no other
+  // program.
   EXPECT_EQ(this->hand.press_key("K"), QString());
   this->hand.scrub(0.25);
   this->bend();

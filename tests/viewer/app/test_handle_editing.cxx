@@ -1,4 +1,4 @@
-// Interactive editing of handles with Qt mouse and key events on the picture. The tests check the
+// Interactive editing of handles with Qt mouse and key events on the view. The tests check the
 // effect on the document, and that undo and redo restore all bits.
 #include "binding.h"
 #include "unclipped.h"
@@ -341,8 +341,8 @@ TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
   EXPECT_EQ(this->window.panel()->selected_handle(), 2);
   this->key(Qt::Key_Escape);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
-  // A bar offers a bind, but the bind does not start by itself. After the bind, the handles bend
-  // the shape.
+  // A bar in the window offers a bind, but the bind does not start by itself. After the bind, the
+  // handles bend the shape.
   EXPECT_FALSE(this->window.is_bound());
   this->window.binding()->start();
   ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
@@ -489,7 +489,8 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
     }
   }
   EXPECT_LT((this->handle("r1").head - middle).norm(), 1e-12);
-  // The next stroke extends the region. A new region has another label.
+  // The next stroke paints the same label. After a click on "New region", a stroke paints another
+  // label.
   this->check("paint region r1", [&] { this->drag(top, top + QPoint(0, 40)); });
   EXPECT_GT(labeled(1), first);
   for (QPushButton* button : this->window.findChild<ModeBar*>()->findChildren<QPushButton*>())
@@ -563,7 +564,7 @@ TEST_F(HandleWindow, ANewPointMovesNumbersAndNothingElse)
   EXPECT_EQ(this->window.panel()->shown_column(), 3);
   this->editing()->set_mode(HandleEditing::pose);
   EXPECT_LT((this->points() - posed).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_FALSE(this->window.rebind_bar()->isHidden()); // the bar offers a new bind
+  EXPECT_FALSE(this->window.rebind_bar()->isHidden()); // the window offers a new bind
   // After undo and redo, the handles with the same names are selected.
   this->editing()->select({ 3 });
   this->history()->undo();
@@ -591,7 +592,7 @@ TEST_F(HandleWindow, RestPlacesAreMovedAndARebindIsOffered)
   this->check("move at rest left", [&] { this->drag(at, at + QPoint(0, 30)); });
   EXPECT_GT((this->handle("left").head - Vec3(-0.3, 0, 0.5)).norm(), 0.02);
   EXPECT_FALSE(this->window.rebind_bar()->isHidden());
-  this->render(); // the bar takes up space in the window
+  this->render(); // the bar that offers a bind takes up space in the window
   // Esc during the drag restores the state bit by bit.
   const std::string before = this->state();
   const int steps = this->history()->count();
@@ -1003,7 +1004,7 @@ TEST_F(HandleWindow, RegionsAndWeightsAreNotShownAtOnce)
   EXPECT_EQ(this->window.panels()->shown_panel(), PanelColumn::bind_and_pose);
   this->window.panels()->show_panel(PanelColumn::weights);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
-  // The size stays, because two panels are never visible at the same time.
+  // The size of the window does not change, because two panels are never visible at the same time.
   EXPECT_EQ(this->window.size(), size);
   EXPECT_EQ(this->picture(), weights);
 }
@@ -1037,8 +1038,8 @@ TEST_F(HandleWindow, NothingIsClippedInASmallWindow)
   }
 }
 
-/// Each mode has a different picture. If BINDPOSE_PICTURES is set, the pictures are saved in this
-/// folder.
+/// Each edit mode looks different. If BINDPOSE_PICTURES is set, images of the window are saved in
+/// this folder.
 TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
 {
   const char* folder = std::getenv("BINDPOSE_PICTURES");

@@ -1,5 +1,5 @@
-// The list of handles, the panel of weights and the picture always show the same selection. Choices
-// in the panel apply to all selected handles. The list is a tree with a search field.
+// The list of handles, the panel of weights and the view always show the same selection. Choices in
+// the panel apply to all selected handles. The list is a tree with a search field.
 #include "window_test.h"
 
 #include "document/document.h"
@@ -69,7 +69,7 @@ protected:
     QTest::mouseClick(tree->viewport(), Qt::LeftButton, held, at.center());
     QApplication::processEvents();
   }
-  /// Return the selected handles. Expect that all views show the same selection.
+  /// Return the selected handles. Expect that the list, the panel and the view show this selection.
   std::vector<int> selected()
   {
     const std::vector<int> result = this->window.editing()->selected();
@@ -83,7 +83,7 @@ protected:
     EXPECT_EQ(this->window.panel()->selected_handles(), result);
     return result;
   }
-  /// Click a handle in the picture.
+  /// Click a handle in the view.
   void pick(const char* name, Qt::KeyboardModifiers held = Qt::NoModifier)
   {
     QPoint at;
@@ -337,7 +337,7 @@ TEST_F(HandleTreeWindow, ChildrenAreBelowTheirParents)
   ASSERT_NE(moved->parent(), nullptr);
   EXPECT_EQ(moved->parent()->text(0), "hips");
   EXPECT_FALSE(this->list()->item(this->number("right_hand"))->isExpanded());
-  // If a handle is selected in the picture, the tree expands the rows above it.
+  // If a handle is selected in the view, the tree expands the rows above it.
   this->window.panel()->select_handle(this->number("right_finger_2"));
   EXPECT_TRUE(this->list()->item(this->number("right_hand"))->isExpanded());
 }

@@ -679,7 +679,7 @@ int main(int argc, char** argv)
   testing::InitGoogleTest(&argc, argv);
   if (testing::GTEST_FLAG(list_tests))
   {
-    return RUN_ALL_TESTS(); // the build lists the tests without a display
+    return RUN_ALL_TESTS(); // there may be no display when the build lists the tests
   }
   // The tests must not change the recent files and the backups of the user.
   const bindpose::test::Folder folder;

@@ -1,4 +1,5 @@
-// The 2D mode of the window: pictures and planar shapes, in any plane, and weights over a picture.
+// The 2D mode of the window: image files and planar shapes, in any plane, and weights over a
+// texture.
 #include "binding.h"
 #include "window_test.h"
 
@@ -76,7 +77,7 @@ TEST_F(PlanarWindow, AShapeInAPlaneIsSeenFromInFrontWithoutPerspective)
     EXPECT_TRUE(this->camera()->GetParallelProjection() != 0);
     EXPECT_LT((this->sight() + normal).norm(), 1e-9) << normal.transpose();
     EXPECT_LT((Vec3(this->camera()->GetViewUp()) - up).norm(), 1e-9) << normal.transpose();
-    // The whole shape is visible. It is large and centered in the picture.
+    // The whole shape is visible. It is large and centered in the view.
     QRect seen;
     for (Index v = 0; v < this->mesh.points.rows(); ++v)
     {
@@ -211,7 +212,7 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   }
   EXPECT_GT(covered, 20000);
   EXPECT_EQ(wrong, 0);
-  // If only the picture is shown, it does not depend on the shown column of weights.
+  // If only the texture is shown, the view does not depend on which column of weights is chosen.
   this->window.panels()->show_panel(PanelColumn::bind_and_pose);
   this->choose("show.column", 0);
   const QImage plain = this->picture();

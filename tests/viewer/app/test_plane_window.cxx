@@ -288,7 +288,7 @@ TEST_P(PlaneWindow, TheSliderIsOneStepUntilItIsLetGo)
   EXPECT_EQ(slider->value(), 700);
   this->undo();
   this->expect_place(0.0, "undo of all");
-  // A tour specifies the position as a fraction.
+  // A tour specifies the position as a fraction of the range of the slider.
   EXPECT_EQ(this->hand.choose(this->key("place"), 0.25), QString());
   this->expect_place(-0.5, "a tour");
 }

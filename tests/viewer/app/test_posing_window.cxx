@@ -441,7 +441,7 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   this->put(pose);
   ASSERT_TRUE(this->settle());
   this->render();
-  // The array is updated in place; the scale still ends at 45 degrees.
+  // The array is updated in place; the color scale still ends at 45 degrees.
   EXPECT_EQ(on_points(), angles);
   EXPECT_NEAR(angles->GetComponent(7, 0), 35.0, 1.0);
   this->posing()->look_at_rest(true);
@@ -678,7 +678,7 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
   EXPECT_EQ(viewport->legend(Viewport::weight_legend), "Distance (% of diagonal)");
   this->put(this->bent(0.5));
   expect_distances("less bent");
-  // Shapes that coincide have one color, the lowest of the scale.
+  // Shapes that coincide have one color, the lowest of the color scale.
   this->put(Pose(4));
   expect_distances("at rest");
   EXPECT_LT(colors()->GetRange()[1], 1e-6);
@@ -858,7 +858,7 @@ TEST_F(PosingWindow, TypedValuesTakeTheChildrenAlong)
   const Pose pose = this->window.document()->pose();
   EXPECT_EQ(pose[1].transform, pose[3].transform);
   EXPECT_EQ(pose[0].transform, identity_affine());
-  // The numbers of a child handle are relative to its parent.
+  // The fields of a child handle show numbers relative to its parent.
   this->window.panel()->select_handle(1);
   EXPECT_EQ(fields->field(4)->value(), 0.0);
   fields->field(2)->setValue(0.5);
@@ -1209,7 +1209,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
   rigs->Update();
   EXPECT_EQ(rigs->GetStatus(), vtkBindposeAlgorithm::OK) << rigs->GetStatusMessage();
   EXPECT_EQ(rigs->GetOutputDataObject(1)->GetNumberOfElements(vtkDataObject::CELL), 4);
-  // The fourth format is a strip of pictures.
+  // The fourth format is an image file with several frames, at most four per row.
   const QImage strip_picture(QString::fromStdString(write("bow.png")));
   EXPECT_EQ(strip_picture.width(), 1600);
   if (check_ffmpeg().ok())
@@ -1284,8 +1284,8 @@ TEST_F(PosingWindow, NoTextIsClipped)
   }
 }
 
-/// Each state of the window has its own picture, which is not empty and differs from the previous
-/// one. If BINDPOSE_PICTURES is set, the pictures are saved in this folder.
+/// Each state of the window looks different from the previous one, and no view is empty. If
+/// BINDPOSE_PICTURES is set, images are saved in this folder.
 TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
 {
   const char* folder = std::getenv("BINDPOSE_PICTURES");

@@ -1,4 +1,4 @@
-// Responsiveness and readability of the window: opening files renders one picture, no operation
+// Responsiveness and readability of the window: opening files renders the view once, no operation
 // blocks the window, and no text is clipped.
 #include "unclipped.h"
 #include "window_test.h"
@@ -129,7 +129,7 @@ TEST_F(Screens, AnOpeningIsOnePictureHoweverOftenThePictureIsResized)
   QApplication::processEvents();
   EXPECT_GE(this->frames, 1);
   EXPECT_LE(this->frames, 2);
-  // With software rendering, one more picture with antialiased edges follows.
+  // With software rendering, the view is rendered once more, with antialiased edges.
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
   QElapsedTimer clock;
   clock.start();
@@ -148,7 +148,7 @@ TEST_F(Screens, WhatIsSeenAtRestHasSmoothEdges)
   clock.start();
   wait_for([&clock] { return clock.elapsed() > 1000; });
   const QImage seen = this->window.viewport()->grabFramebuffer();
-  EXPECT_EQ(seen, this->picture()); // this picture was rendered with all samples
+  EXPECT_EQ(seen, this->picture()); // the view has all samples of antialiasing
 }
 
 TEST_F(Screens, AFileThatIsReadIsNotReadAgain)
@@ -183,7 +183,7 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
   ASSERT_TRUE(this->window.set_handles(to_polydata(handles), "points"));
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
   this->window.document()->begin_bind();
-  // The same mesh, with arrays as a bind returns it.
+  // This is the same mesh, with arrays as a bind returns them.
   const auto bound = vtkSmartPointer<vtkPolyData>::New();
   bound->ShallowCopy(surface);
   bound->GetPointData()->AddArray(ball(6, 20)->GetPointData()->GetArray("Weights"));
@@ -213,7 +213,8 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
               "and %.1f ms beside it, "
               "longest turn of the window meanwhile %.1f ms\n",
     shown, shown_cpu, autosave->milliseconds(), autosave->writing_milliseconds(), longest);
-  // At least one event loop turn, even on a busy machine; on an idle machine there are dozens.
+  // Expect at least one turn of the event loop, even on a busy machine. On an idle machine there
+  // are dozens of turns.
   EXPECT_GT(turns, 0);
   EXPECT_LT(autosave->milliseconds(), 0.5 * autosave->writing_milliseconds());
   Session backup;
@@ -270,7 +271,7 @@ TEST_F(Screens, TheStatusLineEndsInDotsWhereItHasNoRoomAndTheTipSaysAll)
   small.setText("Reduced ARAP, 3 iterations");
   EXPECT_EQ(small.minimumSizeHint().width(), 0) << "a long sentence never widens the window";
   small.setFont(line->font());
-  // Includes widths that differ by less than a pixel from the text's.
+  // Some of these widths differ from the width of the text by less than a pixel.
   for (int room = 40; room < 300; ++room)
   {
     small.resize(room, 20);

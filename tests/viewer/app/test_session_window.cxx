@@ -350,7 +350,7 @@ TEST_F(SessionWindow, ARebindIsOfferedAndPosingGoesOn)
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }
-  EXPECT_NE(this->window.rebind_bar()->sentence(), ""); // the bar still offers a new bind
+  EXPECT_NE(this->window.rebind_bar()->sentence(), ""); // a new bind is still offered
 }
 
 // ---- After a crash -----------------------------------------------------------------------------
@@ -488,8 +488,8 @@ TEST_F(SessionWindow, TetsRigsHandlesWeightsVolumesAndSessionsCanBeDropped)
   EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
 }
 
-/// Write a picture that is red on the left and blue on the right. The area around both colors is
-/// transparent.
+/// Write an image file that is red on the left and blue on the right. The area around both colors
+/// is transparent.
 std::string write_picture(const test::Folder& folder)
 {
   QImage image(64, 48, QImage::Format_RGBA8888);
@@ -521,7 +521,7 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   EXPECT_TRUE(this->window.viewport()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
   const double* bounds = this->window.document()->surface()->GetBounds();
   EXPECT_NEAR(bounds[1] - bounds[0], 48, 2);
-  // The picture is posed with the shape: rotated by 180 degrees about its center, it has blue on
+  // The texture moves with the shape: after a rotation by 180 degrees about the center, blue is on
   // the left.
   const auto middle_of_red = [&red](const QImage& image)
   {
@@ -549,7 +549,7 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   {
     this->window.history()->undo();
   }
-  // The user can request the whole picture, without its outline.
+  // The user can request the whole rectangle of the image instead of its outline.
   button_of(this->window.note_bar(), "Take the whole picture")->click();
   ASSERT_EQ(this->window.error(), "");
   const double* whole = this->window.document()->surface()->GetBounds();
@@ -558,7 +558,7 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   this->window.history()->undo();
   EXPECT_FALSE(
     this->window.viewport()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
-  // A session also restores the picture.
+  // A session also restores the texture.
   this->window.history()->redo();
   ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "flag.bindpose")));
   ASSERT_TRUE(this->window.open(text(this->folder / "flag.bindpose")));
@@ -597,11 +597,11 @@ TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
   const QString lost = "character.gltf: Bindpose does not keep 2 materials.";
   EXPECT_TRUE(this->window.note_bar()->sentence().startsWith(lost))
     << this->window.note_bar()->sentence().toStdString();
-  // The search for defects ends later. It must not remove the sentence.
+  // The search for defects ends later. It must not remove the sentence about the lost materials.
   ASSERT_TRUE(
     test::wait_for([this] { return this->window.note_bar()->sentence().contains("has defects"); }));
   EXPECT_TRUE(this->window.note_bar()->sentence().startsWith(lost));
-  // After another mesh is opened, the sentence about the loss disappears.
+  // After another mesh is opened, the sentence about the lost materials disappears.
   const TriangleMesh other = test::open_cube();
   test::write_with<vtkXMLPolyDataWriter>(
     to_polydata(other.points, other.triangles), this->folder / "other.vtp");

@@ -139,7 +139,8 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
   this->find<QCheckBox>("Cut the tets")->setChecked(false);
   EXPECT_EQ(this->view()->shown_count(), mesh.tets.rows());
   EXPECT_LT(count(this->picture(), is_cut), 20);
-  // The two sides add up to the whole, except for centers on the plane.
+  // The tets on the two sides of the plane are together all tets. Tets with their center on the
+  // plane belong to both sides.
   this->find<QCheckBox>("Cut the tets")->setChecked(true);
   const Index behind = this->view()->shown_count();
   this->find<QCheckBox>("Keep the other side")->setChecked(true);
@@ -390,7 +391,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
   EXPECT_EQ(seen[8].count, 1);
   EXPECT_NE(this->find<QLabel>(QString("%1 defects").arg(all)), nullptr);
   EXPECT_LT(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
-  // The edge of the opening is green in the picture.
+  // The edge of the opening is green in the view.
   const QColor edge = this->picture().pixelColor(this->pixel(Vec3(-1.0, -0.4, 1.0)));
   EXPECT_GT(edge.green(), edge.red() + 30);
   // Another surface has its own defects. While another panel is open, defects are hidden.

@@ -326,7 +326,7 @@ TEST(FailedTours, EndWithASentenceThatNamesTheStep)
     "bindpose view: tour 'wrong', step 1 (click): unknown handle 'nose'");
   EXPECT_EQ(failure(R"({"option": "pose.methd", "value": 1})"),
     "bindpose view: tour 'wrong', step 1 (option 'pose.methd'): unknown option 'pose.methd'");
-  // After turning the view away, the picture is empty.
+  // If the camera is turned away from the shape, the view is empty.
   EXPECT_EQ(failure(R"({"open": "data/figure.off"}, {"drag": [0.5, 0.5], "to": [0.9, 0.5],
     "button": "middle"}, {"drag": [0.1, 0.5], "to": [0.9, 0.5], "button": "middle"},
     {"drag": [0.1, 0.5], "to": [0.9, 0.5], "button": "middle"}, {"screenshot": "gone"})"),

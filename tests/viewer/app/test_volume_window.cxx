@@ -1,4 +1,4 @@
-// Volumes in the window, as a user inspects them: Qt mouse events on the picture, and sliders and
+// Volumes in the window, as a user inspects them: Qt mouse events on the view, and sliders and
 // buttons of the panel. The tests compare positions, winding numbers and areas with closed forms.
 #include "unclipped.h"
 #include "window_test.h"
@@ -294,7 +294,7 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
   look->setCurrentIndex(Viewport::edges_only);
   EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
-  // Both panels are available. If the volume is closed, the surface is shown as before.
+  // Both panels are available. After a click on "Close the volume", the surface is shown as before.
   this->find<QPushButton>("Pose")->click();
   EXPECT_TRUE(this->window.panel()->isVisible());
   this->find<QPushButton>("Close the volume")->click();

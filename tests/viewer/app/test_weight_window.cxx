@@ -1,5 +1,5 @@
 // Weights in the window, as a user inspects them. The tests assert values that are known at every
-// point, counts, positions in the picture, and kernel results for other weight methods.
+// point, counts, positions in the view, and kernel results for other weight methods.
 #include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
@@ -208,7 +208,7 @@ TEST_F(WeightWindow, AllShowsTheStrongestHandle)
   this->open(ball());
   this->choose("All: strongest handle");
   const std::vector<Category> handles = handle_categories({ "bottom", "top" });
-  // Viewed from the side, each handle has one half of the picture.
+  // Viewed from the side, each handle has one half of the view.
   this->window.viewport()->renderer()->GetActiveCamera()->Azimuth(90.0);
   const QImage image = this->picture();
   int of_bottom = 0;
@@ -622,7 +622,7 @@ TEST_F(WeightWindow, NoTextOfTheWeightPanelIsClipped)
     {
       if (!label->isVisible())
       {
-        continue; // labels of pictures
+        continue; // some labels are shown for textured surfaces only
       }
       EXPECT_LE(label->heightForWidth(label->width()), label->height())
         << label->text().toStdString();

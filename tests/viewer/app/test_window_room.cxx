@@ -1,4 +1,4 @@
-// Layout of the window: it fits a small screen, bars cover the picture instead of moving it, the
+// Layout of the window: it fits a small screen, bars cover the view instead of moving it, the
 // timeline appears with the first key, and domains and winding numbers are available.
 #include "window_test.h"
 
@@ -134,7 +134,7 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
   // The status line shows a hint about the mouse.
   this->hover(seen);
   expect_still("a hint came");
-  // After a bar is hidden, the picture receives mouse events at its position.
+  // After a bar is hidden, the view receives mouse events at its position.
   this->window.error_bar()->hide();
   QApplication::processEvents();
   const QWidget* there = this->window.viewport()->childAt(this->window.viewport()->width() / 2, 60);

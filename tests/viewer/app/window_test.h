@@ -1,8 +1,8 @@
 #ifndef bindpose_tests_viewer_app_window_test_h
 #define bindpose_tests_viewer_app_window_test_h
 
-// Functions that operate the window like a user: Qt mouse events on the picture, and buttons found
-// by their texts.
+// Functions that operate the window like a user: Qt mouse events on the view, and buttons found by
+// their texts.
 
 #include "main_window.h"
 #include "panel_column.h"
@@ -93,7 +93,7 @@ protected:
     EXPECT_EQ(this->window.size(), size);
   }
 
-  /// Return the pixel of a position in the picture, in Qt's pixels from the upper left.
+  /// Return the pixel of a position in the view, in Qt's pixels from the upper left.
   QPoint pixel(const Vec3& place)
   {
     vtkRenderer* renderer = this->window.viewport()->renderer();

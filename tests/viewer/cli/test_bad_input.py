@@ -9,7 +9,7 @@ import shapes
 
 CUBE = shapes.off(shapes.cube())
 
-# No verb can read these files. The values are words of the error message.
+# No verb can read these files. Each entry contains the content of the file and words of the error message.
 UNREADABLE = {
     "missing.off": (None, ["missing.off", "No such file"]),
     "wrong.off": ("once upon a time\nthere was a mesh\n", ["wrong.off, line 1"]),

@@ -72,8 +72,9 @@ TEST(Blend, EndsAreExactAndTheMiddleIsHalfway)
 
 TEST(Blend, ChildrenStayOnTheirParents)
 {
-  // The upper arm rotates by 180 degrees. Halfway, the elbow must be one length away from the
-  // shoulder. The forearm has no rotation of its own and must be straight.
+  // The upper arm rotates by 180 degrees. Halfway, the distance between elbow and shoulder must be
+  // the length of the upper arm, which is 1. The forearm has no rotation of its own and must be
+  // straight.
   Handles arm{ test::bone_handle("upper", Vec3(0, 0, 0), Vec3(1, 0, 0)),
     test::bone_handle("fore", Vec3(1, 0, 0), Vec3(2, 0, 0)) };
   arm[1].parent = 0;
@@ -84,7 +85,7 @@ TEST(Blend, ChildrenStayOnTheirParents)
   const Pose middle = blend(arm, rest, swung, 0.5);
   EXPECT_LT((middle[1].transform * Vec3(1, 0, 0).homogeneous() - Vec3(0, 1, 0)).norm(), 1e-9);
   EXPECT_LT((middle[1].transform * Vec3(2, 0, 0).homogeneous() - Vec3(0, 2, 0)).norm(), 1e-9);
-  // Spline interpolation also preserves the length.
+  // Spline interpolation also preserves the length of the upper arm.
   KeyFrames keys;
   keys.interpolation = KeyInterpolation::spline;
   for (const double t : { 0.0, 1.0, 2.0 })

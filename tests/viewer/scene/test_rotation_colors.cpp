@@ -55,7 +55,7 @@ TEST(RotationColors, ACellHasTheClusterOfMostOfItsPoints)
   data->GetPointData()->AddArray(clusters);
   const auto of_cells = clusters_of_cells(data);
   EXPECT_EQ(of_cells->GetValue(0), 2.0);
-  EXPECT_EQ(of_cells->GetValue(1), 1.0); // of equally frequent clusters, the lowest one
+  EXPECT_EQ(of_cells->GetValue(1), 1.0); // the lower of two equally frequent clusters
   EXPECT_EQ(of_cells->GetValue(2), 1.0); // points without a cluster do not count
   clusters->Fill(-1);
   EXPECT_EQ(clusters_of_cells(data)->GetValue(0), -1.0);

@@ -159,7 +159,7 @@ TEST(Silhouette, OpenEdgesAreAlwaysThere)
 TEST(Outline, FollowsShapeAndView)
 {
   const TriangleMesh cube = test::cube();
-  // The shape's points are split along the edges.
+  // The points of the shaded surface are doubled at the sharp edges of the cube.
   ShadedSurface shape(to_polydata(cube.points, cube.triangles));
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkRenderWindow> window;
@@ -171,7 +171,7 @@ TEST(Outline, FollowsShapeAndView)
   vtkCamera* camera = renderer->GetActiveCamera();
   camera->SetPosition(0, 0, 10);
   window->Render();
-  EXPECT_TRUE(outline.edges().empty()); // it is hidden
+  EXPECT_TRUE(outline.edges().empty()); // the outline is hidden
   outline.show(true, 2.0);
   window->Render();
   EXPECT_EQ(outline.edges().size(), 4u); // these are the edges of the front face

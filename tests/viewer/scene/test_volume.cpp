@@ -214,7 +214,7 @@ TEST(Volume, ALegendOfLevelsNamesEachInItsColor)
       EXPECT_NEAR(field_color[k], expected[k], 0.02);
     }
   }
-  // The level 0.45 replaces the tick 0.5. The other ticks are kept.
+  // In the legend, the level 0.45 replaces the tick 0.5. The other ticks are kept.
   EXPECT_THAT(
     with_levels(map, { 0.45 }).ticks, testing::UnorderedElementsAre(0.45, -1.0, 0.0, 1.0, 2.0));
 }

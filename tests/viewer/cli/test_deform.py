@@ -290,7 +290,7 @@ def test_dynamics_falls_and_replays(bar):
         assert posed[n] == pytest.approx(bar.points - [0, 0.1 * n * (n + 1) / 2, 0], abs=1e-9)
     deform(bar, pose, *fall, "--threads", "1", "--overwrite").is_good()
     assert np.array_equal(points_of(bindpose.read(bar / "out_0003.vtp")), posed[3])
-    deform(bar, pose, "--dynamics", "--gravity", "1,2", "--overwrite").is_refused("--gravity")
+    deform(bar, pose, "--dynamics", "--gravity", "1,2", "--overwrite").is_refused("--gravity", "3 numbers", code=1)
     deform(bar, pose, "--dynamics", "--time-step", "0", "--overwrite").is_refused("--time-step")
     # If a pose becomes invalid during the sequence, the error message is one sentence.
     bad = {"handles": {"b2": {"translate": [0, "sqrt(0.15 - t)", 0]}}}

@@ -75,7 +75,7 @@ def test_bad_input(folder):
     assert folder.run("handles", "flat.off", "-o", "flat.vtp", "--report", "-").is_good().report["surface"] == "lattice"
     folder.run("handles", "flat.off", "--method", "points", "--number-of-points", "5", "-o", "x.vtp").is_refused("only 4 distinct vertices")
     bar(folder)
-    folder.run("handles", "bar.off", "--bone-tolerance", "2", "-o", "x.vtp").is_refused("bone_tolerance")
-    folder.run("handles", "bar.off", "--skeleton-triangles", "5", "-o", "x.vtp").is_refused("skeleton_triangles")
+    folder.run("handles", "bar.off", "--bone-tolerance", "2", "-o", "x.vtp").is_refused("--bone-tolerance", "0.001 to 1", code=1)
+    folder.run("handles", "bar.off", "--skeleton-triangles", "5", "-o", "x.vtp").is_refused("--skeleton-triangles", "100 to 1000000", code=1)
     folder.run("handles", "bar.off", "-o", "x.png").is_refused("png")
     assert not (folder / "x.vtp").exists()

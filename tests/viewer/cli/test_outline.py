@@ -64,9 +64,9 @@ def test_bad_input(folder):
                            (name, name) for name in ("broken.png", "text.png", "text.jpg", "text.tif", "text.bmp")]:
         folder.run("outline", name, "-o", "out.vtp").is_refused(word)
     folder.write("disc.png", shapes.png(80, 60, disc))
-    for option, value, word in [("--min-angle", "40", "angle"), ("--edge", "-1", "edge"), ("--simplify", "2", "from 0 to 1 pixel"),
-                                ("--winding-threshold", "0", "threshold")]:
-        folder.run("outline", "disc.png", option, value, "-o", "out.vtp").is_refused(word)
+    for option, value, allowed in [("--min-angle", "40", "0 to 33"), ("--edge", "-1", "0 to 1"), ("--simplify", "2", "0 to 1"),
+                                   ("--winding-threshold", "0", "above 0")]:
+        folder.run("outline", "disc.png", option, value, "-o", "out.vtp").is_refused(option, allowed, code=1)
     folder.run("outline", "disc.png", "-o", "out.off").is_refused("out.off")
 
 

@@ -75,8 +75,8 @@ def test_refusals(folder):
     folder.run("smooth", "square.vtk", "--extrema", "List", "-o", "s.vtp").is_refused("--extrema", "'List'")
     folder.run("smooth", "square.vtk", "--number-of-extrema", "2", "-o", "s.vtu").is_refused("vtp")
     folder.run("smooth", "square.vtk", "--number-of-extrema", "2", "-o", "s.obj").is_refused("s.obj")
-    folder.run("smooth", "square.vtk", "--persistence", "1", "-o", "s.vtp").is_refused("persistence")
-    folder.run("smooth", "square.vtk", "--number-of-extrema", "2", "--data-weight", "-1", "-o", "s.vtp").is_refused("data weight")
+    folder.run("smooth", "square.vtk", "--persistence", "1", "-o", "s.vtp").is_refused("--persistence", "below 1", code=1)
+    folder.run("smooth", "square.vtk", "--number-of-extrema", "2", "--data-weight", "-1", "-o", "s.vtp").is_refused("--data-weight", "at least 0", code=1)
     assert "constant" in folder.run("smooth", "flat.vtk", "-o", "s.vtp").is_good().err
     few = folder.run("smooth", "square.vtk", "--number-of-extrema", "2", "--maximum-iterations", "1", "-o", "few.vtp")
     assert few.code == 3 and "not certified" in few.err

@@ -80,7 +80,7 @@ def test_how_an_open_surface_is_segmented(folder):
     assert cut["segmentation"] == "graph-cut" and cut["energy"] <= cut["threshold_energy"]
     assert folder.run(*words, "--segmentation", "threshold").is_good().report["segmentation"] == "threshold"
     folder.run(*words, "--segmentation", "guess").is_refused(code=1)
-    folder.run(*words, "--cut-sigma", "0").is_refused()
+    folder.run(*words, "--cut-sigma", "0").is_refused("--cut-sigma", "above 0", code=1)
 
 
 def test_points_inside_as_wanted(folder):
@@ -89,9 +89,9 @@ def test_points_inside_as_wanted(folder):
     none = folder.run(*words, "--bare").is_good().report["counts"]
     many = folder.run(*words, "--interior-edge", "0.02").is_good().report["counts"]
     assert 2 * none["tet_vertices"] < many["tet_vertices"]
-    folder.run(*words, "--quality", "21").is_refused()
+    folder.run(*words, "--quality", "21").is_refused("--quality", "0 to 20", code=1)
     folder.run(*words, "--bare", "--quality", "10").is_refused()
-    folder.run(*words, "--time-limit", "-1").is_refused()
+    folder.run(*words, "--time-limit", "-1").is_refused("--time-limit", "at least 0", code=1)
 
 
 def test_handles_are_vertices(folder):
@@ -145,8 +145,8 @@ def test_a_wrap_holds_what_encloses_nothing(folder, mesh):
 def test_wraps_that_cannot_be(folder):
     folder.off("cube.off", shapes.cube())
     words = ["tetrahedralize", "cube.off", "--method", "wrap", "-o", "m.vtu"]
-    folder.run(*words, "--wrap-alpha", "0").is_refused("wrap_alpha")
-    folder.run(*words, "--wrap-offset", "-1").is_refused("wrap_offset")
+    folder.run(*words, "--wrap-alpha", "0").is_refused("--wrap-alpha", "0.0001 to 1", code=1)
+    folder.run(*words, "--wrap-offset", "-1").is_refused("--wrap-offset", "1e-06 to 1", code=1)
     folder.run(*words, "--wrap-alpha", "0.0005", "--time-limit", "0.3").is_refused("time limit", code=5)
 
 
@@ -185,4 +185,4 @@ def test_the_whole_hull(folder):
     report = run.is_good().report
     assert report["volume"] == pytest.approx(16) and 0 < report["counts"]["tets_inside"] < report["counts"]["tets"]
     assert folder.run("info", "h.vtu", "--report", "-").is_good().report["volume"] == pytest.approx(20)
-    folder.run("tetrahedralize", "two.off", "--keep-outside", "-o", "n.vtu").is_refused("cdt")
+    folder.run("tetrahedralize", "two.off", "--keep-outside", "-o", "n.vtu").is_refused("--keep-outside", "auto", "cdt", code=1)

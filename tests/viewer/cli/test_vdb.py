@@ -113,7 +113,7 @@ def test_refusals(folder):
     folder.run(*run, "-o", "f.vdb", "--vdb-band", "narrow", "--vdb-background", "0.5").is_refused("threshold")
     folder.run(*run, "-o", "f.vdb").is_good()
     folder.run(*run, "-o", "f.vdb").is_refused("f.vdb", "the file exists")
-    assert "expected an integer >= 1" in folder.run(*run, "-o", "g.vdb", "--vdb-band-width", "0").err
+    assert "expected an integer (voxels, at least 1)" in folder.run(*run, "-o", "g.vdb", "--vdb-band-width", "0").err
     assert "expected full|narrow" in folder.run(*run, "-o", "g.vdb", "--vdb-band", "wide").err
 
 

@@ -107,7 +107,7 @@ def test_cell_centers_and_orientation(folder):
 
 def test_options_that_make_no_sense(folder):
     folder.off("cube.off", shapes.cube())
-    folder.run("winding", "cube.off", "--tolerance", "0", "-o", "w.vti").is_refused("--tolerance")
+    folder.run("winding", "cube.off", "--tolerance", "0", "-o", "w.vti").is_refused("--tolerance", "1e-08 to 0.1", code=1)
     folder.run("winding", "cube.off", "--resolution", "100000", "-o", "w.vti").is_refused("samples")
     folder.run("winding", "cube.off", "--boundary", "b.png", "-o", "w.vti").is_refused("b.png")
 

@@ -759,7 +759,7 @@ Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
   {
     status.warnings.push_back("the skeleton has " + std::to_string(bones.cut_cycles) +
       (bones.cut_cycles == 1 ? " loop, which was" : " loops, which were") +
-      " opened at the joint farthest from the root, because a bone has only one parent");
+      " opened at the point farthest from the root, because a bone has only one parent");
   }
   if (options.maximum_bones > 0 && static_cast<Index>(pieces.size()) > options.maximum_bones)
   {

@@ -25,7 +25,7 @@ using Id = LatticeCover::Id;
 constexpr double fewest_tets = 2.0 / 3.0;
 constexpr double most_tets = 1.5;
 constexpr double most_pieces = 2e8;
-// Maximum number of pieces if the resolution is chosen, in addition to two per triangle.
+// Maximum number of pieces if the resolution is chosen, in addition to one per triangle.
 constexpr double most_pieces_of_choice = 1e6;
 
 /// Return the neighboring cube at one of the six faces of a cube.
@@ -400,9 +400,10 @@ Status LatticeCover::choose(Index resolution, Index wanted, ExecutionContext& co
       ? too_many_cubes()
       : this->build(std::max(measures.longest / cubes, least_spacing), context);
   }
-  const double most = std::min(Measures::most_cubes_along(most_pieces_of_choice,
-                                 [&](double cubes) { return measures.pieces(cubes); }),
-    std::max(1.0, measures.longest / least_spacing));
+  const double most =
+    std::min(Measures::most_cubes_along(measures.triangles + most_pieces_of_choice,
+               [&](double cubes) { return measures.pieces(cubes); }),
+      std::max(1.0, measures.longest / least_spacing));
   double cubes = std::min(
     most, Measures::most_cubes_along(wanted_tets, [&](double c) { return measures.tets(c); }));
   double last_cubes = 0.0;

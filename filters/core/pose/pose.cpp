@@ -34,10 +34,11 @@ Status check_pose(const Handles& handles, const Pose& pose)
   }
   for (std::size_t h = 0; h < pose.size(); ++h)
   {
-    if (!pose[h].transform.allFinite() || !std::isfinite(pose[h].stretch))
+    if (!pose[h].transform.allFinite() || !std::isfinite(pose[h].stretch) ||
+      !pose[h].twist.allFinite())
     {
-      return Status::invalid_input(
-        "the transform of handle '" + handles[h].name + "' contains a value that is not finite");
+      return Status::invalid_input("the transform, stretch or twist of handle '" + handles[h].name +
+        "' contains a value that is not finite");
     }
     if (holds_tail(pose[h].mode) && handles[h].kind != HandleKind::bone)
     {

@@ -145,7 +145,7 @@ Status check_segments(PlanePointsView points, SegmentsView segments)
   if (segments.rows() > std::numeric_limits<Id>::max() / 4)
   {
     return Status::invalid_input(
-      "the curve has " + std::to_string(segments.rows()) + " segments; the maximum is 2^29");
+      "the curve has " + std::to_string(segments.rows()) + " segments: expected fewer than 2^29");
   }
   return {};
 }

@@ -306,7 +306,7 @@ Status check_input(PointsView points, PointsView normals, NumbersView areas,
   if (count > std::numeric_limits<Id>::max() / 4)
   {
     return Status::invalid_input(
-      "the cloud has " + std::to_string(count) + " points; the maximum is 2^29");
+      "the cloud has " + std::to_string(count) + " points: expected fewer than 2^29");
   }
   for (Index i = 0; i < count; ++i)
   {

@@ -129,6 +129,14 @@ struct WindingNumber::Parts
   bool build_tree(ExecutionContext& context) const;
   bool build_cells(ExecutionContext& context) const;
   bool rays_pay(double ray_cost, double cell_cost) const;
+  /// Add to ray_nanoseconds; evaluations may run at the same time.
+  void add_ray_cost(double nanoseconds) const
+  {
+    double sum = this->ray_nanoseconds;
+    while (!this->ray_nanoseconds.compare_exchange_weak(sum, sum + nanoseconds))
+    {
+    }
+  }
   void at(const Vec3* queries, Index number, const int* counts, const unsigned char* resolved,
     double* winding_numbers, bool* on_surface) const;
   Vec3 gradient_at(const Vec3& point) const;
@@ -203,8 +211,8 @@ Status WindingNumber::build(
   status = check_mesh(points, triangles);
   if (status.ok() && triangles.rows() > std::numeric_limits<std::int32_t>::max() / 4)
   {
-    status = Status::invalid_input(
-      "the surface has " + std::to_string(triangles.rows()) + " triangles; the maximum is 2^29");
+    status = Status::invalid_input("the surface has " + std::to_string(triangles.rows()) +
+      " triangles: expected fewer than 2^29");
   }
   if (status.ok() && points.rows() > std::numeric_limits<std::int32_t>::max())
   {
@@ -534,7 +542,7 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
     const ProgressRange range(context, 0.0, 0.5);
     if (by_rays)
     {
-      parts.ray_nanoseconds = parts.ray_nanoseconds + ray_cost;
+      parts.add_ray_cost(ray_cost);
       std::vector<Vec3> framed;
       reserve_in_large_pages(framed, static_cast<std::size_t>(count));
       for (Index i = 0; i < count; ++i)
@@ -734,7 +742,7 @@ Status WindingNumber::evaluate_rows(
     const auto samples = static_cast<double>(grid.count());
     const double ray_cost = layers.nanoseconds + write_per_sample * samples;
     by_rays = parts.rays_pay(ray_cost, cells_per_sample * samples);
-    parts.ray_nanoseconds = parts.ray_nanoseconds + (by_rays ? ray_cost : 0.0);
+    parts.add_ray_cost(by_rays ? ray_cost : 0.0);
   }
   if (!by_rays && !parts.cells_built && !parts.build_cells(context))
   {

@@ -418,6 +418,23 @@ TEST(PoseFile, WhatIsWrongIsNamed)
     message(R"({"frames": [{"handles": {}}, {"handles": {"x": {}}}]})"), HasSubstr("frame 1"));
 }
 
+TEST(Pose, ValuesThatAreNotFiniteAreNamed)
+{
+  const Handles handles = test::three_handles();
+  const Pose rest(handles.size());
+  EXPECT_TRUE(check_pose(handles, rest).ok());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int part = 0; part < 3; ++part)
+  {
+    Pose pose = rest;
+    HandlePose& changed = pose[1];
+    (part == 0 ? changed.transform(1, 3) : part == 1 ? changed.stretch : changed.twist[1]) = nan;
+    const Status status = check_pose(handles, pose);
+    EXPECT_EQ(status.code, StatusCode::invalid_input) << part;
+    EXPECT_THAT(status.message, HasSubstr("'" + handles[1].name + "'"));
+  }
+}
+
 TEST(PoseFile, WhatIsWrittenIsReadBack)
 {
   test::Random random(9);

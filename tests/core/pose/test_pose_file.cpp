@@ -420,7 +420,8 @@ TEST(PoseFile, WhatIsWrongIsNamed)
 
 TEST(Pose, ValuesThatAreNotFiniteAreNamed)
 {
-  const Handles handles = test::three_handles();
+  const Handles handles = { test::bone_handle("b1", Vec3::Zero(), Vec3::UnitX()),
+    test::bone_handle("b2", Vec3::UnitX(), Vec3(2.0, 0.0, 0.0)) };
   const Pose rest(handles.size());
   EXPECT_TRUE(check_pose(handles, rest).ok());
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -135,7 +135,7 @@ TEST(LinearSubspace, HandlesThatDoNotSpanAreAWarning)
     test::point_handles({ Vec3(0.2, 0.5, 0.0), Vec3(0.8, 0.5, 0.0) }));
   const WeightsResult weights = solve(two, "linear-subspace", {}, &status);
   ASSERT_EQ(status.warnings.size(), 1u);
-  EXPECT_THAT(status.warnings[0], HasSubstr("do not determine"));
+  EXPECT_THAT(status.warnings[0], HasSubstr("do not span"));
   // The result is nearly linear along the line through the two handles.
   for (Index v = 0; v < two.vertex_count(); ++v)
   {

@@ -291,7 +291,7 @@ def test_dynamics_falls_and_replays(bar):
     deform(bar, pose, *fall, "--threads", "1", "--overwrite").is_good()
     assert np.array_equal(points_of(bindpose.read(bar / "out_0003.vtp")), posed[3])
     deform(bar, pose, "--dynamics", "--gravity", "1,2", "--overwrite").is_refused("--gravity", "3 numbers", code=1)
-    deform(bar, pose, "--dynamics", "--time-step", "0", "--overwrite").is_refused("--time-step")
+    deform(bar, pose, "--dynamics", "--time-step", "0", "--overwrite").is_refused("--time-step", "above 0", code=1)
     # If a pose becomes invalid during the sequence, the error message is one sentence.
     bad = {"handles": {"b2": {"translate": [0, "sqrt(0.15 - t)", 0]}}}
     deform(bar, bad, *fall, "--overwrite").is_refused("not a finite number at t = 0.2")

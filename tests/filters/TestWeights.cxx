@@ -495,7 +495,7 @@ TEST(WeightsFilters, PrintSelfTellsEveryParameter)
     EXPECT_THAT(text(bounded), HasSubstr(word));
     EXPECT_THAT(text(monotone), HasSubstr(word));
   }
-  EXPECT_THAT(text(unconstrained), HasSubstr("Method: 2"));
+  EXPECT_THAT(text(unconstrained), HasSubstr("Method: biharmonic"));
   bounded->SetOrder(7);
   EXPECT_EQ(bounded->GetOrder(), 3);
 }

@@ -415,8 +415,8 @@ Status SessionFile::write_companion(
                     : write_xml<vtkXMLPolyDataWriter>(view, file.temporary()));
   if (!view)
   {
-    return Status::invalid_input("cannot write " + unnamed.toStdString() +
-      ": expected a surface, tets or a volume");
+    return Status::invalid_input(
+      "cannot write " + unnamed.toStdString() + ": expected a surface, tets or a volume");
   }
   const QString temporary = QString::fromStdString(file.temporary());
   const QByteArray checksum = written ? checksum_of(temporary) : QByteArray();

@@ -56,6 +56,10 @@ public:
     for (Id k = 0; k < count; ++k)
     {
       this->parents_[k] = k;
+      if (k > 0 && corners[k] / 3 == corners[k - 1] / 3)
+      {
+        this->join(k - 1, k); // a degenerate triangle that has the vertex twice
+      }
       const Id t = corners[k] / 3, position = corners[k] % 3;
       this->edges_.push_back({ this->triangles_(t, (position + 1) % 3), k });
       this->edges_.push_back({ this->triangles_(t, (position + 2) % 3), k });

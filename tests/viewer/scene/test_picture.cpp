@@ -211,7 +211,7 @@ TEST(Picture, SectionsAndSizesThatLeaveNothing)
   {
     options = tiny();
     options.shrink = size;
-    EXPECT_THAT(try_to_draw({ tile }, options).message, HasSubstr("shrink"));
+    EXPECT_THAT(try_to_draw({ tile }, options).message, HasSubstr("shrunk"));
   }
   options.shrink = 0.5;
   EXPECT_THAT(

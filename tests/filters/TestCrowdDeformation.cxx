@@ -304,7 +304,8 @@ TEST_F(CrowdDeformationFilter, SaysWhatIsWrong)
   right->SetTuple3(0, 0, 0, 0);
   right->SetTuple3(1, 0, std::nan(""), 0);
   right->Modified();
-  EXPECT_THAT(message(table), HasSubstr("instance 1: the transform of handle '" + name));
+  EXPECT_THAT(
+    message(table), HasSubstr("instance 1: the transform, stretch or twist of handle '" + name));
   right->SetTuple3(1, 0, 0, 0);
   vtkNew<vtkIntArray> modes;
   modes->SetName("Mode");

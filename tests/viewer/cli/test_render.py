@@ -56,7 +56,7 @@ def test_a_scale_factor_and_a_transparent_background(folder):
     assert (folder / "b.png").read_bytes()[25] == 6
     folder.run("render", "bar.off", "--size", "160x120", "-o", "c.png").is_good()
     assert (folder / "c.png").read_bytes()[25] == 2
-    folder.run("render", "bar.off", "--scale", "9", "-o", "d.png").is_refused("scale factor", "1 to 8, not 9")
+    folder.run("render", "bar.off", "--scale", "9", "-o", "d.png").is_refused("--scale", "1 to 8", code=1)
     folder.run("render", "bar.off", "--size", "8000x8000", "--scale", "8", "-o", "d.png").is_refused(
         "64000 x 64000 pixels is too large")
     folder.run("render", "bar.off", "--transparent", "-o", "d.gif").is_refused("--transparent")
@@ -86,10 +86,9 @@ def test_view_without_a_display(folder):
 @pytest.mark.parametrize("words, sentence", [
     (["--array", "Weights"], "Weights"),
     (["--component", "hip"], "Weights"),
-    (["--size", "big"], "--size big"),
-    (["--size", "0x10"], "--size 0x10"),
-    (["--range", "1"], "--range 1"),
-    (["--zoom", "0"], "zoom"),
+    (["--size", "big"], "--size 'big'"),
+    (["--size", "0x10"], "--size '0x10'"),
+    (["--range", "1"], "--range '1'"),
     (["--handles", "none.tgf"], "none.tgf"),
     (["--handles", "sphere.off"], "sphere.off"),
 ])
@@ -201,8 +200,6 @@ def test_defects_are_counted(tets):
     ("tets.vtu", ["--section", "0,0,0@0,0,0"], "section plane"),
     ("tets.vtu", ["--section", "1.5"], "between 0 and 1"),
     ("tets.vtu", ["--section", "z=-9"], "removes all tets"),
-    ("tets.vtu", ["--shrink", "0"], "shrink"),
-    ("tets.vtu", ["--shrink", "1.1"], "shrink"),
     ("tets.vtu", ["--color", "label", "--array", "Label"], "--color label"),
     ("tets.vtu", ["--color", "label", "--range", "0,1"], "cannot have a range"),
     ("tets.vtu", ["--defects"], "--context SURFACE"),
@@ -219,6 +216,12 @@ def test_defects_are_counted(tets):
 ])
 def test_what_tets_do_not_have(tets, file, words, sentence):
     tets.run("render", file, "-o", "s.png", *words).is_refused(sentence)
+
+
+@pytest.mark.parametrize("option, value", [("--zoom", "0"), ("--shrink", "0"), ("--shrink", "1.1"), ("--fps", "1001")])
+def test_numbers_out_of_range_are_usage_errors(folder, option, value):
+    folder.off("sphere.off", shapes.sphere(8, 4))
+    folder.run("render", "sphere.off", "-o", "s.png", option, value).is_refused(option, "above 0", code=1)
 
 
 def test_a_slice_through_the_weights_of_a_volume(folder):

@@ -393,7 +393,7 @@ TEST_F(SessionWindow, AKilledProgramsWorkIsOfferedAndRestored)
   program.waitForFinished();
 
   this->window.sessions()->offer_recovery(root);
-  EXPECT_NE(this->window.recovery_bar()->sentence().indexOf("did not end as it should"), -1);
+  EXPECT_NE(this->window.recovery_bar()->sentence().indexOf("did not close properly"), -1);
   EXPECT_TRUE(this->window.is_empty()); // work is restored only after the user has agreed
   button_of(this->window.recovery_bar(), "&Restore")->click();
   EXPECT_EQ(this->window.recovery_bar()->sentence(), "");

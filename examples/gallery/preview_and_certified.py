@@ -31,7 +31,7 @@ def make(options):
     for name, way in WAYS.items():
         began = time.perf_counter()
         if options.small and way["domain"] == "embedding":
-            way = {**way, "resolution": 20}
+            way = {**way, "embedding_resolution": 20}
         weighted = bindpose.weights(surface, handles, **way)
         numbers[f"{name}: seconds"] = time.perf_counter() - began
         bindpose.write(weighted, options.scratch / f"{name}.vtp")

@@ -388,6 +388,9 @@ void PosePanel::add_motion(QVBoxLayout* column)
   for (QPushButton* each : { this->play_, this->step_, this->restart_ })
   {
     buttons->addWidget(each, 1);
+    // The layout takes the height that a note with line breaks lacks from widgets that can shrink.
+    each->ensurePolished();
+    each->setMinimumHeight(each->sizeHint().height());
   }
   rows->addLayout(buttons);
   this->time_ = new QLabel(this->motion_);

@@ -45,7 +45,7 @@ def volume(points, tets):
 
 def make(options):
     # ignore warnings about inverted tets; the result contains their number
-    warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)
+    warnings.filterwarnings("ignore", "the pose inverts", bindpose.BindposeWarning)
     weighted, handles = weighted_cylinder(options.small)
     rest, tets = points_of(weighted), tets_of(weighted)
     skin = np.hypot(rest[:, 1], rest[:, 2]) > 0.999

@@ -40,7 +40,7 @@ def weighted_cylinder(small):
 
 def make(options):
     # ignore warnings about inverted tets; the result contains their number
-    warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)
+    warnings.filterwarnings("ignore", "the pose inverts", bindpose.BindposeWarning)
     weighted, handles = weighted_cylinder(options.small)
     rest = points_of(weighted)
     radius = np.hypot(rest[:, 1], rest[:, 2])

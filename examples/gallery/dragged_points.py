@@ -18,7 +18,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 ARC = 150  # angle of the arc in degrees
 LENGTH = 6
-WAYS = {"translations": ("lbs", "none"), "pseudo-edges": ("lbs", "auto"), "reduced ARAP": ("reduced-arap", "none")}
+WAYS = {"translations": {"method": "lbs", "pseudo_edges": "none"}, "pseudo-edges": {"method": "lbs", "pseudo_edges": "auto"},
+        "reduced ARAP": {"method": "reduced-arap"}}
 
 
 def strip(along, across):
@@ -53,8 +54,8 @@ def make(options):
     arc = np.stack([LENGTH / 2 + radius * np.sin(angles), radius * (1 - np.cos(angles)), 0 * angles], axis=1)
     pose = {"handles": {f"p{k + 1}": {"mode": "position", "translate": (arc[k] - places[k]).tolist()} for k in range(4)}}
     numbers, files, labels = {}, [], []
-    for name, (method, edges) in WAYS.items():
-        posed = bindpose.deform(weighted, handles, pose, method=method, pseudo_edges=edges, stretch_array=True)
+    for name, way in WAYS.items():
+        posed = bindpose.deform(weighted, handles, pose, stretch_array=True, **way)
         report = bindpose.report(posed)
         share = area(points_of(posed), triangles) / area(points, triangles)
         numbers[f"{name}, degrees"] = turns(posed)

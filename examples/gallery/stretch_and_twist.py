@@ -103,7 +103,7 @@ def cats(options, numbers):
 
 def make(options):
     # ignore warnings about inverted tets; the result contains their number
-    warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)
+    warnings.filterwarnings("ignore", "the pose inverts", bindpose.BindposeWarning)
     numbers = {}
     above = mallets(options, numbers)
     below, _window = cats(options, numbers)

@@ -3,6 +3,7 @@
 import contextlib
 import json
 import signal
+import sys
 import threading
 import warnings as python_warnings
 
@@ -10,6 +11,14 @@ from .errors import BindposeError, BindposeWarning, Canceled, InvalidInput, NotC
 from .meshes import remember_run, run_of
 
 _ERRORS = {error.status: error for error in (InvalidInput, Canceled, Unavailable, BindposeError)}
+
+
+def _caller_level():
+    """Return the stacklevel with which a warning of the calling function names the user's line."""
+    frame, level = sys._getframe(1), 1
+    while frame.f_back and frame.f_globals.get("__name__", "").startswith("bindpose."):
+        frame, level = frame.f_back, level + 1
+    return level
 
 
 @contextlib.contextmanager
@@ -90,9 +99,9 @@ def run(algorithm, progress=None):
     if status not in ("ok", "not_converged"):
         raise _ERRORS[status](algorithm.GetStatusMessage(), result)
     for sentence in result.get("warnings", []):
-        python_warnings.warn(sentence, BindposeWarning, stacklevel=3)
+        python_warnings.warn(sentence, BindposeWarning, stacklevel=_caller_level())
     if status == "not_converged":
-        python_warnings.warn(algorithm.GetStatusMessage(), NotConvergedWarning, stacklevel=3)
+        python_warnings.warn(algorithm.GetStatusMessage(), NotConvergedWarning, stacklevel=_caller_level())
     return result
 
 

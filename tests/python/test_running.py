@@ -101,3 +101,10 @@ def test_classes_are_at_package_level():
                  "vtkRegionBrushWidget", "vtkBoneEndpointWeights"):
         assert hasattr(bindpose, name)
         assert name in str(getattr(bindpose, name)())
+
+
+def test_warnings_name_the_line_of_the_caller():
+    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    with pytest.warns(bindpose.BindposeWarning) as caught:
+        bindpose.winding_number((points, [[0, 1, 2], [0, 1, 1]]), [[float("nan"), 0, 0]])
+    assert all(warning.filename == __file__ for warning in caught)

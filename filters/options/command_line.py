@@ -18,6 +18,10 @@ def is_positional(option):
     return option.name.isupper()
 
 
+def is_required(option):
+    return option.fields.get("required", False) or (is_positional(option) and not option.fields.get("optional", False))
+
+
 def placeholder(option):
     """The word for the value in --help: DEGREES, N, METHOD."""
     if option.type == "flag" or is_positional(option):
@@ -70,11 +74,10 @@ def row(option):
     default = option.default_text("cli")
     lowest, above = limit(option, "minimum", "above", "-infinity")
     highest, below = limit(option, "maximum", "below", "infinity")
-    required = fields.get("required", False) or (is_positional(option) and not fields.get("optional", False))
     cells = [json.dumps(typed_name(option)), json.dumps(placeholder(option), ensure_ascii=False),
              f"OptionKind::{KINDS[option.type]}", json.dumps(default), json.dumps("|".join(option.choices)),
              quoted(help_text(option)), json.dumps(option.values_text()),
-             json.dumps("|".join(option.methods())), "true" if required else "false",
+             json.dumps("|".join(option.methods())), "true" if is_required(option) else "false",
              "true" if fields.get("repeated") else "false", json.dumps(fields.get("unless", "")),
              f"{{ {lowest}, {above}, {highest}, {below} }}", str(option.length)]
     return "      { " + ", ".join(cells) + " },\n"
@@ -93,7 +96,7 @@ def table(verbs, common):
 
 
 def argument(option):
-    """The C++ expression of the typed value."""
+    """The C++ expression of the typed value; `numbers` are the typed numbers of an option with several."""
     key = json.dumps(cli_name(option))
     if option.type == "flag":
         return "false" if option.default else "true"
@@ -105,9 +108,9 @@ def argument(option):
     if option.type == "number":
         return f"arguments.number({key})"
     if option.type == "integers":
-        return ", ".join(f"static_cast<int>(arguments.numbers({key})[{k}])" for k in range(option.length))
+        return ", ".join(f"static_cast<int>(numbers[{k}])" for k in range(option.length))
     if option.type == "numbers":
-        return ", ".join(f"arguments.numbers({key})[{k}]" for k in range(option.length))
+        return ", ".join(f"numbers[{k}]" for k in range(option.length))
     return f"arguments.text({key})"
 
 
@@ -123,6 +126,8 @@ def setters(sets, verbs):
         text += f"template <typename Filter>\nvoid set_{name}_options(const Arguments& arguments, Filter* filter)\n{{\n"
         for option in options:
             text += f"  if (arguments.typed({json.dumps(cli_name(option))}))\n  {{\n"
+            if option.length > 1:
+                text += f"    const std::vector<double> numbers = arguments.numbers({json.dumps(cli_name(option))});\n"
             text += f"    filter->Set{vtk_name(option)}({argument(option)});\n  }}\n"
             if option.default_of("cli") != option.default_of("vtk"):
                 value = option.choices.get(option.default_of("cli"), option.default_of("cli"))

@@ -1,6 +1,6 @@
 """Write the tables of options in viewer/command_line.md."""
 
-from command_line import help_text, is_positional, placeholder, typed_name
+from command_line import help_text, is_required, placeholder, typed_name
 
 BEGIN, END = "<!-- options -->\n", "<!-- end of the options -->\n"
 HEAD = "| option | values | default | meaning |\n|---|---|---|---|\n"
@@ -9,8 +9,7 @@ HEAD = "| option | values | default | meaning |\n|---|---|---|---|\n"
 def row(option):
     name = typed_name(option).split(",")[0] + ("…" if option.fields.get("repeated") else "")
     value = placeholder(option)
-    required = option.fields.get("required") or (is_positional(option) and not option.fields.get("optional"))
-    default = "required" if required and not option.fields.get("unless") else option.default_text("cli")
+    default = "required" if is_required(option) and not option.fields.get("unless") else option.default_text("cli")
     values = ", ".join(text for text in (", ".join(option.choices), option.values_text()) if text)
     return f"| `{name}{' ' + value if value else ''}` | {values} | {default} | {help_text(option)} |\n"
 

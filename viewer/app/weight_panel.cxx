@@ -17,9 +17,6 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
-#include <algorithm>
-#include <string>
-
 namespace
 {
 /// Enable a widget if `reason` is empty. Otherwise disable it and show the reason as its tooltip.
@@ -36,11 +33,9 @@ void enable_or_say(QWidget* widget, const QString& reason)
 
 int method_of_weights(vtkDataSet* surface)
 {
-  const std::vector<bindpose::WeightMethod>& methods = bindpose::weight_methods();
-  const std::string word = surface ? bindpose::read_report(surface).text("method") : std::string();
-  const auto found = std::find_if(methods.begin(), methods.end(),
-    [&word](const bindpose::WeightMethod& method) { return word == method.word; });
-  return found == methods.end() ? -1 : static_cast<int>(found - methods.begin());
+  const bindpose::WeightMethod* method =
+    surface ? bindpose::find_weight_method(bindpose::read_report(surface).text("method")) : nullptr;
+  return method ? static_cast<int>(method - bindpose::weight_methods().data()) : -1;
 }
 
 WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)

@@ -52,8 +52,8 @@ public:
     bool has_picture = false; ///< the surface has a texture, over which the colors are drawn
     bool comparing = false;
     bool compared = false;
-    int method =
-      -1; ///< the method of the weights, an index of bindpose::weight_methods(); -1: unknown
+    /// The method of the weights, an index of bindpose::weight_methods(); -1: unknown.
+    int method = -1;
   };
   void set_facts(const Facts& facts);
   /// Set the three lines about the method and the column's certificate.

@@ -36,10 +36,7 @@ QVariant checked_direction(const QVariant& value)
   return direction.size() == 3 && std::abs(square - 1.0) <= least_digits ? QVariant(direction)
                                                                          : QVariant();
 }
-} // namespace
 
-namespace
-{
 /// Return the words of the weight methods, in the order of the registry.
 /// @param constrained  true: return only the bounded and monotone methods, which are first in the
 /// registry

@@ -409,15 +409,14 @@ Status SessionFile::write_companion(
   }
   // a view, because the window may be using the data
   const vtkSmartPointer<vtkDataSet> view = view_of(data);
-  const bool written = view &&
-    (is_tets        ? write_xml<vtkXMLUnstructuredGridWriter>(view, file.temporary())
-        : is_volume ? write_xml<vtkXMLImageDataWriter>(view, file.temporary())
-                    : write_xml<vtkXMLPolyDataWriter>(view, file.temporary()));
   if (!view)
   {
     return Status::invalid_input(
       "cannot write " + unnamed.toStdString() + ": expected a surface, tets or a volume");
   }
+  const bool written = is_tets ? write_xml<vtkXMLUnstructuredGridWriter>(view, file.temporary())
+    : is_volume                ? write_xml<vtkXMLImageDataWriter>(view, file.temporary())
+                               : write_xml<vtkXMLPolyDataWriter>(view, file.temporary());
   const QString temporary = QString::fromStdString(file.temporary());
   const QByteArray checksum = written ? checksum_of(temporary) : QByteArray();
   if (checksum.isEmpty())

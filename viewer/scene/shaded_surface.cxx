@@ -47,6 +47,7 @@ bool has_only_triangles(vtkPolyData* surface)
 DrawnTriangles triangles_of(vtkPolyData* surface)
 {
   DrawnTriangles drawn;
+  vtkPolyData* source = surface;
   vtkNew<vtkIdTypeArray> ids;
   vtkNew<vtkTriangleFilter> split;
   if (!has_only_triangles(surface))
@@ -61,8 +62,8 @@ DrawnTriangles triangles_of(vtkPolyData* surface)
     split->PassVertsOff();
     split->PassLinesOff();
     split->Update();
+    source = split->GetOutput();
   }
-  vtkPolyData* source = has_only_triangles(surface) ? surface : split->GetOutput();
   vtkCellArray* polygons = source->GetPolys();
   const vtkIdType count = polygons->GetNumberOfCells();
   drawn.triangles.resize(count, 3);

@@ -3,6 +3,7 @@
 // not sharp, the corners of both triangles join one group.
 #include "scene/sharp_edges.h"
 
+#include "base/disjoint_sets.h"
 #include "base/execution.h"
 #include "base/parallel.h"
 
@@ -52,13 +53,12 @@ public:
   Id group(const Id* corners, Id count, Id* groups)
   {
     this->edges_.clear();
-    this->parents_.resize(static_cast<std::size_t>(count));
+    this->joined_.reset(static_cast<std::size_t>(count));
     for (Id k = 0; k < count; ++k)
     {
-      this->parents_[k] = k;
       if (k > 0 && corners[k] / 3 == corners[k - 1] / 3)
       {
-        this->join(k - 1, k); // a degenerate triangle that has the vertex twice
+        this->joined_.unite(k - 1, k); // a degenerate triangle that has the vertex twice
       }
       const Id t = corners[k] / 3, position = corners[k] % 3;
       this->edges_.push_back({ this->triangles_(t, (position + 1) % 3), k });
@@ -77,41 +77,26 @@ public:
         if (this->normals_.row(corners[a] / 3).dot(this->normals_.row(corners[b] / 3)) >
           this->cosine_)
         {
-          this->join(a, b);
+          this->joined_.unite(a, b);
         }
       }
     }
     Id number = 0;
     for (Id k = 0; k < count; ++k)
     {
-      const Id root = this->root_of(k); // the first corner of the group
+      const Id root = this->joined_.find(k); // the first corner of the group
       groups[k] = root == k ? number++ : groups[root];
     }
     return number;
   }
 
 private:
-  Id root_of(Id k)
-  {
-    while (this->parents_[k] != k)
-    {
-      this->parents_[k] = this->parents_[this->parents_[k]];
-      k = this->parents_[k];
-    }
-    return k;
-  }
-  void join(Id a, Id b)
-  {
-    const Id i = this->root_of(a), j = this->root_of(b);
-    this->parents_[std::max(i, j)] = std::min(i, j);
-  }
-
   const Triangles& triangles_;
   const Points& normals_;
   double cosine_;
   /// The far end of an edge at the vertex, and a corner at this edge.
   std::vector<std::pair<Index, Id>> edges_;
-  std::vector<Id> parents_; ///< parent of each corner in a union-find forest
+  DisjointSets<Id> joined_; ///< groups of corners
 };
 } // namespace
 

@@ -324,10 +324,9 @@ Status begin(
   const WeightsProblem& problem, const WeightsOptions& options, WeightsResult& result, MatrixXd& w)
 {
   result = {};
-  if (problem.terms.any())
+  if (Status status = check_no_terms(problem); !status.ok())
   {
-    return Status::invalid_input("rigidity, rigid sets, bounds, pins and mirrors can only be used "
-                                 "with bounded and monotone weights");
+    return status;
   }
   const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
   if (!positive(options.power) || !positive(options.heat))

@@ -40,8 +40,8 @@ constexpr int most_lattices = 3;
 /// as long as the one before. Measured on furniture with 8 point handles and with 14 to 38 bones.
 constexpr double lattice_ends[most_lattices] = { 0.06, 0.22, 1.0 };
 /// Progress at the end of meshing and at the end of solving, as fractions of one domain's work.
-constexpr double filled = 0.2;
-constexpr double transferring = 0.97;
+constexpr double meshing_end = 0.2;
+constexpr double solving_end = 0.97;
 /// Maximum predicted time of a third lattice, in seconds on one thread.
 constexpr double most_seconds = 20.0;
 
@@ -70,7 +70,7 @@ using LatticePtr = std::unique_ptr<Lattice>;
 /// (sheets) and 3 (solids).
 constexpr double power_of_tets = 2.5;
 
-/// Return the ratio of the third lattice's resolution to the second one's.
+/// Return the resolution of the third lattice, divided by the resolution of the second lattice.
 double growth_to_third(const Lattice& second)
 {
   const double tets = second.status.report.number("counts.tets", third_tets);
@@ -97,14 +97,14 @@ private:
   Status prepare();
   Status on_mesh(SurfaceWeights& result);
   Status in_volume(SurfaceWeights& result);
-  Status solve_volume(Status filled, SurfaceWeights& result);
+  Status solve_volume(Status mesh_status, SurfaceWeights& result);
   Status in_embedding(SurfaceWeights& result);
   Status in_cage(SurfaceWeights& result);
   LatticePtr embed(Index resolution, Index tets);
   Status hold_surface(EmbeddingOptions options, Lattice& lattice);
   void put_surface_in(Lattice& lattice);
   HandleInsertionOptions insertion_in(const Lattice& lattice) const;
-  Status solve_on(Lattice& lattice, Status filled);
+  Status solve_on(Lattice& lattice, Status mesh_status);
   LatticePtr best_lattice();
   double share_of_transfer() const;
   Status finish(Lattice& lattice, SurfaceWeights& result);
@@ -201,7 +201,7 @@ Status Solver::prepare()
 /// Fill the inside with tets that are small enough for smooth weights.
 Status Solver::fill(TetrahedralizeResult& tets)
 {
-  const Phase phase(this->context_, "tetrahedralize", 0.0, filled);
+  const Phase phase(this->context_, "tetrahedralize", 0.0, meshing_end);
   Status status;
   {
     const ProgressRange range(this->context_, 0.0, 0.3);
@@ -269,7 +269,7 @@ Status Solver::solve(const Domain& domain, const std::vector<Index>& region_ids,
 {
   Status status;
   {
-    const ProgressRange range(this->context_, filled, transferring);
+    const ProgressRange range(this->context_, meshing_end, solving_end);
     WeightsOptions options = this->weights_options_;
     options.insertion = insertion;
     options.terms = terms;
@@ -294,7 +294,7 @@ Status Solver::solve(const Domain& domain, const std::vector<Index>& region_ids,
       return status;
     }
   }
-  const Phase phase(this->context_, "transfer", transferring, 1.0);
+  const Phase phase(this->context_, "transfer", solving_end, 1.0);
   const Status carried = this->carry_weights(carry, result);
   if (!carried.usable())
   {
@@ -358,8 +358,8 @@ Status Solver::in_volume(SurfaceWeights& result)
 }
 
 /// Insert handles into the tets of the inside, solve the weights and transfer them.
-/// @param filled status of making the tets.
-Status Solver::solve_volume(Status filled, SurfaceWeights& result)
+/// @param mesh_status  status of making the tets.
+Status Solver::solve_volume(Status mesh_status, SurfaceWeights& result)
 {
   std::vector<Index> labels;
   if (!this->region_ids_.empty())
@@ -376,8 +376,8 @@ Status Solver::solve_volume(Status filled, SurfaceWeights& result)
   }
   result.domain = WeightsDomain::volume;
   WeightTerms terms;
-  const Status carried =
-    this->carry_terms_to(result.tets.mesh.points, result.tets.original_vertices, terms, filled);
+  const Status carried = this->carry_terms_to(
+    result.tets.mesh.points, result.tets.original_vertices, terms, mesh_status);
   if (!carried.ok())
   {
     return carried;
@@ -388,7 +388,7 @@ Status Solver::solve_volume(Status filled, SurfaceWeights& result)
     return transfer(
       result.problem.mesh.domain, solved, this->points_, {}, this->context_, at_points, counts);
   };
-  return this->joined(filled,
+  return this->joined(mesh_status,
     this->solve(volume_of(result.tets.mesh), labels, terms, this->weights_options_.insertion, carry,
       carry, result));
 }
@@ -405,7 +405,7 @@ Status Solver::in_cage(SurfaceWeights& result)
   options.places = this->options_.places;
   CageDomain cage;
   {
-    const ProgressRange range(this->context_, 0.0, filled);
+    const ProgressRange range(this->context_, 0.0, meshing_end);
     status =
       fill_cage(this->points_, this->triangles_, this->handles_, options, cage, this->context_);
   }
@@ -464,7 +464,7 @@ LatticePtr Solver::embed(Index resolution, Index tets)
 /// Links that are added for one lattice are also used for all later lattices.
 Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
 {
-  const Phase phase(this->context_, "tetrahedralize", 0.0, filled);
+  const Phase phase(this->context_, "tetrahedralize", 0.0, meshing_end);
   Status prepared;
   {
     const ProgressRange range(this->context_, 0.0, 0.3);
@@ -542,15 +542,15 @@ HandleInsertionOptions Solver::insertion_in(const Lattice& lattice) const
 }
 
 /// Solve the weights on a lattice and transfer them to the surface without smoothing.
-/// @param filled status of making the lattice.
-Status Solver::solve_on(Lattice& lattice, Status filled)
+/// @param mesh_status  status of making the lattice.
+Status Solver::solve_on(Lattice& lattice, Status mesh_status)
 {
   SurfaceWeights& result = lattice.result;
   result.domain = WeightsDomain::embedding;
   WeightTerms terms;
   const Domain domain = lattice.surface->domain(lattice.tets.inside_fractions);
   const std::vector<Index> none(static_cast<std::size_t>(domain.points.rows()), -1);
-  const Status carried = this->carry_terms_to(domain.points, none, terms, filled);
+  const Status carried = this->carry_terms_to(domain.points, none, terms, mesh_status);
   if (!carried.ok())
   {
     return carried;
@@ -561,7 +561,7 @@ Status Solver::solve_on(Lattice& lattice, Status filled)
     return [&, smoothness](const Weights& solved, Weights& at_points)
     { return lattice.carry(solved, this->handles_, smoothness, this->context_, at_points); };
   };
-  return this->joined(std::move(filled),
+  return this->joined(std::move(mesh_status),
     this->solve(domain, {}, terms, this->insertion_in(lattice), carry(Smoothness::as_interpolated),
       carry(Smoothness::smoothed), result));
 }

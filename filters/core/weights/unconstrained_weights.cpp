@@ -83,14 +83,6 @@ SparseMatrix linear_subspace_energy(const WeightsProblem& problem, bool spanned)
   return 0.5 * (q + SparseMatrix(q.transpose()));
 }
 
-Status check_terms(const WeightsProblem& problem)
-{
-  return problem.terms.any()
-    ? Status::invalid_input("rigidity, rigid sets, bounds, pins and mirrors can only be used "
-                            "with bounded and monotone weights")
-    : Status();
-}
-
 /// Minimize 1/2 w' Q w for every handle.
 Status minimize(const WeightsProblem& problem, const char* method, const SparseMatrix& q,
   const WeightsOptions& options, ExecutionContext& context, WeightsResult& result)
@@ -122,7 +114,7 @@ Status minimize_order(const WeightsProblem& problem, const char* method, int ord
   WeightsResult& result)
 {
   result = {};
-  const Status status = check_terms(problem);
+  const Status status = check_no_terms(problem);
   return status.ok() ? minimize(problem, method, harmonic_energy(problem.stiffness, mass, order),
                          options, context, result)
                      : status;
@@ -158,7 +150,7 @@ Status linear_subspace_weights(const WeightsProblem& problem, const WeightsOptio
   ExecutionContext& context, WeightsResult& result)
 {
   result = {};
-  Status status = check_terms(problem);
+  Status status = check_no_terms(problem);
   if (!status.ok())
   {
     return status;

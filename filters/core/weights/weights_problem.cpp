@@ -199,6 +199,14 @@ SparseMatrix WeightsProblem::energy(int order) const
   return q;
 }
 
+Status check_no_terms(const WeightsProblem& problem)
+{
+  return problem.terms.any()
+    ? Status::invalid_input("rigidity, rigid sets, bounds, pins and mirrors can only be used "
+                            "with bounded and monotone weights")
+    : Status();
+}
+
 Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallback,
   const std::vector<char>& excluded, Weights& weights)
 {

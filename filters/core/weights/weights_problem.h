@@ -114,12 +114,17 @@ struct WeightsResult
   Index analyses = 0; ///< number of symbolic analyses
 };
 
+/// Return invalid_input if the problem has optional terms (see WeightTerms), which only bounded and
+/// monotone weights support.
+Status check_no_terms(const WeightsProblem& problem);
+
 /// Divide rows by their sums. Pinned weights do not change; only the other weights of the row are
 /// scaled.
 /// @param fallback #V x #handles, rows that are used if the sum of the scaled weights is below
 /// 1e-3.
 /// @param excluded #V * #handles, row by row: 1 for weights that must stay 0; empty: no such
 /// weight.
+/// @return number of rows for which `fallback` was used
 Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallback,
   const std::vector<char>& excluded, Weights& weights);
 

@@ -165,11 +165,11 @@ Status vtkCrowdDeformation::Execute(
   }
   const PoseInput& bound = this->GetPoseInput();
   InstancePoses instances;
-  const Status told =
+  const Status converted =
     to_instance_poses(vtkDataObject::GetData(input[2], 0), bound.handles, bound.pose, instances);
-  if (!told.ok())
+  if (!converted.ok())
   {
-    return told;
+    return converted;
   }
 
   for (Pose& pose : instances.poses)
@@ -268,7 +268,8 @@ Status vtkCrowdDeformation::Execute(
         vtkCompositeDataSet::NAME(), ("instance " + std::to_string(i)).c_str());
     }
   }
-  status.warnings.insert(status.warnings.begin(), told.warnings.begin(), told.warnings.end());
+  status.warnings.insert(
+    status.warnings.begin(), converted.warnings.begin(), converted.warnings.end());
   if (!unused.empty())
   {
     status.warnings.push_back(unused);

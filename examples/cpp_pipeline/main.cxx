@@ -37,7 +37,7 @@ vtkSmartPointer<vtkPolyData> two_bones()
   return handles;
 }
 
-bool told(const char* stage, vtkBindposeAlgorithm* filter)
+bool print_status(const char* stage, vtkBindposeAlgorithm* filter)
 {
   std::cout << stage << ": " << filter->GetStatusAsString() << " " << filter->GetStatusMessage()
             << "\n";
@@ -80,7 +80,8 @@ int main()
   }
   std::cout << "binds: " << weights->GetNumberOfBinds() << " weights, "
             << skinning->GetNumberOfBinds() << " skinning\n";
-  const bool good = told("tets", tets) && told("weights", weights) && told("pose", pose) &&
-    told("skinning", skinning) && weights->GetNumberOfBinds() == 1;
+  const bool good = print_status("tets", tets) && print_status("weights", weights) &&
+    print_status("pose", pose) && print_status("skinning", skinning) &&
+    weights->GetNumberOfBinds() == 1;
   return good ? 0 : 1;
 }

@@ -109,21 +109,22 @@ TEST_F(MonotoneSmoothing, ActiveScalarsAreSmoothedAndExtremaTold)
     static_cast<vtkIdType>(report.number("counts.maxima", 0) + report.number("counts.minima", 0));
   ASSERT_EQ(extrema->GetNumberOfPoints(), count);
   ASSERT_EQ(extrema->GetNumberOfCells(), count);
-  vtkPointData* told = extrema->GetPointData();
+  vtkPointData* arrays = extrema->GetPointData();
   for (vtkIdType e = 0; e < count; ++e)
   {
-    const auto id = static_cast<vtkIdType>(told->GetArray("PointId")->GetTuple1(e));
+    const auto id = static_cast<vtkIdType>(arrays->GetArray("PointId")->GetTuple1(e));
     double at[3];
     double place[3];
     extrema->GetPoint(e, at);
     output->GetPoint(id, place);
     EXPECT_TRUE(std::equal(at, at + 3, place));
-    EXPECT_EQ(told->GetArray("Value")->GetTuple1(e), points->GetArray("Smoothed")->GetTuple1(id));
-    EXPECT_EQ(told->GetArray("DataValue")->GetTuple1(e), points->GetArray("Height")->GetTuple1(id));
+    EXPECT_EQ(arrays->GetArray("Value")->GetTuple1(e), points->GetArray("Smoothed")->GetTuple1(id));
     EXPECT_EQ(
-      told->GetArray("Kind")->GetTuple1(e), points->GetArray("SmoothedExtrema")->GetTuple1(id));
-    EXPECT_EQ(told->GetArray("Listed")->GetTuple1(e), 1);
-    EXPECT_GT(told->GetArray("Persistence")->GetTuple1(e), 1e-3);
+      arrays->GetArray("DataValue")->GetTuple1(e), points->GetArray("Height")->GetTuple1(id));
+    EXPECT_EQ(
+      arrays->GetArray("Kind")->GetTuple1(e), points->GetArray("SmoothedExtrema")->GetTuple1(id));
+    EXPECT_EQ(arrays->GetArray("Listed")->GetTuple1(e), 1);
+    EXPECT_GT(arrays->GetArray("Persistence")->GetTuple1(e), 1e-3);
   }
   // If nothing has changed, the filter does not execute.
   const int starts = this->listener->starts;

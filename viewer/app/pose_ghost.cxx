@@ -47,8 +47,8 @@ PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
       k, ghost_color[0], ghost_color[1], ghost_color[2], k / (steps - 1.0));
   }
   this->mapper_->SetLookupTable(this->fading_);
-  // Where points slide within an unchanged surface, both shapes coincide although the distances are
-  // not zero. There the first shape is drawn in front.
+  // Both shapes coincide if points slide within an unchanged surface, although the distances are
+  // not zero. The first shape is then drawn in front.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->distances_->SetName(distance_name);

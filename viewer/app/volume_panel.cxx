@@ -157,7 +157,8 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   QObject::connect(this->level_, &ValueRow::value_chosen, this,
     [this](double level)
     {
-      // show the isosurface, because a user who moves the level expects to see it
+      // Moving the level also shows the isosurface, because otherwise it would have no visible
+      // effect.
       this->isosurface_->setChecked(true);
       Q_EMIT this->level_chosen(level);
     });

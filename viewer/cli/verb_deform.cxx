@@ -147,6 +147,7 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
     session.report().set("counts.frames", frames.count);
   }
 }
+
 /// Compute a fair surface (vtkVariationalSurface with Fair on): the points that the mesh's array
 /// Fixed constrains are kept.
 void run_fairing(Session& session, const std::string& output, const std::string& endings)

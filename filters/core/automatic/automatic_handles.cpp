@@ -97,7 +97,7 @@ Status make_points(const SortedSurface& surface, const SpreadPointsOptions& opti
 
 /// Count the joints that are outside the shape and the bones that leave it between their ends.
 void look_inside(
-  const SkeletonBones& bones, const std::function<bool(const Vec3&)>& inside, Status& told)
+  const SkeletonBones& bones, const std::function<bool(const Vec3&)>& inside, Status& status)
 {
   constexpr int pieces = 16;
   Index joints_outside = 0;
@@ -118,11 +118,11 @@ void look_inside(
       }
     }
   }
-  told.report.set("counts.joints_outside", joints_outside);
-  told.report.set("counts.bones_outside", bones_outside);
+  status.report.set("counts.joints_outside", joints_outside);
+  status.report.set("counts.bones_outside", bones_outside);
   if (joints_outside > 0)
   {
-    told.warnings.push_back(std::to_string(joints_outside) + " of " +
+    status.warnings.push_back(std::to_string(joints_outside) + " of " +
       std::to_string(bones.joints.rows()) + " joints " + (joints_outside == 1 ? "is" : "are") +
       " outside the shape");
   }

@@ -285,12 +285,12 @@ Status curve_skeleton(PointsView points, TrianglesView triangles,
   skeleton.points = frame.back(answer.data.points);
   skeleton.segments = tidy(answer.data.segments);
   measure(solid, skeleton);
-  const auto told = [&](const char* key)
+  const auto reported = [&](const char* key)
   { return static_cast<Index>(answer.report.number(key, 0.0)); };
-  const Index left_out = told("crumbs") + told("open");
-  status.report.set("counts.parts", told("parts"));
-  status.report.set("counts.contracted_triangles", told("triangles"));
-  status.report.set("counts.iterations", told("iterations"));
+  const Index left_out = reported("crumbs") + reported("open");
+  status.report.set("counts.parts", reported("parts"));
+  status.report.set("counts.contracted_triangles", reported("triangles"));
+  status.report.set("counts.iterations", reported("iterations"));
   status.report.set("counts.left_out_parts", left_out);
   if (left_out > 0)
   {

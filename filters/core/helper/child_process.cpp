@@ -139,9 +139,10 @@ public:
   {
     clockid_t clock{};
     timespec time{};
-    const bool told =
+    const bool available =
       ::clock_getcpuclockid(this->id_, &clock) == 0 && ::clock_gettime(clock, &time) == 0;
-    return told ? static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec) : 0.0;
+    return available ? static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec)
+                     : 0.0;
   }
 
   /// Kill the remaining processes of the group and reap the child.

@@ -158,7 +158,7 @@ bool WindingCells::count_in(const Leaf& found, const Vec3& p, int& count) const
   return true;
 }
 
-void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool* told) const
+void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool* resolved) const
 {
   // All points descend in parallel: the data of one point is prefetched while other points are
   // processed.
@@ -174,7 +174,7 @@ void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool*
   for (Index i = 0; i < number; ++i)
   {
     counts[i] = 0;
-    told[i] = true;
+    resolved[i] = true;
     if (!this->is_outside(points[i]))
     {
       waiting[left++] = static_cast<Id>(i);
@@ -225,12 +225,12 @@ void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool*
   for (Id k = 0; k < leaves; ++k)
   {
     const Id i = in_leaves[k];
-    told[i] = this->count_in(this->arrays_.leaves[cells[i]->value], points[i], counts[i]);
+    resolved[i] = this->count_in(this->arrays_.leaves[cells[i]->value], points[i], counts[i]);
   }
 }
 
 void WindingCells::evaluate_row(const double* xs, Index number, double y, double z, double* counts,
-  std::vector<Index>& untold) const
+  std::vector<Index>& unresolved) const
 {
   if (!(y >= this->lower_.y() && y <= this->upper_.y() && z >= this->lower_.z() &&
         z <= this->upper_.z()))
@@ -278,7 +278,7 @@ void WindingCells::evaluate_row(const double* xs, Index number, double y, double
       int count = 0;
       if (!this->count_in(found, p, count))
       {
-        untold.push_back(i);
+        unresolved.push_back(i);
       }
       counts[i] = count;
     }

@@ -30,16 +30,16 @@ public:
 
   /// Compute the winding numbers of up to `most_at_once` points. Several points per call are
   /// faster, because memory for the next point is prefetched while the current one is processed.
-  /// told[i] is false if point i touches a triangle or a cap, and for about one in 1e12 other
+  /// resolved[i] is false if point i touches a triangle or a cap, and for about one in 1e12 other
   /// points; the caller must use another method for it. Thread-safe.
   static constexpr Index most_at_once = 32;
-  void evaluate(const Vec3* points, Index number, int* counts, bool* told) const;
+  void evaluate(const Vec3* points, Index number, int* counts, bool* resolved) const;
 
   /// Compute the winding numbers of the points (xs[0 … number), y, z). Consecutive points in one
-  /// cell share the descent to the cell. The indices of unresolved points are appended to `untold`.
-  /// Thread-safe.
+  /// cell share the descent to the cell. The indices of unresolved points are appended to
+  /// `unresolved`. Thread-safe.
   void evaluate_row(const double* xs, Index number, double y, double z, double* counts,
-    std::vector<Index>& untold) const;
+    std::vector<Index>& unresolved) const;
 
   /// Return the memory in use, in bytes.
   Index memory() const;

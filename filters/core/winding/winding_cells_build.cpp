@@ -427,8 +427,8 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
     const Vec3 center = box.lower + grid.cell * Vec3(x + 0.5, y + 0.5, z + 0.5);
     const auto list = [&](Id i)
     { return List(grid.faces.data() + grid.begin[i], grid.faces.data() + grid.begin[i + 1]); };
-    bool told = false;
-    for (int attempt = 0; attempt < 32 && !told; ++attempt)
+    bool resolved = false;
+    for (int attempt = 0; attempt < 32 && !resolved; ++attempt)
     {
       // Place the reference near the center of the cell, in a different direction with irregular
       // ratios at each attempt.
@@ -441,26 +441,26 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
       int& found = grid.counts[c];
       if (c > 0)
       {
-        told = crossings(box, place, grid.references[before], list(c), list(before), found);
+        resolved = crossings(box, place, grid.references[before], list(c), list(before), found);
         found += grid.counts[before];
       }
       else if (box.depth == 0)
       {
         // The segment begins outside the box, where the winding number is 0.
         const Vec3 step = grid.cell * Vec3(1.1, 0.03, 0.05);
-        told = crossings(box, place, place - step, list(c), none, found);
+        resolved = crossings(box, place, place - step, list(c), none, found);
       }
       else
       {
         std::vector<Id> all(box.faces.size());
         std::iota(all.begin(), all.end(), 0);
-        told = crossings(
+        resolved = crossings(
           box, place, box.reference, List(all.data(), all.data() + all.size()), none, found);
         found += box.count;
       }
-      if (!told && attempt % 8 == 7)
+      if (!resolved && attempt % 8 == 7)
       {
-        told = this->count_slowly(place, found);
+        resolved = this->count_slowly(place, found);
       }
     }
   }

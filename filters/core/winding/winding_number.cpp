@@ -411,13 +411,13 @@ void WindingNumber::Parts::at(const Vec3* queries, Index number, const int* coun
     return;
   }
   std::array<int, WindingCells::most_at_once> crossed;
-  std::array<bool, WindingCells::most_at_once> told;
+  std::array<bool, WindingCells::most_at_once> is_resolved;
   if (counts)
   {
     for (Index k = 0; k < count; ++k)
     {
       crossed[k] = counts[asked[k]];
-      told[k] = resolved[asked[k]] != 0;
+      is_resolved[k] = resolved[asked[k]] != 0;
     }
   }
   else
@@ -427,14 +427,14 @@ void WindingNumber::Parts::at(const Vec3* queries, Index number, const int* coun
       ExecutionContext quiet;
       this->build_cells(quiet);
     }
-    this->cells.evaluate(framed.data(), count, crossed.data(), told.data());
+    this->cells.evaluate(framed.data(), count, crossed.data(), is_resolved.data());
   }
   std::array<double, WindingCells::most_at_once> of_caps;
   std::array<bool, WindingCells::most_at_once> touches;
   this->caps_at(framed.data(), count, of_caps.data(), touches.data());
   for (Index k = 0; k < count; ++k)
   {
-    winding_numbers[asked[k]] = told[k] && !touches[k]
+    winding_numbers[asked[k]] = is_resolved[k] && !touches[k]
       ? crossed[k] - of_caps[k]
       : this->slowly_at(framed[k], &on_surface[asked[k]]);
   }
@@ -756,14 +756,14 @@ Status WindingNumber::evaluate_rows(
     [&](Index begin, Index end)
     {
       Index touching_here = 0;
-      std::vector<Index> untold, unresolved;
+      std::vector<Index> unresolved, slab_unresolved;
       if (by_rays)
       {
         parts.rays->count_slab(
-          framed, layers, begin / rows_per_block, out + begin * length, unresolved);
-        std::sort(unresolved.begin(), unresolved.end());
+          framed, layers, begin / rows_per_block, out + begin * length, slab_unresolved);
+        std::sort(slab_unresolved.begin(), slab_unresolved.end());
       }
-      auto next_unresolved = unresolved.begin();
+      auto next_in_slab = slab_unresolved.begin();
       std::vector<double> caps_wind(fast ? static_cast<std::size_t>(length) : 0);
       std::vector<unsigned char> on_cap(caps_wind.size());
       for (Index row = begin; row < end; ++row)
@@ -772,19 +772,19 @@ Status WindingNumber::evaluate_rows(
           grid.extent[4] + row / grid.size(1)));
         double* values = out + row * length;
         unsigned char* flags = on_surface ? on_surface + row * length : nullptr;
-        untold.clear();
+        unresolved.clear();
         if (by_rays)
         {
           const Index first = (row - begin) * length;
-          for (; next_unresolved != unresolved.end() && *next_unresolved < first + length;
-               ++next_unresolved)
+          for (; next_in_slab != slab_unresolved.end() && *next_in_slab < first + length;
+               ++next_in_slab)
           {
-            untold.push_back(*next_unresolved - first);
+            unresolved.push_back(*next_in_slab - first);
           }
         }
         else
         {
-          parts.cells.evaluate_row(xs.data(), length, p.y(), p.z(), values, untold);
+          parts.cells.evaluate_row(xs.data(), length, p.y(), p.z(), values, unresolved);
         }
         if (fast)
         {
@@ -803,17 +803,17 @@ Status WindingNumber::evaluate_rows(
           values[i] -= of_caps;
           if (touches)
           {
-            untold.push_back(i);
+            unresolved.push_back(i);
           }
         }
         // A sample can be in the list twice: unresolved, and touching a cap.
-        std::sort(untold.begin(), untold.end());
-        untold.erase(std::unique(untold.begin(), untold.end()), untold.end());
+        std::sort(unresolved.begin(), unresolved.end());
+        unresolved.erase(std::unique(unresolved.begin(), unresolved.end()), unresolved.end());
         if (flags)
         {
           std::fill_n(flags, length, static_cast<unsigned char>(0));
         }
-        for (const Index i : untold)
+        for (const Index i : unresolved)
         {
           p.x() = xs[i];
           bool touches = false;

@@ -381,8 +381,8 @@ TEST(SkeletonBones, ARingIsCutOnceOppositeItsRoot)
     ends += (bone.tail - Vec3(-1.0, 0.0, 0.0)).norm() <= 2.0 * M_PI / count ? 1 : 0;
   }
   EXPECT_EQ(ends, 2);
-  SkeletonBones told;
-  const Status status = skeleton_bones(drawing.skeleton(), 1.0, SkeletonBonesOptions(), told);
+  SkeletonBones whole;
+  const Status status = skeleton_bones(drawing.skeleton(), 1.0, SkeletonBonesOptions(), whole);
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("1 loop"));
 }

@@ -36,8 +36,8 @@ class Desktop:
         read, write = os.pipe()
         self.start("Xvfb", "-displayfd", str(write), "-screen", "0", "1400x1000x24", "-noreset", pass_fds=[write])
         os.close(write)
-        with os.fdopen(read) as told:
-            self.display = ":" + told.readline().strip()
+        with os.fdopen(read) as stream:
+            self.display = ":" + stream.readline().strip()
         self.start("openbox")
         self.wait_for(lambda: self.tool("getactivewindow", check=False) is not None and self.is_managed(),
                       "a window manager")

@@ -1,5 +1,4 @@
-// What the window preserves after it is closed, after a crash or after a mistake: sessions,
-// recovery, recent files, undo.
+// Tests that the window preserves work: sessions, recovery after a crash, recent files, undo.
 #include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"

@@ -167,10 +167,11 @@ TEST(Autosaving, UnchangedWeightsAreNotWrittenAgain)
 TEST(Autosaving, AFolderThatCannotBeWrittenIsToldAboutOnce)
 {
   Autosave autosave([] { return Session(); }, "/proc/no/such/folder");
-  QString told;
-  QObject::connect(&autosave, &Autosave::failed, [&told](const QString& text) { told = text; });
+  QString message;
+  QObject::connect(
+    &autosave, &Autosave::failed, [&message](const QString& text) { message = text; });
   EXPECT_FALSE(autosave.save().ok());
-  EXPECT_NE(told.indexOf("not being backed up"), -1) << told.toStdString();
+  EXPECT_NE(message.indexOf("not being backed up"), -1) << message.toStdString();
 }
 
 namespace
@@ -197,11 +198,11 @@ void make_large(Session& session)
   session.work = document.work();
 }
 
-/// Store messages about failures of the autosave in `told`.
-QString listen(Autosave& autosave, QString& told)
+/// Store messages about failures of the autosave in `message`.
+void listen(Autosave& autosave, QString& message)
 {
-  QObject::connect(&autosave, &Autosave::failed, [&told](const QString& text) { told = text; });
-  return told;
+  QObject::connect(
+    &autosave, &Autosave::failed, [&message](const QString& text) { message = text; });
 }
 } // namespace
 
@@ -276,17 +277,17 @@ TEST(Autosaving, AWriterThatFailsIsToldAbout)
   Session session;
   session.work = test::state_of_work(0);
   Autosave autosave([&session] { return session; }, QString::fromStdString(folder.path()));
-  QString told;
-  listen(autosave, told);
+  QString message;
+  listen(autosave, message);
   ASSERT_TRUE(autosave.save().ok());
-  EXPECT_EQ(told, "");
+  EXPECT_EQ(message, "");
   // The backup folder is replaced by a file, so a backup fails.
   const QString own = QFileInfo(autosave.path()).absolutePath();
   ASSERT_TRUE(QDir(own).removeRecursively());
   folder.write(QFileInfo(own).fileName().toStdString(), "no folder");
   autosave.begin_save();
   EXPECT_FALSE(autosave.wait().ok());
-  EXPECT_NE(told.indexOf("not being backed up"), -1) << told.toStdString();
+  EXPECT_NE(message.indexOf("not being backed up"), -1) << message.toStdString();
   std::filesystem::remove(folder / QFileInfo(own).fileName().toStdString());
 }
 

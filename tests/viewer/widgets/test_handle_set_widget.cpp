@@ -29,8 +29,8 @@ TEST(HandleSetWidget, HoverFindsHandlesByPriority)
 
 TEST(HandleSetWidget, OfTwoPointsTheNearerWins)
 {
-  // Of handles at the same screen position, the one in front is picked. Of handles next to each
-  // other, the one nearest to the mouse is picked.
+  // If handles have the same screen position, the front handle is picked. If handles are close to
+  // each other, the handle nearest to the mouse is picked.
   Stage stage({ point("back", Vec3(0, 0, 0)), point("front", Vec3(0, 0, 2)),
     point("left", Vec3(1.00, 1, 0)), point("right", Vec3(1.08, 1, 0)) });
   stage.move(Vec3(0, 0, 0));

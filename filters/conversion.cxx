@@ -3,8 +3,6 @@
 // only tets.
 #include "conversion.h"
 
-#include "pseudo_edge_cells.h"
-
 #include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"

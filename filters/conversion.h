@@ -21,6 +21,10 @@ class vtkUnstructuredGrid;
 namespace bindpose
 {
 
+/// The HandleKind of a pseudo-edge's cell, a line between two point handles. A pseudo-edge is not a
+/// handle; it only determines how its points rotate in a pose.
+constexpr int pseudo_edge_kind = -2;
+
 // Conversion between VTK datasets and the types of the kernels (points, triangles, tets, handles
 // and poses). Memory is shared instead of copied if the layout of the arrays allows it.
 

@@ -8,10 +8,6 @@
 namespace bindpose
 {
 
-/// The HandleKind of a pseudo-edge's cell, a line between two point handles. A pseudo-edge is not a
-/// handle; it only determines how its points rotate in a pose.
-constexpr int pseudo_edge_kind = -2;
-
 /// Return the pseudo-edges of a handle dataset without duplicates. Their ends must be the points of
 /// point handles, or have the same positions. Otherwise return invalid_input, with the index of the
 /// cell in the message.

@@ -27,7 +27,7 @@ static_assert(vtkBoneEndpointWeights::BOUNDED == static_cast<int>(EndpointMethod
 
 namespace
 {
-constexpr const char* array_name = "EndpointWeights";
+constexpr const char* endpoint_array_name = "EndpointWeights";
 
 /// Compute bounded biharmonic weights. Return the weights at the points of the domain, without
 /// points that the solver adds.
@@ -134,7 +134,7 @@ Status vtkBoneEndpointWeights::Execute(
       return status;
     }
     Cache made;
-    made.weights = to_weights_array(array_name, endpoints, handles);
+    made.weights = to_weights_array(endpoint_array_name, endpoints, handles);
     status.report.set("counts.handles", static_cast<Index>(handles.size()));
     made.status = status;
     made.key = key;

@@ -91,7 +91,7 @@ private:
   std::string First;
 };
 
-vtkSmartPointer<vtkPolyData> to_polydata(const bindpose::PolygonMesh& mesh)
+vtkSmartPointer<vtkPolyData> polygons_to_polydata(const bindpose::PolygonMesh& mesh)
 {
   vtkNew<vtkCellArray> polygons;
   polygons->AllocateExact(mesh.polygon_count(), static_cast<vtkIdType>(mesh.corners.size()));
@@ -126,7 +126,7 @@ Status read_polygons(const std::string& path, ReadPolygons read, vtkDataObject* 
   {
     return status;
   }
-  output->ShallowCopy(to_polydata(mesh));
+  output->ShallowCopy(polygons_to_polydata(mesh));
   if (mesh.skipped > 0)
   {
     status.report.set("counts.skipped_cells", mesh.skipped);

@@ -113,7 +113,7 @@ using Arrays = std::vector<vtkSmartPointer<vtkDataArray>>;
 /// Create an array for the values of all samples. It uses large pages, so that memory is released
 /// quickly after a cancel.
 template <typename Array>
-vtkSmartPointer<Array> make_array(const char* name, int components, Index count)
+vtkSmartPointer<Array> make_large_array(const char* name, int components, Index count)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
@@ -142,12 +142,12 @@ struct Outputs
     {
       if (single)
       {
-        return make_array<vtkFloatArray>(name, components, count);
+        return make_large_array<vtkFloatArray>(name, components, count);
       }
-      return make_array<vtkDoubleArray>(name, components, count);
+      return make_large_array<vtkDoubleArray>(name, components, count);
     };
     const auto flags = [&](const char* name)
-    { return make_array<vtkUnsignedCharArray>(name, 1, count); };
+    { return make_large_array<vtkUnsignedCharArray>(name, 1, count); };
     this->values = floating("WindingNumber", 1);
     this->on_surface = flags("OnSurface");
     if (with_gradient)

@@ -221,7 +221,7 @@ BENCHMARK(reduced_arap)
   ->Unit(benchmark::kMillisecond);
 
 /// Return Kuhn's tets in a box, six per cube.
-TetMesh tet_box(Index side)
+TetMesh tet_grid(Index side)
 {
   TetMesh mesh;
   mesh.points.resize((side + 1) * (side + 1) * (side + 1), 3);
@@ -251,7 +251,7 @@ TetMesh tet_box(Index side)
 /// clusters.
 void reduced_arap_of_tets(benchmark::State& state)
 {
-  const TetMesh mesh = tet_box(34);
+  const TetMesh mesh = tet_grid(34);
   // Place the handles at random vertices of the box.
   Handles handles;
   const Index count = state.range(0);
@@ -480,7 +480,7 @@ BENCHMARK(stretch_of_triangles)->Unit(benchmark::kMillisecond);
 
 void stretch_of_tets(benchmark::State& state)
 {
-  const TetMesh mesh = tet_box(45);
+  const TetMesh mesh = tet_grid(45);
   measure(state, mesh.points, mesh.tets);
 }
 BENCHMARK(stretch_of_tets)->Unit(benchmark::kMillisecond);

@@ -5,7 +5,7 @@
 
 namespace
 {
-constexpr int margin = 10; // pixels
+constexpr int bar_margin = 10; // pixels
 }
 
 BarStack::BarStack(QWidget* picture) : QWidget(picture), column_(new QVBoxLayout(this))
@@ -62,11 +62,11 @@ void BarStack::arrange()
   this->setVisible(some);
   if (some)
   {
-    const int top =
-      margin + (this->above_ && this->above_->isVisible() ? this->above_->geometry().bottom() : 0);
-    const int width = this->parentWidget()->width() - 2 * margin;
+    const int top = bar_margin +
+      (this->above_ && this->above_->isVisible() ? this->above_->geometry().bottom() : 0);
+    const int width = this->parentWidget()->width() - 2 * bar_margin;
     this->column_->invalidate();
-    this->setGeometry(margin, top, width, this->column_->totalHeightForWidth(width));
+    this->setGeometry(bar_margin, top, width, this->column_->totalHeightForWidth(width));
     this->column_->activate();
     this->raise();
   }

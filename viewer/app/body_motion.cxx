@@ -12,7 +12,7 @@ using namespace bindpose;
 
 namespace
 {
-constexpr int display_interval = 16; // milliseconds
+constexpr int frame_interval = 16; // milliseconds
 /// Maximum number of time steps per displayed frame. Simulated time that would need more steps is
 /// skipped.
 constexpr int most_steps = 4;
@@ -25,7 +25,7 @@ BodyMotion::BodyMotion(PosePanel* panel, std::function<Pose(bool for_step)> pose
   : QObject(parent), panel_(panel), pose_(std::move(pose))
 {
   this->playing_.setTimerType(Qt::PreciseTimer);
-  this->playing_.setInterval(display_interval);
+  this->playing_.setInterval(frame_interval);
   QObject::connect(&this->playing_, &QTimer::timeout, this, &BodyMotion::tick);
   QObject::connect(&this->job_, &KernelJob::finished, this, &BodyMotion::bound);
   QObject::connect(&this->job_, &KernelJob::progress, panel, &PosePanel::set_progress);

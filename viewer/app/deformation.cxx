@@ -3,6 +3,8 @@
 // uses that poser until the end of the job is reported.
 #include "deformation.h"
 
+#include "posing/make_poser.h"
+
 #include <algorithm>
 #include <thread>
 

@@ -17,7 +17,7 @@
 
 namespace
 {
-constexpr int margin = 5;
+constexpr int row_margin = 5;
 constexpr int gap = 6; // pixels between groups of buttons
 constexpr int between = 2; // pixels between buttons of a group
 
@@ -40,7 +40,7 @@ EditTools::EditTools(const QList<QList<QAction*>>& groups, QWidget* parent) : QF
 {
   this->setObjectName("tools");
   auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(margin, 5, margin, 5);
+  row->setContentsMargins(row_margin, 5, row_margin, 5);
   row->setSpacing(between);
   for (const QList<QAction*>& group : groups)
   {
@@ -80,7 +80,7 @@ void EditTools::show_words(int groups)
 
 int EditTools::width_with_words(int groups) const
 {
-  int width = 2 * margin + (this->buttons_.size() - 1) * gap;
+  int width = 2 * row_margin + (this->buttons_.size() - 1) * gap;
   for (int group = 0; group < this->buttons_.size(); ++group)
   {
     for (const QToolButton* button : this->buttons_[group])

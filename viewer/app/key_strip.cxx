@@ -20,7 +20,7 @@ using namespace bindpose;
 
 namespace
 {
-constexpr int margin = 14;
+constexpr int strip_margin = 14;
 // distance in pixels from the center of a key mark within which the mouse grabs the key
 constexpr int reach = 6;
 
@@ -158,14 +158,14 @@ double KeyTrack::length() const
 
 int KeyTrack::pixel(double seconds) const
 {
-  return margin +
-    static_cast<int>(std::lround(seconds / this->length() * (this->width() - 2 * margin)));
+  return strip_margin +
+    static_cast<int>(std::lround(seconds / this->length() * (this->width() - 2 * strip_margin)));
 }
 
 double KeyTrack::seconds_at(int x) const
 {
   const double seconds =
-    static_cast<double>(x - margin) / (this->width() - 2 * margin) * this->length();
+    static_cast<double>(x - strip_margin) / (this->width() - 2 * strip_margin) * this->length();
   // Round to hundredths of a second, so that the times of keys have few digits.
   return std::clamp(std::round(100.0 * seconds) / 100.0, 0.0, this->length());
 }
@@ -202,9 +202,9 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
   const int middle = this->height() - this->fontMetrics().lineSpacing() / 2 - 6;
   const QColor line = shade(on ? "scroll" : "line"), ink = shade(on ? "note" : "off");
   painter.setPen(QPen(line, 2));
-  painter.drawLine(margin, middle, this->width() - margin, middle);
+  painter.drawLine(strip_margin, middle, this->width() - strip_margin, middle);
   // Draw as many time labels as there is space for.
-  const double room = this->length() / (this->width() - 2.0 * margin) *
+  const double room = this->length() / (this->width() - 2.0 * strip_margin) *
     (this->fontMetrics().horizontalAdvance("000 s") + 14);
   const double steps[] = { 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 300.0, 1800.0 };
   const double* step =
@@ -223,8 +223,8 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
   if (this->keys_.keys().empty())
   {
     painter.setPen(ink);
-    const QRect below(margin + 20, middle - this->fontMetrics().lineSpacing() / 2 - 1,
-      this->width() - 2 * margin - 20, this->fontMetrics().lineSpacing() + 2);
+    const QRect below(strip_margin + 20, middle - this->fontMetrics().lineSpacing() / 2 - 1,
+      this->width() - 2 * strip_margin - 20, this->fontMetrics().lineSpacing() + 2);
     QString hint = tr("Pose the shape, then Set key; move in time, pose again, set another.");
     int width = this->fontMetrics().horizontalAdvance(hint) + 12;
     if (width > below.width())

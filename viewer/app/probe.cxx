@@ -45,7 +45,7 @@ namespace
 constexpr const char* winding_name = "WindingNumber";
 // maximum distance in pixels between the mouse and the edge or dot of a defect
 constexpr double near_enough = 6.0;
-constexpr int margin = 10; // distance in pixels between the label and the border
+constexpr int label_margin = 10; // distance in pixels between the label and the border
 
 QString number(double value)
 {
@@ -220,11 +220,13 @@ void Probe::say(const QStringList& lines)
 void Probe::make_way(const QPoint& mouse)
 {
   const Viewport* viewport = this->views_.viewport;
-  const QRect room = viewport->rect().adjusted(margin, margin, -margin, -margin);
+  const QRect room =
+    viewport->rect().adjusted(label_margin, label_margin, -label_margin, -label_margin);
   QRect place(QPoint(), this->label_->size());
   const auto is_free = [&]
   {
-    const QRect around = place.adjusted(-2 * margin, -margin, margin, 2 * margin);
+    const QRect around =
+      place.adjusted(-2 * label_margin, -label_margin, label_margin, 2 * label_margin);
     const auto others = viewport->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
     return !around.contains(mouse) &&
       std::none_of(others.begin(), others.end(),

@@ -90,7 +90,7 @@ double drawn_share(const QImage& picture)
   return all > 0.0 ? static_cast<double>(drawn) / all : 0.0;
 }
 
-QString text(const Json& value)
+QString json_text(const Json& value)
 {
   return QString::fromStdString(value.dump());
 }
@@ -540,7 +540,7 @@ QString TourPlayer::check(const TourStep& step)
     const bool kept = least ? value >= limit : value <= limit;
     return kept ? QString()
                 : QString("the value is %1, expected at %2 %3")
-                    .arg(text(*found), least ? "least" : "most")
+                    .arg(json_text(*found), least ? "least" : "most")
                     .arg(limit);
   }
   if (distance(*found, wanted) <= step.tolerance)
@@ -549,7 +549,8 @@ QString TourPlayer::check(const TourStep& step)
   }
   const QString within =
     step.tolerance > 0.0 ? QString(" within %1").arg(step.tolerance) : QString();
-  return QString("the value is %1, expected %2%3%4").arg(text(*found), text(wanted), where, within);
+  return QString("the value is %1, expected %2%3%4")
+    .arg(json_text(*found), json_text(wanted), where, within);
 }
 
 QImage TourPlayer::grab(TourPart part, int width)

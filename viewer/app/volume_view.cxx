@@ -26,11 +26,6 @@ namespace
 {
 constexpr const char* array_name = "WindingNumber";
 
-void color(vtkProperty* property, const bindpose::Rgb& rgb, double opacity)
-{
-  property->SetColor(rgb[0], rgb[1], rgb[2]);
-  property->SetOpacity(opacity);
-}
 } // namespace
 
 VolumeView::VolumeView(Viewport* viewport)
@@ -52,7 +47,7 @@ VolumeView::VolumeView(Viewport* viewport)
   this->contour_mapper_->ScalarVisibilityOff();
   this->contour_actor_->SetMapper(this->contour_mapper_);
   this->contour_actor_->GetProperty()->LightingOff();
-  color(this->contour_actor_->GetProperty(), bindpose::palette::line, 1.0);
+  bindpose::set_color(this->contour_actor_->GetProperty(), bindpose::palette::line);
   this->isosurface_mapper_->ScalarVisibilityOff();
   this->isosurface_actor_->SetMapper(this->isosurface_mapper_);
   bindpose::use_surface_material(this->isosurface_actor_);
@@ -181,7 +176,8 @@ void VolumeView::update_isosurface()
   {
     this->isosurface_->ShallowCopy(bindpose::isosurface(this->image_, array_name, this->level_));
     this->isosurface_mapper_->SetInputData(this->isosurface_);
-    color(this->isosurface_actor_->GetProperty(), bindpose::winding_color(this->level_), 1.0);
+    bindpose::set_color(
+      this->isosurface_actor_->GetProperty(), bindpose::winding_color(this->level_));
     Q_EMIT this->area_changed(bindpose::surface_area(this->isosurface_));
   }
   this->isosurface_actor_->SetVisibility(shown && this->isosurface_->GetNumberOfPolys() > 0);

@@ -22,7 +22,7 @@ using namespace bindpose;
 namespace
 {
 /// Format a value for a narrow label.
-QString number(double value)
+QString short_number(double value)
 {
   return QString::number(value, 'g', 2);
 }
@@ -207,11 +207,12 @@ void WeightInspection::update()
   if (this->view_->is_shown() && what == WeightPanel::difference)
   {
     const Report& numbers = this->view_->numbers();
-    this->panel_->set_comparison(tr("Difference from %1 (%2 s): largest %3, rms %4")
-                                   .arg(this->compared_method_)
-                                   .arg(this->compared_seconds_, 0, 'f', 1)
-                                   .arg(number(numbers.number("picture.difference.largest", 0.0)))
-                                   .arg(number(numbers.number("picture.difference.rms", 0.0))));
+    this->panel_->set_comparison(
+      tr("Difference from %1 (%2 s): largest %3, rms %4")
+        .arg(this->compared_method_)
+        .arg(this->compared_seconds_, 0, 'f', 1)
+        .arg(short_number(numbers.number("picture.difference.largest", 0.0)))
+        .arg(short_number(numbers.number("picture.difference.rms", 0.0))));
   }
   if (this->sliced_ != this->view_->is_sliced() || this->view_->is_sliced())
   {
@@ -249,7 +250,7 @@ QString WeightInspection::certificate(int column) const
   QString text = method < 0 ? tr("Weights of the mesh:\n")
                             : tr("%1 weights:\n").arg(name_of(weight_methods()[method].label));
   text += (column < 0 ? tr("Worst gap %1, residual %2\n") : tr("Gap %1, residual %2\n"))
-            .arg(number(gap), number(residual));
+            .arg(short_number(gap), short_number(residual));
   const double iterations = value("WeightsIterations");
   if (iterations >= 0.0)
   {

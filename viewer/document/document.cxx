@@ -29,11 +29,6 @@ vtkSmartPointer<vtkPolyData> copy_of(vtkPolyData* data)
   return copy;
 }
 
-vtkDataArray* weights_of(vtkPolyData* surface)
-{
-  return surface ? surface->GetPointData()->GetArray("Weights") : nullptr;
-}
-
 /// Name of the array of region labels for which the weights were solved; used if regions were
 /// painted after the solve.
 const char* const bound_labels = "BoundRegionId";

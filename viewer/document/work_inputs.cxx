@@ -34,11 +34,6 @@ vtkSmartPointer<vtkPolyData> skin_of(vtkDataSet* mesh)
   return result;
 }
 
-vtkDataArray* weights_of(vtkPolyData* surface)
-{
-  return surface ? surface->GetPointData()->GetArray("Weights") : nullptr;
-}
-
 Handles handles_of(vtkPolyData* data)
 {
   Handles handles;
@@ -59,6 +54,11 @@ void adopt_weights(Work& work)
   }
 }
 } // namespace
+
+vtkDataArray* weights_of(vtkPolyData* surface)
+{
+  return surface ? surface->GetPointData()->GetArray("Weights") : nullptr;
+}
 
 Status use_mesh(vtkDataSet* mesh, const QString& name, const Source& source, Work& work)
 {

@@ -4,7 +4,9 @@
 #include "base/status.h"
 #include "document/work.h"
 
+class vtkDataArray;
 class vtkDataSet;
+class vtkPolyData;
 
 // Functions that put the contents of files into a work. If the status is not ok, the work is
 // unchanged.
@@ -19,6 +21,9 @@ bindpose::Status use_handles(vtkPolyData* handles, const Source& source, Work& w
 /// Use weights from a separate file for the surface. Return invalid_input, with one sentence, if
 /// their size does not match the surface's points and the handles.
 bindpose::Status use_weights(const bindpose::Weights& weights, const QString& name, Work& work);
+
+/// Return the array of weights; null if there is none or no surface.
+vtkDataArray* weights_of(vtkPolyData* surface);
 
 /// Return the SHA-256 of a file in hex; empty if the file cannot be read.
 QByteArray checksum_of(const QString& path);

@@ -54,11 +54,6 @@ private:
   Index binds_ = 0;
 };
 
-/// Return the poser of a method. The four skinning methods use one type of poser.
-std::unique_ptr<Poser> make_poser(PoseMethod method, std::shared_ptr<const PoseSource> source);
-/// Report whether the same type of poser implements both methods.
-bool same_poser(PoseMethod a, PoseMethod b);
-
 /// Return invalid_input if the options require the energy of tets and the source has no tets with
 /// weights.
 Status check_tets(const PoseSource& source, const PoseOptions& options);

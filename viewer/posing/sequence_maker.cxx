@@ -1,6 +1,7 @@
 #include "posing/sequence_maker.h"
 
 #include "pose/skinning.h"
+#include "posing/make_poser.h"
 
 namespace bindpose
 {

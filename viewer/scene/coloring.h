@@ -3,7 +3,7 @@
 
 #include "scene/categories.h"
 #include "scene/colors.h"
-#include "scene/picture.h"
+#include "scene/picture_options.h"
 
 #include "vtkSmartPointer.h"
 

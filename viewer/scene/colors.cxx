@@ -6,6 +6,7 @@
 
 #include "vtkLookupTable.h"
 #include "vtkMath.h"
+#include "vtkProperty.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +69,12 @@ std::vector<double> round_ticks(double lower, double upper)
   return ticks;
 }
 } // namespace
+
+void set_color(vtkProperty* property, const Rgb& color, double opacity)
+{
+  property->SetColor(color[0], color[1], color[2]);
+  property->SetOpacity(opacity);
+}
 
 Rgb sequential_color(double t)
 {

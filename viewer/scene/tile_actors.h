@@ -3,7 +3,7 @@
 
 #include "scene/camera.h"
 #include "scene/coloring.h"
-#include "scene/picture.h"
+#include "scene/picture_options.h"
 #include "weights/extrema.h"
 
 class vtkDataSet;

@@ -47,7 +47,7 @@ enum class BrushAction
 /// One row of the table of keys and buttons. The table is used three times: for the widget's
 /// documentation, for the program's key sheet, and by the widget to look up keys.
 template <typename Action>
-struct Binding
+struct InputBinding
 {
   Action action;
   /// The condition of the row: "pose", "drag" (in any mode), "move rest", "add points", "add
@@ -58,8 +58,8 @@ struct Binding
   const char* text; ///< description of the action
 };
 
-using HandleBinding = Binding<HandleAction>;
-using BrushBinding = Binding<BrushAction>;
+using HandleBinding = InputBinding<HandleAction>;
+using BrushBinding = InputBinding<BrushAction>;
 
 constexpr std::array<HandleBinding, 22> handle_bindings{ {
   { HandleAction::select, "pose", "Left button on a handle", "",

@@ -12,6 +12,10 @@
 //   the plane that faces the camera.
 #include "handle_drag.h"
 
+#include "motion_about.h"
+
+#include "pose/transform_parts.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,14 +38,6 @@ constexpr double smallest_factor = 0.01;
 constexpr double near_pixels = 8.0;
 // Mouse motion for a factor of two if no ratio of distances is used.
 constexpr double double_pixels = 80.0;
-
-Affine3d about(const Vector3d& pivot, const Matrix3d& linear)
-{
-  Affine3d motion;
-  motion.linear() = linear;
-  motion.translation() = pivot - linear * pivot;
-  return motion;
-}
 
 int count_bits(int axes)
 {
@@ -213,7 +209,7 @@ DragMotion Drag::turned() const
     ? *this->typed_
     : this->snapped(this->turned_ * 180.0 / EIGEN_PI, this->setup_.degree_step);
   result.amount = degrees;
-  result.motion = about(this->setup_.pivot,
+  result.motion = motion_about(this->setup_.pivot,
     Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, this->axis().normalized()).toRotationMatrix());
   return result;
 }
@@ -235,9 +231,9 @@ DragMotion Drag::aimed() const
   {
     return result;
   }
-  Eigen::AngleAxisd rotation(Eigen::Quaterniond::FromTwoVectors(s.arm, arm));
+  Eigen::AngleAxisd rotation(rotation_between(s.arm, arm));
   rotation.angle() = this->snapped(rotation.angle(), this->setup_.degree_step * EIGEN_PI / 180.0);
-  result.motion = about(s.pivot, rotation.toRotationMatrix());
+  result.motion = motion_about(s.pivot, rotation.toRotationMatrix());
   result.amount = rotation.angle() * 180.0 / EIGEN_PI;
   if (s.kind == DragKind::reach)
   {
@@ -294,7 +290,7 @@ DragMotion Drag::scaled() const
   {
     factors[k] = (s.axes >> k) & 1 ? factor : 1.0;
   }
-  result.motion = about(s.pivot,
+  result.motion = motion_about(s.pivot,
     s.axes == 7 ? Matrix3d(factor * Matrix3d::Identity())
                 : Matrix3d(s.frame * factors.asDiagonal() * s.frame.transpose()));
   result.amount = factor;

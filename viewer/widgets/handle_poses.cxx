@@ -1,5 +1,7 @@
 #include "handle_poses.h"
 
+#include "motion_about.h"
+
 #include "pose/transform_parts.h"
 #include "weights/bone_projection.h"
 
@@ -14,14 +16,6 @@ namespace bindpose
 {
 namespace
 {
-Affine3d about(const Vec3& pivot, const Matrix3d& linear)
-{
-  Affine3d motion;
-  motion.linear() = linear;
-  motion.translation() = pivot - linear * pivot;
-  return motion;
-}
-
 Affine after(const Affine3d& motion, const Affine& transform)
 {
   Affine moved = motion.linear() * transform;
@@ -61,7 +55,7 @@ Matrix3d rest_axes(const HandlePlace& place)
   const Vec3 bone = place.rest_tail - place.rest_head;
   if (place.is_bone() && bone.norm() > 0.0)
   {
-    axes = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitY(), bone).toRotationMatrix();
+    axes = rotation_between(Vec3::UnitY(), bone).toRotationMatrix();
   }
   return axes;
 }
@@ -126,7 +120,7 @@ std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& pl
     const double degrees = change.to_arrays
       ? (1.0 - along) * change.twist[0] + along * change.twist[1]
       : change.twist.sum();
-    Affine3d motion_there = about(head, turn(axis, degrees));
+    Affine3d motion_there = motion_about(head, turn(axis, degrees));
     motion_there.translation() += along * (change.factor - 1.0) * arm;
     return motion_there;
   };
@@ -139,7 +133,7 @@ std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& pl
     if (i == 0 && is_bone && !change.to_arrays)
     {
       const Matrix3d along = Matrix3d::Identity() + (change.factor - 1.0) * axis * axis.transpose();
-      whole = about(head, turn(axis, change.twist.sum()) * along) * motion;
+      whole = motion_about(head, turn(axis, change.twist.sum()) * along) * motion;
     }
     if (place.only_moves())
     {

@@ -4,6 +4,8 @@
 // mode is position is always moved.
 #include "pose_drag.h"
 
+#include "pose/transform_parts.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -70,8 +72,7 @@ DragSetup setup_of(const HandlePlace& place, int part, const DragSettings& setti
   if (is_twist(part))
   {
     // Rotate about the bone, through the position of the ring on it.
-    setup.frame =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), setup.arm).toRotationMatrix();
+    setup.frame = rotation_between(Vector3d::UnitY(), setup.arm).toRotationMatrix();
     setup.axes = 2;
   }
   setup.ring_pixels = settings.ring_pixels;

@@ -5,11 +5,11 @@
 #include "automatic/skeleton_bones.h"
 
 #include "base/number_text.h"
+#include "base/constants.h"
 #include "weights/bone_projection.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <queue>
 #include <set>
@@ -19,8 +19,6 @@ namespace bindpose
 
 namespace
 {
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 /// A path from joint to joint, with all points between them.
 struct Branch
 {

@@ -5,6 +5,7 @@
 // distance it does not reduce.
 #include "automatic/spread_points.h"
 
+#include "base/constants.h"
 #include "base/number_text.h"
 #include "surface/surface_probe.h"
 #include "surface/vertex_order.h"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 
 namespace bindpose
@@ -25,8 +25,6 @@ const char* to_string(PointDistance distance)
 
 namespace
 {
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 struct Component
 {
   std::vector<Index> vertices;

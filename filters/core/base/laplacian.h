@@ -5,13 +5,10 @@
 // polyharmonic energies.
 
 #include "base/mesh.h"
-
-#include <Eigen/SparseCore>
+#include "base/sparse_matrix.h"
 
 namespace bindpose
 {
-
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 /// Return the cotangent weights of every triangle's edges, #F x 3. Column k belongs to the edge
 /// opposite to corner k and contains (1/2) cot(angle at corner k). The sum of weight * (edge

@@ -1,7 +1,7 @@
 #ifndef bindpose_base_side_flux_h
 #define bindpose_base_side_flux_h
 
-#include "base/laplacian.h"
+#include "base/sparse_matrix.h"
 #include "base/triangle_sides.h"
 
 namespace bindpose

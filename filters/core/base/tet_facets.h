@@ -3,7 +3,7 @@
 
 // Sorted facets of a tet mesh.
 
-#include "base/mesh.h"
+#include "base/mesh_types.h"
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 #ifndef bindpose_base_triangle_sides_h
 #define bindpose_base_triangle_sides_h
 
-#include "base/mesh.h"
+#include "base/mesh_types.h"
 
 #include <vector>
 

@@ -22,8 +22,6 @@ using Cube = EmbeddingAtoms::Cube;
 using Id = EmbeddingAtoms::Id;
 using Sample = EmbeddingAtoms::Sample;
 
-constexpr Index often = 1 << 15; // number of items between two checks for cancel
-
 Cube moved(Cube cube, int axis, int by)
 {
   cube[axis] += by;
@@ -157,7 +155,7 @@ private:
       {
         ++end;
       }
-      if (begin / often != end / often && this->context_.canceled())
+      if (begin / atoms_per_check != end / atoms_per_check && this->context_.canceled())
       {
         return Status::canceled();
       }
@@ -331,7 +329,7 @@ private:
     std::vector<Side> sides;
     for (std::size_t f = 0; f < triangles.size(); ++f)
     {
-      if (f % often == 0 && this->context_.canceled())
+      if (f % atoms_per_check == 0 && this->context_.canceled())
       {
         return false;
       }
@@ -362,7 +360,7 @@ private:
     }
     for (std::size_t i = 0; i + 1 < sides.size(); ++i)
     {
-      if (i % often == 0 && this->context_.canceled())
+      if (i % atoms_per_check == 0 && this->context_.canceled())
       {
         return false;
       }

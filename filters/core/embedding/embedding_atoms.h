@@ -16,6 +16,9 @@
 namespace bindpose
 {
 
+/// Number of atoms, or pairs of atoms, between two checks for a cancel request.
+constexpr std::int32_t atoms_per_check = 1 << 15;
+
 /// The atoms of a surface and its inside: indivisible pieces of material, each in one tet of the
 /// lattice. An atom is a sample point in a cube at the surface, a half of a tet in a cube that is
 /// completely inside, or a piece of a triangle. Atoms are numbered in this order.

@@ -21,8 +21,6 @@ namespace
 using Key = EmbeddingAtoms::Key;
 using Id = EmbeddingAtoms::Id;
 
-constexpr Index often = 1 << 15; // number of items between two checks for cancel
-
 class Parts
 {
 public:
@@ -48,7 +46,7 @@ private:
     this->part_of_.assign(static_cast<std::size_t>(count), -1);
     for (Id atom = 0; atom < count; ++atom)
     {
-      if (atom % often == 0 && this->context_.canceled())
+      if (atom % atoms_per_check == 0 && this->context_.canceled())
       {
         return false;
       }
@@ -101,7 +99,7 @@ private:
   {
     for (std::size_t i = 0; i < this->connections_.across.size(); ++i)
     {
-      if (i % often == 0 && this->context_.canceled())
+      if (i % atoms_per_check == 0 && this->context_.canceled())
       {
         return false;
       }
@@ -123,7 +121,7 @@ private:
     const auto& first = this->cover_.first_piece;
     for (std::size_t f = 0; f + 1 < first.size(); ++f)
     {
-      if (f % often == 0 && this->context_.canceled())
+      if (f % atoms_per_check == 0 && this->context_.canceled())
       {
         return false;
       }

@@ -5,7 +5,7 @@
 #include "base/mesh.h"
 #include "embedding/atom_connections.h"
 #include "embedding/embedding_atoms.h"
-#include "embedding/embedding_tets.h"
+#include "embedding/embedding_result.h"
 #include "embedding/lattice_cover.h"
 #include "embedding/material_probes.h"
 

@@ -45,7 +45,7 @@ std::string folder_of(const std::string& path)
 }
 
 /// Parses the lines that the helper prints.
-class Lines
+class HelperOutput
 {
 public:
   void take(const std::string& line, ExecutionContext& context, Report& report)
@@ -81,8 +81,8 @@ private:
   std::string noise_;
 };
 
-Status judge_end(
-  const ChildEnd& end, const Lines& lines, const MesherRequest& request, const std::string& job)
+Status judge_end(const ChildEnd& end, const HelperOutput& lines, const MesherRequest& request,
+  const std::string& job)
 {
   if (end.failure.empty() && lines.error().empty())
   {
@@ -187,7 +187,7 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
     child.arguments.insert(
       child.arguments.end(), { "--memory", std::to_string(request.memory_limit) });
   }
-  Lines lines;
+  HelperOutput lines;
   ChildEnd end;
   Status status = run_child(
     child, [&](const std::string& line) { lines.take(line, context, answer.report); }, end,

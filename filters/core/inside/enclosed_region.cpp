@@ -24,7 +24,7 @@ constexpr double largest_volume_ratio = 1.1;
 /// Winding numbers in the openings of a surface differ from the threshold by less than this. The
 /// winding numbers on the two sides of a wall, and in all regions of a closed surface, differ from
 /// it by more.
-constexpr double doubtful = 0.25;
+constexpr double undecided_margin = 0.25;
 
 /// Return points spread evenly over a box. They are the same in every run: an additive recurrence
 /// with the powers of 1 / x, where x is the positive root of x^4 = x + 1.
@@ -114,7 +114,8 @@ Status EnclosedRegion::sample(
     this->volume_ = cell * hits;
     this->volume_error_ = hits > 0.0 ? 1.0 / std::sqrt(hits) : 1.0;
     this->doubtful_share_ =
-      static_cast<double>(((w.array() - threshold).abs() < doubtful).count()) / std::max(hits, 1.0);
+      static_cast<double>(((w.array() - threshold).abs() < undecided_margin).count()) /
+      std::max(hits, 1.0);
     this->largest_winding_ = std::max(this->largest_winding_, w.maxCoeff());
     const double next_samples = growth * static_cast<double>(w.size());
     if (hits >= enough || negative > this->volume_ || next_samples > most_samples ||
@@ -271,7 +272,7 @@ Status EnclosedRegion::label_tets(
   std::vector<Index> tets;
   for (Index t = 0; t < data.tets.rows(); ++t)
   {
-    if (std::abs(w[t] - this->threshold_) < doubtful &&
+    if (std::abs(w[t] - this->threshold_) < undecided_margin &&
       longest_edge(data.points, data.tets, t) > large * this->box_.diagonal())
     {
       tets.push_back(t);

@@ -24,15 +24,15 @@ constexpr double largest_cell = 1.1;
 // Minimum distance of points from the surface, relative to the requested edge length there.
 constexpr double clearance = 0.5;
 constexpr int deepest = 19; // maximum number of octree levels
-constexpr Index block = 256;
+constexpr Index cells_per_block = 256;
 
 /// Integer coordinates in units of half of the smallest cell's side: 21 bits per coordinate.
 using Place = std::array<std::uint64_t, 3>;
 
-class Lattice
+class PointLattice
 {
 public:
-  Lattice(const Interior& interior, const SizingField& sizes, ExecutionContext& context)
+  PointLattice(const Interior& interior, const SizingField& sizes, ExecutionContext& context)
     : interior_(interior), sizes_(sizes), context_(context)
   {
     // The side of the root is a power of two times the side of the largest cells allowed.
@@ -120,7 +120,7 @@ private:
     const std::uint64_t units = side_of(level);
     const double side = this->unit_ * static_cast<double>(units);
     const double reach = 0.5 * std::sqrt(3.0) * side;
-    return parallel_for(this->context_, static_cast<Index>(cells.size()), block,
+    return parallel_for(this->context_, static_cast<Index>(cells.size()), cells_per_block,
       [&](Index begin, Index end)
       {
         for (Index i = begin; i < end; ++i)
@@ -180,16 +180,17 @@ private:
     std::vector<char> good(keys.size(), 0);
     // At the distance d from the surface, the requested length is larger by growth * d.
     const double least = clearance / (1.0 + clearance * this->sizes_.growth());
-    const bool whole = parallel_for(this->context_, static_cast<Index>(keys.size()), block,
-      [&](Index begin, Index end)
-      {
-        for (Index i = begin; i < end; ++i)
+    const bool whole =
+      parallel_for(this->context_, static_cast<Index>(keys.size()), cells_per_block,
+        [&](Index begin, Index end)
         {
-          const Vec3 p = this->position(keys[i]);
-          good[i] = this->interior_.is_clear(p, least * this->sizes_.at(p)) &&
-            ((keys[i] & 1) == 0 || this->interior_.contains(p));
-        }
-      });
+          for (Index i = begin; i < end; ++i)
+          {
+            const Vec3 p = this->position(keys[i]);
+            good[i] = this->interior_.is_clear(p, least * this->sizes_.at(p)) &&
+              ((keys[i] & 1) == 0 || this->interior_.contains(p));
+          }
+        });
     if (!whole)
     {
       return false;
@@ -397,7 +398,7 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
     const double end = begin + share * (1.0 - begin);
     const ProgressRange range(context, begin, end);
     begin = end;
-    Lattice lattice(interior, sizes, context);
+    PointLattice lattice(interior, sizes, context);
     const bool whole =
       lattice.build(static_cast<Index>(std::max(few_cells, too_many * wanted)) + 1);
     if (context.canceled())

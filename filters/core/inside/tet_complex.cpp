@@ -14,7 +14,7 @@ namespace
 {
 /// If the quality is below this, the sign of a volume in doubles is not reliable. This quality
 /// corresponds to an angle of 0.001 degrees.
-constexpr double doubtful = 3e-10;
+constexpr double unreliable_quality = 3e-10;
 } // namespace
 
 TetComplex::TetComplex(TetMesh& mesh)
@@ -104,7 +104,7 @@ double TetComplex::quality(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
   add(nb, nc, square * ad.squaredNorm(), lb * lc);
   add(nb, nd, square * ac.squaredNorm(), lb * ld);
   add(nc, nd, square * ab.squaredNorm(), lc * ld);
-  if (!(least >= doubtful) && orientation_3d(a, b, c, d) <= 0)
+  if (!(least >= unreliable_quality) && orientation_3d(a, b, c, d) <= 0)
   {
     return -1.0;
   }

@@ -26,7 +26,8 @@ namespace
 {
 using Tet = TetComplex::Tet;
 
-constexpr Index often = 256; // number of insertions between two checks for a cancel request
+constexpr Index insertions_per_check =
+  256; // number of insertions between two checks for a cancel request
 
 struct LongEdge
 {
@@ -526,7 +527,7 @@ bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionC
         }
       }
     }
-    whole = count % often != 0 || !context.canceled();
+    whole = count % insertions_per_check != 0 || !context.canceled();
   }
   tets.write(mesh);
   return whole;

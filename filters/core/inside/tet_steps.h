@@ -2,9 +2,9 @@
 #define bindpose_inside_tet_steps_h
 
 #include "base/mesh.h"
+#include "inside/improve_options.h"
 #include "inside/tet_cavity.h"
 #include "inside/tet_complex.h"
-#include "inside/tet_improvement.h"
 
 #include <array>
 #include <cstdint>

@@ -12,7 +12,6 @@ namespace bindpose
 
 namespace
 {
-constexpr Index largest_count = Index(1) << 40;
 /// Largest number of rows or columns of an empty matrix. An empty matrix has no values in the file,
 /// so without a limit a loop over rows or columns could be endless.
 constexpr Index largest_empty = Index(1) << 20;

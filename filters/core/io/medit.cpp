@@ -10,7 +10,6 @@ namespace bindpose
 
 namespace
 {
-constexpr Index largest_count = Index(1) << 40;
 
 Status read_count(TextScanner& scanner, std::size_t bytes, Index& count)
 {
@@ -23,7 +22,7 @@ Status read_count(TextScanner& scanner, std::size_t bytes, Index& count)
   return status;
 }
 
-Status read_vertices(TextScanner& scanner, std::size_t bytes, Index dimension, Points& points)
+Status read_medit_vertices(TextScanner& scanner, std::size_t bytes, Index dimension, Points& points)
 {
   Index count = 0;
   Status status = read_count(scanner, bytes, count);
@@ -110,7 +109,7 @@ Status read_sections(TextScanner& scanner, std::size_t bytes, MeditMesh& mesh)
     }
     else if (word == "Vertices")
     {
-      status = read_vertices(scanner, bytes, dimension, mesh.points);
+      status = read_medit_vertices(scanner, bytes, dimension, mesh.points);
     }
     else if (word == "Triangles")
     {

@@ -9,9 +9,6 @@ namespace bindpose
 
 namespace
 {
-/// Maximum count of vertices or faces. A larger count means an invalid file; the limit also
-/// prevents integer overflow of ids.
-constexpr Index largest_count = Index(1) << 40;
 
 /// Accept the word OFF with any of the prefixes ST, C, N. The additional values of these variants
 /// follow the coordinates and are skipped.
@@ -59,7 +56,7 @@ Status read_counts(TextScanner& scanner, Index& vertices, Index& faces)
   return status;
 }
 
-Status read_vertices(TextScanner& scanner, std::size_t bytes, Index count, Points& points)
+Status read_off_vertices(TextScanner& scanner, std::size_t bytes, Index count, Points& points)
 {
   // A vertex needs at least three digits and three blanks. Because of this check, a wrong count
   // cannot allocate all memory.
@@ -104,7 +101,7 @@ Status read_off(const std::string& path, PolygonMesh& mesh)
   }
   if (status.ok())
   {
-    status = read_vertices(scanner, text.size(), vertices, mesh.points);
+    status = read_off_vertices(scanner, text.size(), vertices, mesh.points);
   }
   for (Index f = 0; f < faces && status.ok(); ++f)
   {

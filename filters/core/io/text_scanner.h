@@ -9,6 +9,10 @@
 namespace bindpose
 {
 
+/// Maximum count of vertices, elements or values in a file. A larger count means an invalid file;
+/// the limit also prevents integer overflow of ids.
+constexpr Index largest_count = Index(1) << 40;
+
 /// Read a whole file. Return invalid_input if the file is missing, a directory, unreadable or
 /// empty.
 Status read_file(const std::string& path, std::string& content);

@@ -21,7 +21,7 @@ namespace bindpose
 
 namespace
 {
-constexpr Index none = -1;
+constexpr Index no_vertex = -1;
 constexpr Index longest_contour = Index(1) << 25;
 
 /// The contour: points, and for each point its successor in a linked list.
@@ -43,8 +43,8 @@ class MarchingSquares
 public:
   MarchingSquares(Index columns, Index rows, const AlphaRow& alpha, double threshold)
     : columns_(columns), rows_(rows), alpha_(alpha), threshold_(static_cast<float>(threshold)),
-      lower_(columns), upper_(columns), bottom_(static_cast<std::size_t>(columns + 2), none),
-      top_(static_cast<std::size_t>(columns + 2), none)
+      lower_(columns), upper_(columns), bottom_(static_cast<std::size_t>(columns + 2), no_vertex),
+      top_(static_cast<std::size_t>(columns + 2), no_vertex)
   {
   }
 
@@ -105,7 +105,7 @@ private:
   Index add(double x, double y, Contour& contour)
   {
     contour.points.emplace_back(x, y);
-    contour.next.push_back(none);
+    contour.next.push_back(no_vertex);
     return static_cast<Index>(contour.points.size()) - 1;
   }
 
@@ -113,7 +113,7 @@ private:
   {
     const float* lower = this->lower_.values.data();
     const float* upper = this->upper_.values.data();
-    Index left = none;
+    Index left = no_vertex;
     bool was_a = false; // the left column of the frame is outside
     bool was_d = false;
     for (Index x = 0; x <= this->columns_; ++x) // cell between columns x - 1 and x of the image
@@ -124,10 +124,10 @@ private:
       const bool c = this->is_inside(upper[x + 1]);
       was_a = b;
       was_d = c;
-      this->top_[x] = none;
+      this->top_[x] = no_vertex;
       if (a == b && b == c && c == d)
       {
-        left = none;
+        left = no_vertex;
         continue;
       }
       const double at = static_cast<double>(x - 1);
@@ -137,7 +137,7 @@ private:
           at + this->crossing(upper[x], upper[x + 1]), static_cast<double>(row + 1), contour);
       }
       const Index right = b == c
-        ? none
+        ? no_vertex
         : this->add(at + 1.0, static_cast<double>(row) + this->crossing(lower[x + 1], upper[x + 1]),
             contour);
       this->link_cell({ a, b, c, d }, { this->bottom_[x], right, this->top_[x], left },
@@ -162,7 +162,7 @@ private:
       const double value = (v[0] * v[2] - v[1] * v[3]) / (v[0] + v[2] - v[1] - v[3]);
       joined = value >= double(this->threshold_);
     }
-    Index begin = none;
+    Index begin = no_vertex;
     for (int k = 0; k < 4; ++k)
     {
       if (!in[k] && in[(k + 1) % 4])
@@ -203,10 +203,10 @@ Loops read_loops(Contour& contour)
   for (std::size_t first = 0; first < contour.points.size(); ++first)
   {
     Index v = static_cast<Index>(first);
-    while (contour.next[v] != none)
+    while (contour.next[v] != no_vertex)
     {
       loops.points.push_back(contour.points[v]);
-      v = std::exchange(contour.next[v], none);
+      v = std::exchange(contour.next[v], no_vertex);
     }
     if (static_cast<Index>(loops.points.size()) > loops.starts.back())
     {
@@ -214,11 +214,6 @@ Loops read_loops(Contour& contour)
     }
   }
   return loops;
-}
-
-double cross(const Vec2& a, const Vec2& b)
-{
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 double squared_distance(const Vec2& p, const Vec2& a, const Vec2& b)

@@ -102,11 +102,6 @@ private:
   std::map<std::pair<double, double>, Index> ids_;
 };
 
-double cross(const Vec2& a, const Vec2& b)
-{
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 class Builder
 {
 public:

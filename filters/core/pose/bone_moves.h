@@ -3,7 +3,8 @@
 
 // Displacements by stretchable, twistable bones (Jacobson and Sorkine 2011), for tiles of vertices.
 
-#include "pose/skinning.h"
+#include "pose/bone_change.h"
+#include "pose/pose.h"
 #include "pose/weight_tiles.h"
 
 namespace bindpose

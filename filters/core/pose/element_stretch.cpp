@@ -25,15 +25,15 @@ namespace bindpose
 
 namespace
 {
-constexpr Index block_size = 4096;
+constexpr Index elements_per_block = 4096;
 /// An element is degenerate if its volume (area) at rest is at most about this fraction of the
 /// volume of a cube (area of a square) on its longest edge. The shape of such an element is
 /// round-off.
 constexpr double degenerate_share = 1e-12;
 /// A shape is flat if its thickness in z is at most this fraction of the bounding-box diagonal.
 constexpr double flat_tolerance = 1e-9;
-/// Number of elements that are processed in parallel; block_size is a multiple of it.
-constexpr Index lanes = 8;
+/// Number of elements that are processed in parallel; elements_per_block is a multiple of it.
+constexpr Index elements_per_tile = 8;
 /// Number of values stored per element at rest. The last value is a sign. All values of a
 /// degenerate element are zero.
 constexpr Index triangle_numbers = 4, tet_numbers = 10;
@@ -52,22 +52,22 @@ struct Block
 /// 3 x 3 matrices, indexed by column, row, lane.
 struct alignas(64) Batch
 {
-  double at[3][3][lanes];
+  double at[3][3][elements_per_tile];
 };
 
 struct alignas(64) BatchValues
 {
-  double largest[lanes], smallest[lanes];
-  double area[lanes]; ///< signed size of the posed element; negative if it is flipped
+  double largest[elements_per_tile], smallest[elements_per_tile];
+  double area[elements_per_tile]; ///< signed size of the posed element; negative if it is flipped
 };
 
 /// Rotate columns p and q of each lane until they are orthogonal. Return the largest value of
-/// c^2 - right_angle * a * b over the lanes before the rotation, where a and b are the squared
-/// lengths and c is the dot product. It is positive if another sweep is needed.
-BINDPOSE_ALWAYS_INLINE double turn(double (*p)[lanes], double (*q)[lanes])
+/// c^2 - right_angle * a * b over the elements_per_tile before the rotation, where a and b are the
+/// squared lengths and c is the dot product. It is positive if another sweep is needed.
+BINDPOSE_ALWAYS_INLINE double turn(double (*p)[elements_per_tile], double (*q)[elements_per_tile])
 {
-  double open[lanes];
-  for (Index i = 0; i < lanes; ++i)
+  double open[elements_per_tile];
+  for (Index i = 0; i < elements_per_tile; ++i)
   {
     const double a = p[0][i] * p[0][i] + p[1][i] * p[1][i] + p[2][i] * p[2][i];
     const double b = q[0][i] * q[0][i] + q[1][i] * q[1][i] + q[2][i] * q[2][i];
@@ -86,7 +86,7 @@ BINDPOSE_ALWAYS_INLINE double turn(double (*p)[lanes], double (*q)[lanes])
     }
   }
   double most = open[0];
-  for (Index i = 1; i < lanes; ++i)
+  for (Index i = 1; i < elements_per_tile; ++i)
   {
     most = open[i] > most ? open[i] : most;
   }
@@ -95,8 +95,8 @@ BINDPOSE_ALWAYS_INLINE double turn(double (*p)[lanes], double (*q)[lanes])
 
 BINDPOSE_ALWAYS_INLINE void singular_values(Batch& f, BatchValues& values)
 {
-  double size[lanes];
-  for (Index i = 0; i < lanes; ++i)
+  double size[elements_per_tile];
+  for (Index i = 0; i < elements_per_tile; ++i)
   {
     size[i] = 0.0;
   }
@@ -105,7 +105,7 @@ BINDPOSE_ALWAYS_INLINE void singular_values(Batch& f, BatchValues& values)
   {
     for (auto& row : column)
     {
-      for (Index i = 0; i < lanes; ++i)
+      for (Index i = 0; i < elements_per_tile; ++i)
       {
         size[i] = std::abs(row[i]) > size[i] ? std::abs(row[i]) : size[i];
       }
@@ -115,7 +115,7 @@ BINDPOSE_ALWAYS_INLINE void singular_values(Batch& f, BatchValues& values)
   {
     for (auto& row : column)
     {
-      for (Index i = 0; i < lanes; ++i)
+      for (Index i = 0; i < elements_per_tile; ++i)
       {
         row[i] = size[i] > 0.0 ? row[i] / size[i] : 0.0;
       }
@@ -131,7 +131,7 @@ BINDPOSE_ALWAYS_INLINE void singular_values(Batch& f, BatchValues& values)
       break;
     }
   }
-  for (Index i = 0; i < lanes; ++i)
+  for (Index i = 0; i < elements_per_tile; ++i)
   {
     double length[3];
     for (int c = 0; c < 3; ++c)
@@ -171,14 +171,14 @@ void count(Block& block, double limit, Index element, double largest, double sma
 /// Load the edges of posed elements from their first corners. Index order: edge, coordinate, lane.
 template <int corners>
 BINDPOSE_ALWAYS_INLINE void load_edges(
-  const double* posed, const Index* ids, double (&edges)[corners - 1][3][lanes])
+  const double* posed, const Index* ids, double (&edges)[corners - 1][3][elements_per_tile])
 {
-  for (Index i = 0; i < lanes; ++i)
+  for (Index i = 0; i < elements_per_tile; ++i)
   {
     const double* from = posed + 3 * ids[i];
     for (int k = 1; k < corners; ++k)
     {
-      const double* to = posed + 3 * ids[k * lanes + i];
+      const double* to = posed + 3 * ids[k * elements_per_tile + i];
       edges[k - 1][0][i] = to[0] - from[0];
       edges[k - 1][1][i] = to[1] - from[1];
       edges[k - 1][2][i] = to[2] - from[2];
@@ -189,22 +189,23 @@ BINDPOSE_ALWAYS_INLINE void load_edges(
 BINDPOSE_SIMD_CLONES void measure_tets(
   const double* posed, const Index* ids, const double* shape, BatchValues& values)
 {
-  alignas(64) double p[3][3][lanes];
+  alignas(64) double p[3][3][elements_per_tile];
   load_edges<4>(posed, ids, p);
   Batch f;
   for (int k = 0; k < 3; ++k) // [pa pb pc] [a b c]^-1
   {
-    const double *u = shape + 3 * k * lanes, *v = u + lanes, *w = v + lanes;
+    const double *u = shape + 3 * k * elements_per_tile, *v = u + elements_per_tile,
+                 *w = v + elements_per_tile;
     for (int row = 0; row < 3; ++row)
     {
-      for (Index i = 0; i < lanes; ++i)
+      for (Index i = 0; i < elements_per_tile; ++i)
       {
         f.at[k][row][i] = u[i] * p[0][row][i] + v[i] * p[1][row][i] + w[i] * p[2][row][i];
       }
     }
   }
-  const double* sign = shape + 9 * lanes;
-  for (Index i = 0; i < lanes; ++i)
+  const double* sign = shape + 9 * elements_per_tile;
+  for (Index i = 0; i < elements_per_tile; ++i)
   {
     values.area[i] = sign[i] *
       (p[0][0][i] * (p[1][1][i] * p[2][2][i] - p[1][2][i] * p[2][1][i]) +
@@ -217,11 +218,11 @@ BINDPOSE_SIMD_CLONES void measure_tets(
 BINDPOSE_SIMD_CLONES void measure_triangles(
   const double* posed, const Index* ids, const double* shape, BatchValues& values)
 {
-  alignas(64) double p[2][3][lanes];
+  alignas(64) double p[2][3][elements_per_tile];
   load_edges<3>(posed, ids, p);
-  const double *length = shape, *slope = shape + lanes, *height = shape + 2 * lanes,
-               *sign = shape + 3 * lanes;
-  for (Index i = 0; i < lanes; ++i)
+  const double *length = shape, *slope = shape + elements_per_tile,
+               *height = shape + 2 * elements_per_tile, *sign = shape + 3 * elements_per_tile;
+  for (Index i = 0; i < elements_per_tile; ++i)
   {
     const double a0 = p[0][0][i], a1 = p[0][1][i], a2 = p[0][2][i];
     const double x0 = a0 * length[i], x1 = a1 * length[i], x2 = a2 * length[i];
@@ -252,11 +253,11 @@ void shape_of(PointsView rest, const Index* v, TetsView, double* shape)
   }
   for (int k = 0; k < 3; ++k)
   {
-    shape[3 * k * lanes] = bc[k] / volume;
-    shape[(3 * k + 1) * lanes] = ca[k] / volume;
-    shape[(3 * k + 2) * lanes] = ab[k] / volume;
+    shape[3 * k * elements_per_tile] = bc[k] / volume;
+    shape[(3 * k + 1) * elements_per_tile] = ca[k] / volume;
+    shape[(3 * k + 2) * elements_per_tile] = ab[k] / volume;
   }
-  shape[9 * lanes] = volume > 0.0 ? 1.0 : -1.0;
+  shape[9 * elements_per_tile] = volume > 0.0 ? 1.0 : -1.0;
 }
 
 void shape_of(PointsView rest, const Index* v, TrianglesView, double* shape)
@@ -269,9 +270,9 @@ void shape_of(PointsView rest, const Index* v, TrianglesView, double* shape)
     return;
   }
   shape[0] = 1.0 / length;
-  shape[lanes] = a.dot(b) / (length * length);
-  shape[2 * lanes] = 1.0 / height;
-  shape[3 * lanes] = a[0] * b[1] - a[1] * b[0] > 0.0 ? 1.0 : -1.0;
+  shape[elements_per_tile] = a.dot(b) / (length * length);
+  shape[2 * elements_per_tile] = 1.0 / height;
+  shape[3 * elements_per_tile] = a[0] * b[1] - a[1] * b[0] > 0.0 ? 1.0 : -1.0;
 }
 
 Status check(const ElementStretchOptions& options, Index rest, PointsView posed)
@@ -294,13 +295,14 @@ template <typename Measure>
 Status over_elements(
   ExecutionContext& context, Index elements, const char* what, const Measure& measure)
 {
-  std::vector<Block> blocks(static_cast<std::size_t>((elements + block_size - 1) / block_size));
-  const bool done = parallel_for(context, elements, block_size,
+  std::vector<Block> blocks(
+    static_cast<std::size_t>((elements + elements_per_block - 1) / elements_per_block));
+  const bool done = parallel_for(context, elements, elements_per_block,
     [&](Index begin, Index end)
     {
       Block block; // each thread has a local block, to avoid false sharing of cache lines
       measure(begin, end, block);
-      blocks[static_cast<std::size_t>(begin / block_size)] = block;
+      blocks[static_cast<std::size_t>(begin / elements_per_block)] = block;
     });
   if (!done)
   {
@@ -359,18 +361,19 @@ void RestElements::take(PointsView rest, const Elements& elements)
   this->points_ = rest.rows();
   this->count_ = elements.rows();
   this->flat_ = this->corners_ == 3 && in_a_plane(rest);
-  const Index tiles = (this->count_ + lanes - 1) / lanes;
-  this->ids_.assign(static_cast<std::size_t>(tiles * this->corners_ * lanes), 0);
-  this->shape_.assign(static_cast<std::size_t>(tiles * numbers * lanes), 0.0);
+  const Index tiles = (this->count_ + elements_per_tile - 1) / elements_per_tile;
+  this->ids_.assign(static_cast<std::size_t>(tiles * this->corners_ * elements_per_tile), 0);
+  this->shape_.assign(static_cast<std::size_t>(tiles * numbers * elements_per_tile), 0.0);
   for (Index e = 0; e < this->count_; ++e)
   {
-    const Index tile = e / lanes, lane = e % lanes;
+    const Index tile = e / elements_per_tile, lane = e % elements_per_tile;
     const Index* v = elements.data() + this->corners_ * e;
     for (int k = 0; k < this->corners_; ++k)
     {
-      this->ids_[static_cast<std::size_t>((tile * this->corners_ + k) * lanes + lane)] = v[k];
+      this->ids_[static_cast<std::size_t>((tile * this->corners_ + k) * elements_per_tile + lane)] =
+        v[k];
     }
-    shape_of(rest, v, elements, this->shape_.data() + tile * numbers * lanes + lane);
+    shape_of(rest, v, elements, this->shape_.data() + tile * numbers * elements_per_tile + lane);
   }
 }
 
@@ -401,11 +404,11 @@ Status RestElements::stretch(ExecutionContext& context, const ElementStretchOpti
     [&](Index begin, Index end, Block& block)
     {
       BatchValues values;
-      for (Index e = begin; e < end; e += lanes)
+      for (Index e = begin; e < end; e += elements_per_tile)
       {
-        const Index tile = e / lanes;
-        const Index* ids = this->ids_.data() + tile * this->corners_ * lanes;
-        const double* shape = this->shape_.data() + tile * numbers * lanes;
+        const Index tile = e / elements_per_tile;
+        const Index* ids = this->ids_.data() + tile * this->corners_ * elements_per_tile;
+        const double* shape = this->shape_.data() + tile * numbers * elements_per_tile;
         if (tets)
         {
           measure_tets(posed.data(), ids, shape, values);
@@ -414,8 +417,8 @@ Status RestElements::stretch(ExecutionContext& context, const ElementStretchOpti
         {
           measure_triangles(posed.data(), ids, shape, values);
         }
-        const double* whole = shape + (numbers - 1) * lanes;
-        for (Index i = 0; i < std::min(lanes, end - e); ++i)
+        const double* whole = shape + (numbers - 1) * elements_per_tile;
+        for (Index i = 0; i < std::min(elements_per_tile, end - e); ++i)
         {
           if (whole[i] == 0.0)
           {

@@ -11,18 +11,18 @@ namespace
 {
 // Tolerance for the entries of a transform: above the round-off of a relative transform, and far
 // below any motion that a user specifies.
-constexpr double tolerance = 1e-12;
+constexpr double identity_tolerance = 1e-12;
 
 bool is_translation(const Affine& transform)
 {
-  return (transform.leftCols<3>() - Eigen::Matrix3d::Identity()).norm() < tolerance;
+  return (transform.leftCols<3>() - Eigen::Matrix3d::Identity()).norm() < identity_tolerance;
 }
 
 /// Report whether a transform is the identity up to round-off.
 /// @param size magnitude of the lengths in the scene
 bool is_identity(const Affine& transform, double size)
 {
-  return is_translation(transform) && transform.col(3).norm() <= tolerance * size;
+  return is_translation(transform) && transform.col(3).norm() <= identity_tolerance * size;
 }
 } // namespace
 

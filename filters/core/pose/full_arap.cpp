@@ -36,13 +36,13 @@ namespace
 {
 /// If the energy is below this fraction of the rest energy, it counts as zero in the convergence
 /// test.
-constexpr double nothing_bends = 1e-6;
+constexpr double negligible_energy = 1e-6;
 /// A rise of the energy is round-off if it is at most this fraction of the sum of the absolute
 /// values of the energy's terms.
 constexpr double rounding = 1e-12;
 /// Number of items per block. The block sizes affect the round-off of the sums; the number of
 /// threads does not.
-constexpr Index groups_at_once = 512;
+constexpr Index groups_per_block = 512;
 constexpr Index vertices_at_once = 1024;
 constexpr Index numbers_at_once = 16384;
 
@@ -126,9 +126,9 @@ void FullArap::start_rotations(const Pose& pose)
 bool FullArap::local_step(ExecutionContext& context, const Rows& d)
 {
   const Index count = this->groups_.count, stride = this->stride_;
-  const Index blocks = (count + groups_at_once - 1) / groups_at_once;
+  const Index blocks = (count + groups_per_block - 1) / groups_per_block;
   std::vector<double> turned(blocks, 0.0);
-  const bool done = parallel_for(context, count, groups_at_once,
+  const bool done = parallel_for(context, count, groups_per_block,
     [&](Index begin, Index end)
     {
       for (Index k = begin; k < end; ++k)
@@ -157,7 +157,7 @@ bool FullArap::local_step(ExecutionContext& context, const Rows& d)
           sum += turn * this->covariance_[(3 * (e % 3) + e / 3) * stride + k];
         }
       }
-      turned[begin / groups_at_once] = sum;
+      turned[begin / groups_per_block] = sum;
     });
   this->turned_ = 0.0;
   for (const double sum : turned)
@@ -171,9 +171,9 @@ bool FullArap::local_step(ExecutionContext& context, const Rows& d)
 bool FullArap::global_step(ExecutionContext& context, Rows& d)
 {
   const Index count = this->groups_.count, stride = this->stride_;
-  const Index blocks = (count + groups_at_once - 1) / groups_at_once;
+  const Index blocks = (count + groups_per_block - 1) / groups_per_block;
   std::vector<double> turned(blocks, 0.0);
-  bool done = parallel_for(context, count, groups_at_once,
+  bool done = parallel_for(context, count, groups_per_block,
     [&](Index begin, Index end)
     {
       double sum = 0.0;
@@ -186,7 +186,7 @@ bool FullArap::global_step(ExecutionContext& context, Rows& d)
           sum += turn * this->rest_covariance_[(3 * (e % 3) + e / 3) * stride + k];
         }
       }
-      turned[begin / groups_at_once] = sum;
+      turned[begin / groups_per_block] = sum;
     });
   this->rest_turned_ = 0.0;
   for (const double sum : turned)
@@ -293,7 +293,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   }
   d = g;
   this->energies_.assign(1, energy_after_global(g));
-  const double floor = nothing_bends * this->rest_energy_;
+  const double floor = negligible_energy * this->rest_energy_;
   Anderson<double> anderson(options.anderson_window, 3 * n, 0,
     [&](const double* a, const double* b) { return dot(context, 3 * n, a, b); });
   Index iterations = 0;

@@ -13,7 +13,7 @@ namespace
 {
 /// An element is flat if its largest cotangent exceeds this value. It has no energy, because its
 /// energy would be round-off.
-constexpr double steepest = 1e7;
+constexpr double largest_cotangent = 1e7;
 
 /// Return the unit of an element's cotangent weights: 1 for a triangle, the length of the longest
 /// edge for a tet.
@@ -161,7 +161,7 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
     for (Index e = 0; e < elements.rows(); ++e)
     {
       const double largest = c.row(e).cwiseAbs().maxCoeff();
-      if (largest > 0.0 && largest <= steepest * weight_unit(points, elements, e))
+      if (largest > 0.0 && largest <= largest_cotangent * weight_unit(points, elements, e))
       {
         kept.row(count++) = elements.row(e);
       }

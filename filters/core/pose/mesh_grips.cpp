@@ -14,7 +14,7 @@ namespace bindpose
 namespace
 {
 /// A handle constrains a vertex if their distance is at most this, in bounding-box diagonals.
-constexpr double same_place = 1e-9;
+constexpr double vertex_tolerance = 1e-9;
 /// A handle is on the mesh if its distance is at most this, in bounding-box diagonals.
 constexpr double on_mesh = 1e-6;
 /// A mesh point is treated as a vertex if its barycentric weight at the vertex is at least this.
@@ -23,7 +23,7 @@ constexpr double whole = 1.0 - 1e-9;
 constexpr double most_places = 16.0;
 /// Constraints violated by more than this fraction of the bounding-box diagonal are reported as
 /// contradictory.
-constexpr double contradiction = 1e-9;
+constexpr double contradictory_miss = 1e-9;
 
 MeshPoint vertex_point(Index v)
 {
@@ -66,7 +66,7 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
   const auto point_at = [&](const Vec3& p, double& distance) -> MeshPoint
   {
     Index nearest = -1;
-    double least = same_place * this->diagonal_;
+    double least = vertex_tolerance * this->diagonal_;
     for (Index v = 0; v < this->rest_.rows(); ++v)
     {
       const double length = (this->rest_.row(v) - p.transpose()).norm();
@@ -137,7 +137,7 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
         {
           if (parts.of_vertex[v] >= 0 &&
             nearest_in_triangle(this->rest_.row(v), handle.head, handle.tail, handle.tail)
-                .distance <= same_place * this->diagonal_)
+                .distance <= vertex_tolerance * this->diagonal_)
           {
             grip.points.push_back(vertex_point(v));
           }
@@ -344,7 +344,8 @@ double MeshGrips::residual(
     }
     const double length = miss.norm() / std::max(this->diagonal_, 1e-300);
     residual = std::max(residual, length);
-    if (length > contradiction && (contradicting.empty() || contradicting.back() != hold.handle))
+    if (length > contradictory_miss &&
+      (contradicting.empty() || contradicting.back() != hold.handle))
     {
       contradicting.push_back(hold.handle);
     }

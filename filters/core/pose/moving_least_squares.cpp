@@ -29,7 +29,7 @@ namespace bindpose
 
 namespace
 {
-constexpr Index block_size = 512;
+constexpr Index points_per_block = 512;
 /// Smallest distance used, as a fraction of the handles' extent.
 constexpr double nearest_distance = 1e-12;
 /// Points are in one plane if their z coordinates differ by less than this fraction of the
@@ -175,7 +175,7 @@ Status MovingLeastSquares::bind(ExecutionContext& context, const MovingLeastSqua
   const double exponent = options.exponent;
   const std::size_t count = handles.size();
   this->shares_.resize(static_cast<std::size_t>(rest.rows()) * count);
-  const bool done = parallel_for(context, rest.rows(), block_size,
+  const bool done = parallel_for(context, rest.rows(), points_per_block,
     [&](Index begin, Index end)
     {
       std::vector<double> distance(count);
@@ -252,7 +252,7 @@ Status MovingLeastSquares::warp(
     this->flat_ && is_flat(rest_rows, tolerance) && is_flat(posed_rows, tolerance);
 
   posed.resize(this->rest_.rows(), 3);
-  const bool done = parallel_for(context, this->rest_.rows(), block_size,
+  const bool done = parallel_for(context, this->rest_.rows(), points_per_block,
     [&](Index begin, Index end)
     {
       const Index size = end - begin;

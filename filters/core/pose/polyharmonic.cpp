@@ -37,7 +37,7 @@ namespace bindpose
 namespace
 {
 /// A triangle is flat if one of its cotangents exceeds this value.
-constexpr double steepest = 1e7;
+constexpr double flat_cotangent = 1e7;
 /// Refinement ends if a correction is at most this fraction of the solution, or does not get
 /// smaller. The relative size of a correction is about the ratio by which the error decreases per
 /// step.
@@ -199,7 +199,7 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
       continue;
     }
     const double largest = cotangents.row(t).cwiseAbs().maxCoeff();
-    if (!(largest > 0.0 && largest <= steepest))
+    if (!(largest > 0.0 && largest <= flat_cotangent))
     {
       return Status::invalid_input("triangle " + std::to_string(t) +
         " of the patch must have an area in the parameter domain");

@@ -51,7 +51,7 @@ using Rows = ReducedSpace::Rows;
 constexpr double contradiction = 1e-9;
 /// If the energy is below this fraction of the rest energy, it counts as zero in the convergence
 /// test.
-constexpr double nothing_bends = 1e-6;
+constexpr double negligible_reduced_energy = 1e-6;
 
 /// Energies whose difference is at most this fraction of the rest energy are equal up to round-off.
 constexpr double same_energy = 1e-15;
@@ -210,7 +210,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   }
 
   const auto start = std::chrono::steady_clock::now();
-  const double floor = nothing_bends * space.rest_energy;
+  const double floor = negligible_reduced_energy * space.rest_energy;
   this->energies_.clear();
   ReducedProgress progress{ this->energies_ };
   ReducedLimits limits{ options.tolerance, floor, same_energy * space.rest_energy };

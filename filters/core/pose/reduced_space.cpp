@@ -25,7 +25,7 @@ namespace
 constexpr Index strips = 16;
 constexpr Index rows_at_once = 256;
 /// A pivot is treated as a vertex if their distance is at most this, in bounding-box diagonals.
-constexpr double same_place = 1e-9;
+constexpr double pivot_tolerance = 1e-9;
 /// A pivot is on a triangle if their distance is at most this, in bounding-box diagonals.
 constexpr double on_surface = 1e-6;
 
@@ -122,7 +122,7 @@ void ReducedSpace::find_pivots(PointsView points, const Elements& elements, Weig
     Index nearest = 0;
     const double distance = std::sqrt(
       (points.rowwise() - place(end).transpose()).rowwise().squaredNorm().minCoeff(&nearest));
-    if (distance <= same_place * this->diagonal)
+    if (distance <= pivot_tolerance * this->diagonal)
     {
       const Vec3 at = points.row(nearest);
       this->basis_row(weights.row(nearest).data(), at, row.data());

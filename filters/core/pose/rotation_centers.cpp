@@ -27,7 +27,7 @@ namespace bindpose
 namespace
 {
 // Number of vertices per block; small, so that a cancel request is noticed quickly.
-constexpr Index block_size = 16;
+constexpr Index vertices_per_block = 16;
 constexpr Index element_block = 4096;
 constexpr Index lanes = 8;
 
@@ -335,7 +335,7 @@ Status find_centers(ExecutionContext& context, const RotationCentersOptions& opt
 
   std::vector<char> found(static_cast<std::size_t>(points.rows()), 0);
   const ProgressRange range(context, 0.3, 1.0);
-  const bool done = parallel_for(context, points.rows(), block_size,
+  const bool done = parallel_for(context, points.rows(), vertices_per_block,
     [&](Index from, Index to)
     {
       std::vector<Index> own;

@@ -21,7 +21,7 @@ namespace bindpose
 
 namespace
 {
-constexpr Index block_size = 2048; // vertices per block; a multiple of the tile sizes
+constexpr Index skinning_block = 2048; // vertices per block; a multiple of the tile sizes
 /// If a row sum differs from one by more than this, there is a warning.
 constexpr double row_sum_tolerance = 1e-6;
 
@@ -273,7 +273,7 @@ bool Skinning::pack(ExecutionContext& context, WeightsView weights, const Skinni
   const Index rows = weights.rows();
   const Index count = (rows + lanes - 1) / lanes;
   std::vector<std::vector<std::int32_t>> columns(static_cast<std::size_t>(count));
-  bool done = parallel_for(context, count, block_size / lanes,
+  bool done = parallel_for(context, count, skinning_block / lanes,
     [&](Index begin, Index end)
     {
       KeptRow row(options);
@@ -310,7 +310,7 @@ bool Skinning::pack(ExecutionContext& context, WeightsView weights, const Skinni
   }
   tiles.weights.assign(tiles.columns.size() * static_cast<std::size_t>(lanes), Scalar(0));
   this->references_.assign(static_cast<std::size_t>(count * lanes), 0);
-  return parallel_for(context, rows, block_size,
+  return parallel_for(context, rows, skinning_block,
     [&](Index begin, Index end)
     {
       KeptRow row(options);
@@ -351,11 +351,11 @@ Status Skinning::bind(
     Index worst = 0, off = 0, count = 0, dropped = 0;
     double error = 0.0, share = 0.0;
   };
-  std::vector<Block> blocks(static_cast<std::size_t>((rows + block_size - 1) / block_size));
-  bool done = parallel_for(context, rows, block_size,
+  std::vector<Block> blocks(static_cast<std::size_t>((rows + skinning_block - 1) / skinning_block));
+  bool done = parallel_for(context, rows, skinning_block,
     [&](Index begin, Index end)
     {
-      Block& block = blocks[static_cast<std::size_t>(begin / block_size)];
+      Block& block = blocks[static_cast<std::size_t>(begin / skinning_block)];
       KeptRow row(options);
       for (Index v = begin; v < end; ++v)
       {
@@ -452,7 +452,7 @@ bool Skinning::blend_affine(ExecutionContext& context, PointsView rest,
   const Vec3 center = normals ? Vec3::Zero() : center_of(rest);
   const auto moves = displacements<Scalar>(transforms, center);
   posed.resize(rest.rows(), 3);
-  return parallel_for(context, rest.rows(), block_size,
+  return parallel_for(context, rest.rows(), skinning_block,
     [&](Index begin, Index end)
     {
       BlendedTile<Scalar, 12> blended;
@@ -547,10 +547,10 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
     }
     moves.push_back(displacements<float>(placed, center));
   }
-  const bool done = parallel_for(context, rest.rows(), block_size,
+  const bool done = parallel_for(context, rest.rows(), skinning_block,
     [&](Index begin, Index end)
     {
-      std::vector<TilePoints<float>> points(block_size / lanes), at(points.size());
+      std::vector<TilePoints<float>> points(skinning_block / lanes), at(points.size());
       for (Index v = begin; v < end; v += lanes)
       {
         const auto tile = static_cast<std::size_t>((v - begin) / lanes);
@@ -601,7 +601,7 @@ bool Skinning::blend_bones(ExecutionContext& context, PointsView rest,
   const auto moves = displacements<Scalar>(transforms, center);
   const auto frames = bone_frames<Scalar>(bones, transforms, center);
   posed.resize(rest.rows(), 3);
-  return parallel_for(context, rest.rows(), block_size,
+  return parallel_for(context, rest.rows(), skinning_block,
     [&](Index begin, Index end)
     {
       BlendedTile<Scalar, 12> blended;
@@ -678,7 +678,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
   set_signs(motions, quaternions);
   const auto shear_moves = displacements<Scalar>(shears, center);
   posed.resize(rest.rows(), 3);
-  return parallel_for(context, rest.rows(), block_size,
+  return parallel_for(context, rest.rows(), skinning_block,
     [&](Index begin, Index end)
     {
       BlendedTile<Scalar, 12> sheared;
@@ -787,7 +787,7 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
   set_signs(motions, quaternions);
   const auto shear_moves = displacements<Scalar>(shears, Vec3::Zero());
   posed.resize(rest.rows(), 3);
-  return parallel_for(context, rest.rows(), block_size,
+  return parallel_for(context, rest.rows(), skinning_block,
     [&](Index begin, Index end)
     {
       BlendedTile<Scalar, 12> moved, sheared;

@@ -5,6 +5,7 @@
 // stretchable, twistable bones.
 
 #include "base/execution.h"
+#include "pose/bone_change.h"
 #include "pose/pose.h"
 #include "pose/weight_tiles.h"
 #include "weights/handles.h"
@@ -14,18 +15,6 @@ namespace bindpose
 
 /// #V x 3 coordinates in single precision, for display.
 using FloatPoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
-
-/// Stretch and twist of a bone at rest, applied before the bone's transform.
-struct BoneChange
-{
-  Vec3 head = Vec3::Zero();
-  Vec3 vector = Vec3::Zero(); ///< vector from head to tail at rest
-  double stretch = 1.0; ///< posed length / rest length
-  /// Twist at head and tail, degrees, right-handed.
-  Eigen::Vector2d twist = Eigen::Vector2d::Zero();
-  /// Report whether the bone stretches or twists.
-  bool any() const { return this->stretch != 1.0 || this->twist != Eigen::Vector2d::Zero(); }
-};
 
 /// Options of Skinning::bind().
 struct SkinningOptions

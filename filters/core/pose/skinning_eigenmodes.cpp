@@ -29,10 +29,10 @@ namespace
 /// Shift s, as a fraction of the mean eigenvalue.
 constexpr double shift_share = 1e-9;
 /// Rows of weights are equal if their distance is at most this.
-constexpr double same_place = 1e-9;
+constexpr double equal_rows = 1e-9;
 /// Maximum number of free vertices for which a dense eigenvalue solver is used.
 constexpr Index dense_size = 100;
-constexpr double tolerance = 1e-10;
+constexpr double eigenvalue_tolerance = 1e-10;
 constexpr Index most_restarts = 300;
 
 struct Canceled
@@ -79,7 +79,7 @@ std::vector<Index> handle_vertices(WeightsView weights)
   for (Index v = 0; v < weights.rows(); ++v)
   {
     if (std::any_of(rows.begin(), rows.end(),
-          [&](Index row) { return (weights.row(v) - weights.row(row)).norm() <= same_place; }))
+          [&](Index row) { return (weights.row(v) - weights.row(row)).norm() <= equal_rows; }))
     {
       result.push_back(v);
     }
@@ -166,7 +166,7 @@ Status skinning_eigenmodes(ExecutionContext& context, const SparseMatrix& stiffn
     try
     {
       eigen.init();
-      eigen.compute(Spectra::SortRule::LargestAlge, most_restarts, tolerance);
+      eigen.compute(Spectra::SortRule::LargestAlge, most_restarts, eigenvalue_tolerance);
     }
     catch (const Canceled&)
     {

@@ -35,6 +35,11 @@ Affine affine_of(const TransformParts& parts, const Vec3& pivot)
   return affine_about(pivot, parts.rotation * parts.scale, parts.translation);
 }
 
+Eigen::Quaterniond rotation_between(const Vec3& from, const Vec3& to)
+{
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
 Vec3 rotation_vector(const Eigen::Matrix3d& rotation)
 {
   const Eigen::AngleAxisd turn(rotation);

@@ -14,7 +14,7 @@ namespace bindpose
 
 namespace
 {
-constexpr Index block_size = 512;
+constexpr Index rows_per_block = 512;
 constexpr Index lloyd_rounds = 100;
 /// Number of sampled rows per cluster from which the means are computed. At the end all rows are
 /// assigned to the means.
@@ -38,7 +38,7 @@ bool assign_rows(
 {
   const Eigen::RowVectorXd mean_norms = means.rowwise().squaredNorm().transpose();
   const Weights transposed = -2.0 * means.transpose();
-  return parallel_for(context, rows.rows(), block_size,
+  return parallel_for(context, rows.rows(), rows_per_block,
     [&](Index begin, Index end)
     {
       const Index width = rows.cols();
@@ -63,7 +63,7 @@ void farthest_rows(
   {
     return;
   }
-  const Index blocks = (rows.rows() + block_size - 1) / block_size;
+  const Index blocks = (rows.rows() + rows_per_block - 1) / rows_per_block;
   std::vector<double> distance(
     static_cast<std::size_t>(rows.rows()), std::numeric_limits<double>::infinity());
   std::vector<Index> farthest(static_cast<std::size_t>(blocks), 0);
@@ -80,7 +80,7 @@ void farthest_rows(
   };
   const auto shrink = [&](Index seed)
   {
-    return parallel_for(context, rows.rows(), block_size,
+    return parallel_for(context, rows.rows(), rows_per_block,
       [&](Index begin, Index end)
       {
         Index best = begin;
@@ -90,7 +90,7 @@ void farthest_rows(
           d = std::min(d, (rows.row(i) - rows.row(seed)).squaredNorm());
           best = d > distance[static_cast<std::size_t>(best)] ? i : best;
         }
-        farthest[static_cast<std::size_t>(begin / block_size)] = best;
+        farthest[static_cast<std::size_t>(begin / rows_per_block)] = best;
       });
   };
   Index added = 0;

@@ -4,6 +4,7 @@
 // distance found so far bounds the search for the next triangle of the group.
 #include "surface/part_links.h"
 
+#include "base/constants.h"
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "surface/triangle_predicates.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <set>
 #include <tuple>
@@ -21,7 +21,6 @@ namespace bindpose
 
 namespace
 {
-constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr Index several = -1; ///< label of a box with triangles of more than one group
 
 using Corners = std::array<Vec3, 3>;

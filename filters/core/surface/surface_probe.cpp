@@ -14,7 +14,7 @@ namespace bindpose
 {
 namespace
 {
-constexpr double same_place = 1e-9; // hits at most this far apart count as one, in segment lengths
+constexpr double same_hit = 1e-9; // hits at most this far apart count as one, in segment lengths
 } // namespace
 
 SurfaceProbe::SurfaceProbe(PointsView points, TrianglesView triangles)
@@ -57,7 +57,7 @@ std::vector<SurfaceProbe::Hit> SurfaceProbe::hits(const Vec3& origin, const Vec3
   {
     const bool again = std::any_of(once.rbegin(), once.rend(),
       [&](const Hit& other)
-      { return other.enters == hit.enters && hit.distance - other.distance <= same_place * far; });
+      { return other.enters == hit.enters && hit.distance - other.distance <= same_hit * far; });
     if (!again)
     {
       once.push_back(hit);
@@ -79,7 +79,7 @@ bool SurfaceProbe::first_inside(const Vec3& origin, const Vec3& direction, LineS
     span.exit = origin + to.distance * direction;
     span.triangle = from.triangle;
   };
-  const double small = same_place * std::max(all.back().distance, 1.0);
+  const double small = same_hit * std::max(all.back().distance, 1.0);
   int depth = 0;
   std::size_t first = 0;
   for (std::size_t i = 0; i < all.size(); ++i)

@@ -1,7 +1,7 @@
 #ifndef bindpose_weights_active_set_h
 #define bindpose_weights_active_set_h
 
-#include "weights/box_qp.h"
+#include "weights/box_qp_column.h"
 #include "weights/box_qp_workspace.h"
 #include "weights/splitting_start.h"
 

@@ -12,7 +12,7 @@ namespace bindpose
 
 namespace
 {
-constexpr Index block_size = 4096;
+constexpr Index samples_per_block = 4096;
 }
 
 Status depth_order(WeightsView weights, const Eigen::VectorXd& layers,
@@ -41,7 +41,7 @@ Status depth_order(WeightsView weights, const Eigen::VectorXd& layers,
     Eigen::VectorXd::LinSpaced(handles, 0.0, handles > 1 ? options.tie : 0.0);
   result.depth.setZero(rows);
   result.front.setZero(rows);
-  const double bad = parallel_sum(context, rows, block_size,
+  const double bad = parallel_sum(context, rows, samples_per_block,
     [&](Index begin, Index end)
     {
       double not_finite = 0.0;

@@ -40,7 +40,7 @@ constexpr double metric = 1e-2; // P as a fraction of A's diagonal
 constexpr double relaxation = 1.7;
 constexpr int steps = 80;
 // A column has converged if the square of its last step is at most this fraction of its energy.
-constexpr double enough = 1e-7;
+constexpr double settled_change = 1e-7;
 constexpr int memory = 8; // number of past iterations for Anderson acceleration
 constexpr Index largest_block = 4; // number of columns that are solved together
 
@@ -216,7 +216,7 @@ std::vector<ColumnStart> splitting_start(const SplitForm& matrices,
           const double size = change.cwiseProduct(weights).squaredNorm();
           anderson[static_cast<std::size_t>(k)].accelerate(at, relaxation * change, weights);
           z.col(k) = at;
-          if (size > enough * energy[k])
+          if (size > settled_change * energy[k])
           {
             left.push_back(k);
           }

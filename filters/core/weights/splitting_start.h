@@ -2,7 +2,7 @@
 #define bindpose_weights_splitting_start_h
 
 #include "base/float_cholesky.h"
-#include "weights/box_qp.h"
+#include "weights/box_qp_column.h"
 #include "weights/split_form.h"
 
 #include <vector>

@@ -23,7 +23,7 @@ constexpr int lanes = 4;
 /// Progress as fractions of the time: at the end of the factorization, and before the first
 /// iteration.
 constexpr double factored = 0.4;
-constexpr double prepared = 0.5;
+constexpr double preparation_end = 0.5;
 using Lanes = Eigen::Array<double, 1, lanes>;
 /// Values of one block of columns, #V x lanes.
 using Columns = Eigen::Array<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
@@ -190,7 +190,7 @@ private:
   /// Add a correction to the preconditioner for the energy of the curvature at fixed points.
   void count_fixed(const std::vector<Index>& fixed, ExecutionContext& context)
   {
-    const ProgressRange range(context, factored, prepared);
+    const ProgressRange range(context, factored, preparation_end);
     constexpr Index most_numbers = 40'000'000; // 320 MB
     const Index n = this->mass_.size();
     const Index most = std::min(static_cast<Index>(fixed.size()), most_numbers / n);
@@ -333,7 +333,7 @@ bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::ve
     return !context.canceled();
   }
   const SmoothingEnergy energy(points, triangles, fixed, length, context);
-  const ProgressRange range(context, prepared, 1.0);
+  const ProgressRange range(context, preparation_end, 1.0);
   const Index blocks = (values.cols() + lanes - 1) / lanes;
   std::vector<std::atomic<double>> gone(static_cast<std::size_t>(blocks));
   const bool whole = parallel_for(context, values.cols(), lanes,

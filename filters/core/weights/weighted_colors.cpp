@@ -15,7 +15,7 @@ namespace bindpose
 
 namespace
 {
-constexpr Index block_size = 4096;
+constexpr Index colors_per_block = 4096;
 /// Solvers return weights with errors of about 1e-9; the eye can distinguish about 1 / 255.
 constexpr double gamut_tolerance = 1e-6;
 
@@ -96,11 +96,12 @@ Status weighted_colors(WeightsView weights, ColorsView handle_colors,
 
   result.colors.resize(rows, 3);
   result.out_of_gamut.assign(static_cast<std::size_t>(rows), 0);
-  std::vector<Tally> tallies(static_cast<std::size_t>((rows + block_size - 1) / block_size));
-  const bool done = parallel_for(context, rows, block_size,
+  std::vector<Tally> tallies(
+    static_cast<std::size_t>((rows + colors_per_block - 1) / colors_per_block));
+  const bool done = parallel_for(context, rows, colors_per_block,
     [&](Index begin, Index end)
     {
-      Tally& tally = tallies[static_cast<std::size_t>(begin / block_size)];
+      Tally& tally = tallies[static_cast<std::size_t>(begin / colors_per_block)];
       for (Index v = begin; v < end; ++v)
       {
         Vec3 color = (weights.row(v) * blended).transpose();

@@ -24,6 +24,7 @@
 // tree. Outside its box, a piece has the angle of the straight line between its ends.
 #include "winding/curve_winding_number.h"
 
+#include "base/constants.h"
 #include "base/exact.h"
 #include "base/parallel_sort.h"
 #include "winding/exact_frame.h"
@@ -44,10 +45,6 @@ using Id = std::int32_t;
 /// Pieces with at most this many segments are not split further. (Measured: limits from 4 to 12
 /// have nearly the same speed.)
 constexpr Id most_in_leaf = 6;
-/// Beyond this distance from the origin, in units of the curve's size, the winding number is 0 in
-/// double precision.
-constexpr double far_away = 1e20;
-constexpr double pi = 3.14159265358979323846;
 constexpr double two_pi = 2.0 * pi;
 
 /// Report whether a vertex is above the ray from p. A vertex at the height of the ray counts as

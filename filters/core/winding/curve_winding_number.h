@@ -12,7 +12,6 @@ namespace bindpose
 {
 
 /// A position or direction in the plane.
-using Vec2 = Eigen::Vector2d;
 /// #V x 2 coordinates, row-major.
 using PlanePoints = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 /// #E x 2 vertex ids: from, to.

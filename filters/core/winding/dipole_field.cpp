@@ -4,6 +4,7 @@
 // sum over the triangles of the other groups. dipole_field_build.cpp builds the cells.
 #include "winding/dipole_field.h"
 
+#include "base/constants.h"
 #include "winding/local_polynomial.h"
 #include "winding/solid_harmonics.h"
 
@@ -15,7 +16,6 @@ namespace bindpose
 
 namespace
 {
-constexpr double four_pi = 12.566370614359172954;
 } // namespace
 
 DipoleField::Corners DipoleField::corners(Index slot) const

@@ -19,6 +19,7 @@
 // with a lower threshold.
 #include "winding/dipole_field.h"
 
+#include "base/constants.h"
 #include "base/parallel.h"
 #include "winding/local_polynomial.h"
 #include "winding/solid_harmonics.h"
@@ -33,7 +34,6 @@ namespace bindpose
 
 namespace
 {
-constexpr double four_pi = 12.566370614359172954;
 /// A cell whose near list has at most this many blocks is not split.
 constexpr Index few_blocks = 2;
 struct Tuning

@@ -15,13 +15,6 @@ namespace bindpose
 
 namespace
 {
-using Vec2 = Eigen::Vector2d;
-
-double cross(const Vec2& a, const Vec2& b)
-{
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Keep the part of a convex polygon whose points p satisfy p . `toward` <= `limit`.
 void cut(std::vector<Vec2>& polygon, const Vec2& toward, double limit, std::vector<Vec2>& room)
 {

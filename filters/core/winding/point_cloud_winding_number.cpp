@@ -25,6 +25,7 @@
 // sums, so that all machines compute the same bits.
 #include "winding/point_cloud_winding_number.h"
 
+#include "base/constants.h"
 #include "base/parallel.h"
 #include "base/simd.h"
 #include "winding/exact_frame.h"
@@ -43,26 +44,25 @@ namespace bindpose
 namespace
 {
 using Id = PointTree::Id;
-constexpr double four_pi = 12.566370614359172954;
 /// Up to this many points the plain sum takes no more time than the tree.
-constexpr Index few_points = 3000;
+constexpr Index direct_sum_points = 3000;
 constexpr Id leaf_size = 32;
 /// Beyond this distance from the origin, in units of the cloud's size, the winding number is 0 in
 /// double precision.
-constexpr double far_away = 1e100;
+constexpr double farthest = 1e100;
 /// Limit for the moments, so that no sum overflows.
 constexpr double largest_moment = 1e100;
 /// Minimum distance at which multipoles are evaluated. At smaller distances their powers would
 /// overflow.
 constexpr double nearest_multipole = 1e-12;
 
-struct Tuning
+struct CloudTuning
 {
   double tolerance;
   int order;
 };
 /// Order of the multipoles for each tolerance, measured on 100k points.
-constexpr Tuning tunings[] = { { 1e-2, 6 }, { 1e-3, 8 }, { 1e-5, 10 }, { 0.0, 12 } };
+constexpr CloudTuning cloud_tunings[] = { { 1e-2, 6 }, { 1e-3, 8 }, { 1e-5, 10 }, { 0.0, 12 } };
 
 /// Eight points with m = area n / (4 pi). Empty lanes repeat a point with m = 0.
 struct Dipoles
@@ -98,13 +98,7 @@ constexpr Index count_of_moments(int order)
   return (order + 1) * (order + 1) - 1;
 }
 
-using Pack __attribute__((vector_size(64), may_alias)) = double;
 using Mask __attribute__((vector_size(64))) = std::int64_t;
-
-BINDPOSE_ALWAYS_INLINE const Pack& pack(const HarmonicLanes& lanes)
-{
-  return reinterpret_cast<const Pack&>(lanes);
-}
 
 double sum_of(const HarmonicLanes& lanes)
 {
@@ -117,26 +111,27 @@ double sum_of(const HarmonicLanes& lanes)
 BINDPOSE_SIMD_CLONES void add_dipoles(const Dipoles* dipoles, Index count, const double (&q)[3],
   double squared_tolerance, HarmonicLanes& sums, bool& touching)
 {
-  Pack sum = pack(sums);
+  HarmonicPack sum = pack(sums);
   Mask touched{};
   for (const Dipoles* d = dipoles; d != dipoles + count; ++d)
   {
-    const Pack x = pack(d->at[0]) - q[0];
-    const Pack y = pack(d->at[1]) - q[1];
-    const Pack z = pack(d->at[2]) - q[2];
-    const Pack squared = x * x + y * y + z * z;
+    const HarmonicPack x = pack(d->at[0]) - q[0];
+    const HarmonicPack y = pack(d->at[1]) - q[1];
+    const HarmonicPack z = pack(d->at[2]) - q[2];
+    const HarmonicPack squared = x * x + y * y + z * z;
     HarmonicLanes root;
     for (int i = 0; i < harmonic_lanes; ++i)
     {
       root.lane[i] = __builtin_sqrt(squared[i]);
     }
-    const Pack share = (x * pack(d->moment[0]) + y * pack(d->moment[1]) + z * pack(d->moment[2])) /
+    const HarmonicPack share =
+      (x * pack(d->moment[0]) + y * pack(d->moment[1]) + z * pack(d->moment[2])) /
       (squared * pack(root));
     const Mask touches = squared <= squared_tolerance;
-    sum += touches ? Pack{} : share;
+    sum += touches ? HarmonicPack{} : share;
     touched |= touches;
   }
-  reinterpret_cast<Pack&>(sums) = sum;
+  reinterpret_cast<HarmonicPack&>(sums) = sum;
   for (int i = 0; i < harmonic_lanes; ++i)
   {
     touching = touching || touched[i] != 0;
@@ -150,8 +145,8 @@ BINDPOSE_SIMD_CLONES void add_dipole_gradients(const Dipoles* dipoles, Index cou
 {
   for (const Dipoles* d = dipoles; d != dipoles + count; ++d)
   {
-    Pack at[3];
-    Pack squared{}, along{};
+    HarmonicPack at[3];
+    HarmonicPack squared{}, along{};
     for (int k = 0; k < 3; ++k)
     {
       at[k] = pack(d->at[k]) - q[k];
@@ -163,13 +158,13 @@ BINDPOSE_SIMD_CLONES void add_dipole_gradients(const Dipoles* dipoles, Index cou
     {
       root.lane[i] = __builtin_sqrt(squared[i]);
     }
-    const Pack inverse = 1.0 / (squared * pack(root));
-    const Pack steep = 3.0 * along / squared;
+    const HarmonicPack inverse = 1.0 / (squared * pack(root));
+    const HarmonicPack steep = 3.0 * along / squared;
     const Mask touches = squared <= squared_tolerance;
     for (int k = 0; k < 3; ++k)
     {
-      const Pack share = (steep * at[k] - pack(d->moment[k])) * inverse;
-      reinterpret_cast<Pack&>(sums[k]) += touches ? Pack{} : share;
+      const HarmonicPack share = (steep * at[k] - pack(d->moment[k])) * inverse;
+      reinterpret_cast<HarmonicPack&>(sums[k]) += touches ? HarmonicPack{} : share;
     }
   }
 }
@@ -179,21 +174,21 @@ BINDPOSE_SIMD_CLONES void add_dipole_gradients(const Dipoles* dipoles, Index cou
 BINDPOSE_SIMD_CLONES unsigned far_boxes(const Boxes& boxes, const double (&q)[3], int order,
   double squared_stretch, HarmonicLanes (&from)[3], HarmonicLanes& bounds)
 {
-  Pack squared{};
+  HarmonicPack squared{};
   for (int k = 0; k < 3; ++k)
   {
-    const Pack x = q[k] - pack(boxes.center[k]);
-    reinterpret_cast<Pack&>(from[k]) = x;
+    const HarmonicPack x = q[k] - pack(boxes.center[k]);
+    reinterpret_cast<HarmonicPack&>(from[k]) = x;
     squared += x * x;
   }
   const Mask is_far = squared > pack(boxes.squared_reach) * squared_stretch;
-  const Pack inverse = 1.0 / squared;
-  Pack bound = pack(boxes.bound);
+  const HarmonicPack inverse = 1.0 / squared;
+  HarmonicPack bound = pack(boxes.bound);
   for (int k = 0; k < order + 2; k += 2)
   {
     bound *= inverse;
   }
-  reinterpret_cast<Pack&>(bounds) += is_far ? bound : Pack{};
+  reinterpret_cast<HarmonicPack&>(bounds) += is_far ? bound : HarmonicPack{};
   unsigned bits = 0;
   for (int i = 0; i < harmonic_lanes; ++i)
   {
@@ -206,7 +201,7 @@ BINDPOSE_SIMD_CLONES unsigned far_boxes(const Boxes& boxes, const double (&q)[3]
 BINDPOSE_SIMD_CLONES void add_multipoles(int order, const HarmonicLanes* moments,
   const Harmonics& harmonics, unsigned bits, HarmonicLanes& sums)
 {
-  Pack sum{};
+  HarmonicPack sum{};
   for (int n = 1; n <= order; ++n)
   {
     const int row = harmonic_index(n, 0);
@@ -230,19 +225,19 @@ BINDPOSE_SIMD_CLONES void add_multipoles(int order, const HarmonicLanes* moments
 BINDPOSE_SIMD_CLONES void add_multipole_gradients(int order, const HarmonicLanes* moments,
   const Harmonics& harmonics, unsigned bits, HarmonicLanes (&sums)[3])
 {
-  Pack sum[3] = {};
+  HarmonicPack sum[3] = {};
   for (int n = 1; n <= order; ++n)
   {
     const HarmonicLanes* const real = harmonics.real + harmonic_index(n + 1, 0);
     const HarmonicLanes* const imaginary = harmonics.imaginary + harmonic_index(n + 1, 0);
-    const Pack whole = pack(*moments++);
+    const HarmonicPack whole = pack(*moments++);
     sum[0] -= whole * pack(real[1]);
     sum[1] -= whole * pack(imaginary[1]);
     sum[2] -= whole * pack(real[0]);
     for (int m = 1; m <= n; ++m)
     {
-      const Pack re = pack(*moments++);
-      const Pack im = pack(*moments++);
+      const HarmonicPack re = pack(*moments++);
+      const HarmonicPack im = pack(*moments++);
       sum[0] += 0.5 *
         (re * (pack(real[m - 1]) - pack(real[m + 1])) +
           im * (pack(imaginary[m - 1]) - pack(imaginary[m + 1])));
@@ -665,7 +660,7 @@ Points PointCloudWindingNumber::Parts::sample(const PointTree& tree) const
     {
       const auto place = static_cast<Index>(uniform() * points);
       const Dipoles& block = this->dipoles[place / harmonic_lanes];
-      Vec3 lower = Vec3::Constant(far_away), upper = -lower, at;
+      Vec3 lower = Vec3::Constant(farthest), upper = -lower, at;
       for (int k = 0; k < 3; ++k)
       {
         at[k] = block.at[k].lane[place % harmonic_lanes];
@@ -832,20 +827,20 @@ Status PointCloudWindingNumber::build(PointsView points, PointsView normals, Num
 
   parts.take_dipoles(framed, moments, tree);
   parts.method = options.method == WindingMethod::fast ||
-      (options.method == WindingMethod::automatic && count > few_points)
+      (options.method == WindingMethod::automatic && count > direct_sum_points)
     ? WindingMethod::fast
     : WindingMethod::direct;
   std::string reason = "requested";
   if (options.method == WindingMethod::automatic)
   {
     reason = std::to_string(count) +
-      (count > few_points ? " points: a direct sum would take longer"
-                          : " points: a direct sum is fastest for so few");
+      (count > direct_sum_points ? " points: a direct sum would take longer"
+                                 : " points: a direct sum is fastest for so few");
   }
   if (parts.method == WindingMethod::fast)
   {
     parts.tolerance = options.tolerance;
-    for (const Tuning& tuning : tunings)
+    for (const CloudTuning& tuning : cloud_tunings)
     {
       parts.order = tuning.order;
       if (options.tolerance >= tuning.tolerance)
@@ -977,7 +972,7 @@ Vec3 PointCloudWindingNumber::Parts::plain_gradient(const Vec3& p) const
 /// Report whether the winding number can differ from 0. Far away it is 0 in double precision.
 bool PointCloudWindingNumber::Parts::winds_around(const Vec3& framed) const
 {
-  return !this->dipoles.empty() && framed.cwiseAbs().maxCoeff() < far_away;
+  return !this->dipoles.empty() && framed.cwiseAbs().maxCoeff() < farthest;
 }
 
 Vec3 PointCloudWindingNumber::Parts::gradient_at(const Vec3& query) const

@@ -10,24 +10,11 @@
 // Derivatives: d/dz U(n, m) = U(n-1, m), (d/dx ± i d/dy) U(n, m) = ∓ U(n-1, m±1).
 #include "winding/solid_harmonics.h"
 
-#include "base/simd.h"
-
 namespace bindpose
 {
 
 namespace
 {
-using Pack __attribute__((vector_size(64), may_alias)) = double;
-
-BINDPOSE_ALWAYS_INLINE const Pack& pack(const HarmonicLanes& lanes)
-{
-  return reinterpret_cast<const Pack&>(lanes);
-}
-BINDPOSE_ALWAYS_INLINE Pack& pack(HarmonicLanes& lanes)
-{
-  return reinterpret_cast<Pack&>(lanes);
-}
-
 /// The coefficient (n, m) for any sign of m is the stored coefficient at `index` with its real part
 /// multiplied by `real_sign` and its imaginary part by `imaginary_sign`.
 struct Place
@@ -58,9 +45,9 @@ void Harmonics::clear(int order)
 
 BINDPOSE_SIMD_CLONES void regular_harmonics(int order, const HarmonicLanes (&at)[3], Harmonics& out)
 {
-  const Pack x = pack(at[0]), y = pack(at[1]), z = pack(at[2]);
-  const Pack r2 = x * x + y * y + z * z;
-  const Pack zero = x - x;
+  const HarmonicPack x = pack(at[0]), y = pack(at[1]), z = pack(at[2]);
+  const HarmonicPack r2 = x * x + y * y + z * z;
+  const HarmonicPack zero = x - x;
   pack(out.real[0]) = zero + 1.0;
   pack(out.imaginary[0]) = zero;
   for (int n = 1; n <= order; ++n)
@@ -68,15 +55,15 @@ BINDPOSE_SIMD_CLONES void regular_harmonics(int order, const HarmonicLanes (&at)
     const int d = harmonic_index(n - 1, n - 1);
     const int e = harmonic_index(n, n);
     const double half = 1.0 / (2.0 * n);
-    const Pack re = pack(out.real[d]) * half, im = pack(out.imaginary[d]) * half;
+    const HarmonicPack re = pack(out.real[d]) * half, im = pack(out.imaginary[d]) * half;
     pack(out.real[e]) = x * re - y * im;
     pack(out.imaginary[e]) = x * im + y * re;
-    const Pack zn = z * (2.0 * n - 1.0);
+    const HarmonicPack zn = z * (2.0 * n - 1.0);
     for (int m = 0; m < n; ++m)
     {
       const int a = harmonic_index(n, m), b = harmonic_index(n - 1, m);
       const double scale = 1.0 / (n * n - m * m);
-      Pack re2 = zn * pack(out.real[b]), im2 = zn * pack(out.imaginary[b]);
+      HarmonicPack re2 = zn * pack(out.real[b]), im2 = zn * pack(out.imaginary[b]);
       if (m <= n - 2)
       {
         const int c = harmonic_index(n - 2, m);
@@ -92,9 +79,11 @@ BINDPOSE_SIMD_CLONES void regular_harmonics(int order, const HarmonicLanes (&at)
 BINDPOSE_SIMD_CLONES void irregular_harmonics(
   int order, const HarmonicLanes (&at)[3], Harmonics& out)
 {
-  const Pack r2 = pack(at[0]) * pack(at[0]) + pack(at[1]) * pack(at[1]) + pack(at[2]) * pack(at[2]);
-  const Pack inverse = 1.0 / r2;
-  const Pack x = pack(at[0]) * inverse, y = pack(at[1]) * inverse, z = pack(at[2]) * inverse;
+  const HarmonicPack r2 =
+    pack(at[0]) * pack(at[0]) + pack(at[1]) * pack(at[1]) + pack(at[2]) * pack(at[2]);
+  const HarmonicPack inverse = 1.0 / r2;
+  const HarmonicPack x = pack(at[0]) * inverse, y = pack(at[1]) * inverse,
+                     z = pack(at[2]) * inverse;
   HarmonicLanes root;
   for (int i = 0; i < harmonic_lanes; ++i)
   {
@@ -107,18 +96,18 @@ BINDPOSE_SIMD_CLONES void irregular_harmonics(
     const int d = harmonic_index(n - 1, n - 1);
     const int e = harmonic_index(n, n);
     const double odd = 2.0 * n - 1.0;
-    const Pack re = pack(out.real[d]) * odd, im = pack(out.imaginary[d]) * odd;
+    const HarmonicPack re = pack(out.real[d]) * odd, im = pack(out.imaginary[d]) * odd;
     pack(out.real[e]) = x * re - y * im;
     pack(out.imaginary[e]) = x * im + y * re;
-    const Pack zn = z * odd;
+    const HarmonicPack zn = z * odd;
     for (int m = 0; m < n; ++m)
     {
       const int a = harmonic_index(n, m), b = harmonic_index(n - 1, m);
-      Pack re2 = zn * pack(out.real[b]), im2 = zn * pack(out.imaginary[b]);
+      HarmonicPack re2 = zn * pack(out.real[b]), im2 = zn * pack(out.imaginary[b]);
       if (m <= n - 2)
       {
         const int c = harmonic_index(n - 2, m);
-        const Pack factor = inverse * static_cast<double>((n - 1) * (n - 1) - m * m);
+        const HarmonicPack factor = inverse * static_cast<double>((n - 1) * (n - 1) - m * m);
         re2 -= factor * pack(out.real[c]);
         im2 -= factor * pack(out.imaginary[c]);
       }
@@ -131,13 +120,13 @@ BINDPOSE_SIMD_CLONES void irregular_harmonics(
 BINDPOSE_SIMD_CLONES void regular_derivative(
   int order, const Harmonics& value, const HarmonicLanes (&normal)[3], Harmonics& out)
 {
-  const Pack x = 0.5 * pack(normal[0]), y = 0.5 * pack(normal[1]), z = pack(normal[2]);
+  const HarmonicPack x = 0.5 * pack(normal[0]), y = 0.5 * pack(normal[1]), z = pack(normal[2]);
   for (int n = 1; n <= order; ++n)
   {
     for (int m = 0; m <= n; ++m)
     {
       const int a = harmonic_index(n, m);
-      Pack re = z - z, im = re;
+      HarmonicPack re = z - z, im = re;
       if (m <= n - 1)
       {
         const int b = harmonic_index(n - 1, m);
@@ -153,8 +142,8 @@ BINDPOSE_SIMD_CLONES void regular_derivative(
       if (1 - m <= n - 1) // (x + iy) U(n-1, m-1)
       {
         const Place b = place(n - 1, m - 1);
-        const Pack ure = pack(value.real[b.index]) * b.real_sign;
-        const Pack uim = pack(value.imaginary[b.index]) * b.imaginary_sign;
+        const HarmonicPack ure = pack(value.real[b.index]) * b.real_sign;
+        const HarmonicPack uim = pack(value.imaginary[b.index]) * b.imaginary_sign;
         re += x * ure - y * uim;
         im += x * uim + y * ure;
       }
@@ -172,7 +161,7 @@ BINDPOSE_SIMD_CLONES void multipole_to_multipole(
     for (int m = 0; m <= n; ++m)
     {
       const int a = harmonic_index(n, m);
-      Pack re = pack(out.real[a]), im = pack(out.imaginary[a]);
+      HarmonicPack re = pack(out.real[a]), im = pack(out.imaginary[a]);
       for (int k = 0; k < n; ++k)
       {
         const int d = n - k;
@@ -183,8 +172,8 @@ BINDPOSE_SIMD_CLONES void multipole_to_multipole(
           const double ii = s.imaginary_sign * c.imaginary_sign;
           const double ri = s.real_sign * c.imaginary_sign;
           const double ir = s.imaginary_sign * c.real_sign;
-          const Pack sr = pack(shift.real[s.index]), si = pack(shift.imaginary[s.index]);
-          const Pack cr = pack(in.real[c.index]), ci = pack(in.imaginary[c.index]);
+          const HarmonicPack sr = pack(shift.real[s.index]), si = pack(shift.imaginary[s.index]);
+          const HarmonicPack cr = pack(in.real[c.index]), ci = pack(in.imaginary[c.index]);
           re += rr * (sr * cr) - ii * (si * ci);
           im += ri * (sr * ci) + ir * (si * cr);
         }
@@ -202,23 +191,24 @@ BINDPOSE_SIMD_CLONES void multipole_to_local(
   {
     for (int l = 0; l <= k; ++l)
     {
-      Pack re = pack(from.real[0]) - pack(from.real[0]);
-      Pack im = re;
+      HarmonicPack re = pack(from.real[0]) - pack(from.real[0]);
+      HarmonicPack im = re;
       for (int n = 1; n <= order - k; ++n)
       {
         const int row = harmonic_index(n + k, 0);
-        const Pack m0 = pack(in.real[harmonic_index(n, 0)]);
+        const HarmonicPack m0 = pack(in.real[harmonic_index(n, 0)]);
         re += m0 * pack(from.real[row + l]);
         im += m0 * pack(from.imaginary[row + l]);
         // The coefficients M(n, m) and M(n, -m) are processed together.
         for (int m = 1; m <= n; ++m)
         {
-          const Pack mr = pack(in.real[harmonic_index(n, m)]);
-          const Pack mi = pack(in.imaginary[harmonic_index(n, m)]);
-          const Pack pr = pack(from.real[row + l + m]), pi = pack(from.imaginary[row + l + m]);
+          const HarmonicPack mr = pack(in.real[harmonic_index(n, m)]);
+          const HarmonicPack mi = pack(in.imaginary[harmonic_index(n, m)]);
+          const HarmonicPack pr = pack(from.real[row + l + m]),
+                             pi = pack(from.imaginary[row + l + m]);
           if (m <= l)
           {
-            Pack qr = pack(from.real[row + l - m]), qi = pack(from.imaginary[row + l - m]);
+            HarmonicPack qr = pack(from.real[row + l - m]), qi = pack(from.imaginary[row + l - m]);
             if (m % 2)
             {
               qr = -qr;
@@ -230,7 +220,7 @@ BINDPOSE_SIMD_CLONES void multipole_to_local(
           else
           {
             // (-1)^m T(., l - m) = (-1)^l conj(T(., m - l))
-            Pack qr = pack(from.real[row + m - l]), qi = pack(from.imaginary[row + m - l]);
+            HarmonicPack qr = pack(from.real[row + m - l]), qi = pack(from.imaginary[row + m - l]);
             if (l % 2)
             {
               qr = -qr;
@@ -263,8 +253,8 @@ BINDPOSE_SIMD_CLONES void local_to_local(
   {
     for (int l = 0; l <= k; ++l)
     {
-      Pack re = pack(in.real[0]) - pack(in.real[0]);
-      Pack im = re;
+      HarmonicPack re = pack(in.real[0]) - pack(in.real[0]);
+      HarmonicPack im = re;
       for (int n = k; n <= order; ++n)
       {
         const int d = n - k;
@@ -276,8 +266,8 @@ BINDPOSE_SIMD_CLONES void local_to_local(
           const double ii = s.imaginary_sign * c.imaginary_sign;
           const double ri = s.real_sign * c.imaginary_sign;
           const double ir = s.imaginary_sign * c.real_sign;
-          const Pack sr = pack(shift.real[s.index]), si = pack(shift.imaginary[s.index]);
-          const Pack cr = pack(in.real[c.index]), ci = pack(in.imaginary[c.index]);
+          const HarmonicPack sr = pack(shift.real[s.index]), si = pack(shift.imaginary[s.index]);
+          const HarmonicPack cr = pack(in.real[c.index]), ci = pack(in.imaginary[c.index]);
           re += rr * (sr * cr) + ii * (si * ci);
           im += ri * (sr * ci) - ir * (si * cr);
         }

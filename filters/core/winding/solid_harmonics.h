@@ -9,10 +9,10 @@
 // Only coefficients (n, m) with m >= 0 are stored; f(n, -m) = (-1)^m conj(f(n, m)). The eight lanes
 // are independent: the bits of a lane depend on that lane only, on every instruction set.
 
+#include "winding/harmonic_lanes.h"
+
 namespace bindpose
 {
-
-constexpr int harmonic_lanes = 8;
 
 /// Return the array index of the coefficient (n, m), 0 <= m <= n.
 constexpr int harmonic_index(int n, int m)
@@ -28,12 +28,6 @@ constexpr int harmonic_count(int order)
 /// Highest degree that the functions below accept. A local expansion of order p uses irregular
 /// harmonics of degree p + 1 (multipole_to_local).
 constexpr int max_harmonic_order = 16;
-
-/// One double per lane.
-struct alignas(64) HarmonicLanes
-{
-  double lane[harmonic_lanes];
-};
 
 /// Real and imaginary parts of the coefficients (n, m) of an expansion.
 struct Harmonics

@@ -14,6 +14,7 @@
 // without rounding (ExactFrame).
 #include "winding/winding_number.h"
 
+#include "base/constants.h"
 #include "base/large_pages.h"
 #include "base/parallel.h"
 #include "base/point_order.h"
@@ -47,9 +48,6 @@ constexpr Index few_open_edges = 15000;
 /// Up to this many open edges, the exact sum over the caps takes about as much time as the
 /// DipoleField of the caps.
 constexpr Index hardly_open = 12;
-/// Beyond this distance from the origin, in units of the mesh size, the winding number is 0 in
-/// double precision.
-constexpr double far_away = 1e20;
 /// Measured nanoseconds of WindingCells: to build, per triangle; to evaluate a point; to evaluate a
 /// sample of a row.
 constexpr double cells_per_face = 450.0;
@@ -695,7 +693,6 @@ Vec3 WindingNumber::Parts::gradient_at(const Vec3& point) const
       sum += edge.net_direction * ((la + lb) / (la * lb * angle)) * a.cross(b);
     }
   }
-  constexpr double four_pi = 12.56637061435917295;
   return this->frame.scale / four_pi * sum;
 }
 

@@ -1,0 +1,15 @@
+#ifndef bindpose_base_constants_h
+#define bindpose_base_constants_h
+
+#include <limits>
+
+namespace bindpose
+{
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double four_pi = 4.0 * pi; ///< solid angle of all directions
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+} // namespace bindpose
+
+#endif

@@ -1,6 +1,7 @@
 // The contract that vtkBindposeAlgorithm gives all filters: report, failure, cancel, repeated
 // execution.
 #include "TestFilter.h"
+#include "data_of.h"
 
 #include "conversion.h"
 #include "report_field_data.h"
@@ -23,18 +24,13 @@
 #include <thread>
 
 using namespace bindpose;
+using bindpose::test::data_of;
 using bindpose::test::Listener;
 using bindpose::test::TestFilter;
 using testing::HasSubstr;
 
 namespace
 {
-vtkSmartPointer<vtkPolyData> cube()
-{
-  const TriangleMesh mesh = test::cube();
-  return to_polydata(mesh.points, mesh.triangles);
-}
-
 Status fail(StatusCode code)
 {
   return Status::failure(code, "the dog ate it");
@@ -46,7 +42,7 @@ TEST(BindposeAlgorithm, ReportsOnTheOutput)
   vtkNew<TestFilter> filter;
   vtkNew<Listener> listener;
   listener->listen(filter);
-  filter->SetInputData(cube());
+  filter->SetInputData(data_of(test::cube()));
   EXPECT_EQ(filter->GetReportJSON(), "{}");
   filter->Work = [](vtkPolyData*, ExecutionContext& context)
   {
@@ -91,7 +87,7 @@ TEST(BindposeAlgorithm, ReportsOnTheOutput)
 TEST(BindposeAlgorithm, ExecutesOnlyWhenSomethingChanged)
 {
   vtkNew<TestFilter> filter;
-  const auto input = cube();
+  const auto input = data_of(test::cube());
   filter->SetInputData(input);
   filter->Update();
   filter->Update();
@@ -136,7 +132,7 @@ TEST(BindposeAlgorithm, NotConvergedIsAResult)
   vtkNew<TestFilter> filter;
   vtkNew<Listener> listener;
   listener->listen(filter);
-  filter->SetInputData(cube());
+  filter->SetInputData(data_of(test::cube()));
   filter->Work = [](vtkPolyData*, ExecutionContext&) { return fail(StatusCode::not_converged); };
   filter->Update();
   filter->Update();
@@ -155,7 +151,7 @@ TEST(BindposeAlgorithm, FailureEmptiesOutputsAndPassesOn)
   vtkNew<Listener> downstream;
   listener->listen(first);
   downstream->listen(second);
-  first->SetInputData(cube());
+  first->SetInputData(data_of(test::cube()));
   second->SetInputConnection(first->GetOutputPort());
   second->Update();
   EXPECT_EQ(second->GetOutput()->GetNumberOfCells(), 12);
@@ -208,7 +204,7 @@ TEST(BindposeAlgorithm, ExceptionsAreInternalErrors)
   vtkNew<TestFilter> filter;
   vtkNew<Listener> listener;
   listener->listen(filter);
-  filter->SetInputData(cube());
+  filter->SetInputData(data_of(test::cube()));
   filter->Work = [](vtkPolyData*, ExecutionContext&) -> Status
   { throw std::runtime_error("bad luck"); };
   filter->Update();
@@ -233,7 +229,7 @@ TEST(BindposeAlgorithm, ObserverCancelsAndTheNextUpdateExecutesAgain)
   vtkNew<Listener> downstream;
   listener->listen(first);
   downstream->listen(second);
-  first->SetInputData(cube());
+  first->SetInputData(data_of(test::cube()));
   second->SetInputConnection(first->GetOutputPort());
   first->Work = [](vtkPolyData*, ExecutionContext& context)
   {
@@ -278,7 +274,7 @@ TEST(BindposeAlgorithm, ObserverCancelsAndTheNextUpdateExecutesAgain)
 TEST(BindposeAlgorithm, AnotherThreadCancelsInTime)
 {
   vtkNew<TestFilter> filter;
-  filter->SetInputData(cube());
+  filter->SetInputData(data_of(test::cube()));
   std::atomic<bool> running{ false };
   filter->Work = [&](vtkPolyData*, ExecutionContext& context)
   {
@@ -315,7 +311,7 @@ TEST(BindposeAlgorithm, ReportsOfEarlierStagesAreReplaced)
 {
   vtkNew<TestFilter> first;
   vtkNew<TestFilter> second;
-  first->SetInputData(cube());
+  first->SetInputData(data_of(test::cube()));
   first->Work = [](vtkPolyData*, ExecutionContext&)
   {
     Status status;
@@ -334,7 +330,7 @@ TEST(BindposeAlgorithm, BlocksOfACompositeInput)
   vtkNew<vtkMultiBlockDataSet> blocks;
   for (unsigned int b = 0; b < 3; ++b)
   {
-    blocks->SetBlock(b, cube());
+    blocks->SetBlock(b, data_of(test::cube()));
   }
   vtkNew<TestFilter> filter;
   vtkNew<Listener> listener;
@@ -397,8 +393,8 @@ TEST(BindposeAlgorithm, BlocksOfACompositeInput)
 TEST(BindposeAlgorithm, CanceledCompositesPassOn)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, cube());
-  blocks->SetBlock(1, cube());
+  blocks->SetBlock(0, data_of(test::cube()));
+  blocks->SetBlock(1, data_of(test::cube()));
   vtkNew<TestFilter> first;
   vtkNew<TestFilter> second;
   vtkNew<Listener> listener;
@@ -423,7 +419,7 @@ TEST(BindposeAlgorithm, InputsThatAreMissingOrOfTheWrongKind)
   vtkNew<TestFilter> filter;
   vtkNew<Listener> listener;
   EXPECT_EQ(filter->GetInput(), nullptr);
-  filter->SetInputData(cube());
+  filter->SetInputData(data_of(test::cube()));
   EXPECT_EQ(filter->GetInput(), filter->GetInputDataObject(0, 0));
   filter->SetInputData(nullptr);
   EXPECT_EQ(filter->GetNumberOfInputConnections(0), 0);
@@ -431,7 +427,7 @@ TEST(BindposeAlgorithm, InputsThatAreMissingOrOfTheWrongKind)
   filter->Update();
   vtkObject::GlobalWarningDisplayOn();
   EXPECT_EQ(filter->Executions, 0);
-  filter->SetInputData(cube());
+  filter->SetInputData(data_of(test::cube()));
   filter->Update();
   EXPECT_EQ(filter->Executions, 1);
 }

@@ -1,6 +1,8 @@
 // vtkMeshFileReader and vtkMeshFileWriter: every format is read back as it was written. A file that
 // cannot be read or written gives one sentence in the status and in the report of the empty output,
 // and never a crash.
+#include "data_of.h"
+
 #include "conversion.h"
 #include "report_field_data.h"
 #include "vtkMeshFileReader.h"
@@ -64,16 +66,14 @@ protected:
   vtkNew<vtkMeshFileWriter> Writer;
 };
 
-vtkSmartPointer<vtkPolyData> cube()
+vtkSmartPointer<vtkPolyData> cube_data()
 {
-  const TriangleMesh mesh = test::cube(0.0, 1.0 / 3.0);
-  return to_polydata(mesh.points, mesh.triangles);
+  return test::data_of(test::cube(0.0, 1.0 / 3.0));
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> box()
+vtkSmartPointer<vtkUnstructuredGrid> tet_data()
 {
-  const TetMesh mesh = test::tet_box(2, 1, 1);
-  return to_unstructured_grid(mesh.points, mesh.tets);
+  return test::data_of(test::tet_box(2, 1, 1));
 }
 
 void add_weights(vtkDataSet* data)
@@ -93,7 +93,7 @@ void add_weights(vtkDataSet* data)
 
 TEST_F(MeshFiles, SurfacesComeBackInEveryFormat)
 {
-  const auto surface = cube();
+  const auto surface = cube_data();
   for (const std::string ending : { "off", "obj", "ply", "stl", "vtp", "vtk", "mesh", "OFF" })
   {
     SCOPED_TRACE(ending);
@@ -130,7 +130,7 @@ TEST_F(MeshFiles, PolygonsStayPolygons)
 
 TEST_F(MeshFiles, TetsComeBackInEveryFormat)
 {
-  const auto tets = box();
+  const auto tets = tet_data();
   add_weights(tets);
   for (const std::string ending : { "vtu", "vtk", "mesh" })
   {
@@ -180,7 +180,7 @@ TEST_F(MeshFiles, ImagesKeepOriginSpacingAndExtent)
 
 TEST_F(MeshFiles, ReportsSurviveFiles)
 {
-  const auto surface = cube();
+  const auto surface = cube_data();
   Report report;
   report.set("status", "ok");
   report.set("message", "");
@@ -207,7 +207,7 @@ TEST_F(MeshFiles, ReportsSurviveFiles)
 
 TEST_F(MeshFiles, DmatHoldsTheWeights)
 {
-  const auto surface = cube();
+  const auto surface = cube_data();
   EXPECT_THAT(this->Write(surface, this->Folder / "w.dmat"), HasSubstr("no point array 'Weights'"));
   add_weights(surface);
   ASSERT_EQ(this->Write(surface, this->Folder / "w.dmat"), "");
@@ -216,8 +216,8 @@ TEST_F(MeshFiles, DmatHoldsTheWeights)
 
 TEST_F(MeshFiles, TheReaderFollowsItsFileName)
 {
-  this->Write(cube(), this->Folder / "a.off");
-  this->Write(box(), this->Folder / "b.vtu");
+  this->Write(cube_data(), this->Folder / "a.off");
+  this->Write(tet_data(), this->Folder / "b.vtu");
   EXPECT_EQ(this->Read(this->Folder / "a.off")->GetNumberOfCells(), 12);
   EXPECT_TRUE(this->Read(this->Folder / "b.vtu")->IsA("vtkUnstructuredGrid"));
   EXPECT_EQ(this->Reader->GetStatus(), vtkMeshFileReader::OK);
@@ -230,7 +230,7 @@ TEST_F(MeshFiles, TheReaderFollowsItsFileName)
 TEST_F(MeshFiles, AFileThatIsMendedIsReadAgain)
 {
   EXPECT_THAT(this->ReadError(this->Folder / "late.off"), HasSubstr("No such file"));
-  this->Write(cube(), this->Folder / "late.off");
+  this->Write(cube_data(), this->Folder / "late.off");
   // No parameter has changed. The failure alone makes the reader execute again.
   this->Reader->Update();
   EXPECT_EQ(this->Reader->GetOutput()->GetNumberOfCells(), 12);
@@ -263,8 +263,8 @@ TEST_F(MeshFiles, UnreadableFilesAreOneSentence)
 
 TEST_F(MeshFiles, TruncatedAndGarbledFilesNeverCrash)
 {
-  const auto surface = cube();
-  const auto tets = box();
+  const auto surface = cube_data();
+  const auto tets = tet_data();
   add_weights(surface);
   add_weights(tets);
   test::Random random(3);
@@ -307,7 +307,7 @@ TEST_F(MeshFiles, TruncatedAndGarbledFilesNeverCrash)
 
 TEST_F(MeshFiles, WhatCannotBeWrittenIsOneSentence)
 {
-  const auto surface = cube();
+  const auto surface = cube_data();
   const std::string path = this->Folder / "x.off";
   EXPECT_THAT(this->Write(surface, ""), HasSubstr("file name is empty"));
   EXPECT_THAT(
@@ -315,8 +315,8 @@ TEST_F(MeshFiles, WhatCannotBeWrittenIsOneSentence)
   EXPECT_THAT(this->Write(surface, this->Folder / "no/x.vtp"), HasSubstr("No such file"));
   EXPECT_THAT(this->Write(surface, this->Folder / "x.vtu"), HasSubstr("vtkPolyData"));
   EXPECT_THAT(this->Write(surface, this->Folder / "x.vti"), HasSubstr("volumes"));
-  EXPECT_THAT(this->Write(box(), this->Folder / "x.vtp"), HasSubstr("vtkUnstructuredGrid"));
-  EXPECT_THAT(this->Write(box(), path), HasSubstr("no triangles"));
+  EXPECT_THAT(this->Write(tet_data(), this->Folder / "x.vtp"), HasSubstr("vtkUnstructuredGrid"));
+  EXPECT_THAT(this->Write(tet_data(), path), HasSubstr("no triangles"));
   vtkNew<vtkPolyData> empty;
   EXPECT_THAT(this->Write(empty, path), HasSubstr("nothing to write"));
   EXPECT_EQ(this->Folder.number_of_files(), 0u);

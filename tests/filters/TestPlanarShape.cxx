@@ -79,7 +79,7 @@ vtkSmartPointer<vtkPolyData> polyline(const std::vector<Vec3>& corners, bool clo
   return data;
 }
 
-const std::vector<Vec3> square{ { 0, 0, 7 }, { 2, 0, 7 }, { 2, 2, 7 }, { 0, 2, 7 } };
+const std::vector<Vec3> square_corners{ { 0, 0, 7 }, { 2, 0, 7 }, { 2, 2, 7 }, { 0, 2, 7 } };
 
 double area_of(vtkDataSet* data)
 {
@@ -193,7 +193,7 @@ TEST_F(PlanarShapeFilter, AlphaOfAnyType)
 
 TEST_F(PlanarShapeFilter, LinesAndPolygons)
 {
-  filter->SetInputData(polyline(square, false));
+  filter->SetInputData(polyline(square_corners, false));
   update();
   EXPECT_NEAR(area_of(filter->GetOutput()), 4.0, 1e-12);
   EXPECT_EQ(filter->GetOutput()->GetPoint(0)[2], 7.0);
@@ -224,7 +224,7 @@ TEST_F(PlanarShapeFilter, HandlesAreVertices)
   handles[3].kind = HandleKind::region;
   handles[3].region_id = 1;
   handles[3].head = handles[3].tail = Vec3(0.3, 0.3, 0);
-  filter->SetInputData(0, polyline(square, true));
+  filter->SetInputData(0, polyline(square_corners, true));
   filter->SetInputData(1, to_polydata(handles));
   update();
   const Report report = read_report(filter->GetOutput());
@@ -249,7 +249,7 @@ TEST_F(PlanarShapeFilter, NoWorkTwiceAndAgainAfterAChange)
 {
   vtkNew<Listener> listener;
   listener->listen(filter);
-  filter->SetInputData(polyline(square, true));
+  filter->SetInputData(polyline(square_corners, true));
   update();
   const vtkMTimeType before = filter->GetOutput()->GetMTime();
   update();
@@ -286,7 +286,7 @@ TEST_F(PlanarShapeFilter, Refuses)
   refuses(polyline({ { 0, 0, 0 }, { 1, NAN, 0 }, { 1, 1, 0 } }, true), "point 1");
   refuses(polyline({ { 0, 0, 0 }, { 1, 1, 0 }, { 2, 2, 0 } }, true), "one line");
   refuses(polyline({ { 1, 2, 0 }, { 1, 2, 0 } }, false), "coincide");
-  auto wrong = polyline(square, true);
+  auto wrong = polyline(square_corners, true);
   vtkNew<vtkCellArray> lines;
   lines->InsertNextCell({ 0, 1, 9 });
   wrong->SetLines(lines);
@@ -304,7 +304,7 @@ TEST(PlanarShapeWithoutHelper, SaysWhatIsMissing)
   vtkNew<vtkPlanarShape> filter;
   vtkNew<Listener> listener;
   listener->listen(filter);
-  filter->SetInputData(polyline(square, true));
+  filter->SetInputData(polyline(square_corners, true));
   filter->Update();
   EXPECT_EQ(filter->GetStatus(), vtkPlanarShape::UNAVAILABLE);
   EXPECT_THAT(filter->GetStatusMessage(), HasSubstr(built ? "/nowhere" : "libcgal-dev"));

@@ -51,7 +51,7 @@ enum Truth
 };
 
 /// Return the query points as the input dataset of both filters.
-vtkSmartPointer<vtkPolyData> data_of(const Points& points)
+vtkSmartPointer<vtkPolyData> query_data(const Points& points)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(to_vtk_points(points));
@@ -64,7 +64,7 @@ vtkSmartPointer<vtkDataArray> inside_by_bindpose(
 {
   vtkNew<vtkWindingNumberField> field;
   field->SetInputData(to_polydata(mesh.points, mesh.triangles));
-  field->SetPointsData(data_of(points));
+  field->SetPointsData(query_data(points));
   field->SetOrientPatches(orient);
   field->ComputeInsideOn();
   field->Update();
@@ -82,7 +82,7 @@ vtkSmartPointer<vtkDataArray> inside_by_vtk(
   vtkNew<Listener> listener;
   listener->listen(select);
   select->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
-  select->SetInputData(data_of(points));
+  select->SetInputData(query_data(points));
   select->SetSurfaceData(to_polydata(mesh.points, mesh.triangles));
   select->SetCheckSurface(check_surface);
   select->SetTolerance(tolerance);

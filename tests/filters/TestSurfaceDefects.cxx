@@ -43,7 +43,7 @@ std::map<int, int> counts(vtkDataSet* data)
 }
 
 template <typename Array>
-Array* array_of(vtkDataSet* data, const char* name)
+Array* cell_array(vtkDataSet* data, const char* name)
 {
   auto* array = Array::SafeDownCast(data->GetCellData()->GetAbstractArray(name));
   EXPECT_TRUE(array) << name;
@@ -77,10 +77,10 @@ TEST(SurfaceDefectsFilter, CellsAndArrays)
   EXPECT_EQ(out->GetNumberOfPolys(), 13);
   EXPECT_THAT(filter->GetReportJSON(), HasSubstr("\"boundary_edges\": 4"));
 
-  auto* names = array_of<vtkStringArray>(out, "DefectName");
-  auto* cells = array_of<vtkIdTypeArray>(out, "OriginalCellIds");
-  auto* crossed = array_of<vtkIdTypeArray>(out, "CrossedCellIds");
-  auto* components = array_of<vtkIdTypeArray>(out, "Component");
+  auto* names = cell_array<vtkStringArray>(out, "DefectName");
+  auto* cells = cell_array<vtkIdTypeArray>(out, "OriginalCellIds");
+  auto* crossed = cell_array<vtkIdTypeArray>(out, "CrossedCellIds");
+  auto* components = cell_array<vtkIdTypeArray>(out, "Component");
   auto* points = vtkIdTypeArray::SafeDownCast(out->GetPointData()->GetArray("OriginalPointIds"));
   ASSERT_TRUE(names && cells && crossed && components && points);
   EXPECT_EQ(names->GetValue(0), "unreferenced vertex");
@@ -127,8 +127,8 @@ TEST(SurfaceDefectsFilter, CellIdsAreThoseOfPolygons)
   ASSERT_EQ(filter->GetStatus(), vtkSurfaceDefects::OK) << filter->GetStatusMessage();
   auto* out = vtkPolyData::SafeDownCast(filter->GetOutput());
   EXPECT_EQ(counts(out)[vtkSurfaceDefects::DUPLICATE_TRIANGLE], 2);
-  auto* cells = array_of<vtkIdTypeArray>(out, "OriginalCellIds");
-  auto* names = array_of<vtkStringArray>(out, "DefectName");
+  auto* cells = cell_array<vtkIdTypeArray>(out, "OriginalCellIds");
+  auto* names = cell_array<vtkStringArray>(out, "DefectName");
   for (vtkIdType c = 0; c < out->GetNumberOfCells(); ++c)
   {
     if (names->GetValue(c) == "duplicate triangle")

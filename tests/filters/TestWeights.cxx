@@ -1,6 +1,7 @@
 // The weights filters: arrays and names, one bind for any number of pose edits, inserted handles,
 // regions, surfaces and tets, cancel and repeat, clear errors.
 #include "TestFilter.h"
+#include "data_of.h"
 
 #include "vtkBoundedBiharmonicWeights.h"
 #include "vtkMonotoneWeights.h"
@@ -38,16 +39,14 @@ using testing::HasSubstr;
 
 namespace
 {
-vtkSmartPointer<vtkUnstructuredGrid> tet_box(int n)
+vtkSmartPointer<vtkUnstructuredGrid> box_data(int n)
 {
-  const TetMesh box = test::tet_box(n, n, n);
-  return to_unstructured_grid(box.points, box.tets);
+  return test::data_of(test::tet_box(n, n, n));
 }
 
-vtkSmartPointer<vtkPolyData> square(int n)
+vtkSmartPointer<vtkPolyData> square_data(int n)
 {
-  const TriangleMesh mesh = test::grid(n, n);
-  return to_polydata(mesh.points, mesh.triangles);
+  return test::data_of(test::grid(n, n));
 }
 
 /// Return two points and a bone inside of the unit cube. None of them is on a vertex.
@@ -104,7 +103,7 @@ vtkIdType vertex_at(vtkPointSet* mesh, double x, double y, double z, double tole
 
 TEST(WeightsFilters, TetsGetNamedWeightsAndCertificates)
 {
-  const auto mesh = tet_box(5);
+  const auto mesh = box_data(5);
   Pipeline<vtkBoundedBiharmonicWeights> run(mesh, three_handles());
   run.filter->Update();
   ASSERT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::OK) << run.filter->GetStatusMessage();
@@ -167,7 +166,7 @@ TEST(WeightsFilters, TetsGetNamedWeightsAndCertificates)
 
 TEST(WeightsFilters, PoseEditsNeverBindAgain)
 {
-  const auto mesh = tet_box(4);
+  const auto mesh = box_data(4);
   const auto handles = three_handles();
   Pipeline<vtkBoundedBiharmonicWeights> run(mesh, handles);
   run.filter->Update();
@@ -270,7 +269,7 @@ TEST(WeightsFilters, SurfacesOfAnyPolygonsWork)
 
 TEST(WeightsFilters, RegionsByLabels)
 {
-  const auto mesh = square(10);
+  const auto mesh = square_data(10);
   vtkNew<vtkIntArray> labels;
   labels->SetName("Part");
   labels->SetNumberOfTuples(mesh->GetNumberOfPoints());
@@ -345,7 +344,7 @@ TEST(WeightsFilters, OriginalPointIdsAndStrayPoints)
 
 TEST(WeightsFilters, KeepMeshKeepsEveryObject)
 {
-  const auto mesh = tet_box(6);
+  const auto mesh = box_data(6);
   Pipeline<vtkBoundedBiharmonicWeights> run(mesh, three_handles());
   run.filter->KeepMeshOn();
   run.filter->Update();
@@ -356,7 +355,7 @@ TEST(WeightsFilters, KeepMeshKeepsEveryObject)
 
 TEST(WeightsFilters, WithoutBoundsByMethod)
 {
-  const auto mesh = square(20);
+  const auto mesh = square_data(20);
   const auto handles = to_polydata(Handles{ test::point_handle("a", Vec3(0.2, 0.2, 0)),
     test::point_handle("b", Vec3(0.5, 0.5, 0)), test::point_handle("c", Vec3(0.8, 0.75, 0)) });
   Pipeline<vtkUnconstrainedWeights> run(mesh, handles);
@@ -376,9 +375,9 @@ TEST(WeightsFilters, WithoutBoundsByMethod)
 
 TEST(WeightsFilters, MetersAndMillimetersGiveTheSameWeights)
 {
-  const auto mesh = tet_box(4);
+  const auto mesh = box_data(4);
   const auto handles = three_handles();
-  const auto large_mesh = tet_box(4);
+  const auto large_mesh = box_data(4);
   const auto large_handles = three_handles();
   for (vtkPointSet* data :
     { static_cast<vtkPointSet*>(large_mesh), static_cast<vtkPointSet*>(large_handles) })
@@ -403,7 +402,7 @@ TEST(WeightsFilters, MetersAndMillimetersGiveTheSameWeights)
 
 TEST(WeightsFilters, CanceledOnceTheNextUpdateSolves)
 {
-  Pipeline<vtkBoundedBiharmonicWeights> run(tet_box(14), three_handles());
+  Pipeline<vtkBoundedBiharmonicWeights> run(box_data(14), three_handles());
   std::chrono::steady_clock::time_point asked;
   run.listener->on_progress = [&](vtkAlgorithm* algorithm)
   {
@@ -431,7 +430,7 @@ TEST(WeightsFilters, CanceledOnceTheNextUpdateSolves)
 
 TEST(WeightsFilters, NotConvergedIsAResultThatSaysSo)
 {
-  Pipeline<vtkBoundedBiharmonicWeights> run(tet_box(5), three_handles());
+  Pipeline<vtkBoundedBiharmonicWeights> run(box_data(5), three_handles());
   run.filter->SetMaximumIterations(1);
   run.filter->SetTolerance(1e-9);
   run.filter->Update();
@@ -459,12 +458,12 @@ TEST(WeightsFilters, EveryBadInputIsOneSentence)
   vtkNew<vtkPolyData> no_handles;
   EXPECT_THAT(message(no_surface, three_handles()), HasSubstr("empty"));
   EXPECT_FALSE(message(no_grid, three_handles()).empty());
-  EXPECT_THAT(message(tet_box(2), no_handles), HasSubstr("no handle"));
-  EXPECT_THAT(message(tet_box(2),
+  EXPECT_THAT(message(box_data(2), no_handles), HasSubstr("no handle"));
+  EXPECT_THAT(message(box_data(2),
                 to_polydata(Handles{ test::point_handle("a", Vec3(0.1, 0.1, 0.1)),
                   test::point_handle("b", Vec3(0.1, 0.1, 0.1)) })),
     HasSubstr("'a' and 'b' have the same position"));
-  const auto not_a_number = tet_box(2);
+  const auto not_a_number = box_data(2);
   not_a_number->GetPoints()->SetPoint(5, 0.0, std::nan(""), 0.0);
   EXPECT_THAT(message(not_a_number, three_handles()), HasSubstr("vertex 5"));
   TetMesh inverted = test::tet_box(2, 2, 2);
@@ -472,7 +471,7 @@ TEST(WeightsFilters, EveryBadInputIsOneSentence)
   EXPECT_THAT(message(to_unstructured_grid(inverted.points, inverted.tets), three_handles()),
     HasSubstr("tet 7"));
   vtkNew<vtkUnstructuredGrid> hexahedron;
-  hexahedron->SetPoints(tet_box(1)->GetPoints());
+  hexahedron->SetPoints(box_data(1)->GetPoints());
   const vtkIdType corners[8] = { 0, 1, 3, 2, 4, 5, 7, 6 };
   hexahedron->InsertNextCell(VTK_HEXAHEDRON, 8, corners);
   EXPECT_THAT(message(hexahedron, three_handles()), HasSubstr("expected only tets"));
@@ -543,7 +542,7 @@ TEST(WeightsFilters, ExtremaComeAsPoints)
 {
   // The biharmonic weights of the five points on a square have 5, 5, 4, 5 and 4 extrema,
   // respectively.
-  Pipeline<vtkUnconstrainedWeights> weights(square(40),
+  Pipeline<vtkUnconstrainedWeights> weights(square_data(40),
     to_polydata({ test::point_handle("c", Vec3(0.5, 0.5, 0)),
       test::point_handle("a", Vec3(0.2, 0.2, 0)), test::point_handle("b", Vec3(0.8, 0.2, 0)),
       test::point_handle("d", Vec3(0.8, 0.8, 0)), test::point_handle("e", Vec3(0.2, 0.8, 0)) }));
@@ -576,7 +575,7 @@ TEST(WeightsFilters, ExtremaComeAsPoints)
 
 TEST(WeightsFilters, APreviewIsThereBeforeTheWeights)
 {
-  Pipeline<vtkBoundedBiharmonicWeights> weights(tet_box(8), three_handles());
+  Pipeline<vtkBoundedBiharmonicWeights> weights(box_data(8), three_handles());
   struct Seen
   {
     int calls = 0;
@@ -601,7 +600,7 @@ TEST(WeightsFilters, APreviewIsThereBeforeTheWeights)
   expect_rows_sum_to_one(seen.array);
   EXPECT_LE(weights.report().number("relative_gap", 1.0), 1e-6);
 
-  Pipeline<vtkBoundedBiharmonicWeights> only(tet_box(8), three_handles());
+  Pipeline<vtkBoundedBiharmonicWeights> only(box_data(8), three_handles());
   only.filter->SetStageToPreview();
   only.filter->Update();
   EXPECT_EQ(only.report().text("stage"), "preview");
@@ -613,7 +612,7 @@ TEST(WeightsFilters, APreviewIsThereBeforeTheWeights)
 
 TEST(WeightsFilters, TermsComeFromArraysAndBelongToTheBind)
 {
-  const auto mesh = square(12);
+  const auto mesh = square_data(12);
   const auto handles = to_polydata({ test::point_handle("left", Vec3(0.25, 0.25, 0)),
     test::point_handle("right", Vec3(0.75, 0.75, 0)) });
   const vtkIdType count = mesh->GetNumberOfPoints();
@@ -673,7 +672,7 @@ TEST(WeightsFilters, TermsComeFromArraysAndBelongToTheBind)
 
 TEST(WeightsFilters, HandlesHaveBoundsOfTheirOwn)
 {
-  const auto mesh = square(12);
+  const auto mesh = square_data(12);
   const auto handles = to_polydata({ test::point_handle("left", Vec3(0.25, 0.25, 0)),
     test::point_handle("right", Vec3(0.75, 0.75, 0)),
     test::point_handle("low", Vec3(0.75, 0.25, 0)),
@@ -725,7 +724,7 @@ TEST(WeightsFilters, HandlesHaveBoundsOfTheirOwn)
 
 TEST(WeightsFilters, MirroredHandlesByAPlane)
 {
-  const auto mesh = square(12);
+  const auto mesh = square_data(12);
   const auto handles = to_polydata({ test::point_handle("left", Vec3(0.25, 0.25, 0)),
     test::point_handle("right", Vec3(0.75, 0.25, 0)),
     test::point_handle("top", Vec3(0.25, 1, 0)) });
@@ -744,7 +743,7 @@ TEST(WeightsFilters, MirroredHandlesByAPlane)
 
 TEST(WeightsFilters, TermsThatContradictAreErrors)
 {
-  const auto mesh = square(12);
+  const auto mesh = square_data(12);
   const auto handles = to_polydata({ test::point_handle("left", Vec3(0.25, 0.25, 0)),
     test::point_handle("right", Vec3(0.75, 0.75, 0)) });
   vtkNew<vtkDoubleArray> upper;

@@ -1,5 +1,6 @@
 // vtkWindingNumberField: winding numbers on grids and at points, for all requests of a pipeline.
 #include "TestFilter.h"
+#include "data_of.h"
 
 #include "conversion.h"
 #include "winding/winding_number.h"
@@ -34,23 +35,19 @@
 #include <sstream>
 
 using namespace bindpose;
+using bindpose::test::data_of;
 using bindpose::test::Listener;
 using bindpose::test::TestFilter;
 using testing::HasSubstr;
 
 namespace
 {
-vtkSmartPointer<vtkPolyData> data_of(const TriangleMesh& mesh)
-{
-  return to_polydata(mesh.points, mesh.triangles);
-}
-
 vtkImageData* image_of(vtkWindingNumberField* field)
 {
   return vtkImageData::SafeDownCast(field->GetOutput());
 }
 
-vtkDoubleArray* array_of(vtkDataSet* data)
+vtkDoubleArray* winding_array(vtkDataSet* data)
 {
   return data ? vtkDoubleArray::SafeDownCast(data->GetPointData()->GetArray("WindingNumber"))
               : nullptr;
@@ -85,7 +82,7 @@ TEST(WindingNumberField, GridCoversThePaddedBounds)
     EXPECT_GE(bounds[2 * k + 1], (k == 0 ? 2.0 : 1.0) + padding - 1e-12);
     EXPECT_NEAR(bounds[2 * k] + bounds[2 * k + 1], 0.0, 1e-12) << "centered";
   }
-  vtkDoubleArray* values = array_of(image);
+  vtkDoubleArray* values = winding_array(image);
   ASSERT_NE(values, nullptr);
   EXPECT_EQ(image->GetPointData()->GetScalars(), values);
   ASSERT_EQ(values->GetNumberOfTuples(), image->GetNumberOfPoints());
@@ -131,8 +128,8 @@ TEST(WindingNumberField, DimensionsAndBoundsAsAskedFor)
     testing::ElementsAre(1.0, 0.5, 2.0));
   EXPECT_THAT(std::vector<double>(image->GetOrigin(), image->GetOrigin() + 3),
     testing::ElementsAre(0.0, 0.0, 0.0));
-  EXPECT_NEAR(array_of(image)->GetValue(0), 1.0, 1e-15);
-  EXPECT_EQ(array_of(image)->GetValue(1), 0.5) << "on a face";
+  EXPECT_NEAR(winding_array(image)->GetValue(0), 1.0, 1e-15);
+  EXPECT_EQ(winding_array(image)->GetValue(1), 0.5) << "on a face";
 
   field->SetBounds(1, 0, 1, 0, 1, 0); // these invalid bounds mean cubic voxels around the surface
   field->SetDimensions(11, 21, 11);
@@ -148,7 +145,7 @@ TEST(WindingNumberField, DimensionsAndBoundsAsAskedFor)
   image = image_of(field);
   EXPECT_EQ(image->GetNumberOfPoints(), 9);
   EXPECT_DOUBLE_EQ(image->GetOrigin()[2], 0.25);
-  EXPECT_NEAR(array_of(image)->GetValue(4), 1.0, 1e-15);
+  EXPECT_NEAR(winding_array(image)->GetValue(4), 1.0, 1e-15);
   EXPECT_EQ(read_report(image).find("winding_volume"), nullptr);
 }
 
@@ -186,7 +183,7 @@ TEST(WindingNumberField, SubExtentsHaveTheSameBits)
     vtkImageData* image = image_of(other);
     ASSERT_THAT(std::vector<int>(image->GetExtent(), image->GetExtent() + 6),
       testing::ElementsAreArray(part));
-    vtkDoubleArray* values = array_of(image);
+    vtkDoubleArray* values = winding_array(image);
     ASSERT_EQ(values->GetNumberOfTuples(), image->GetNumberOfPoints());
     for (int k = part[4]; k <= part[5]; ++k)
     {
@@ -196,7 +193,7 @@ TEST(WindingNumberField, SubExtentsHaveTheSameBits)
         {
           int at[3] = { i, j, k };
           ASSERT_EQ(values->GetValue(image->ComputePointId(at)),
-            array_of(all)->GetValue(all->ComputePointId(at)));
+            winding_array(all)->GetValue(all->ComputePointId(at)));
         }
       }
     }
@@ -253,7 +250,8 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
     {
       double place[3];
       part->GetPoint(i, place);
-      EXPECT_EQ(array_of(part)->GetValue(i), array_of(whole)->GetValue(whole->FindPoint(place)));
+      EXPECT_EQ(
+        winding_array(part)->GetValue(i), winding_array(whole)->GetValue(whole->FindPoint(place)));
     }
   }
 
@@ -273,12 +271,12 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
     request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 1);
     executive->Update(1);
     EXPECT_EQ(again->GetBoundaryOutput()->GetNumberOfCells(), piece == 0 ? edges : 0);
-    EXPECT_EQ(array_of(image_of(again)), array_of(kept));
+    EXPECT_EQ(winding_array(image_of(again)), winding_array(kept));
     EXPECT_EQ(read_report(image_of(again)).number("counts.queries", 0), kept->GetNumberOfPoints());
-    vtkDataArray* const before = array_of(kept);
+    vtkDataArray* const before = winding_array(kept);
     again->SetWindingThreshold(0.6 + piece); // this parameter changes the field
     again->UpdatePiece(piece, 2, 0);
-    EXPECT_NE(array_of(image_of(again)), before);
+    EXPECT_NE(winding_array(image_of(again)), before);
   }
 }
 
@@ -303,11 +301,11 @@ TEST(WindingNumberField, PointsOfAnyDataset)
   ASSERT_NE(result, nullptr);
   EXPECT_EQ(result->GetNumberOfCells(), tets->GetNumberOfCells());
   EXPECT_EQ(result->GetPointData()->GetArray("Height"), ids.Get());
-  EXPECT_EQ(result->GetPointData()->GetScalars(), array_of(result));
-  ASSERT_NE(array_of(result), nullptr);
+  EXPECT_EQ(result->GetPointData()->GetScalars(), winding_array(result));
+  ASSERT_NE(winding_array(result), nullptr);
   for (Index v = 0; v < box.points.rows(); ++v)
   {
-    EXPECT_NEAR(array_of(result)->GetValue(v),
+    EXPECT_NEAR(winding_array(result)->GetValue(v),
       winding_number_direct(mesh.points, mesh.triangles, box.points.row(v)), 1e-12);
   }
   EXPECT_EQ(read_report(result).find("winding_volume"), nullptr);
@@ -324,10 +322,10 @@ TEST(WindingNumberField, PointsOfAnyDataset)
   ASSERT_NE(as_image, nullptr);
   EXPECT_THAT(std::vector<int>(as_image->GetExtent(), as_image->GetExtent() + 6),
     testing::ElementsAre(2, 6, 0, 4, -3, 3));
-  ASSERT_EQ(array_of(as_image)->GetNumberOfTuples(), 5 * 5 * 7);
+  ASSERT_EQ(winding_array(as_image)->GetNumberOfTuples(), 5 * 5 * 7);
   for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
   {
-    EXPECT_NEAR(array_of(as_image)->GetValue(i),
+    EXPECT_NEAR(winding_array(as_image)->GetValue(i),
       winding_number_direct(mesh.points, mesh.triangles, Vec3(image->GetPoint(i))), 1e-12);
   }
 
@@ -353,8 +351,8 @@ TEST(WindingNumberField, PointsThatAreNotFiniteAreCounted)
   field->SetPointsData(points);
   field->Update();
   EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK);
-  EXPECT_NEAR(array_of(field->GetOutput())->GetValue(0), 1.0, 1e-15);
-  EXPECT_TRUE(std::isnan(array_of(field->GetOutput())->GetValue(1)));
+  EXPECT_NEAR(winding_array(field->GetOutput())->GetValue(0), 1.0, 1e-15);
+  EXPECT_TRUE(std::isnan(winding_array(field->GetOutput())->GetValue(1)));
   EXPECT_EQ(read_report(field->GetOutput()).number("counts.not_finite", 0), 1);
   ASSERT_EQ(listener->warnings.size(), 1u);
 }
@@ -383,7 +381,7 @@ TEST(WindingNumberField, QuadsStripsAndOtherCells)
   field->Update();
   ASSERT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK) << field->GetStatusMessage();
   ASSERT_EQ(image_of(field)->GetNumberOfPoints(), 1);
-  EXPECT_NEAR(array_of(image_of(field))->GetValue(0), 1.0, 1e-15);
+  EXPECT_NEAR(winding_array(image_of(field))->GetValue(0), 1.0, 1e-15);
   const Report report = read_report(field->GetOutput());
   EXPECT_EQ(report.number("counts.triangulated_cells", 0), 6);
   EXPECT_EQ(report.number("counts.ignored_cells", 0), 1);
@@ -453,7 +451,7 @@ TEST(WindingNumberField, FastKeepsItsToleranceAndSaysSo)
     vtkImageData* image = image_of(field);
     for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
     {
-      ASSERT_NEAR(array_of(image)->GetValue(i),
+      ASSERT_NEAR(winding_array(image)->GetValue(i),
         winding_number_direct(mesh.points, mesh.triangles, Vec3(image->GetPoint(i))), tolerance);
     }
   }
@@ -463,7 +461,7 @@ TEST(WindingNumberField, FastKeepsItsToleranceAndSaysSo)
   vtkImageData* image = image_of(field);
   for (vtkIdType i = 0; i < image->GetNumberOfPoints(); i += 7)
   {
-    ASSERT_NEAR(array_of(image)->GetValue(i),
+    ASSERT_NEAR(winding_array(image)->GetValue(i),
       winding_number_direct(mesh.points, mesh.triangles, Vec3(image->GetPoint(i))), 1e-12);
   }
 }
@@ -497,7 +495,7 @@ TEST(WindingNumberField, ASurfaceIsBuiltOnce)
   sphere->SetRadius(3.0);
   field->Update();
   EXPECT_EQ(field->GetNumberOfBuilds(), 5);
-  EXPECT_EQ(array_of(image_of(field))->GetValue(0), 1.0) << "of the new radius";
+  EXPECT_EQ(winding_array(image_of(field))->GetValue(0), 1.0) << "of the new radius";
   // After a failure the filter must not use its old build.
   field->SetInputData(vtkNew<vtkPolyData>());
   vtkNew<Listener> listener;
@@ -764,15 +762,15 @@ TEST(WindingNumberField, PatchesAreTurnedOnDemand)
   field->SetInputData(data_of(mesh));
   field->SetPointsData(centers);
   field->Update();
-  EXPECT_NEAR(array_of(field->GetOutput())->GetValue(0), 4.0 / 6.0, 1e-12);
-  EXPECT_NEAR(array_of(field->GetOutput())->GetValue(1), -1.0, 1e-3);
+  EXPECT_NEAR(winding_array(field->GetOutput())->GetValue(0), 4.0 / 6.0, 1e-12);
+  EXPECT_NEAR(winding_array(field->GetOutput())->GetValue(1), -1.0, 1e-3);
   EXPECT_EQ(field->GetBoundaryOutput()->GetNumberOfLines(), 4);
   EXPECT_EQ(field->GetBoundaryOutput()->GetCellData()->GetArray("Multiplicity")->GetTuple1(0), 2);
   EXPECT_EQ(read_report(field->GetOutput()).find("counts.turned_triangles"), nullptr);
   field->OrientPatchesOn();
   field->Update();
-  EXPECT_NEAR(array_of(field->GetOutput())->GetValue(0), 1.0, 1e-12);
-  EXPECT_NEAR(array_of(field->GetOutput())->GetValue(1), 1.0, 1e-12);
+  EXPECT_NEAR(winding_array(field->GetOutput())->GetValue(0), 1.0, 1e-12);
+  EXPECT_NEAR(winding_array(field->GetOutput())->GetValue(1), 1.0, 1e-12);
   EXPECT_EQ(field->GetBoundaryOutput()->GetNumberOfLines(), 0);
   EXPECT_EQ(read_report(field->GetOutput()).number("counts.turned_triangles", 0), 2);
   EXPECT_EQ(read_report(field->GetOutput()).number("counts.turned_components", 0), 1);
@@ -814,7 +812,7 @@ TEST(WindingNumberField, LinesAreACurveInTheirPlane)
     {
       const Vec3 p(image->GetPoint(i));
       EXPECT_DOUBLE_EQ(p[across], 5.0);
-      EXPECT_EQ(array_of(image)->GetValue(i), std::max(std::abs(p[u]), std::abs(p[v])) < 1.0);
+      EXPECT_EQ(winding_array(image)->GetValue(i), std::max(std::abs(p[u]), std::abs(p[v])) < 1.0);
     }
     EXPECT_EQ(field->GetBoundaryOutput()->GetNumberOfCells(), 0);
     EXPECT_NEAR(read_report(image).number("area", 0), 4.0, 1e-12);
@@ -843,7 +841,7 @@ TEST(WindingNumberField, LinesAreACurveInTheirPlane)
     vtkDataArray* gradient = field->GetOutput()->GetPointData()->GetArray("WindingNumberGradient");
     for (const vtkIdType i : { 0, 2 })
     {
-      EXPECT_NEAR(array_of(field->GetOutput())->GetValue(i), 0.75, 1e-14);
+      EXPECT_NEAR(winding_array(field->GetOutput())->GetValue(i), 0.75, 1e-14);
       EXPECT_EQ(flags->GetTuple1(i), 0);
       EXPECT_EQ(flags->GetTuple1(i + 1), 1);
       // The angle of the missing side, which is at u = -1, is 2 atan(1 / (1 + u)), with the slope
@@ -915,7 +913,7 @@ TEST(WindingNumberField, PointsWithNormalsAreSamplesOfASurface)
       const double radius = Vec3(image->GetPoint(i)).norm();
       if (std::abs(radius - 1.0) > 0.12)
       {
-        ASSERT_NEAR(array_of(image)->GetValue(i), radius < 1.0, 0.02);
+        ASSERT_NEAR(winding_array(image)->GetValue(i), radius < 1.0, 0.02);
       }
     }
   }
@@ -966,7 +964,7 @@ TEST(WindingNumberField, AbortFromAnObserverThenAgain)
   EXPECT_LT(std::chrono::duration<double>(Clock::now() - asked).count(), 0.2);
   EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::CANCELED);
   EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(array_of(field->GetOutput()), nullptr);
+  EXPECT_EQ(winding_array(field->GetOutput()), nullptr);
   EXPECT_EQ(read_report(field->GetOutput()).text("status"), "canceled");
   EXPECT_TRUE(listener->errors.empty());
   EXPECT_TRUE(std::is_sorted(listener->progress.begin(), listener->progress.end() - 1));
@@ -980,7 +978,7 @@ TEST(WindingNumberField, AbortFromAnObserverThenAgain)
   EXPECT_EQ(listener->starts, starts + 1);
   EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK);
   EXPECT_EQ(image_of(field)->GetDimensions()[0], 20);
-  EXPECT_EQ(array_of(image_of(field))->GetNumberOfTuples(), 20 * 20 * 20);
+  EXPECT_EQ(winding_array(image_of(field))->GetNumberOfTuples(), 20 * 20 * 20);
 }
 
 TEST(WindingNumberField, BadSurfacesFailCleanlyForTheWholeChain)

@@ -74,4 +74,12 @@ double distance(const Pixel& p, const Rgb& color)
     std::abs(p.b - 255.0 * color[2]) });
 }
 
+double hue_distance(const Pixel& p, const Rgb& color)
+{
+  const double its = std::max(1, p.r + p.g + p.b);
+  const double sum = color[0] + color[1] + color[2];
+  return std::max({ std::abs(p.r / its - color[0] / sum), std::abs(p.g / its - color[1] / sum),
+    std::abs(p.b / its - color[2] / sum) });
+}
+
 } // namespace bindpose::test

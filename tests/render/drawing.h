@@ -30,6 +30,10 @@ bool is_paper(const Pixel& p);
 double lightness(const Pixel& p);
 /// Return the largest difference of a channel between pixel and color, from 0 to 255.
 double distance(const Pixel& p, const Rgb& color);
+/// Return the distance in hue between a lit pixel and a color: the largest difference of the
+/// fractions of red, green and blue. Lighting changes the sum of the channels, but almost does not
+/// change the fractions.
+double hue_distance(const Pixel& p, const Rgb& color);
 
 } // namespace bindpose::test
 

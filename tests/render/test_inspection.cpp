@@ -4,6 +4,7 @@
 #include "render/harness.h"
 #include "render/shapes.h"
 
+#include "base/constants.h"
 #include "conversion.h"
 #include "scene/categories.h"
 #include "scene/colors.h"
@@ -26,16 +27,6 @@ using namespace bindpose::test;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
-double hue_distance(const Pixel& p, const Rgb& color)
-{
-  const double its = std::max(1, p.r + p.g + p.b);
-  const double sum = color[0] + color[1] + color[2];
-  return std::max({ std::abs(p.r / its - color[0] / sum), std::abs(p.g / its - color[1] / sum),
-    std::abs(p.b / its - color[2] / sum) });
-}
-
 using Column = std::function<double(const Vec3&)>;
 
 void add_array(vtkDataSet* data, const char* name, const std::vector<Column>& columns)
@@ -96,7 +87,7 @@ std::vector<Vec3> minima(double z)
 }
 
 /// Draw the tile and set `report` to its report.
-Drawing draw(const Tile& tile, const PictureOptions& options, Report& report)
+Drawing draw_with_report(const Tile& tile, const PictureOptions& options, Report& report)
 {
   Drawing drawing;
   const Status status = render_to_image({ tile }, options, drawing.image, &drawing.geometry);
@@ -143,7 +134,7 @@ TEST(Render, handles_of_tets)
   PictureOptions options = small_picture();
   options.color_by = ColorBy::handle;
   Report report;
-  const Drawing drawing = draw({ brick, nullptr, "" }, options, report);
+  const Drawing drawing = draw_with_report({ brick, nullptr, "" }, options, report);
   const std::vector<Category> handles = handle_categories({ "a", "b", "c" });
   // These points are on the cut face, which faces the camera.
   const double places[] = { 0.2, 0.8, 1.4 };
@@ -184,7 +175,7 @@ TEST(Render, tets_slice)
   options.view.azimuth = 25.0;
   options.view.elevation = 25.0;
   Report report;
-  const Drawing drawing = draw({ box, nullptr, "" }, options, report);
+  const Drawing drawing = draw_with_report({ box, nullptr, "" }, options, report);
   const ColorMap map = weight_map();
   const auto on_plane = [&](double x, double y)
   {
@@ -274,7 +265,7 @@ TEST(Render, extrema)
   options.extrema = true;
   options.view.zoom = 0.9;
   Report report;
-  const Drawing drawing = draw({ surface, nullptr, "" }, options, report);
+  const Drawing drawing = draw_with_report({ surface, nullptr, "" }, options, report);
   EXPECT_EQ(counts(report, "maxima"), Counts{ 4 });
   EXPECT_EQ(counts(report, "minima"), Counts{ 4 });
   EXPECT_EQ(counts(report, "drawn"), Counts{ 8 });
@@ -291,10 +282,10 @@ TEST(Render, extrema)
   // The function "Waves" is 1 at all its maxima. The array "Weights" therefore identifies which
   // maximum is the handle.
   options.array = "Waves";
-  draw({ surface, nullptr, "" }, options, report);
+  draw_with_report({ surface, nullptr, "" }, options, report);
   EXPECT_EQ(counts(report, "maxima"), Counts{ 4 });
   surface->GetPointData()->RemoveArray("Weights");
-  draw({ surface, nullptr, "" }, options, report);
+  draw_with_report({ surface, nullptr, "" }, options, report);
   EXPECT_EQ(counts(report, "maxima"), Counts{ 5 });
   EXPECT_EQ(counts(report, "minima"), Counts{ 4 });
   expect_baseline(drawing.image);
@@ -311,7 +302,7 @@ TEST(Render, extrema_of_tets)
   options.extrema = true;
   options.cut = false;
   Report report;
-  const Drawing drawing = draw({ grid, nullptr, "" }, options, report);
+  const Drawing drawing = draw_with_report({ grid, nullptr, "" }, options, report);
   EXPECT_EQ(counts(report, "maxima"), Counts{ 5 });
   EXPECT_EQ(counts(report, "minima"), Counts{ 4 });
   EXPECT_EQ(counts(report, "drawn"), Counts{ 9 });
@@ -321,7 +312,7 @@ TEST(Render, extrema_of_tets)
   }
   // The cut removes the side that shows the extrema.
   options.cut = true;
-  draw({ grid, nullptr, "" }, options, report);
+  draw_with_report({ grid, nullptr, "" }, options, report);
   EXPECT_EQ(counts(report, "maxima"), Counts{ 5 });
   EXPECT_EQ(counts(report, "drawn"), Counts{ 0 });
   expect_baseline(drawing.image);
@@ -336,7 +327,7 @@ TEST(Render, row_sum)
   PictureOptions options = small_picture();
   options.color_by = ColorBy::row_sum;
   Report report;
-  const Drawing drawing = draw({ surface, nullptr, "" }, options, report);
+  const Drawing drawing = draw_with_report({ surface, nullptr, "" }, options, report);
   EXPECT_NEAR(report.number("picture.row_sum.minimum", 0), 0.8, 1e-12);
   EXPECT_NEAR(report.number("picture.row_sum.maximum", 0), 1.2, 1e-12);
   for (const double x : { -1.6, 0.0, 1.6 })
@@ -360,7 +351,7 @@ TEST(Render, difference)
   options.array = "Shown";
   options.minus = other;
   Report report;
-  const Drawing drawing = draw({ surface, nullptr, "" }, options, report);
+  const Drawing drawing = draw_with_report({ surface, nullptr, "" }, options, report);
   double squares = 0.0;
   for (vtkIdType v = 0; v < surface->GetNumberOfPoints(); ++v)
   {
@@ -378,7 +369,7 @@ TEST(Render, difference)
   }
   // The difference between a dataset and itself is zero.
   options.minus = surface;
-  const Drawing nothing = draw({ surface, nullptr, "" }, options, report);
+  const Drawing nothing = draw_with_report({ surface, nullptr, "" }, options, report);
   EXPECT_EQ(report.number("picture.difference.largest", -1), 0.0);
   EXPECT_EQ(nothing.count([](const Pixel& p) { return std::abs(p.r - p.b) > 30; }), 0);
   expect_baseline(drawing.image);

@@ -15,7 +15,7 @@ using namespace bindpose::test;
 
 namespace
 {
-vtkSmartPointer<vtkImageData> draw(const PictureOptions& options)
+vtkSmartPointer<vtkImageData> picture_of_finger(const PictureOptions& options)
 {
   vtkSmartPointer<vtkImageData> image;
   const Status status = render_to_image({ { finger(), nullptr, "" } }, options, image);
@@ -30,14 +30,14 @@ TEST(Render, mutations)
   options.array = "Weights";
   options.component = "right";
   options.range = { 0.0, 1.0 };
-  const auto original = draw(options);
-  const Difference again = compare(original, draw(options));
+  const auto original = picture_of_finger(options);
+  const Difference again = compare(original, picture_of_finger(options));
   EXPECT_TRUE(passes(again));
   EXPECT_EQ(again.largest, 0) << "the same scene drawn twice";
 
   const auto expect_caught = [&](const char* what, const PictureOptions& mutated)
   {
-    const Difference difference = compare(original, draw(mutated));
+    const Difference difference = compare(original, picture_of_finger(mutated));
     std::printf(
       "%s: %lld pixels differ, %lld allowed\n", what, difference.pixels, allowed_pixels());
     EXPECT_FALSE(passes(difference)) << what;
@@ -61,5 +61,5 @@ TEST(Render, mutations)
   expect_caught("1 % larger", zoomed);
   PictureOptions wider = options;
   wider.width = 401;
-  EXPECT_FALSE(passes(compare(original, draw(wider)))) << "another size";
+  EXPECT_FALSE(passes(compare(original, picture_of_finger(wider)))) << "another size";
 }

@@ -26,18 +26,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// Return the distance in hue between a lit pixel and a color: the largest difference of the
-/// fractions of red, green and blue. Lighting changes the sum of the channels, but almost does not
-/// change the fractions.
-double hue_distance(const Pixel& p, const Rgb& color)
-{
-  const double its = std::max(1, p.r + p.g + p.b);
-  const double sum = color[0] + color[1] + color[2];
-  return std::max({ std::abs(p.r / its - color[0] / sum), std::abs(p.g / its - color[1] / sum),
-    std::abs(p.b / its - color[2] / sum) });
-}
-
-long long painted(const Drawing& drawing)
+long long painted_pixels(const Drawing& drawing)
 {
   return drawing.count([](const Pixel& p) { return !is_paper(p); });
 }
@@ -63,15 +52,16 @@ TEST(Render, tets_shrunk)
       gaps += before && !after;
     }
   }
-  EXPECT_GT(gaps, painted(whole) / 50);
+  EXPECT_GT(gaps, painted_pixels(whole) / 50);
   // If the tets are smaller, fewer pixels are covered. At size 1 there are no gaps.
   options.shrink = 0.25;
-  EXPECT_LT(painted(draw({ { tet_brick(), nullptr, "" } }, options)), 3 * painted(drawing) / 4);
+  EXPECT_LT(painted_pixels(draw({ { tet_brick(), nullptr, "" } }, options)),
+    3 * painted_pixels(drawing) / 4);
   options.shrink = 1.0;
-  EXPECT_EQ(painted(draw({ { tet_brick(), nullptr, "" } }, options)), painted(whole));
+  EXPECT_EQ(painted_pixels(draw({ { tet_brick(), nullptr, "" } }, options)), painted_pixels(whole));
   // The half toward the camera is removed, for both directions of the plane's normal.
   options.section_plane->normal *= -1.0;
-  EXPECT_EQ(painted(draw({ { tet_brick(), nullptr, "" } }, options)), painted(whole));
+  EXPECT_EQ(painted_pixels(draw({ { tet_brick(), nullptr, "" } }, options)), painted_pixels(whole));
   expect_baseline(drawing.image);
 }
 

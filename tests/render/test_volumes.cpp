@@ -30,7 +30,7 @@ Eigen::AlignedBox2d sphere_on_paper(const Drawing& drawing, double radius)
   return box;
 }
 
-bool painted(const Pixel& p)
+bool is_painted(const Pixel& p)
 {
   return !is_paper(p);
 }
@@ -48,7 +48,7 @@ TEST(Render, isosurface)
   const Drawing drawing = draw({ { cone_field(), nullptr, "" } }, options);
   // The isosurface has the size of the analytic sphere, within one pixel.
   const Eigen::AlignedBox2d expected = sphere_on_paper(drawing, 0.75);
-  const Eigen::AlignedBox2d found = drawing.extent(painted);
+  const Eigen::AlignedBox2d found = drawing.extent(is_painted);
   EXPECT_LT((found.min() - expected.min()).cwiseAbs().maxCoeff(), 1.0);
   EXPECT_LT((found.max() - expected.max()).cwiseAbs().maxCoeff(), 1.0);
   // The isosurface is lit: its upper side is lighter. It is smooth: the lightness of neighboring
@@ -119,7 +119,7 @@ TEST(Render, winding_cloud)
     drawing.geometry.project(0, Vec3(-0.8, 0, 0)))
                           .norm();
   const double lens_and_discs = 3.0 * 3.14159265 * radius * radius;
-  const auto covered = static_cast<double>(drawing.count(painted));
+  const auto covered = static_cast<double>(drawing.count(is_painted));
   EXPECT_LT(covered, 1.25 * lens_and_discs);
   EXPECT_GT(covered, 0.75 * lens_and_discs);
   // Winding number 1 is pale orange, 2 is deep orange, and -1 is violet.

@@ -5,6 +5,9 @@
 
 #include "weights/handles.h"
 
+#include <string>
+#include <vector>
+
 namespace bindpose::test
 {
 
@@ -16,13 +19,33 @@ inline Handle point_handle(const std::string& name, const Vec3& at)
   return handle;
 }
 
-inline Handle bone_handle(const std::string& name, const Vec3& head, const Vec3& tail)
+/// Return point handles with the names p1, p2, …
+inline Handles point_handles(const std::vector<Vec3>& places)
+{
+  Handles handles;
+  for (const Vec3& place : places)
+  {
+    handles.push_back(point_handle("p" + std::to_string(handles.size() + 1), place));
+  }
+  return handles;
+}
+
+inline Handle bone_handle(
+  const std::string& name, const Vec3& head, const Vec3& tail, Index parent = -1)
 {
   Handle handle;
   handle.name = name;
   handle.kind = HandleKind::bone;
   handle.head = head;
   handle.tail = tail;
+  handle.parent = parent;
+  return handle;
+}
+
+inline Handle cage_vertex_handle(const std::string& name, const Vec3& at)
+{
+  Handle handle = point_handle(name, at);
+  handle.kind = HandleKind::cage_vertex;
   return handle;
 }
 

@@ -1,5 +1,6 @@
 #include "support/meshes.h"
 
+#include "base/constants.h"
 #include "base/tet_facets.h"
 
 #include <cmath>
@@ -10,8 +11,6 @@ namespace bindpose::test
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 Triangles rows(const std::vector<std::array<Index, 3>>& list)
 {
   Triangles triangles(static_cast<Index>(list.size()), 3);
@@ -252,6 +251,17 @@ Vec3 Random::in_box(const Vec3& lower, const Vec3& upper)
   return { x, y, z };
 }
 
+Points random_points(Index count, double reach, std::uint64_t seed)
+{
+  Random random(seed);
+  Points points(count, 3);
+  for (Index i = 0; i < count; ++i)
+  {
+    points.row(i) = random.in_cube(reach).transpose();
+  }
+  return points;
+}
+
 Index euler_characteristic(const TetMesh& mesh)
 {
   const std::vector<TetFacet> facets = tet_facets(mesh.tets);
@@ -268,6 +278,11 @@ Index euler_characteristic(const TetMesh& mesh)
   distinct.conservativeResize(count, 3);
   const auto edges = static_cast<Index>(mesh_edges(distinct).size());
   return mesh.points.rows() - edges + count - mesh.tets.rows();
+}
+
+Index euler_characteristic(const TriangleMesh& mesh)
+{
+  return mesh.points.rows() - count_edges(mesh.triangles).edges + mesh.triangles.rows();
 }
 
 } // namespace bindpose::test

@@ -40,6 +40,9 @@ TetMesh tet_box(
 /// Return vertices - edges + facets - tets: 1 for a ball, 0 for a solid torus, 2 for a ball with a
 /// cavity.
 Index euler_characteristic(const TetMesh& mesh);
+/// Return vertices - edges + triangles: 2 for a sphere, 0 for a torus. For a closed surface, this
+/// is twice the Euler characteristic of its inside.
+Index euler_characteristic(const TriangleMesh& mesh);
 
 /// Deterministic random numbers in [0, 1). They are the same on every machine, unlike those of the
 /// distributions in std.
@@ -50,6 +53,11 @@ public:
   double uniform();
   double uniform(double lower, double upper) { return lower + (upper - lower) * this->uniform(); }
   Vec3 in_box(const Vec3& lower, const Vec3& upper);
+  /// Return a point in [-size, size]^3.
+  Vec3 in_cube(double size = 1.0)
+  {
+    return this->in_box(Vec3::Constant(-size), Vec3::Constant(size));
+  }
   Index below(Index count)
   {
     return static_cast<Index>(this->uniform() * static_cast<double>(count));
@@ -58,6 +66,9 @@ public:
 private:
   std::uint64_t state_;
 };
+
+/// Return random points in [-reach, reach]^3.
+Points random_points(Index count, double reach, std::uint64_t seed);
 
 } // namespace bindpose::test
 

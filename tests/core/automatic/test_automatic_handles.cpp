@@ -21,8 +21,8 @@ class AutomaticHandles : public test::NeedsMesher
 {
 };
 
-Status run(const TriangleMesh& mesh, const AutomaticHandlesOptions& options, Handles& handles,
-  int threads = 0)
+Status run_automatic_handles(const TriangleMesh& mesh, const AutomaticHandlesOptions& options,
+  Handles& handles, int threads = 0)
 {
   ExecutionContext context;
   context.set_threads(threads);
@@ -35,7 +35,7 @@ double number(const Status& status, const char* key)
 }
 
 /// Return the same surface with its vertices and triangles in another order.
-TriangleMesh shuffled(const TriangleMesh& mesh)
+TriangleMesh with_shuffled_ids(const TriangleMesh& mesh)
 {
   test::Random random(11);
   std::vector<Index> vertex(static_cast<std::size_t>(mesh.points.rows()));
@@ -76,14 +76,15 @@ void expect_same(const Handles& a, const Handles& b)
   }
 }
 
-const std::vector<Block> cross{ { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 } };
+const std::vector<Block> cross_arms{ { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 } };
 const std::vector<Block> tee{ { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 } };
 } // namespace
 
 TEST_F(AutomaticHandles, ABarIsOneBone)
 {
   Handles handles;
-  const Status status = run(test::star({ { 1, 0, 0 } }, 7), AutomaticHandlesOptions(), handles);
+  const Status status =
+    run_automatic_handles(test::star({ { 1, 0, 0 } }, 7), AutomaticHandlesOptions(), handles);
   ASSERT_TRUE(status.ok()) << status.message;
   ASSERT_EQ(handles.size(), 1u);
   EXPECT_EQ(handles[0].kind, HandleKind::bone);
@@ -94,10 +95,11 @@ TEST_F(AutomaticHandles, ABarIsOneBone)
 
 TEST_F(AutomaticHandles, JunctionsHaveTheDegreeOfTheShape)
 {
-  for (const auto& arms : { cross, tee })
+  for (const auto& arms : { cross_arms, tee })
   {
     Handles handles;
-    const Status status = run(test::star(arms, 4), AutomaticHandlesOptions(), handles);
+    const Status status =
+      run_automatic_handles(test::star(arms, 4), AutomaticHandlesOptions(), handles);
     ASSERT_TRUE(status.ok()) << status.message;
     ASSERT_EQ(handles.size(), arms.size());
     EXPECT_EQ(number(status, "counts.junctions"), 1.0);
@@ -116,7 +118,8 @@ TEST_F(AutomaticHandles, JunctionsHaveTheDegreeOfTheShape)
 TEST_F(AutomaticHandles, ATorusIsCutOnce)
 {
   Handles handles;
-  const Status status = run(test::torus(60, 24, 1.0, 0.3), AutomaticHandlesOptions(), handles);
+  const Status status =
+    run_automatic_handles(test::torus(60, 24, 1.0, 0.3), AutomaticHandlesOptions(), handles);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(number(status, "counts.cut_cycles"), 1.0);
   EXPECT_EQ(number(status, "counts.joints"), static_cast<double>(handles.size()) + 1.0);
@@ -132,9 +135,9 @@ TEST_F(AutomaticHandles, DoNotDependOnOrderOrThreads)
   {
     options.method = method;
     Handles plain, other, threads;
-    ASSERT_TRUE(run(mesh, options, plain).ok());
-    ASSERT_TRUE(run(shuffled(mesh), options, other).ok());
-    ASSERT_TRUE(run(mesh, options, threads, 1).ok());
+    ASSERT_TRUE(run_automatic_handles(mesh, options, plain).ok());
+    ASSERT_TRUE(run_automatic_handles(with_shuffled_ids(mesh), options, other).ok());
+    ASSERT_TRUE(run_automatic_handles(mesh, options, threads, 1).ok());
     expect_same(plain, other);
     expect_same(plain, threads);
   }
@@ -142,12 +145,12 @@ TEST_F(AutomaticHandles, DoNotDependOnOrderOrThreads)
 
 TEST(AutomaticPoints, NameTheVerticesOfTheInput)
 {
-  const TriangleMesh mesh = shuffled(test::sphere(2));
+  const TriangleMesh mesh = with_shuffled_ids(test::sphere(2));
   AutomaticHandlesOptions options;
   options.method = AutomaticMethod::points;
   options.points.inside = false;
   Handles handles;
-  const Status status = run(mesh, options, handles);
+  const Status status = run_automatic_handles(mesh, options, handles);
   ASSERT_TRUE(status.ok()) << status.message;
   ASSERT_EQ(handles.size(), 8u);
   const auto vertices =
@@ -164,12 +167,13 @@ TEST(AutomaticPoints, BadInputLeavesNoHandles)
   AutomaticHandlesOptions options;
   options.method = AutomaticMethod::points;
   Handles handles(1);
-  EXPECT_THAT(run(TriangleMesh(), options, handles).message, HasSubstr("no triangles"));
+  EXPECT_THAT(
+    run_automatic_handles(TriangleMesh(), options, handles).message, HasSubstr("no triangles"));
   EXPECT_TRUE(handles.empty());
   TriangleMesh mesh = test::cube();
   mesh.points(0, 0) = std::nan("");
-  EXPECT_EQ(run(mesh, options, handles).code, StatusCode::invalid_input);
+  EXPECT_EQ(run_automatic_handles(mesh, options, handles).code, StatusCode::invalid_input);
   mesh = test::cube();
   mesh.triangles(0, 0) = 99;
-  EXPECT_EQ(run(mesh, options, handles).code, StatusCode::invalid_input);
+  EXPECT_EQ(run_automatic_handles(mesh, options, handles).code, StatusCode::invalid_input);
 }

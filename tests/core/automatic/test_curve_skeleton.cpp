@@ -25,18 +25,18 @@ class CurveSkeletonTest : public test::NeedsMesher
 {
 };
 
-Status run(const TriangleMesh& mesh, CurveSkeleton& skeleton, TriangleMesh& solid)
+Status run_curve_skeleton(const TriangleMesh& mesh, CurveSkeleton& skeleton, TriangleMesh& solid)
 {
   ExecutionContext context;
   return curve_skeleton(
     mesh.points, mesh.triangles, CurveSkeletonOptions(), skeleton, solid, context);
 }
 
-CurveSkeleton run(const TriangleMesh& mesh, const std::string& surface = "clean")
+CurveSkeleton run_curve_skeleton(const TriangleMesh& mesh, const std::string& surface = "clean")
 {
   CurveSkeleton skeleton;
   TriangleMesh solid;
-  const Status status = run(mesh, skeleton, solid);
+  const Status status = run_curve_skeleton(mesh, skeleton, solid);
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.text("surface"), surface);
   EXPECT_EQ(skeleton.radii.size(), skeleton.points.rows());
@@ -54,7 +54,7 @@ std::vector<Index> degrees(const CurveSkeleton& skeleton)
   return degree;
 }
 
-TriangleMesh bar(int length)
+TriangleMesh bar_of_cubes(int length)
 {
   return test::star({ { 1, 0, 0 } }, length - 1);
 }
@@ -69,7 +69,7 @@ Index cycles(const CurveSkeleton& skeleton)
 
 TEST_F(CurveSkeletonTest, OfABarIsItsAxis)
 {
-  const CurveSkeleton skeleton = run(bar(8));
+  const CurveSkeleton skeleton = run_curve_skeleton(bar_of_cubes(8));
   const std::vector<Index> degree = degrees(skeleton);
   // The skeleton is a single path. In a build with sanitizers, round-off leaves short branches of
   // one segment, which are also on the axis.
@@ -97,7 +97,7 @@ TEST_F(CurveSkeletonTest, OfABarIsItsAxis)
 
 TEST_F(CurveSkeletonTest, OfATorusIsARing)
 {
-  const CurveSkeleton skeleton = run(test::torus(60, 24, 1.0, 0.3));
+  const CurveSkeleton skeleton = run_curve_skeleton(test::torus(60, 24, 1.0, 0.3));
   EXPECT_EQ(cycles(skeleton), 1);
   for (Index v = 0; v < skeleton.points.rows(); ++v)
   {
@@ -108,13 +108,13 @@ TEST_F(CurveSkeletonTest, OfATorusIsARing)
 
 TEST_F(CurveSkeletonTest, OfCrossingBarsIsThatOfTheirUnion)
 {
-  TriangleMesh second = bar(9);
+  TriangleMesh second = bar_of_cubes(9);
   second.points = second.points.rowwise() - Eigen::RowVector3d(4.0, 0.0, 0.0);
   second.points.col(0).swap(second.points.col(1));
   second.triangles.col(0).swap(second.triangles.col(1)); // mirroring reverses the orientation
   second.points.col(0).array() += 4.07;
   second.points.col(2).array() += 0.03; // avoids coplanar triangles
-  const CurveSkeleton skeleton = run(test::join(bar(9), second), "lattice");
+  const CurveSkeleton skeleton = run_curve_skeleton(test::join(bar_of_cubes(9), second), "lattice");
   EXPECT_EQ(skeleton.centroids.size(), 1u);
   EXPECT_EQ(cycles(skeleton), 0);
   const std::vector<Index> degree = degrees(skeleton);
@@ -124,7 +124,7 @@ TEST_F(CurveSkeletonTest, OfCrossingBarsIsThatOfTheirUnion)
 TEST_F(CurveSkeletonTest, OfAnOpenBarIsNearItsAxis)
 {
   // One end of the bar is removed.
-  TriangleMesh open = bar(8);
+  TriangleMesh open = bar_of_cubes(8);
   Triangles kept(0, 3);
   for (Index f = 0; f < open.triangles.rows(); ++f)
   {
@@ -137,7 +137,7 @@ TEST_F(CurveSkeletonTest, OfAnOpenBarIsNearItsAxis)
     }
   }
   open.triangles = kept;
-  const CurveSkeleton skeleton = run(open, "lattice");
+  const CurveSkeleton skeleton = run_curve_skeleton(open, "lattice");
   EXPECT_EQ(cycles(skeleton), 0);
   for (Index v = 0; v < skeleton.points.rows(); ++v)
   {
@@ -151,7 +151,7 @@ TEST_F(CurveSkeletonTest, OfAnOpenBarIsNearItsAxis)
 TEST_F(CurveSkeletonTest, OfAFlatSheetIsItsMedialAxis)
 {
   // A strip of 8 x 1 without thickness.
-  const CurveSkeleton skeleton = run(test::grid(32, 4, 8.0, 1.0), "lattice");
+  const CurveSkeleton skeleton = run_curve_skeleton(test::grid(32, 4, 8.0, 1.0), "lattice");
   EXPECT_EQ(cycles(skeleton), 0);
   for (Index v = 0; v < skeleton.points.rows(); ++v)
   {
@@ -169,8 +169,9 @@ TEST_F(CurveSkeletonTest, OfAFlatSheetIsItsMedialAxis)
 TEST_F(CurveSkeletonTest, OfBoxesThatTouchIsOne)
 {
   // Two closed bars touch end to end, like the parts of furniture.
-  const TriangleMesh row = test::join(bar(4), test::translated(bar(4), Vec3(4.0, 0.0, 0.0)));
-  const CurveSkeleton skeleton = run(row, "lattice");
+  const TriangleMesh row =
+    test::join(bar_of_cubes(4), test::translated(bar_of_cubes(4), Vec3(4.0, 0.0, 0.0)));
+  const CurveSkeleton skeleton = run_curve_skeleton(row, "lattice");
   EXPECT_EQ(skeleton.centroids.size(), 1u);
   EXPECT_LT(skeleton.points.col(0).minCoeff(), 1.0);
   EXPECT_GT(skeleton.points.col(0).maxCoeff(), 7.0);
@@ -198,7 +199,7 @@ TEST_F(CurveSkeletonTest, OfADenseCleanSurfaceIsThatOfACoarseOne)
 TEST_F(CurveSkeletonTest, OfABallIsAPointAndHollowsAreFilled)
 {
   const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(2, 0.4)));
-  const CurveSkeleton skeleton = run(shell);
+  const CurveSkeleton skeleton = run_curve_skeleton(shell);
   ASSERT_EQ(skeleton.centroids.size(), 1u);
   for (Index v = 0; v < skeleton.points.rows(); ++v)
   {
@@ -208,11 +209,12 @@ TEST_F(CurveSkeletonTest, OfABallIsAPointAndHollowsAreFilled)
 
 TEST_F(CurveSkeletonTest, ComponentsHaveTheirOwnAndCrumbsNone)
 {
-  TriangleMesh mesh = test::join(bar(8), test::translated(bar(5), Vec3(0.0, 4.0, 0.0)));
+  TriangleMesh mesh =
+    test::join(bar_of_cubes(8), test::translated(bar_of_cubes(5), Vec3(0.0, 4.0, 0.0)));
   mesh = test::join(mesh, test::sphere(1, 0.05, Vec3(0.0, 0.0, 4.0)));
   CurveSkeleton skeleton;
   TriangleMesh solid;
-  const Status status = run(mesh, skeleton, solid);
+  const Status status = run_curve_skeleton(mesh, skeleton, solid);
   ASSERT_TRUE(status.ok()) << status.message;
   ASSERT_EQ(skeleton.centroids.size(), 2u);
   EXPECT_EQ(status.report.number("counts.left_out_parts", 0.0), 1.0);
@@ -228,12 +230,12 @@ TEST_F(CurveSkeletonTest, ComponentsHaveTheirOwnAndCrumbsNone)
 
 TEST_F(CurveSkeletonTest, MovesAndGrowsWithTheShape)
 {
-  const TriangleMesh mesh = bar(8);
-  const CurveSkeleton here = run(mesh);
+  const TriangleMesh mesh = bar_of_cubes(8);
+  const CurveSkeleton here = run_curve_skeleton(mesh);
   TriangleMesh moved = mesh;
   moved.points *= 1024.0;
   moved.points.col(1).array() += 4096.0;
-  const CurveSkeleton there = run(moved);
+  const CurveSkeleton there = run_curve_skeleton(moved);
   EXPECT_NEAR(there.points.col(0).minCoeff(), 1024.0 * here.points.col(0).minCoeff(), 5.0);
   EXPECT_NEAR(there.points.col(0).maxCoeff(), 1024.0 * here.points.col(0).maxCoeff(), 5.0);
   EXPECT_NEAR(there.points.col(1).mean(), 4608.0, 5.0);
@@ -245,20 +247,20 @@ TEST_F(CurveSkeletonTest, BadInputIsOneSentence)
   TriangleMesh solid;
   const auto message = [&](const TriangleMesh& mesh)
   {
-    const Status status = run(mesh, skeleton, solid);
+    const Status status = run_curve_skeleton(mesh, skeleton, solid);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     EXPECT_EQ(skeleton.points.rows(), 0);
     EXPECT_EQ(status.message.find('\n'), std::string::npos);
     return status.message;
   };
   EXPECT_THAT(message(TriangleMesh()), HasSubstr("no triangles"));
-  TriangleMesh mesh = bar(4);
+  TriangleMesh mesh = bar_of_cubes(4);
   mesh.points(3, 1) = std::numeric_limits<double>::infinity();
   EXPECT_THAT(message(mesh), HasSubstr("finite"));
   ExecutionContext context;
   CurveSkeletonOptions options;
   options.triangles = 10;
-  mesh = bar(4);
+  mesh = bar_of_cubes(4);
   EXPECT_THAT(
     curve_skeleton(mesh.points, mesh.triangles, options, skeleton, solid, context).message,
     HasSubstr("skeleton_triangles"));
@@ -284,6 +286,6 @@ TEST(CurveSkeleton, WithoutTheHelperItSaysSo)
   const Environment none("BINDPOSE_MESHER", "/nowhere/bindpose-mesher");
   CurveSkeleton skeleton;
   TriangleMesh solid;
-  const Status status = run(bar(4), skeleton, solid);
+  const Status status = run_curve_skeleton(bar_of_cubes(4), skeleton, solid);
   EXPECT_EQ(status.code, StatusCode::unavailable);
 }

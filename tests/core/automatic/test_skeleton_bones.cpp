@@ -65,7 +65,7 @@ struct Drawing
   }
 };
 
-SkeletonBones run(const Drawing& drawing, const SkeletonBonesOptions& options = {})
+SkeletonBones run_skeleton_bones(const Drawing& drawing, const SkeletonBonesOptions& options = {})
 {
   SkeletonBones bones;
   const Status status = skeleton_bones(drawing.skeleton(), 1.0, options, bones);
@@ -157,7 +157,7 @@ TEST(SkeletonBones, AStraightCurveIsOneBone)
   Drawing drawing;
   drawing.centroids = { Vec3(0.2, 0.0, 0.0) };
   drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.0, 0.0), 40);
-  const SkeletonBones bones = run(drawing);
+  const SkeletonBones bones = run_skeleton_bones(drawing);
   ASSERT_EQ(bones.handles.size(), 1u);
   EXPECT_EQ(bones.handles[0].name, "b1");
   // The head of the bone is the end that is nearer to the centroid of the shape.
@@ -174,7 +174,7 @@ TEST(SkeletonBones, LongBonesAreHalved)
   drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.0, 0.0), 40);
   SkeletonBonesOptions options;
   options.longest_bone = 0.3;
-  const SkeletonBones bones = run(drawing, options);
+  const SkeletonBones bones = run_skeleton_bones(drawing, options);
   ASSERT_EQ(bones.handles.size(), 4u);
   for (Index i = 0; i < 4; ++i)
   {
@@ -189,7 +189,7 @@ TEST(SkeletonBones, AnElbowIsAJoint)
   Drawing drawing;
   drawing.centroids = { Vec3(0.5, 0.0, 0.0) };
   drawing.line(drawing.line(drawing.point(Vec3::Zero()), Vec3(0.5, 0.0, 0.0)), Vec3(0.5, 0.5, 0.0));
-  const SkeletonBones bones = run(drawing);
+  const SkeletonBones bones = run_skeleton_bones(drawing);
   ASSERT_EQ(bones.handles.size(), 2u);
   // Both bones begin at the elbow, which is the root.
   EXPECT_EQ(bones.handles[0].head, Vec3(0.5, 0.0, 0.0));
@@ -206,7 +206,7 @@ TEST(SkeletonBones, AreWithinTheToleranceOfTheCurve)
   {
     SkeletonBonesOptions options;
     options.tolerance = tolerance;
-    const SkeletonBones bones = run(drawing, options);
+    const SkeletonBones bones = run_skeleton_bones(drawing, options);
     expect_tree(bones);
     EXPECT_GT(bones.handles.size(), fewer);
     fewer = bones.handles.size();
@@ -228,14 +228,14 @@ TEST(SkeletonBones, StayWithinTheShape)
   drawing.line(drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.1, 0.0)), Vec3(2.0, 0.0, 0.0));
   SkeletonBonesOptions options;
   options.tolerance = 0.2;
-  EXPECT_EQ(run(drawing, options).handles.size(), 1u);
+  EXPECT_EQ(run_skeleton_bones(drawing, options).handles.size(), 1u);
   options.inside = [](const Vec3& p)
   { return std::abs(p.y() - 0.1 * (1.0 - std::abs(p.x() - 1.0))) < 0.05; };
-  const SkeletonBones bones = run(drawing, options);
+  const SkeletonBones bones = run_skeleton_bones(drawing, options);
   ASSERT_EQ(bones.handles.size(), 2u);
   EXPECT_EQ(bones.handles[0].tail, Vec3(1.0, 0.1, 0.0));
   options.maximum_bones = 1;
-  EXPECT_EQ(run(drawing, options).handles.size(), 1u);
+  EXPECT_EQ(run_skeleton_bones(drawing, options).handles.size(), 1u);
 }
 
 TEST(SkeletonBones, PutJointsWhereTheCurveIsInside)
@@ -248,7 +248,7 @@ TEST(SkeletonBones, PutJointsWhereTheCurveIsInside)
   SkeletonBonesOptions options;
   options.inside = [](const Vec3& p)
   { return (p - Vec3(1.0, 0.0, 0.0)).norm() > 0.08 && p.y() < 0.92; };
-  const SkeletonBones bones = run(drawing, options);
+  const SkeletonBones bones = run_skeleton_bones(drawing, options);
   expect_tree(bones);
   for (Index j = 0; j < bones.joints.rows(); ++j)
   {
@@ -264,13 +264,14 @@ TEST(SkeletonBones, AreAtMostAsManyAsAskedFor)
   for (const Index most : { 1, 2, 3, 7 })
   {
     options.maximum_bones = most;
-    EXPECT_EQ(run(half_circle(), options).handles.size(), static_cast<std::size_t>(most));
+    EXPECT_EQ(
+      run_skeleton_bones(half_circle(), options).handles.size(), static_cast<std::size_t>(most));
   }
   // If there are too many bones, the shortest limbs are removed first.
   const Drawing drawing =
     arms({ { 1, 0, 0 }, { 0, 0.9, 0 }, { -0.8, 0, 0 }, { 0, -0.3, 0 }, { 0, 0, 0.2 } });
   options.maximum_bones = 3;
-  const SkeletonBones bones = run(drawing, options);
+  const SkeletonBones bones = run_skeleton_bones(drawing, options);
   ASSERT_EQ(bones.handles.size(), 3u);
   EXPECT_EQ(bones.pruned_branches, 2);
   for (const Handle& bone : bones.handles)
@@ -282,7 +283,8 @@ TEST(SkeletonBones, AreAtMostAsManyAsAskedFor)
 
 TEST(SkeletonBones, ACrossHasOneJunction)
 {
-  const SkeletonBones bones = run(arms({ { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 } }));
+  const SkeletonBones bones =
+    run_skeleton_bones(arms({ { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 } }));
   EXPECT_EQ(bones.handles.size(), 4u);
   EXPECT_EQ(bones.junctions, 1);
   EXPECT_EQ(bones.joints.rows(), 5);
@@ -302,7 +304,7 @@ TEST(SkeletonBones, TheBoneWithTheLargestVolumeIsTheRoot)
   drawing.segments.push_back({ center, trunk });
   drawing.line(trunk, Vec3(0.0, 0.0, 1.5));
   drawing.line(drawing.line(center, Vec3(-2.0, 0.0, 0.0)), Vec3(-2.0, 1.5, 0.0));
-  const SkeletonBones bones = run(drawing);
+  const SkeletonBones bones = run_skeleton_bones(drawing);
   ASSERT_EQ(bones.handles.size(), 4u);
   EXPECT_EQ(bones.handles[0].tail, Vec3(0.0, 0.0, 1.5));
   EXPECT_EQ(bones.handles[0].parent, -1);
@@ -327,7 +329,7 @@ TEST(SkeletonBones, JunctionsWithinTheThicknessAreOne)
   drawing.line(left, Vec3(0.0, 1.0, 0.0));
   drawing.line(right, Vec3(1.0, 0.0, 0.0));
   drawing.line(right, Vec3(0.0, -1.0, 0.0));
-  const SkeletonBones bones = run(drawing);
+  const SkeletonBones bones = run_skeleton_bones(drawing);
   EXPECT_EQ(bones.merged_branches, 1);
   EXPECT_EQ(bones.junctions, 1);
   ASSERT_EQ(bones.handles.size(), 4u);
@@ -337,13 +339,13 @@ TEST(SkeletonBones, JunctionsWithinTheThicknessAreOne)
   }
   SkeletonBonesOptions options;
   options.prune = 0.3; // 0.3 radii are 0.03, and the branch points are 0.04 apart
-  EXPECT_EQ(run(drawing, options).junctions, 2);
+  EXPECT_EQ(run_skeleton_bones(drawing, options).junctions, 2);
 }
 
 TEST(SkeletonBones, BranchesWithinTheThicknessArePruned)
 {
   const Drawing drawing = arms({ { 1, 0, 0 }, { -1, 0, 0 }, { 0, 0.19, 0 }, { 0, 0, 0.21 } }, 0.2);
-  const SkeletonBones bones = run(drawing);
+  const SkeletonBones bones = run_skeleton_bones(drawing);
   EXPECT_EQ(bones.pruned_branches, 1);
   ASSERT_EQ(bones.handles.size(), 3u);
   for (const Handle& bone : bones.handles)
@@ -352,7 +354,7 @@ TEST(SkeletonBones, BranchesWithinTheThicknessArePruned)
   }
   SkeletonBonesOptions options;
   options.prune = 0.0;
-  EXPECT_EQ(run(drawing, options).handles.size(), 4u);
+  EXPECT_EQ(run_skeleton_bones(drawing, options).handles.size(), 4u);
 }
 
 TEST(SkeletonBones, ARingIsCutOnceOppositeItsRoot)
@@ -366,7 +368,7 @@ TEST(SkeletonBones, ARingIsCutOnceOppositeItsRoot)
     drawing.point(Vec3(std::cos(a), std::sin(a), 0.0));
     drawing.segments.push_back({ i, (i + 1) % count });
   }
-  const SkeletonBones bones = run(drawing);
+  const SkeletonBones bones = run_skeleton_bones(drawing);
   EXPECT_EQ(bones.cut_cycles, 1);
   ASSERT_EQ(bones.roots.size(), 1u);
   EXPECT_EQ(Vec3(bones.joints.row(bones.roots[0])), Vec3(1.0, 0.0, 0.0));
@@ -399,7 +401,7 @@ TEST(SkeletonBones, ARingWithATailIsRootedAtItsJunction)
     drawing.segments.push_back({ i, (i + 1) % count });
   }
   drawing.line(0, Vec3(3.0, 0.0, 0.0));
-  const SkeletonBones bones = run(drawing);
+  const SkeletonBones bones = run_skeleton_bones(drawing);
   EXPECT_EQ(bones.cut_cycles, 1);
   EXPECT_EQ(bones.junctions, 1);
   EXPECT_EQ(Vec3(bones.joints.row(bones.roots[0])), Vec3(1.0, 0.0, 0.0));

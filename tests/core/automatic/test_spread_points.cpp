@@ -2,6 +2,8 @@
 // the shape.
 #include "automatic/spread_points.h"
 
+#include "base/constants.h"
+
 #include "support/meshes.h"
 #include "surface/triangle_tree.h"
 #include "winding/winding_number.h"
@@ -10,7 +12,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <set>
 
 using namespace bindpose;
@@ -18,9 +19,8 @@ using testing::HasSubstr;
 
 namespace
 {
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-SpreadPoints run(const TriangleMesh& mesh, const SpreadPointsOptions& options, int threads = 0)
+SpreadPoints run_spread_points(
+  const TriangleMesh& mesh, const SpreadPointsOptions& options, int threads = 0)
 {
   ExecutionContext context;
   context.set_threads(threads);
@@ -82,14 +82,14 @@ std::vector<double> straight(const TriangleMesh& mesh, Index from)
 }
 
 /// Return the closed surface of a plate: two unit squares at distance `thickness`, joined by a rim.
-TriangleMesh plate(double thickness)
+TriangleMesh plate_surface(double thickness)
 {
   const TetMesh box = test::tet_box(10, 10, 1, Vec3::Zero(), Vec3(1.0, 1.0, thickness));
   return { box.points, boundary_triangles(box.tets) };
 }
 
 /// Return the surface of [0, 8] x [0, 1] x [0, 1].
-TriangleMesh bar()
+TriangleMesh bar_surface()
 {
   const TetMesh box = test::tet_box(32, 4, 4, Vec3::Zero(), Vec3(8.0, 1.0, 1.0));
   TriangleMesh mesh{ box.points, boundary_triangles(box.tets) };
@@ -102,7 +102,7 @@ TEST(SpreadPoints, AreFartherFromEachOtherThanAnyVertexIsFromThem)
   const TriangleMesh mesh = test::torus(30, 12, 1.0, 0.3);
   for (const PointDistance metric : { PointDistance::along_edges, PointDistance::straight })
   {
-    const SpreadPoints points = run(mesh, on_surface(9, metric));
+    const SpreadPoints points = run_spread_points(mesh, on_surface(9, metric));
     ASSERT_EQ(points.vertices.size(), 9u);
     EXPECT_EQ(points.inside, 0);
     std::vector<double> nearest(static_cast<std::size_t>(mesh.points.rows()), infinite);
@@ -131,11 +131,12 @@ TEST(SpreadPoints, AreFartherFromEachOtherThanAnyVertexIsFromThem)
 TEST(SpreadPoints, FewerAreTheFirstOfMore)
 {
   const TriangleMesh mesh = test::join(test::sphere(3), test::sphere(2, 0.5, Vec3(3.0, 0.0, 0.0)));
-  const std::vector<Index> more = run(mesh, on_surface(20, PointDistance::along_edges)).vertices;
+  const std::vector<Index> more =
+    run_spread_points(mesh, on_surface(20, PointDistance::along_edges)).vertices;
   for (const Index count : { 1, 2, 5, 19 })
   {
     const std::vector<Index> fewer =
-      run(mesh, on_surface(count, PointDistance::along_edges)).vertices;
+      run_spread_points(mesh, on_surface(count, PointDistance::along_edges)).vertices;
     EXPECT_TRUE(std::equal(fewer.begin(), fewer.end(), more.begin()));
   }
   EXPECT_EQ(std::set<Index>(more.begin(), more.end()).size(), 20u);
@@ -151,10 +152,10 @@ TEST(SpreadPoints, EveryComponentHasItsShare)
   mesh = test::join(mesh, test::sphere(1, 0.01, Vec3(0.0, 9.0, 0.0)));
   for (const PointDistance metric : { PointDistance::along_edges, PointDistance::straight })
   {
-    const SpreadPoints three = run(mesh, on_surface(3, metric));
+    const SpreadPoints three = run_spread_points(mesh, on_surface(3, metric));
     EXPECT_EQ(three.components, 4);
     EXPECT_EQ(three.served, 3);
-    const SpreadPoints nine = run(mesh, on_surface(9, metric));
+    const SpreadPoints nine = run_spread_points(mesh, on_surface(9, metric));
     EXPECT_EQ(nine.served, 3);
     Index counts[3] = { 0, 0, 0 };
     for (const Index v : nine.vertices)
@@ -173,8 +174,8 @@ TEST(SpreadPoints, WeldEqualVertices)
   // Distances along edges also continue across the edges of unwelded triangles.
   const TriangleMesh mesh = test::sphere(2);
   const TriangleMesh loose = test::unwelded(mesh);
-  const SpreadPoints a = run(mesh, on_surface(12, PointDistance::along_edges));
-  const SpreadPoints b = run(loose, on_surface(12, PointDistance::along_edges));
+  const SpreadPoints a = run_spread_points(mesh, on_surface(12, PointDistance::along_edges));
+  const SpreadPoints b = run_spread_points(loose, on_surface(12, PointDistance::along_edges));
   EXPECT_EQ(b.components, 1);
   std::set<std::array<double, 3>> different;
   for (Index i = 0; i < b.places.rows(); ++i)
@@ -187,10 +188,10 @@ TEST(SpreadPoints, WeldEqualVertices)
 
 TEST(SpreadPoints, LieInTheMiddleOfTheShape)
 {
-  const TriangleMesh mesh = bar();
+  const TriangleMesh mesh = bar_surface();
   SpreadPointsOptions options;
   options.count = 6;
-  const SpreadPoints points = run(mesh, options);
+  const SpreadPoints points = run_spread_points(mesh, options);
   EXPECT_EQ(points.inside, 6);
   double least = infinite, most = -infinite;
   for (Index i = 0; i < 6; ++i)
@@ -213,7 +214,7 @@ TEST(SpreadPoints, StayInTheTips)
   mesh.points.col(0) *= 5.0;
   SpreadPointsOptions options;
   options.count = 2;
-  const SpreadPoints points = run(mesh, options);
+  const SpreadPoints points = run_spread_points(mesh, options);
   EXPECT_EQ(points.inside, 2);
   EXPECT_GT(std::abs(points.places(0, 0)), 3.5);
   EXPECT_GT(std::abs(points.places(1, 0)), 3.5);
@@ -222,10 +223,10 @@ TEST(SpreadPoints, StayInTheTips)
 
 TEST(SpreadPoints, APlateIsNotServedOnBothSides)
 {
-  const TriangleMesh mesh = plate(0.05);
+  const TriangleMesh mesh = plate_surface(0.05);
   SpreadPointsOptions options;
   options.count = 9;
-  const SpreadPoints points = run(mesh, options);
+  const SpreadPoints points = run_spread_points(mesh, options);
   for (Index i = 0; i < 9; ++i)
   {
     for (Index j = 0; j < i; ++j)
@@ -237,14 +238,14 @@ TEST(SpreadPoints, APlateIsNotServedOnBothSides)
 
 TEST(SpreadPoints, AreInsideWhicheverWayTrianglesTurn)
 {
-  const TriangleMesh mesh = bar();
+  const TriangleMesh mesh = bar_surface();
   SpreadPointsOptions options;
   options.count = 5;
-  const SpreadPoints right = run(mesh, options);
+  const SpreadPoints right = run_spread_points(mesh, options);
   // One end is open: the winding number still exceeds 0.5 in most of the inside.
   TriangleMesh open = mesh;
   open.triangles.conservativeResize(mesh.triangles.rows() - 8, 3);
-  const SpreadPoints points = run(open, options);
+  const SpreadPoints points = run_spread_points(open, options);
   const WindingNumber winding(open.points, open.triangles);
   EXPECT_GE(points.inside, 4);
   for (Index i = 0; i < right.places.rows(); ++i)
@@ -252,7 +253,7 @@ TEST(SpreadPoints, AreInsideWhicheverWayTrianglesTurn)
     EXPECT_GE(winding_number_direct(mesh.points, mesh.triangles, right.places.row(i)), 0.5);
   }
   // A flat surface has no inside, so its points are not moved.
-  const SpreadPoints flat = run(test::grid(5, 5), options);
+  const SpreadPoints flat = run_spread_points(test::grid(5, 5), options);
   EXPECT_EQ(flat.inside, 0);
   EXPECT_EQ(flat.vertices.size(), 5u);
 }
@@ -261,8 +262,8 @@ TEST(SpreadPoints, DoNotDependOnThreads)
 {
   SpreadPointsOptions options;
   options.count = 10;
-  const TriangleMesh mesh = bar();
-  EXPECT_EQ(run(mesh, options, 1).places, run(mesh, options, 2).places);
+  const TriangleMesh mesh = bar_surface();
+  EXPECT_EQ(run_spread_points(mesh, options, 1).places, run_spread_points(mesh, options, 2).places);
 }
 
 TEST(SpreadPoints, BadInputIsOneSentence)
@@ -276,7 +277,7 @@ TEST(SpreadPoints, BadInputIsOneSentence)
   EXPECT_THAT(message(fail(mesh, on_surface(0, PointDistance::straight))), HasSubstr("not 0"));
   for (const PointDistance metric : { PointDistance::along_edges, PointDistance::straight })
   {
-    EXPECT_EQ(run(mesh, on_surface(8, metric)).vertices.size(), 8u);
+    EXPECT_EQ(run_spread_points(mesh, on_surface(8, metric)).vertices.size(), 8u);
     EXPECT_THAT(message(fail(mesh, on_surface(9, metric))), HasSubstr("only 8 distinct vertices"));
   }
   SpreadPointsOptions options;

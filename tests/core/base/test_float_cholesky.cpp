@@ -3,6 +3,7 @@
 // threads.
 #include "base/float_cholesky.h"
 
+#include "core/base/definite_matrix.h"
 #include "support/meshes.h"
 
 #include <Eigen/Cholesky>
@@ -16,19 +17,10 @@ using namespace bindpose;
 
 namespace
 {
-/// Return the lower triangle of the biharmonic matrix of a box of tets, shifted to be positive
-/// definite.
-SparseMatrix definite_matrix(int n, double shift)
+/// Return the lower triangle of definite_matrix().
+SparseMatrix lower_triangle(int n, double shift)
 {
-  const TetMesh box = test::tet_box(n, n, n);
-  const SparseMatrix k = stiffness_matrix(box.points, box.tets);
-  const Eigen::VectorXd m = lumped_mass(box.points, box.tets);
-  const SparseMatrix q = harmonic_energy(k, m / m.maxCoeff(), 2);
-  SparseMatrix lower = q.triangularView<Eigen::Lower>();
-  for (int i = 0; i < q.rows(); ++i)
-  {
-    lower.coeffRef(i, i) += shift;
-  }
+  SparseMatrix lower = test::definite_matrix(n, shift).triangularView<Eigen::Lower>();
   lower.makeCompressed();
   return lower;
 }
@@ -66,7 +58,7 @@ TEST_F(FloatCholeskyTest, SolvesAsADenseFactorizationDoes)
   {
     for (const auto ordering : { SparseSolver::Ordering::amd, SparseSolver::Ordering::metis })
     {
-      const SparseMatrix a = definite_matrix(n, 0.1);
+      const SparseMatrix a = lower_triangle(n, 0.1);
       const Eigen::MatrixXd rhs =
         Eigen::MatrixXd::NullaryExpr(a.rows(), 3, [&] { return random.uniform(-1.0, 1.0); });
       const Eigen::MatrixXd dense =
@@ -95,7 +87,7 @@ TEST_F(FloatCholeskyTest, SolvesAsADenseFactorizationDoes)
 TEST_F(FloatCholeskyTest, SolvesAnyNumberOfColumnsAsItSolvesOne)
 {
   test::Random random(2);
-  const SparseMatrix a = definite_matrix(9, 0.1);
+  const SparseMatrix a = lower_triangle(9, 0.1);
   SparseSolver solver;
   FloatCholesky single = analyzed(a, solver);
   ASSERT_TRUE(single.factor(a, 0.0, context_).ok());
@@ -117,7 +109,7 @@ TEST_F(FloatCholeskyTest, SolvesAnyNumberOfColumnsAsItSolvesOne)
 
 TEST_F(FloatCholeskyTest, ResidualsAreThoseOfSinglePrecisionAtAnyScale)
 {
-  const SparseMatrix a = definite_matrix(11, 0.01);
+  const SparseMatrix a = lower_triangle(11, 0.01);
   SparseSolver solver;
   FloatCholesky single = analyzed(a, solver);
   ASSERT_TRUE(solver.factor(a).ok());
@@ -151,7 +143,7 @@ TEST_F(FloatCholeskyTest, ResidualsAreThoseOfSinglePrecisionAtAnyScale)
 
 TEST_F(FloatCholeskyTest, NamesThePivotThatIsNotPositive)
 {
-  SparseMatrix a = definite_matrix(4, 0.1);
+  SparseMatrix a = lower_triangle(4, 0.1);
   SparseSolver solver;
   FloatCholesky single = analyzed(a, solver);
   for (const double bad : { -1e6, 0.0, std::nan("") })
@@ -172,7 +164,7 @@ TEST_F(FloatCholeskyTest, NamesThePivotThatIsNotPositive)
 TEST_F(FloatCholeskyTest, ClonesAndThreadsGiveTheSameBits)
 {
   constexpr int count = 4;
-  const SparseMatrix a = definite_matrix(9, 0.01);
+  const SparseMatrix a = lower_triangle(9, 0.01);
   SparseSolver solver;
   FloatCholesky single = analyzed(a, solver);
   ASSERT_TRUE(single.factor(a, 0.0, context_).ok());
@@ -216,20 +208,20 @@ TEST_F(FloatCholeskyTest, ClonesAndThreadsGiveTheSameBits)
 
 TEST_F(FloatCholeskyTest, CancelEndsItAndOtherPatternsAreRefused)
 {
-  const SparseMatrix a = definite_matrix(4, 0.1);
+  const SparseMatrix a = lower_triangle(4, 0.1);
   SparseSolver solver;
   FloatCholesky single = analyzed(a, solver);
   int asked = 0;
   const ExecutionContext stopped(nullptr, [&] { return ++asked > 3; });
   EXPECT_EQ(single.factor(a, 0.0, stopped).code, StatusCode::canceled);
-  EXPECT_FALSE(single.factor(definite_matrix(3, 0.1), 0.0, context_).ok());
+  EXPECT_FALSE(single.factor(lower_triangle(3, 0.1), 0.0, context_).ok());
   EXPECT_FALSE(FloatCholesky().factor(a, 0.0, context_).ok());
-  EXPECT_FALSE(FloatCholesky().analyze(solver, definite_matrix(3, 0.1)).ok());
+  EXPECT_FALSE(FloatCholesky().analyze(solver, lower_triangle(3, 0.1)).ok());
 }
 
 TEST(FloatCholesky, IsUnavailableWithoutSupernodes)
 {
-  const SparseMatrix a = definite_matrix(3, 0.1);
+  const SparseMatrix a = lower_triangle(3, 0.1);
   SparseSolver solver({ SparseSolver::Backend::eigen, SparseSolver::Ordering::automatic });
   ASSERT_TRUE(solver.analyze(a).ok());
   FloatCholesky single;

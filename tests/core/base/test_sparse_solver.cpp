@@ -3,6 +3,7 @@
 // matrix.
 #include "base/sparse_solver.h"
 
+#include "core/base/definite_matrix.h"
 #include "support/meshes.h"
 
 #include <Eigen/Cholesky>
@@ -14,6 +15,7 @@
 #include <vector>
 
 using namespace bindpose;
+using test::definite_matrix;
 
 namespace bindpose
 {
@@ -26,21 +28,6 @@ void PrintTo(const SparseSolver::Backend& backend, std::ostream* out)
 
 namespace
 {
-/// Return the biharmonic matrix of a box of tets, shifted to be positive definite.
-SparseMatrix definite_matrix(int n, double shift)
-{
-  const TetMesh box = test::tet_box(n, n, n);
-  const SparseMatrix k = stiffness_matrix(box.points, box.tets);
-  const Eigen::VectorXd m = lumped_mass(box.points, box.tets);
-  SparseMatrix q = harmonic_energy(k, m / m.maxCoeff(), 2);
-  for (int i = 0; i < q.rows(); ++i)
-  {
-    q.coeffRef(i, i) += shift;
-  }
-  q.makeCompressed();
-  return q;
-}
-
 class SparseSolverTest : public testing::TestWithParam<SparseSolver::Backend>
 {
 protected:

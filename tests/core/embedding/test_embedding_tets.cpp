@@ -95,7 +95,7 @@ std::vector<double> distances(const TetMesh& mesh, const std::set<Index>& from)
 }
 
 /// Expect the invariants that every embedding has.
-void expect_valid(const TriangleMesh& surface, const EmbeddingTets& result)
+void expect_valid_embedding(const TriangleMesh& surface, const EmbeddingTets& result)
 {
   const TetMesh& mesh = result.mesh;
   ASSERT_GT(mesh.tets.rows(), 0);
@@ -263,7 +263,7 @@ TEST(EmbeddingTets, ABallIsOnePieceWithoutCopies)
   {
     const TriangleMesh ball = test::sphere(4);
     const EmbeddingTets result = embedded(ball, resolution);
-    expect_valid(ball, result);
+    expect_valid_embedding(ball, result);
     EXPECT_EQ(result.components, 1);
     EXPECT_EQ(result.duplicated_nodes, 0);
     EXPECT_EQ(result.branching_facets, 0);
@@ -286,7 +286,7 @@ TEST(EmbeddingTets, AnyConvexBodyHasNoCopies)
         .toRotationMatrix();
     body.points = (body.points * scale.asDiagonal() * turn).eval();
     const EmbeddingTets result = embedded(body, 12);
-    expect_valid(body, result);
+    expect_valid_embedding(body, result);
     EXPECT_EQ(result.components, 1);
     EXPECT_EQ(result.duplicated_nodes, 0) << scale.transpose();
   }
@@ -314,7 +314,7 @@ TEST(EmbeddingTets, BarsThatAreNearShareNoVertex)
     const TriangleMesh upper = box({ 0.0, 0.4 + gap * cube, 0.0 }, { 4.0, 0.8 + gap * cube, 0.5 });
     const TriangleMesh bars = test::join(lower, upper);
     const EmbeddingTets result = embedded(bars, resolution);
-    expect_valid(bars, result);
+    expect_valid_embedding(bars, result);
     expect_held(bars, result, 100);
     EXPECT_EQ(result.components, 2) << gap;
     EXPECT_GT(result.duplicated_nodes, 0);
@@ -335,7 +335,7 @@ TEST(EmbeddingTets, SolidsThatOverlapAreOne)
   const TriangleMesh bars = test::join(
     box({ 0.0, 0.0, 0.0 }, { 4.0, 0.4, 0.5 }), box({ 0.0, 0.3, 0.0 }, { 4.0, 0.8, 0.5 }));
   const EmbeddingTets result = embedded(bars, 16);
-  expect_valid(bars, result);
+  expect_valid_embedding(bars, result);
   EXPECT_EQ(result.components, 1);
   EXPECT_EQ(result.duplicated_nodes, 0) << "their union is convex, and inner walls do not part";
 }
@@ -349,7 +349,7 @@ TEST(EmbeddingTets, FingersAreConnectedThroughThePalmOnly)
     const double volume = 0.3 * (4 * 0.2 * 2.0 + (0.8 + 3 * gap) * 0.6);
     ASSERT_NEAR(signed_volume(hand.points, hand.triangles), volume, 1e-12);
     const EmbeddingTets result = embedded(hand, 20); // a lattice cube has the size 0.13
-    expect_valid(hand, result);
+    expect_valid_embedding(hand, result);
     expect_held(hand, result, 100);
     EXPECT_EQ(result.components, 1);
     EXPECT_EQ(test::euler_characteristic(result.mesh), 1);
@@ -395,7 +395,7 @@ TEST(EmbeddingTets, InsideFractionsGiveTheVolume)
   // The cube is open: the inside ends at the opening, where the winding number is 0.5.
   const TriangleMesh open = test::open_cube();
   const EmbeddingTets result = embedded(open, 16);
-  expect_valid(open, result);
+  expect_valid_embedding(open, result);
   EXPECT_NEAR(
     tet_volumes(result.mesh.points, result.mesh.tets).dot(result.inside_fractions), 8.0, 0.4);
 }
@@ -415,7 +415,7 @@ TEST(EmbeddingTets, WhatEnclosesNothingIsHeldToo)
     for (const Index resolution : { 0, 7 })
     {
       const EmbeddingTets result = embedded(mesh, resolution);
-      expect_valid(mesh, result);
+      expect_valid_embedding(mesh, result);
       expect_held(mesh, result, 20);
       EXPECT_EQ(result.inside_fractions.maxCoeff(), 0.0);
     }
@@ -431,7 +431,7 @@ TEST(EmbeddingTets, SheetsThatAreNearAreApart)
   const TriangleMesh sheets = test::join(
     test::grid(4, 4), test::flipped(test::translated(test::grid(4, 4), Vec3(0.0, 0.0, 1e-4))));
   const EmbeddingTets result = embedded(sheets, 10);
-  expect_valid(sheets, result);
+  expect_valid_embedding(sheets, result);
   EXPECT_EQ(result.components, 2);
   EXPECT_EQ(result.mesh.tets.rows(), 2 * result.lattice_tets);
 }
@@ -495,7 +495,7 @@ TEST(EmbeddingTets, UncleanSurfaces)
     for (const Index resolution : { 6, 15 })
     {
       const EmbeddingTets result = embedded(mesh, resolution);
-      expect_valid(mesh, result);
+      expect_valid_embedding(mesh, result);
       expect_held(mesh, result, 50);
       EXPECT_EQ(result.components, components);
     }
@@ -520,7 +520,7 @@ TEST(EmbeddingTets, HostileSurfaces)
       continue;
     }
     const EmbeddingTets result = embedded(mesh, 3 + random.below(10));
-    expect_valid(mesh, result);
+    expect_valid_embedding(mesh, result);
     expect_held(mesh, result, 10);
   }
 }
@@ -539,7 +539,7 @@ TEST(EmbeddingTets, HostilePlaces)
     const double size = bounding_box(mesh.points, mesh.triangles).size().maxCoeff();
     if (size > 1e-90 && size < 1e90) // the volumes are in the range of double
     {
-      expect_valid(mesh, embedded(mesh, 6));
+      expect_valid_embedding(mesh, embedded(mesh, 6));
       continue;
     }
     ExecutionContext context;
@@ -555,12 +555,12 @@ TEST(EmbeddingTets, HostilePlaces)
     TriangleMesh mesh = test::torus(24, 12, 1.0, 0.4);
     mesh.points *= scale;
     const EmbeddingTets result = embedded(mesh);
-    expect_valid(mesh, result);
+    expect_valid_embedding(mesh, result);
     EXPECT_EQ(result.components, 1);
   }
   TriangleMesh far = test::sphere(3);
   far.points.array() += 1e9;
-  expect_valid(far, embedded(far, 10));
+  expect_valid_embedding(far, embedded(far, 10));
 }
 
 TEST(EmbeddingTets, RealSurfaces)
@@ -574,7 +574,7 @@ TEST(EmbeddingTets, RealSurfaces)
       continue;
     }
     const EmbeddingTets result = embedded(mesh);
-    expect_valid(mesh, result);
+    expect_valid_embedding(mesh, result);
     EXPECT_GE(result.lattice_tets, 15000);
     EXPECT_LE(result.mesh.tets.rows(), 60000);
     EXPECT_LT(result.branching_facets, result.mesh.tets.rows() / 50);
@@ -706,7 +706,7 @@ TEST(EmbeddingTets, ALinkConnectsWhatIsAtItsEnds)
         embed_surface(mesh.points, mesh.triangles, winding, options, result, context);
       ASSERT_TRUE(status.ok()) << status.message;
       EXPECT_EQ(result.components, 1);
-      expect_valid(mesh, result);
+      expect_valid_embedding(mesh, result);
       // The shortest path between the boxes follows the link.
       const std::vector<double> distance = distances(result.mesh,
         vertices_of(

@@ -10,13 +10,8 @@ namespace bindpose::test
 
 namespace
 {
-Vec3 in_cube(Random& random, double size = 1.0)
-{
-  return random.in_box(Vec3::Constant(-size), Vec3::Constant(size));
-}
-
 /// Return 10^x with x uniformly distributed in [lower, upper].
-double magnitude(Random& random, double lower, double upper)
+double power_of_ten(Random& random, double lower, double upper)
 {
   return std::pow(10.0, random.uniform(lower, upper));
 }
@@ -29,7 +24,7 @@ Vec3 on_lattice(Random& random, Index size)
 
 /// Return triangles between random vertices. Some triangles are repeated or reversed.
 template <typename Place>
-TriangleMesh heap(Random& random, Index triangles, Index vertices, const Place& place)
+TriangleMesh random_heap(Random& random, Index triangles, Index vertices, const Place& place)
 {
   TriangleMesh mesh{ Points(vertices, 3), Triangles(triangles, 3) };
   for (Index v = 0; v < vertices; ++v)
@@ -60,11 +55,11 @@ TriangleMesh splinters(Random& random, Index triangles)
   TriangleMesh mesh{ Points(3 * triangles, 3), Triangles(triangles, 3) };
   for (Index t = 0; t < triangles; ++t)
   {
-    const double size = chance(random, 0.5) ? 1.0 : magnitude(random, -6.0, 0.0);
-    const double thin = chance(random, 0.3) ? 1.0 : magnitude(random, -16.0, -1.0);
-    const Vec3 a = in_cube(random);
-    const Vec3 along = in_cube(random, size);
-    const Vec3 across = (chance(random, 0.2) ? 0.0 : thin) * in_cube(random, size);
+    const double size = chance(random, 0.5) ? 1.0 : power_of_ten(random, -6.0, 0.0);
+    const double thin = chance(random, 0.3) ? 1.0 : power_of_ten(random, -16.0, -1.0);
+    const Vec3 a = random.in_cube();
+    const Vec3 along = random.in_cube(size);
+    const Vec3 across = (chance(random, 0.2) ? 0.0 : thin) * random.in_cube(size);
     mesh.points.row(3 * t) = a.transpose();
     mesh.points.row(3 * t + 1) = (a + along).transpose();
     mesh.points.row(3 * t + 2) = (a + random.uniform(-0.2, 1.2) * along + across).transpose();
@@ -79,15 +74,15 @@ TriangleMesh layers(Random& random, Index most)
   const int n = 1 + static_cast<int>(random.below(6));
   TriangleMesh mesh;
   const bool aligned = chance(random, 0.5);
-  const Vec3 up = aligned ? Vec3(0.0, 0.0, 1.0) : in_cube(random);
+  const Vec3 up = aligned ? Vec3(0.0, 0.0, 1.0) : random.in_cube();
   while (mesh.triangles.rows() + 2 * n * n <= std::max<Index>(most, 2 * n * n))
   {
-    TriangleMesh sheet = translated(grid(n, n), magnitude(random, -15.0, -1.0) * up);
+    TriangleMesh sheet = translated(grid(n, n), power_of_ten(random, -15.0, -1.0) * up);
     mesh = join(mesh, chance(random, 0.4) ? flipped(sheet) : sheet);
   }
   if (!aligned)
   {
-    const Vec3 x = in_cube(random), y = in_cube(random);
+    const Vec3 x = random.in_cube(), y = random.in_cube();
     for (Index v = 0; v < mesh.points.rows(); ++v)
     {
       const Vec3 p = mesh.points.row(v);
@@ -98,11 +93,11 @@ TriangleMesh layers(Random& random, Index most)
 }
 
 /// Return many triangles around one vertex, and around a second one if closed.
-TriangleMesh fan(Random& random, Index triangles, bool closed)
+TriangleMesh random_fan(Random& random, Index triangles, bool closed)
 {
   const Index around = std::max<Index>(3, closed ? triangles / 2 : triangles);
   TriangleMesh mesh{ Points(around + 2, 3), Triangles(closed ? 2 * around : around, 3) };
-  const double height = chance(random, 0.3) ? magnitude(random, -12.0, 0.0) : 1.0;
+  const double height = chance(random, 0.3) ? power_of_ten(random, -12.0, 0.0) : 1.0;
   for (Index v = 0; v < around; ++v)
   {
     const double angle = 6.283185307179586 * static_cast<double>(v) / static_cast<double>(around);
@@ -121,7 +116,7 @@ TriangleMesh fan(Random& random, Index triangles, bool closed)
 }
 
 /// Return the surface of random cubes of a lattice, which touch at edges and vertices.
-TriangleMesh cubes(Random& random, Index n)
+TriangleMesh random_cubes(Random& random, Index n)
 {
   std::vector<char> filled(static_cast<std::size_t>((n + 2) * (n + 2) * (n + 2)), 0);
   const auto at = [n](Index x, Index y, Index z) { return (z * (n + 2) + y) * (n + 2) + x; };
@@ -221,15 +216,15 @@ TriangleMesh blob(Random& random, Index most)
     : torus(around, std::max(3, around / 2), random.uniform(0.2, 1.0), random.uniform(0.05, 0.6));
   if (chance(random, 0.5))
   {
-    const double bump = chance(random, 0.5) ? 0.8 : magnitude(random, -12.0, -1.0);
+    const double bump = chance(random, 0.5) ? 0.8 : power_of_ten(random, -12.0, -1.0);
     for (Index v = 0; v < mesh.points.rows(); ++v)
     {
-      mesh.points.row(v) += in_cube(random, bump).transpose();
+      mesh.points.row(v) += random.in_cube(bump).transpose();
     }
   }
   if (chance(random, 0.25))
   {
-    mesh.points.col(random.below(3)) *= magnitude(random, -12.0, 0.0);
+    mesh.points.col(random.below(3)) *= power_of_ten(random, -12.0, 0.0);
   }
   if (chance(random, 0.25)) // make the triangles of half of the surface much smaller
   {
@@ -269,7 +264,7 @@ void spoil(Random& random, TriangleMesh& mesh)
       Vec3 corner = mesh.points.row(ids[0]);
       if (chance(random, 0.5))
       {
-        corner += magnitude(random, -15.0, -3.0) * in_cube(random);
+        corner += power_of_ten(random, -15.0, -3.0) * random.in_cube();
       }
       ids[0] = mesh.points.rows() + static_cast<Index>(more.size());
       more.push_back(corner);
@@ -336,7 +331,7 @@ Vec3 any_point(Random& random, const TriangleMesh& mesh)
     case 8: // near a face, edge or vertex
     {
       const Vec3 foot = chance(random, 0.4) ? on_face : chance(random, 0.5) ? Vec3(a + s * u) : a;
-      return foot + size * magnitude(random, -16.5, -3.0) * in_cube(random);
+      return foot + size * power_of_ten(random, -16.5, -3.0) * random.in_cube();
     }
     case 9: // above a face, at about the tolerance for touching it
     {
@@ -347,12 +342,14 @@ Vec3 any_point(Random& random, const TriangleMesh& mesh)
     }
     case 10: // on the line of an edge
       return a +
-        (chance(random, 0.5) ? magnitude(random, 0.0, 12.0) : -magnitude(random, -12.0, 3.0)) * u;
+        (chance(random, 0.5) ? power_of_ten(random, 0.0, 12.0)
+                             : -power_of_ten(random, -12.0, 3.0)) *
+        u;
     case 11: // far away
       return box.center() +
-        magnitude(random, 0.0, chance(random, 0.8) ? 4.0 : 30.0) * in_cube(random, size);
+        power_of_ten(random, 0.0, chance(random, 0.8) ? 4.0 : 30.0) * random.in_cube(size);
     default:
-      return box.center() + in_cube(random, 0.8 * size);
+      return box.center() + random.in_cube(0.8 * size);
   }
 }
 } // namespace
@@ -362,7 +359,7 @@ TriangleMesh hostile_closed_surface(Random& random, Index most)
   switch (random.below(6))
   {
     case 0:
-      return cubes(random, std::max<Index>(1, static_cast<Index>(std::cbrt(most / 4.0))));
+      return random_cubes(random, std::max<Index>(1, static_cast<Index>(std::cbrt(most / 4.0))));
     case 1:
     {
       const Index size = 2 + random.below(9);
@@ -371,20 +368,20 @@ TriangleMesh hostile_closed_surface(Random& random, Index most)
     }
     case 2:
     {
-      const double size = chance(random, 0.5) ? 1.0 : magnitude(random, -6.0, 0.0);
+      const double size = chance(random, 0.5) ? 1.0 : power_of_ten(random, -6.0, 0.0);
       return tets(random, 1 + most / 4, 4 + random.below(most),
-        [&] { return Vec3(in_cube(random, chance(random, 0.5) ? 1.0 : size)); });
+        [&] { return Vec3(random.in_cube(chance(random, 0.5) ? 1.0 : size)); });
     }
     case 3:
-      return fan(random, most, true);
+      return random_fan(random, most, true);
     default:
     {
       TriangleMesh mesh = blob(random, most);
       while (chance(random, 0.6) && mesh.triangles.rows() < most)
       {
         TriangleMesh part = blob(random, std::max<Index>(20, most - mesh.triangles.rows()));
-        part.points *= chance(random, 0.5) ? 1.0 : magnitude(random, -5.0, 0.0);
-        part = translated(part, in_cube(random, chance(random, 0.3) ? 0.0 : 1.0));
+        part.points *= chance(random, 0.5) ? 1.0 : power_of_ten(random, -5.0, 0.0);
+        part = translated(part, random.in_cube(chance(random, 0.3) ? 0.0 : 1.0));
         mesh = join(mesh, chance(random, 0.3) ? flipped(part) : part);
       }
       return mesh;
@@ -400,19 +397,20 @@ TriangleMesh hostile_surface(Random& random, Index most)
     case 0:
     {
       const Index size = 2 + random.below(7);
-      return heap(random, few, 3 + random.below(few + 3), [&] { return on_lattice(random, size); });
+      return random_heap(
+        random, few, 3 + random.below(few + 3), [&] { return on_lattice(random, size); });
     }
     case 1:
-      return heap(random, few, 3 + random.below(few + 3), [&] { return in_cube(random); });
+      return random_heap(random, few, 3 + random.below(few + 3), [&] { return random.in_cube(); });
     case 2:
       return splinters(random, few);
     case 3:
       return layers(random, few);
     case 4:
-      return fan(random, few, false);
+      return random_fan(random, few, false);
     case 5:
-      return heap(random, 1 + random.below(2), 3 + random.below(3),
-        [&] { return chance(random, 0.5) ? on_lattice(random, 4) : in_cube(random); });
+      return random_heap(random, 1 + random.below(2), 3 + random.below(3),
+        [&] { return chance(random, 0.5) ? on_lattice(random, 4) : random.in_cube(); });
     default:
     {
       TriangleMesh mesh = hostile_closed_surface(random, few);
@@ -435,7 +433,7 @@ TriangleMesh placed(Random& random, TriangleMesh mesh)
       mesh.points *= std::ldexp(1.0, chance(random, 0.5) ? 60 : -60);
       break;
     case 1:
-      mesh.points *= magnitude(random, -30.0, 30.0);
+      mesh.points *= power_of_ten(random, -30.0, 30.0);
       break;
     case 2: // coordinates near the limits of the range of double
     {
@@ -449,7 +447,7 @@ TriangleMesh placed(Random& random, TriangleMesh mesh)
     case 4:
     {
       const double exponent = chance(random, 0.7) ? 6.0 : 14.0;
-      Vec3 off = size * magnitude(random, 0.0, exponent) * in_cube(random);
+      Vec3 off = size * power_of_ten(random, 0.0, exponent) * random.in_cube();
       off = chance(random, 0.3) ? Vec3(off.x(), 0.0, 0.0) : off;
       mesh = translated(mesh, off);
       break;

@@ -115,7 +115,7 @@ void pose_anyhow(Random& random, double exponent, const Handle& handle, HandlePo
 }
 
 /// Return the largest scale of the pose relative to the rest pose, at least 1.
-double size_of(const Pose& pose)
+double size_of_pose(const Pose& pose)
 {
   double size = 1.0;
   for (const HandlePose& handle : pose)
@@ -127,7 +127,7 @@ double size_of(const Pose& pose)
 }
 
 /// Return valid or spoiled weights.
-Weights spoilt(Random& random, const Weights& good)
+Weights spoilt_weights(Random& random, const Weights& good)
 {
   Weights weights = good;
   const Index m = weights.cols(), a = random.below(m), b = random.below(m);
@@ -164,7 +164,7 @@ Weights spoilt(Random& random, const Weights& good)
   return weights;
 }
 
-const Rig& rig(Index which)
+const Rig& small_rig(Index which)
 {
   static const Rig rigs[2] = { bar(4), box(2) };
   return rigs[which];
@@ -176,10 +176,10 @@ TEST(FuzzPoses, Skinning)
   fuzz("poses through linear blending, dual quaternions and bones", 3000,
     [](Random& random)
     {
-      Rig shape = rig(random.below(2));
+      Rig shape = small_rig(random.below(2));
       make_bones(random, shape.mesh, shape.handles);
       const Points& rest = shape.mesh.points;
-      const Weights weights = spoilt(random, shape.weights);
+      const Weights weights = spoilt_weights(random, shape.weights);
       const double exponent = chance(random, 0.2) ? 90.0 : 6.0;
       Pose pose(shape.handles.size());
       for (std::size_t h = 0; h < pose.size(); ++h)
@@ -276,15 +276,15 @@ TEST(FuzzPoses, Skinning)
 namespace
 {
 /// A reduced ARAP solver with random options and random weights.
-struct Case
+struct ReducedCase
 {
   Rig shape;
   Triangles surface; ///< used if the case is bound as a surface
   ReducedArapOptions options;
 
-  explicit Case(Random& random) : shape(rig(random.below(2)))
+  explicit ReducedCase(Random& random) : shape(small_rig(random.below(2)))
   {
-    this->shape.weights = spoilt(random, this->shape.weights);
+    this->shape.weights = spoilt_weights(random, this->shape.weights);
     make_bones(random, this->shape.mesh, this->shape.handles);
     this->options.energy = static_cast<ArapEnergy>(random.below(3));
     this->options.clusters = random.below(3) == 0 ? 1000 : random.below(9);
@@ -318,7 +318,7 @@ TEST(FuzzPoses, ReducedArap)
   fuzz("sequences of poses through reduced ARAP", 12000,
     [&](Random& random)
     {
-      const Case shape(random);
+      const ReducedCase shape(random);
       const Points& rest = shape.shape.mesh.points;
       const double diagonal = bounding_box(rest).diagonal();
       ExecutionContext one, many;
@@ -363,7 +363,7 @@ TEST(FuzzPoses, ReducedArap)
         }
         // Round-off is proportional to the largest summands, which grow with the square of the
         // pose's size.
-        const double size = size_of(pose);
+        const double size = size_of_pose(pose);
         const double share = options.mixed_precision ? 1e-6 : 1e-12;
         const double unit = share * arap.rest_energy() * size * size;
         for (std::size_t i = 1; i < arap.energies().size(); ++i)
@@ -406,7 +406,7 @@ struct FullCase
   FullArapOptions options;
   bool vertices_alone = true; ///< only vertices are constrained, no points inside of elements
 
-  explicit FullCase(Random& random) : mesh(rig(random.below(2)).mesh)
+  explicit FullCase(Random& random) : mesh(small_rig(random.below(2)).mesh)
   {
     this->options.energy = static_cast<ArapEnergy>(random.below(3));
     this->options.region_ids.assign(static_cast<std::size_t>(this->mesh.points.rows()), 0);
@@ -506,7 +506,7 @@ TEST(FuzzPoses, FullArap)
         // elements add linear constraints. If two of them are close and are dragged apart, the
         // condition number reaches 1e8, and the energy is only as accurate as the constraints. In
         // this case only the total decrease is checked.
-        const double size = size_of(pose);
+        const double size = size_of_pose(pose);
         const double unit = 1e-12 * arap.rest_energy() * size * size;
         for (std::size_t i = 1; shape.vertices_alone && i < arap.energies().size(); ++i)
         {

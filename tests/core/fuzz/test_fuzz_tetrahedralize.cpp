@@ -18,7 +18,7 @@ using namespace bindpose;
 
 namespace
 {
-TriangleMesh shape(test::Random& random)
+TriangleMesh random_solid(test::Random& random)
 {
   switch (random.below(4))
   {
@@ -105,7 +105,7 @@ void add_loose(test::Random& random, TriangleMesh& mesh)
 
 TriangleMesh abused(test::Random& random)
 {
-  TriangleMesh mesh = shape(random);
+  TriangleMesh mesh = random_solid(random);
   const Index count = random.below(4);
   for (Index k = 0; k < count && mesh.triangles.rows() > 0; ++k)
   {
@@ -127,7 +127,7 @@ TriangleMesh abused(test::Random& random)
       case 4:
         // Add a copy that crosses, touches or nearly coincides with the surface.
         mesh = test::join(mesh,
-          test::translated(shape(random),
+          test::translated(random_solid(random),
             std::pow(10.0, random.uniform(-9.0, 0.0)) *
               random.in_box(-Vec3::Ones(), Vec3::Ones())));
         break;
@@ -226,7 +226,7 @@ void expect_kept_vertices(
   }
 }
 
-void expect_valid(
+void expect_valid_tets(
   const TriangleMesh& surface, const TetrahedralizeResult& result, const Status& status)
 {
   const TetMesh& mesh = result.mesh;
@@ -294,7 +294,7 @@ void expect_embedding(const TriangleMesh& surface, Index resolution)
   }
   if (status.ok())
   {
-    expect_valid(surface, result, status);
+    expect_valid_tets(surface, result, status);
     expect_bound(surface, result);
     EXPECT_GE(status.report.number("min_dihedral_angle", 0.0), 30.0);
   }
@@ -405,7 +405,7 @@ TEST(FuzzTetrahedralize, AbusedSurfaces)
         return;
       }
       ++filled;
-      expect_valid(surface, result, status);
+      expect_valid_tets(surface, result, status);
       expect_volume(random, surface, options, result, status);
       if (options.method == TetMethod::embed)
       {
@@ -442,7 +442,7 @@ TEST(FuzzTetrahedralize, LatticesOfAbusedSurfaces)
         return;
       }
       ++filled;
-      expect_valid(surface, result, status);
+      expect_valid_tets(surface, result, status);
       expect_volume(random, surface, options, result, status);
     });
   std::cout << "[ fuzz ] " << filled << " of them were filled\n";
@@ -468,7 +468,7 @@ TEST_F(FuzzWrap, AbusedSurfaces)
         EXPECT_EQ(status.code, StatusCode::invalid_input);
         return;
       }
-      expect_valid(surface, result, status);
+      expect_valid_tets(surface, result, status);
       const double distance = status.report.number("distance_max", -1.0);
       EXPECT_GE(distance, 99.0 * options.wrap_offset);
       EXPECT_LE(distance, 100.0);
@@ -503,7 +503,7 @@ TEST(FuzzTetrahedralize, HostileSurfaces)
         return;
       }
       ++filled;
-      expect_valid(surface, result, status);
+      expect_valid_tets(surface, result, status);
     });
   std::cout << "[ fuzz ] " << filled << " of them were filled\n";
 }

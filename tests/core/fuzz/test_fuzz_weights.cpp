@@ -12,13 +12,8 @@ using namespace bindpose::test;
 
 namespace
 {
-Vec3 in_cube(Random& random, double size)
-{
-  return random.in_box(Vec3::Constant(-size), Vec3::Constant(size));
-}
-
 /// Return a small random domain, which is rarely regular.
-Domain shape(Random& random)
+Domain random_domain(Random& random)
 {
   Domain domain;
   switch (random.below(4))
@@ -40,7 +35,7 @@ Domain shape(Random& random)
     const Points before = domain.points;
     for (Index v = 0; v < domain.points.rows(); ++v)
     {
-      domain.points.row(v) += in_cube(random, 0.03).transpose();
+      domain.points.row(v) += random.in_cube(0.03).transpose();
     }
     domain.points = check_domain(domain).ok() ? domain.points : before;
   }
@@ -53,7 +48,7 @@ Domain shape(Random& random)
 
 /// Return a random point in a special position: at or near a vertex, on an edge, in an element,
 /// outside of the domain, or at or near another handle.
-Vec3 place(Random& random, const Domain& domain, const Handles& others)
+Vec3 hostile_place(Random& random, const Domain& domain, const Handles& others)
 {
   const Box box = bounding_box(domain.points);
   const double size = box.diagonal();
@@ -65,7 +60,7 @@ Vec3 place(Random& random, const Domain& domain, const Handles& others)
     case 0:
       return corner(0);
     case 1:
-      return corner(0) + little * in_cube(random, 1.0);
+      return corner(0) + little * random.in_cube();
     case 2:
       return 0.5 * (corner(0) + corner(1));
     case 3:
@@ -73,7 +68,7 @@ Vec3 place(Random& random, const Domain& domain, const Handles& others)
     case 4:
       return (corner(0) + corner(1) + corner(2)) / 3.0;
     case 5:
-      return box.center() + in_cube(random, size);
+      return box.center() + random.in_cube(size);
     case 6:
     {
       if (!others.empty())
@@ -81,7 +76,7 @@ Vec3 place(Random& random, const Domain& domain, const Handles& others)
         const Handle& other =
           others[static_cast<std::size_t>(random.below(static_cast<Index>(others.size())))];
         const Vec3 at = chance(random, 0.5) ? other.head : other.tail;
-        return chance(random, 0.5) ? at : Vec3(at + little * in_cube(random, 1.0));
+        return chance(random, 0.5) ? at : Vec3(at + little * random.in_cube());
       }
       [[fallthrough]];
     }
@@ -107,10 +102,10 @@ Handles handles_in(Random& random, const Domain& domain)
   for (Index h = 0; h < count; ++h)
   {
     const std::string name = "h" + std::to_string(h);
-    const Vec3 head = place(random, domain, handles);
+    const Vec3 head = hostile_place(random, domain, handles);
     handles.push_back(chance(random, 0.6)
         ? point_handle(name, head)
-        : bone_handle(name, head, place(random, domain, handles)));
+        : bone_handle(name, head, hostile_place(random, domain, handles)));
     if (handles.back().kind == HandleKind::point && chance(random, 0.1))
     {
       handles.back().kind = HandleKind::cage_vertex;
@@ -119,7 +114,7 @@ Handles handles_in(Random& random, const Domain& domain)
   return handles;
 }
 
-double measure(const Domain& domain)
+double size_of_domain(const Domain& domain)
 {
   return domain.is_volume() ? tet_volumes(domain.points, domain.tets).sum()
                             : surface_area(domain.points, domain.triangles);
@@ -155,10 +150,10 @@ void expect_same_shape(const Domain& before, const HandleInsertion& after)
   const Domain& domain = after.domain;
   ASSERT_TRUE(check_domain(domain).ok()) << check_domain(domain).message;
   EXPECT_EQ(domain.points.topRows(before.points.rows()), before.points);
-  EXPECT_NEAR(measure(domain), measure(before), 1e-9 * measure(before));
+  EXPECT_NEAR(size_of_domain(domain), size_of_domain(before), 1e-9 * size_of_domain(before));
 }
 
-Status solve(
+Status solve_with_random_options(
   Random& random, const WeightsProblem& problem, const WeightMethod& method, WeightsResult& result)
 {
   ExecutionContext context;
@@ -171,8 +166,8 @@ Status solve(
   return method.kernel(problem, options, context, result);
 }
 
-void expect_weights(const WeightsProblem& problem, const WeightMethod& method, const Status& status,
-  const WeightsResult& result)
+void expect_weights_of_method(const WeightsProblem& problem, const WeightMethod& method,
+  const Status& status, const WeightsResult& result)
 {
   ASSERT_EQ(result.weights.rows(), problem.vertex_count());
   ASSERT_EQ(result.weights.cols(), problem.handle_count());
@@ -217,7 +212,7 @@ TEST(FuzzWeights, HandlesAnywhere)
   fuzz("sets of handles", 1500,
     [&](Random& random)
     {
-      const Domain domain = shape(random);
+      const Domain domain = random_domain(random);
       const Handles handles = handles_in(random, domain);
       WeightsOptions options;
       options.insertion.keep_mesh = chance(random, 0.15);
@@ -244,7 +239,7 @@ TEST(FuzzWeights, HandlesAnywhere)
                                      : 2 + random.below(static_cast<int>(methods.size()) - 2)];
       SCOPED_TRACE(method.word);
       WeightsResult result;
-      const Status status = solve(random, problem, method, result);
+      const Status status = solve_with_random_options(random, problem, method, result);
       expect_spoken(status);
       if (!status.usable())
       {
@@ -256,7 +251,7 @@ TEST(FuzzWeights, HandlesAnywhere)
         return;
       }
       late += status.ok() ? 0 : 1;
-      expect_weights(problem, method, status, result);
+      expect_weights_of_method(problem, method, status, result);
     });
   std::cout << "[ fuzz ] " << refused << " of them were refused, " << unsolvable
             << " had no unique minimum, " << late << " not certified in time\n";

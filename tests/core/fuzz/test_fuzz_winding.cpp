@@ -13,6 +13,8 @@
 #include "winding/winding_number.h"
 
 #include "core/fuzz/hostile_surfaces.h"
+#include "support/clouds.h"
+#include "support/curves.h"
 #include "support/fuzz.h"
 
 #include <algorithm>
@@ -41,12 +43,12 @@ struct Way
   WindingMethod method;
   double tolerance;
 };
-constexpr Way ways[] = { { WindingMethod::automatic, 1e-3 }, { WindingMethod::exact, 1e-3 },
-  { WindingMethod::direct, 1e-3 }, { WindingMethod::crossings, 1e-3 },
-  { WindingMethod::hierarchical, 1e-3 }, { WindingMethod::fast, 1e-2 },
-  { WindingMethod::fast, 1e-3 }, { WindingMethod::fast, 1e-5 } };
+constexpr Way all_ways_and_tolerances[] = { { WindingMethod::automatic, 1e-3 },
+  { WindingMethod::exact, 1e-3 }, { WindingMethod::direct, 1e-3 },
+  { WindingMethod::crossings, 1e-3 }, { WindingMethod::hierarchical, 1e-3 },
+  { WindingMethod::fast, 1e-2 }, { WindingMethod::fast, 1e-3 }, { WindingMethod::fast, 1e-5 } };
 
-WindingNumber make(Random& random, const TriangleMesh& mesh, const Way& way)
+WindingNumber random_winding(Random& random, const TriangleMesh& mesh, const Way& way)
 {
   WindingNumber::Options options;
   options.method = way.method;
@@ -193,7 +195,7 @@ struct Tally
 void compare(Random& random, const TriangleMesh& mesh, const Way& way, const Truth& points,
   const SampleGrid& grid, const Truth& samples, Tally& tally)
 {
-  const WindingNumber winding = make(random, mesh, way);
+  const WindingNumber winding = random_winding(random, mesh, way);
   const bool closed = winding.boundary().edges.empty();
   OneThread context;
   for (const Truth* truth : { &points, &samples })
@@ -244,7 +246,7 @@ TEST(FuzzWinding, AllMethodsOnSurfacesOfAllKinds)
       const Truth points(mesh, 64, [&](Index) { return hostile_point(random, mesh); });
       const SampleGrid grid = hostile_grid(random, mesh);
       const Truth samples(mesh, grid.count(), points_of(grid));
-      for (const Way& way : ways)
+      for (const Way& way : all_ways_and_tolerances)
       {
         compare(random, mesh, way, points, grid, samples, tally);
         if (testing::Test::HasFailure())
@@ -290,8 +292,9 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
       }
       mesh = placed(random, chance(random, 0.5) ? scattered(random, mesh, most) : mesh);
       largest = std::max(largest, mesh.triangles.rows());
-      const WindingNumber cells = make(random, mesh, { WindingMethod::crossings, 1e-3 });
-      const WindingNumber tree = make(random, mesh, { WindingMethod::hierarchical, 1e-3 });
+      const WindingNumber cells = random_winding(random, mesh, { WindingMethod::crossings, 1e-3 });
+      const WindingNumber tree =
+        random_winding(random, mesh, { WindingMethod::hierarchical, 1e-3 });
       ASSERT_TRUE(cells.boundary().edges.empty());
       const auto expect_same = [&](const Vec3& p, double value, bool touches)
       {
@@ -389,7 +392,8 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
       }
       const double unit = std::ldexp(1.0, static_cast<int>(random.below(100)) - 50);
       mesh.points *= unit;
-      const WindingNumber winding = make(random, mesh, { WindingMethod::crossings, 1e-3 });
+      const WindingNumber winding =
+        random_winding(random, mesh, { WindingMethod::crossings, 1e-3 });
       SampleGrid grid;
       grid.origin = Vec3::Constant(-1.5 * unit);
       grid.spacing = Vec3::Constant(0.5 * unit);
@@ -451,8 +455,9 @@ TEST(FuzzWinding, GradientIsThatOfThePlainSum)
       }
       const double size = bounding_box(mesh.points, mesh.triangles).diagonal();
       constexpr double tolerance = 1e-4;
-      const WindingNumber exact = make(random, mesh, { WindingMethod::crossings, tolerance });
-      const WindingNumber fast = make(random, mesh, { WindingMethod::fast, tolerance });
+      const WindingNumber exact =
+        random_winding(random, mesh, { WindingMethod::crossings, tolerance });
+      const WindingNumber fast = random_winding(random, mesh, { WindingMethod::fast, tolerance });
       for (int q = 0; q < 12; ++q)
       {
         const Vec3 p = hostile_point(random, mesh);
@@ -520,12 +525,6 @@ TEST(FuzzWinding, GradientIsThatOfThePlainSum)
 
 namespace
 {
-struct Curve
-{
-  PlanePoints points;
-  Segments segments;
-};
-
 Curve hostile_curve(Random& random)
 {
   const Index count = 1 + random.below(chance(random, 0.2) ? 400 : 30);
@@ -571,7 +570,7 @@ Curve hostile_curve(Random& random)
   return curve;
 }
 
-Vec2 hostile_point(Random& random, const Curve& curve)
+Vec2 hostile_curve_point(Random& random, const Curve& curve)
 {
   const Index e = random.below(curve.segments.rows());
   const Vec2 a = curve.points.row(curve.segments(e, 0)), b = curve.points.row(curve.segments(e, 1));
@@ -617,7 +616,7 @@ TEST(FuzzWinding, CurvesAgainstThePlainSum)
       PlanePoints points(60, 2);
       for (Index i = 0; i < points.rows();)
       {
-        const Vec2 p = hostile_point(random, curve);
+        const Vec2 p = hostile_curve_point(random, curve);
         if (p.allFinite())
         {
           points.row(i++) = p.transpose();
@@ -648,12 +647,6 @@ TEST(FuzzWinding, CurvesAgainstThePlainSum)
 
 namespace
 {
-struct Cloud
-{
-  Points points, normals;
-  Eigen::VectorXd areas;
-};
-
 Cloud hostile_cloud(Random& random)
 {
   const Index count = 1 + random.below(chance(random, 0.1) ? 4000 : 200);
@@ -700,7 +693,7 @@ Cloud hostile_cloud(Random& random)
 
 /// Evaluate the formula of the winding number, and the sum of the absolute values of its terms.
 /// Samples of the cloud within the tolerance of the point contribute nothing.
-void plain_sum(const Cloud& cloud, const Vec3& p, double tolerance, double& sum,
+void plain_sum_in_long_double(const Cloud& cloud, const Vec3& p, double tolerance, double& sum,
   double& unsigned_sum, bool& touches)
 {
   long double signed_total = 0.0L, total = 0.0L;
@@ -778,7 +771,7 @@ TEST(FuzzWinding, CloudsAgainstThePlainSum)
           const Vec3 p = points.row(i);
           double expected = 0.0, shares = 0.0;
           bool touches = false;
-          plain_sum(cloud, p, reach, expected, shares, touches);
+          plain_sum_in_long_double(cloud, p, reach, expected, shares, touches);
           ++queries;
           touching += touches;
           ASSERT_EQ(flags[i] != 0, touches) << std::setprecision(17) << p.transpose();

@@ -60,7 +60,7 @@ Status minimized(const CutEnergy& energy, std::vector<char>& inside)
 }
 
 /// Return a grid of n^3 nodes with random costs. Its energy is slow to minimize.
-CutEnergy noise(Index n)
+CutEnergy noise_energy(Index n)
 {
   Random random(7);
   CutEnergy energy;
@@ -161,7 +161,7 @@ TEST(GraphCut, BadCostsAndNodesAreNamed)
 
 TEST(GraphCut, CancelStopsIt)
 {
-  const CutEnergy energy = noise(70); // minimizing this energy takes seconds
+  const CutEnergy energy = noise_energy(70); // minimizing this energy takes seconds
   ExecutionContext context;
   test::CancelLater user(context, 500);
   std::vector<char> inside;

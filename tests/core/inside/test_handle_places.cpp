@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 namespace
 {
-HandlePlaces corners()
+HandlePlaces three_places()
 {
   HandlePlaces places;
   places.points.resize(3, 3);
@@ -23,7 +23,7 @@ HandlePlaces corners()
 
 TEST(HandlePlaces, ALineIsCutIntoPiecesOfTheLocalLength)
 {
-  HandlePlaces places = corners();
+  HandlePlaces places = three_places();
   places.segments.resize(1, 2);
   places.segments << 0, 1;
   const HandleSamples even = sample_places(places, [](const Vec3&) { return 0.1; });
@@ -51,7 +51,7 @@ TEST(HandlePlaces, ALineIsCutIntoPiecesOfTheLocalLength)
 
 TEST(HandlePlaces, ABoneHasAPointBetweenItsEndsAndNeverTooMany)
 {
-  HandlePlaces places = corners();
+  HandlePlaces places = three_places();
   places.segments.resize(1, 2);
   places.segments << 0, 1;
   EXPECT_EQ(sample_places(places, [](const Vec3&) { return 10.0; }).points.rows(), 4);
@@ -60,7 +60,7 @@ TEST(HandlePlaces, ABoneHasAPointBetweenItsEndsAndNeverTooMany)
 
 TEST(HandlePlaces, ATriangleIsCoveredAndEveryPlaceIsThereOnce)
 {
-  HandlePlaces places = corners();
+  HandlePlaces places = three_places();
   places.segments.resize(3, 2);
   places.segments << 0, 1, 1, 2, 2, 0;
   places.triangles.resize(1, 3);
@@ -89,7 +89,7 @@ TEST(HandlePlaces, ATriangleIsCoveredAndEveryPlaceIsThereOnce)
 
 TEST(HandlePlaces, EndsAtOnePlace)
 {
-  HandlePlaces places = corners();
+  HandlePlaces places = three_places();
   places.points.row(1) = places.points.row(0);
   places.segments.resize(1, 2);
   places.segments << 0, 1;
@@ -102,7 +102,7 @@ TEST(HandlePlaces, EndsAtOnePlace)
 
 TEST(HandlePlaces, BadOnesAreRefused)
 {
-  HandlePlaces places = corners();
+  HandlePlaces places = three_places();
   EXPECT_TRUE(check_places(places).ok());
   places.triangles.resize(1, 3);
   places.triangles << 0, 1, 3;

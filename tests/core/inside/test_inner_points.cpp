@@ -1,6 +1,8 @@
 // Points inside of closed surfaces: their positions, spacing and number.
 #include "inside/inner_points.h"
 
+#include "base/constants.h"
+
 #include "support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +15,6 @@ using namespace bindpose;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 SizingField everywhere(double length)
 {
   return SizingField(Points(0, 3), Eigen::VectorXd(0), 0.0, length);

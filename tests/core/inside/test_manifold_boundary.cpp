@@ -14,7 +14,7 @@ namespace
 {
 /// Return each cube of the list as six tets. Adjacent cubes share vertices, and the tets on both
 /// sides of a shared face match.
-TetMesh cubes(const std::vector<std::array<int, 3>>& list)
+TetMesh tets_of_cubes(const std::vector<std::array<int, 3>>& list)
 {
   std::map<std::array<int, 3>, Index> ids;
   std::vector<Vec3> points;
@@ -90,7 +90,7 @@ void expect_closed_manifold(const TriangleMesh& mesh)
 
 TEST(ManifoldBoundary, SolidWithoutPinchesKeepsItsVertices)
 {
-  const TetMesh mesh = cubes({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } });
+  const TetMesh mesh = tets_of_cubes({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 } });
   const TriangleMesh surface = manifold_boundary(mesh);
   expect_closed_manifold(surface);
   EXPECT_EQ(surface.points.rows(), mesh.points.rows());
@@ -105,14 +105,14 @@ TEST(ManifoldBoundary, InteriorPointsAreLeftOut)
   {
     list.push_back({ i % 3, i / 3 % 3, i / 9 });
   }
-  const TriangleMesh surface = manifold_boundary(cubes(list));
+  const TriangleMesh surface = manifold_boundary(tets_of_cubes(list));
   expect_closed_manifold(surface);
   EXPECT_EQ(surface.points.rows(), 64 - 8);
 }
 
 TEST(ManifoldBoundary, CubesThatShareAVertexArePartedThere)
 {
-  const TriangleMesh surface = manifold_boundary(cubes({ { 0, 0, 0 }, { 1, 1, 1 } }));
+  const TriangleMesh surface = manifold_boundary(tets_of_cubes({ { 0, 0, 0 }, { 1, 1, 1 } }));
   expect_closed_manifold(surface);
   EXPECT_EQ(surface.points.rows(), 16);
   EXPECT_DOUBLE_EQ(signed_volume(surface.points, surface.triangles), 2.0);
@@ -120,7 +120,7 @@ TEST(ManifoldBoundary, CubesThatShareAVertexArePartedThere)
 
 TEST(ManifoldBoundary, CubesThatShareAnEdgeArePartedThere)
 {
-  const TriangleMesh surface = manifold_boundary(cubes({ { 0, 0, 0 }, { 1, 1, 0 } }));
+  const TriangleMesh surface = manifold_boundary(tets_of_cubes({ { 0, 0, 0 }, { 1, 1, 0 } }));
   expect_closed_manifold(surface);
   EXPECT_EQ(surface.points.rows(), 16);
 }
@@ -129,7 +129,8 @@ TEST(ManifoldBoundary, ARingOfCubesThatCloseAtAnEdgeIsOneSurface)
 {
   // The first and the last cube touch only at an edge. They are separated at this edge and
   // connected along the ring.
-  const TetMesh mesh = cubes({ { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 1, 1, 0 } });
+  const TetMesh mesh =
+    tets_of_cubes({ { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 1, 1, 0 } });
   const TriangleMesh surface = manifold_boundary(mesh);
   expect_closed_manifold(surface);
   EXPECT_EQ(connected_components(surface.points.rows(), surface.triangles).count, 1);
@@ -148,7 +149,7 @@ TEST(ManifoldBoundary, RandomCubesGiveAClosedManifold)
       chosen.insert({ static_cast<int>(state >> 8 & 3), static_cast<int>(state >> 12 & 3),
         static_cast<int>(state >> 16 & 3) });
     }
-    const TriangleMesh surface = manifold_boundary(cubes({ chosen.begin(), chosen.end() }));
+    const TriangleMesh surface = manifold_boundary(tets_of_cubes({ chosen.begin(), chosen.end() }));
     expect_closed_manifold(surface);
     EXPECT_NEAR(
       signed_volume(surface.points, surface.triangles), static_cast<double>(chosen.size()), 1e-12);

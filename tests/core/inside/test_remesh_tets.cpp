@@ -1,6 +1,7 @@
 // Method remesh: well-shaped, graded tets of the region that the winding number defines.
 #include "inside/remesh_tets.h"
 
+#include "base/constants.h"
 #include "helper/mesher_process.h"
 #include "inside/tet_quality.h"
 #include "inside/tetrahedralize.h"
@@ -27,9 +28,7 @@ using testing::HasSubstr;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
-struct Outcome
+struct RemeshOutcome
 {
   RemeshResult result;
   Status status;
@@ -48,12 +47,13 @@ struct Outcome
   }
 };
 
-Outcome run(const TriangleMesh& mesh, const RemeshOptions& options = {}, int threads = 0)
+RemeshOutcome run_remesh(
+  const TriangleMesh& mesh, const RemeshOptions& options = {}, int threads = 0)
 {
   ExecutionContext context;
   context.set_threads(threads);
   const WindingNumber winding(mesh.points, mesh.triangles);
-  Outcome outcome;
+  RemeshOutcome outcome;
   outcome.status =
     remesh_tets(mesh.points, mesh.triangles, winding, options, outcome.result, context);
   return outcome;
@@ -96,7 +96,8 @@ bool manifold(const Triangles& skin)
 }
 
 /// Expect the invariants that every result has.
-void expect_valid(const Outcome& outcome, const TriangleMesh& surface, double angle = 8.0)
+void expect_valid_remesh(
+  const RemeshOutcome& outcome, const TriangleMesh& surface, double angle = 8.0)
 {
   ASSERT_TRUE(outcome.status.ok()) << outcome.status.message;
   const TetMesh& mesh = outcome.result.mesh;
@@ -180,8 +181,8 @@ TEST_F(Remesh, ClosedSurfacesKeepVolumeVerticesAndShape)
          Case{ "far away", test::translated(test::sphere(3), Vec3(500, -300, 90)), 0.99 } })
   {
     SCOPED_TRACE(c.name);
-    const Outcome outcome = run(c.mesh);
-    expect_valid(outcome, c.mesh, 11.0);
+    const RemeshOutcome outcome = run_remesh(c.mesh);
+    expect_valid_remesh(outcome, c.mesh, 11.0);
     const double volume = signed_volume(c.mesh.points, c.mesh.triangles);
     EXPECT_NEAR(outcome.volume(), volume, 0.004 * volume);
     EXPECT_GE(outcome.kept(), static_cast<Index>(c.share * c.mesh.points.rows()));
@@ -189,14 +190,14 @@ TEST_F(Remesh, ClosedSurfacesKeepVolumeVerticesAndShape)
     EXPECT_LT(outcome.status.report.number("distance_max", 100.0), 0.5);
     EXPECT_LT(outcome.status.report.number("distance_mean", 100.0), 0.03);
   }
-  EXPECT_NEAR(run(test::cube()).volume(), 8.0, 1e-6) << "creases are found again";
+  EXPECT_NEAR(run_remesh(test::cube()).volume(), 8.0, 1e-6) << "creases are found again";
 }
 
 TEST_F(Remesh, OpenCubeGetsALid)
 {
   const TriangleMesh cube = test::open_cube();
-  const Outcome outcome = run(cube);
-  expect_valid(outcome, cube, 11.0);
+  const RemeshOutcome outcome = run_remesh(cube);
+  expect_valid_remesh(outcome, cube, 11.0);
   // The winding number exceeds 0.5 up to the rim of the opening, so the bounding box clips the
   // region there.
   EXPECT_NEAR(outcome.volume(), 8.0, 0.01);
@@ -205,8 +206,8 @@ TEST_F(Remesh, OpenCubeGetsALid)
   // A higher threshold moves the boundary of the tets across the opening inwards.
   RemeshOptions high;
   high.winding_threshold = 0.9;
-  const Outcome lower = run(cube, high);
-  expect_valid(lower, cube, 6.0);
+  const RemeshOutcome lower = run_remesh(cube, high);
+  expect_valid_remesh(lower, cube, 6.0);
   EXPECT_LT(lower.volume(), 0.9 * outcome.volume());
 }
 
@@ -214,8 +215,8 @@ TEST_F(Remesh, CrossingSolidsAreOne)
 {
   const double d = 0.9;
   const TriangleMesh spheres = test::join(test::sphere(3), test::sphere(3, 1.0, Vec3(d, 0, 0)));
-  const Outcome outcome = run(spheres);
-  expect_valid(outcome, spheres);
+  const RemeshOutcome outcome = run_remesh(spheres);
+  expect_valid_remesh(outcome, spheres);
   const double balls = 8.0 / 3.0 * pi - pi * (4.0 + d) * (2.0 - d) * (2.0 - d) / 12.0;
   EXPECT_NEAR(outcome.volume(), balls, 0.01 * balls);
   // Vertices of one sphere inside of the other are not on the boundary.
@@ -234,8 +235,8 @@ TEST_F(Remesh, CrossingSolidsAreOne)
 TEST_F(Remesh, ASoupThatCrosses)
 {
   const TriangleMesh soup = shaken_soup(test::sphere(3), 0.01);
-  const Outcome outcome = run(soup);
-  expect_valid(outcome, soup);
+  const RemeshOutcome outcome = run_remesh(soup);
+  expect_valid_remesh(outcome, soup);
   EXPECT_NEAR(outcome.volume(), 4.0 / 3.0 * pi, 0.04 * 4.0 / 3.0 * pi);
 }
 
@@ -252,8 +253,8 @@ TEST_F(Remesh, SquaresOfFourPointsOnACircleLeaveNoClusters)
   }
   for (const TriangleMesh& mesh : { torus, loose })
   {
-    const Outcome outcome = run(mesh);
-    expect_valid(outcome, mesh, 11.0);
+    const RemeshOutcome outcome = run_remesh(mesh);
+    expect_valid_remesh(outcome, mesh, 11.0);
     EXPECT_EQ(outcome.kept(), torus.points.rows());
   }
   for (const TriangleMesh& mesh : { turned, loose, test::flipped(torus) })
@@ -276,8 +277,8 @@ TEST_F(Remesh, TetsAreSmallWhereTheSurfaceIsFine)
     test::join(test::sphere(2), test::sphere(4, 0.25, Vec3(1.05, 0.0, 0.0)));
   RemeshOptions options;
   options.largest_edge = 0.1;
-  const Outcome outcome = run(mesh, options);
-  expect_valid(outcome, mesh);
+  const RemeshOutcome outcome = run_remesh(mesh, options);
+  expect_valid_remesh(outcome, mesh);
   const double fine = edge_length_near(outcome.result.mesh, Vec3(1.3, 0, 0), 0.08);
   const double coarse = edge_length_near(outcome.result.mesh, Vec3(-0.3, 0, 0), 0.4);
   EXPECT_GT(coarse, 4.0 * fine);
@@ -289,8 +290,8 @@ TEST_F(Remesh, ThinPlatesAreKept)
   plate.points.col(2) *= 0.02; // the triangle edges are as long as the plate is wide
   RemeshOptions options;
   options.largest_edge = 0.1;
-  const Outcome outcome = run(plate, options);
-  expect_valid(outcome, plate);
+  const RemeshOutcome outcome = run_remesh(plate, options);
+  expect_valid_remesh(outcome, plate);
   EXPECT_NEAR(outcome.volume(), 0.02, 0.001);
 }
 
@@ -298,13 +299,13 @@ TEST_F(Remesh, LengthsAreFractions)
 {
   // Scaling by a power of two does not round, so the tets are the same.
   const TriangleMesh mesh = test::torus(24, 12, 1.0, 0.4);
-  const Outcome one = run(mesh);
+  const RemeshOutcome one = run_remesh(mesh);
   for (const double scale : { 9.313225746154785e-10, 1073741824.0 })
   {
     TriangleMesh scaled = mesh;
     scaled.points *= scale;
-    const Outcome outcome = run(scaled);
-    expect_valid(outcome, scaled);
+    const RemeshOutcome outcome = run_remesh(scaled);
+    expect_valid_remesh(outcome, scaled);
     EXPECT_NEAR(outcome.volume() / (scale * scale * scale), one.volume(), 0.002 * one.volume());
     EXPECT_NEAR(outcome.status.report.number("distance_mean", -1.0),
       one.status.report.number("distance_mean", -2.0), 0.005);
@@ -315,11 +316,11 @@ TEST_F(Remesh, SameBitsEveryTimeAndForAnyNumberOfThreads)
 {
   const TriangleMesh mesh =
     test::join(test::open_cube(), test::translated(test::sphere(2), Vec3(0.6, 0.5, 0.4)));
-  const Outcome one = run(mesh, {}, 1);
+  const RemeshOutcome one = run_remesh(mesh, {}, 1);
   ASSERT_TRUE(one.status.ok()) << one.status.message;
   for (const int threads : { 1, 2 })
   {
-    const Outcome again = run(mesh, {}, threads);
+    const RemeshOutcome again = run_remesh(mesh, {}, threads);
     ASSERT_EQ(one.result.mesh.points, again.result.mesh.points);
     ASSERT_EQ(one.result.mesh.tets, again.result.mesh.tets);
     EXPECT_EQ(one.result.distance.mean, again.result.distance.mean);
@@ -331,8 +332,8 @@ TEST_F(Remesh, TetLimitHolds)
   RemeshOptions options;
   options.smallest_edge = options.largest_edge = 0.002;
   options.tet_limit = 20000;
-  const Outcome outcome = run(test::sphere(3), options);
-  expect_valid(outcome, test::sphere(3));
+  const RemeshOutcome outcome = run_remesh(test::sphere(3), options);
+  expect_valid_remesh(outcome, test::sphere(3));
   EXPECT_LT(outcome.result.mesh.tets.rows(), 60000);
 }
 
@@ -345,7 +346,7 @@ TEST_F(Remesh, ASheetBesideASolidEnds)
   RemeshOptions options;
   options.time_limit = 20.0;
   const auto start = std::chrono::steady_clock::now();
-  const Outcome outcome = run(mesh, options);
+  const RemeshOutcome outcome = run_remesh(mesh, options);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   EXPECT_LT(seconds.count(), 60.0);
   if (outcome.status.ok())
@@ -385,8 +386,8 @@ TEST(RemeshTets, WithoutHelperTheLadderCutsALattice)
 {
   const test::Environment no_helper("BINDPOSE_MESHER", "/nowhere");
   const TriangleMesh mesh = test::sphere(2);
-  EXPECT_EQ(run(mesh).status.code, StatusCode::unavailable);
-  EXPECT_EQ(run(mesh).result.mesh.tets.rows(), 0);
+  EXPECT_EQ(run_remesh(mesh).status.code, StatusCode::unavailable);
+  EXPECT_EQ(run_remesh(mesh).result.mesh.tets.rows(), 0);
   ExecutionContext context;
   TetrahedralizeOptions options;
   options.method = TetMethod::remesh;
@@ -409,7 +410,7 @@ TEST(RemeshTets, ASlowHelperIsStoppedAtTheLimit)
   const test::StandIn helper("BINDPOSE_MESHER", sleeps);
   RemeshOptions options;
   options.time_limit = 0.3;
-  const Outcome outcome = run(test::sphere(2), options);
+  const RemeshOutcome outcome = run_remesh(test::sphere(2), options);
   EXPECT_EQ(outcome.status.code, StatusCode::internal_error);
   EXPECT_THAT(outcome.status.message, HasSubstr("time limit"));
   EXPECT_EQ(outcome.result.mesh.tets.rows(), 0);
@@ -443,7 +444,7 @@ TEST(RemeshTets, BadInputIsNamed)
   point.points.setOnes();
   const auto refused = [](const TriangleMesh& mesh, const RemeshOptions& options)
   {
-    const Outcome outcome = run(mesh, options);
+    const RemeshOutcome outcome = run_remesh(mesh, options);
     EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
     EXPECT_EQ(outcome.result.mesh.tets.rows(), 0);
     return outcome.status.message;
@@ -471,7 +472,7 @@ TEST(RemeshTets, BadInputIsNamed)
 
 TEST_F(Remesh, WhatEnclosesNothingSaysSo)
 {
-  const Outcome outcome = run(test::grid(4, 4));
+  const RemeshOutcome outcome = run_remesh(test::grid(4, 4));
   EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
   EXPECT_THAT(outcome.status.message, HasSubstr("nothing"));
 }

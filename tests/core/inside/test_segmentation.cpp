@@ -73,7 +73,7 @@ double stated_energy(const TetMesh& mesh, const Eigen::VectorXd& w, const Segmen
   return data + o.cut_smoothness * cut / (areas / static_cast<double>(facets));
 }
 
-Eigen::VectorXd noise(Index count, Random& random)
+Eigen::VectorXd noisy_winding_numbers(Index count, Random& random)
 {
   Eigen::VectorXd w(count);
   for (Index t = 0; t < count; ++t)
@@ -96,7 +96,7 @@ TEST(Segmentation, EqualsBruteForce)
     {
       mesh = tet_box(2, 1, 1); // 2^18 labelings are slow, so this is rare
     }
-    const Eigen::VectorXd w = noise(mesh.tets.rows(), random);
+    const Eigen::VectorXd w = noisy_winding_numbers(mesh.tets.rows(), random);
     SegmentationOptions options;
     options.winding_threshold = random.uniform(0.3, 0.9);
     options.cut_smoothness = random.uniform(0.0, 2.0);
@@ -157,7 +157,7 @@ TEST(Segmentation, NoSmoothnessIsTheThreshold)
 {
   Random random(4);
   const TetMesh mesh = tet_box(5, 4, 3);
-  const Eigen::VectorXd w = noise(mesh.tets.rows(), random);
+  const Eigen::VectorXd w = noisy_winding_numbers(mesh.tets.rows(), random);
   SegmentationOptions smooth, plain;
   smooth.cut_smoothness = 0.0;
   plain.method = SegmentationMethod::threshold;
@@ -211,7 +211,7 @@ TEST(Segmentation, ScaleAndOrderDoNotMatter)
 {
   Random random(5);
   const TetMesh mesh = tet_box(4, 4, 4);
-  const Eigen::VectorXd w = noise(mesh.tets.rows(), random);
+  const Eigen::VectorXd w = noisy_winding_numbers(mesh.tets.rows(), random);
   const Segmentation first = segmented(mesh, w);
   for (const double scale : { 1e-9, 1e9 })
   {

@@ -21,7 +21,7 @@ SurfaceDistance distance_of(const TetMesh& mesh, const TriangleMesh& surface)
   return distance;
 }
 
-TetMesh box(const Vec3& lower, const Vec3& upper)
+TetMesh box_of_tets(const Vec3& lower, const Vec3& upper)
 {
   return test::tet_box(6, 6, 6, lower, upper);
 }
@@ -30,18 +30,19 @@ TetMesh box(const Vec3& lower, const Vec3& upper)
 TEST(SurfaceDistance, OfBoxesIsKnown)
 {
   const TriangleMesh cube = test::cube();
-  const SurfaceDistance none = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), cube);
+  const SurfaceDistance none = distance_of(box_of_tets(Vec3(-1, -1, -1), Vec3(1, 1, 1)), cube);
   EXPECT_NEAR(none.maximum, 0.0, 1e-12);
   EXPECT_NEAR(none.mean, 0.0, 1e-12);
   EXPECT_GT(none.samples, 12);
   // The top of the tets is too low by 0.25. The top is a sixth of the surface, and a slightly
   // larger fraction of the boundary of the tets.
-  const SurfaceDistance low = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 0.75)), cube);
+  const SurfaceDistance low = distance_of(box_of_tets(Vec3(-1, -1, -1), Vec3(1, 1, 0.75)), cube);
   EXPECT_NEAR(low.maximum, 0.25, 1e-12);
   EXPECT_GT(low.mean, 0.25 / 7.0);
   EXPECT_LT(low.mean, 0.25 / 3.0);
   // The box is too large by 0.1 on all sides, so the distance at its corners is 0.1 sqrt(3).
-  const SurfaceDistance large = distance_of(box(Vec3(-1.1, -1.1, -1.1), Vec3(1.1, 1.1, 1.1)), cube);
+  const SurfaceDistance large =
+    distance_of(box_of_tets(Vec3(-1.1, -1.1, -1.1), Vec3(1.1, 1.1, 1.1)), cube);
   EXPECT_NEAR(large.maximum, 0.1 * std::sqrt(3.0), 1e-12);
   EXPECT_GT(large.mean, 0.1);
   EXPECT_LT(large.mean, 0.13);
@@ -51,7 +52,7 @@ TEST(SurfaceDistance, MissingPartsCountFromTheSurface)
 {
   const TriangleMesh two =
     test::join(test::cube(), test::translated(test::cube(), Vec3(10.0, 0.0, 0.0)));
-  const SurfaceDistance distance = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), two);
+  const SurfaceDistance distance = distance_of(box_of_tets(Vec3(-1, -1, -1), Vec3(1, 1, 1)), two);
   EXPECT_NEAR(distance.maximum, 10.0, 1e-9);
 }
 
@@ -59,7 +60,8 @@ TEST(SurfaceDistance, LidsDoNotCount)
 {
   // The tets of the open cube end at the top of its bounding box, where the surface has no
   // triangles.
-  const SurfaceDistance open = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), test::open_cube());
+  const SurfaceDistance open =
+    distance_of(box_of_tets(Vec3(-1, -1, -1), Vec3(1, 1, 1)), test::open_cube());
   EXPECT_NEAR(open.maximum, 0.0, 1e-9);
 }
 
@@ -67,7 +69,8 @@ TEST(SurfaceDistance, InnerPartsDoNotCount)
 {
   // The winding number inside of both cubes is 2, so the inner surface does not bound the tets.
   const TriangleMesh nested = test::join(test::cube(), test::cube(-0.4, 0.4));
-  const SurfaceDistance distance = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), nested);
+  const SurfaceDistance distance =
+    distance_of(box_of_tets(Vec3(-1, -1, -1), Vec3(1, 1, 1)), nested);
   EXPECT_NEAR(distance.maximum, 0.0, 1e-12);
 }
 

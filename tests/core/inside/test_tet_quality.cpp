@@ -15,7 +15,7 @@ using testing::HasSubstr;
 namespace
 {
 /// Return one tet per apex, all on the same base triangle. The apices are above or below it.
-TetMesh fan(const std::vector<Vec3>& apices)
+TetMesh tet_fan(const std::vector<Vec3>& apices)
 {
   TetMesh mesh;
   mesh.points.resize(3 + static_cast<Index>(apices.size()), 3);
@@ -37,11 +37,11 @@ TetMesh fan(const std::vector<Vec3>& apices)
 
 TEST(TetQuality, TetsMeetAtMostInPairsOnOppositeSides)
 {
-  const TetMesh good = fan({ Vec3(0.2, 0.2, 1), Vec3(0.2, 0.2, -1) });
+  const TetMesh good = tet_fan({ Vec3(0.2, 0.2, 1), Vec3(0.2, 0.2, -1) });
   EXPECT_TRUE(check_tets(good.points, good.tets).ok());
-  const TetMesh same_side = fan({ Vec3(0.2, 0.2, 1), Vec3(0.3, 0.2, 0.5) });
+  const TetMesh same_side = tet_fan({ Vec3(0.2, 0.2, 1), Vec3(0.3, 0.2, 0.5) });
   EXPECT_THAT(check_tets(same_side.points, same_side.tets).message, HasSubstr("overlap"));
-  const TetMesh three = fan({ Vec3(0.2, 0.2, 1), Vec3(0.2, 0.2, -1), Vec3(0.3, 0.2, 2) });
+  const TetMesh three = tet_fan({ Vec3(0.2, 0.2, 1), Vec3(0.2, 0.2, -1), Vec3(0.3, 0.2, 2) });
   EXPECT_THAT(check_tets(three.points, three.tets).message, HasSubstr("boundary is not closed"));
   EXPECT_TRUE(check_tets(three.points, three.tets, true).ok());
   TetMesh twice = three;

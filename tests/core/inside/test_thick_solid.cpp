@@ -19,7 +19,7 @@ struct Made
   double volume = 0.0;
 };
 
-Made make(const TriangleMesh& mesh, const ThickSolidOptions& options, int threads = 0)
+Made make_solid(const TriangleMesh& mesh, const ThickSolidOptions& options, int threads = 0)
 {
   ExecutionContext context;
   context.set_threads(threads);
@@ -43,7 +43,7 @@ double cube_of(const Made& made, double longest)
 TEST(ThickSolid, OfABallIsABallWithTheWantedTriangles)
 {
   const TriangleMesh ball = test::sphere(4);
-  const Made made = make(ball, {});
+  const Made made = make_solid(ball, {});
   EXPECT_EQ(made.parts, 1);
   EXPECT_LT(made.status.report.number("counts.thickened_triangles", 1e9),
     0.01 * static_cast<double>(ball.triangles.rows()));
@@ -54,7 +54,7 @@ TEST(ThickSolid, OfABallIsABallWithTheWantedTriangles)
 TEST(ThickSolid, ASheetBecomesAPlateOfTwiceTheLayer)
 {
   const TriangleMesh sheet = test::grid(10, 10);
-  const Made made = make(sheet, {});
+  const Made made = make_solid(sheet, {});
   EXPECT_EQ(made.parts, 1);
   const double layer = 0.6 * cube_of(made, 1.0);
   // The expected solid is a plate with a half cylinder at each of its four edges and a quarter ball
@@ -69,7 +69,7 @@ TEST(ThickSolid, ThinWallsStay)
 {
   // The two large faces of the plate have a distance of a hundredth of a lattice cube.
   const TriangleMesh plate = test::box(Vec3(0.0, 0.0, 0.0), Vec3(1.0, 1.0, 1e-4));
-  const Made made = make(plate, {});
+  const Made made = make_solid(plate, {});
   EXPECT_EQ(made.parts, 1);
   EXPECT_GT(made.volume, cube_of(made, 1.0));
 }
@@ -81,18 +81,18 @@ TEST(ThickSolid, NarrowGapsCloseWherePartsAreJoinedOnly)
   const TriangleMesh left = test::cube(0.0, 1.0);
   const auto both = [&](double gap)
   { return test::join(left, test::translated(left, Vec3(1.0 + gap, 0.0, 0.0))); };
-  const double cube = cube_of(make(both(0.05), options), 2.05);
+  const double cube = cube_of(make_solid(both(0.05), options), 2.05);
   const TriangleMesh apart = both(0.9 * cube);
   options.join_near_parts = true;
-  EXPECT_EQ(make(apart, options).parts, 1);
-  EXPECT_EQ(make(both(2.6 * cube), options).parts, 2);
+  EXPECT_EQ(make_solid(apart, options).parts, 1);
+  EXPECT_EQ(make_solid(both(2.6 * cube), options).parts, 2);
   options.join_near_parts = false;
-  EXPECT_EQ(make(both(1.8 * cube), options).parts, 2);
+  EXPECT_EQ(make_solid(both(1.8 * cube), options).parts, 2);
 }
 
 TEST(ThickSolid, AnOpenCubeIsFilled)
 {
-  const Made made = make(test::open_cube(), {});
+  const Made made = make_solid(test::open_cube(), {});
   EXPECT_EQ(made.parts, 1);
   // The walls next to the opening are thickened by a layer.
   EXPECT_NEAR(made.volume, 8.0, 0.8);
@@ -104,8 +104,8 @@ TEST(ThickSolid, SameBitsForAnyNumberOfThreads)
   options.triangles = 3000;
   options.join_near_parts = true;
   const TriangleMesh mesh = test::join(test::torus(24, 12, 1.0, 0.4), test::grid(3, 3));
-  const Made one = make(mesh, options, 1);
-  const Made many = make(mesh, options, 4);
+  const Made one = make_solid(mesh, options, 1);
+  const Made many = make_solid(mesh, options, 4);
   EXPECT_EQ(one.solid.points, many.solid.points);
   EXPECT_EQ(one.solid.triangles, many.solid.triangles);
 }

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 namespace
 {
-Status run(const TriangleMesh& mesh, const WrapOptions& options, TriangleMesh& wrap)
+Status run_wrap(const TriangleMesh& mesh, const WrapOptions& options, TriangleMesh& wrap)
 {
   ExecutionContext context;
   return wrap_surface(mesh.points, mesh.triangles, options, wrap.points, wrap.triangles, context);
@@ -53,12 +53,6 @@ TriangleMesh loose_triangles(int count)
     }
   }
   return soup;
-}
-
-/// Return vertices - edges + triangles: the Euler characteristic of the surface.
-Index surface_characteristic(const TriangleMesh& mesh)
-{
-  return mesh.points.rows() - count_edges(mesh.triangles).edges + mesh.triangles.rows();
 }
 
 /// Expect that the wrap is closed and oriented outwards, that each edge has two triangles, and that
@@ -143,13 +137,13 @@ TEST_F(WrapSurface, IsClosedAndAroundWhateverItIsGiven)
   {
     SCOPED_TRACE(c.name);
     TriangleMesh wrap;
-    const Status status = run(c.mesh, options, wrap);
+    const Status status = run_wrap(c.mesh, options, wrap);
     ASSERT_TRUE(status.ok()) << status.message;
     expect_clean(wrap);
     expect_around(wrap, c.mesh, options.offset);
     if (c.characteristic >= 0)
     {
-      EXPECT_EQ(surface_characteristic(wrap), c.characteristic);
+      EXPECT_EQ(test::euler_characteristic(wrap), c.characteristic);
     }
   }
 }
@@ -160,14 +154,14 @@ TEST_F(WrapSurface, VolumesAreWhatAlphaAndOffsetSay)
   // that of all points within the offset from the body.
   const WrapOptions options{ 0.05, 0.004, 60.0, 0 };
   TriangleMesh wrap;
-  ASSERT_TRUE(run(test::cube(), options, wrap).ok());
+  ASSERT_TRUE(run_wrap(test::cube(), options, wrap).ok());
   const double offset = options.offset * std::sqrt(12.0);
   const double volume = signed_volume(wrap.points, wrap.triangles);
   EXPECT_GT(volume, 8.0);
   EXPECT_LT(volume, 8.0 + 24.0 * offset + 6.0 * M_PI * offset * offset + 5.0 * std::pow(offset, 3));
   // The wrap of a sheet is two offsets thick. Its volume differs a little, because triangles
   // approximate its round rim.
-  ASSERT_TRUE(run(test::grid(4, 4), options, wrap).ok());
+  ASSERT_TRUE(run_wrap(test::grid(4, 4), options, wrap).ok());
   const TriangleMesh sheet = test::grid(4, 4);
   const double thickness = 2.0 * options.offset * bounding_box(sheet.points).diagonal();
   const double ratio = signed_volume(wrap.points, wrap.triangles) /
@@ -177,9 +171,9 @@ TEST_F(WrapSurface, VolumesAreWhatAlphaAndOffsetSay)
   // The wrap enters a hole only if the alpha ball fits through it.
   TriangleMesh holed = test::sphere(2);
   holed.triangles.conservativeResize(holed.triangles.rows() - 1, 3);
-  ASSERT_TRUE(run(holed, { 0.1, 0.002, 60.0, 0 }, wrap).ok());
+  ASSERT_TRUE(run_wrap(holed, { 0.1, 0.002, 60.0, 0 }, wrap).ok());
   EXPECT_GT(signed_volume(wrap.points, wrap.triangles), 4.0);
-  ASSERT_TRUE(run(holed, { 0.015, 0.002, 60.0, 0 }, wrap).ok());
+  ASSERT_TRUE(run_wrap(holed, { 0.015, 0.002, 60.0, 0 }, wrap).ok());
   EXPECT_LT(signed_volume(wrap.points, wrap.triangles), 0.6);
 }
 
@@ -187,15 +181,15 @@ TEST_F(WrapSurface, PlaceAndScaleDoNotMatter)
 {
   const WrapOptions options{ 0.1, 0.005, 60.0, 0 };
   TriangleMesh here, there;
-  ASSERT_TRUE(run(test::torus(12, 8, 1.0, 0.4), options, here).ok());
+  ASSERT_TRUE(run_wrap(test::torus(12, 8, 1.0, 0.4), options, here).ok());
   TriangleMesh moved = test::torus(12, 8, 1.0, 0.4);
   constexpr double scale = 0x1p-30;
   moved.points *= scale;
-  ASSERT_TRUE(run(moved, options, there).ok());
+  ASSERT_TRUE(run_wrap(moved, options, there).ok());
   EXPECT_EQ(there.triangles, here.triangles);
   EXPECT_EQ(there.points, here.points * scale) << "a power of two changes no digit";
   moved = test::translated(test::torus(12, 8, 1.0, 0.4), Vec3(1e7, -1e7, 1e7));
-  ASSERT_TRUE(run(moved, options, there).ok());
+  ASSERT_TRUE(run_wrap(moved, options, there).ok());
   expect_clean(there);
   EXPECT_NEAR(
     signed_volume(there.points, there.triangles) / signed_volume(here.points, here.triangles), 1.0,
@@ -210,14 +204,14 @@ TEST_F(WrapSurface, TimeMemoryAndCancelEndIt)
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&]
   { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  Status status = run(test::sphere(3), options, wrap);
+  Status status = run_wrap(test::sphere(3), options, wrap);
   EXPECT_EQ(status.code, StatusCode::internal_error);
   EXPECT_THAT(status.message, HasSubstr("wrap was stopped at its time limit of 0.5 s"));
   EXPECT_EQ(wrap.triangles.rows(), 0);
   EXPECT_LT(seconds(), 5.0);
   options.time_limit = 60.0;
   options.memory_limit = 60;
-  status = run(test::sphere(3), options, wrap);
+  status = run_wrap(test::sphere(3), options, wrap);
   EXPECT_EQ(status.code, StatusCode::internal_error);
   EXPECT_THAT(status.message, HasSubstr("memory limit of 60 MiB"));
 
@@ -238,7 +232,7 @@ TEST(WrapSurfaceInput, BadInputIsOneSentence)
   TriangleMesh wrap;
   const auto message = [&](const TriangleMesh& mesh, const WrapOptions& options = {})
   {
-    const Status status = run(mesh, options, wrap);
+    const Status status = run_wrap(mesh, options, wrap);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     EXPECT_EQ(wrap.triangles.rows(), 0);
     return status.message;
@@ -268,14 +262,14 @@ TEST(WrapSurfaceInput, NeedsTheHelper)
 {
   TriangleMesh wrap;
   const Environment none("BINDPOSE_MESHER", "/nowhere");
-  EXPECT_EQ(run(test::cube(), {}, wrap).code, StatusCode::unavailable);
+  EXPECT_EQ(run_wrap(test::cube(), {}, wrap).code, StatusCode::unavailable);
 }
 
 TEST(WrapSurfaceInput, AHelperThatGivesTheSurfaceBackIsNotBelieved)
 {
   const test::StandIn helper("BINDPOSE_MESHER", "cat\n");
   TriangleMesh wrap;
-  const Status status = run(test::open_cube(), {}, wrap);
+  const Status status = run_wrap(test::open_cube(), {}, wrap);
   EXPECT_EQ(status.code, StatusCode::internal_error);
   EXPECT_THAT(status.message, HasSubstr("not closed"));
   EXPECT_EQ(wrap.triangles.rows(), 0);

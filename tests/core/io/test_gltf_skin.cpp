@@ -70,7 +70,7 @@ double largest(const Eigen::MatrixXd& difference)
   return difference.cwiseAbs().maxCoeff();
 }
 
-double difference(const Eigen::Affine3d& a, const Eigen::Affine3d& b)
+double difference_of_affines(const Eigen::Affine3d& a, const Eigen::Affine3d& b)
 {
   return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff();
 }
@@ -134,12 +134,12 @@ TEST(GltfTransform, AMapWithoutShearInItsAxesIsKept)
     {
       trs.scale *= -1.0;
     }
-    EXPECT_LT(difference(nearest_trs(trs.affine()).affine(), trs.affine()), 1e-13);
+    EXPECT_LT(difference_of_affines(nearest_trs(trs.affine()).affine(), trs.affine()), 1e-13);
   }
   // A mirror image is a rotation by 180 degrees and a point reflection.
   Eigen::Affine3d mirror = Eigen::Affine3d::Identity();
   mirror(0, 0) = -1.0;
-  EXPECT_LT(difference(nearest_trs(mirror).affine(), mirror), 1e-13);
+  EXPECT_LT(difference_of_affines(nearest_trs(mirror).affine(), mirror), 1e-13);
 }
 
 TEST(GltfTransform, AShearGivesTheNearestRotation)
@@ -193,8 +193,8 @@ TEST(GltfSkin, WhatIsWrittenComesBack)
     {
       EXPECT_EQ(back.joints[j].name, skin.joints[j].name);
       EXPECT_EQ(back.joints[j].parent, skin.joints[j].parent);
-      EXPECT_LT(difference(back.joints[j].rest, skin.joints[j].rest), 1e-6);
-      EXPECT_LT(difference(back.joints[j].posed, skin.joints[j].rest), 1e-12);
+      EXPECT_LT(difference_of_affines(back.joints[j].rest, skin.joints[j].rest), 1e-6);
+      EXPECT_LT(difference_of_affines(back.joints[j].posed, skin.joints[j].rest), 1e-12);
     }
     ASSERT_TRUE(back.joints[2].note);
     EXPECT_EQ(back.joints[2].note->kind, "cage_vertex");
@@ -332,7 +332,7 @@ TEST(GltfSkin, AnAnimationOfJoints)
   {
     for (std::size_t j = 0; j < skin.joints.size(); ++j)
     {
-      EXPECT_LT(difference(back.frames[k].posed[j], skin.frames[k].posed[j]), 3e-6);
+      EXPECT_LT(difference_of_affines(back.frames[k].posed[j], skin.frames[k].posed[j]), 3e-6);
     }
   }
   // Shears are not exact, and the report contains their error.

@@ -148,27 +148,28 @@ protected:
   MeditMesh medit;
 };
 
-const std::string square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+const std::string square_points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 } // namespace
 
 TEST_F(TextFiles, OffVariantsOfTheWild)
 {
   const Points corners = (Points(4, 3) << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0).finished();
-  for (const std::string& text : { "OFF\n4 2 0\n" + square + "3 0 1 2\n3 0 2 3\n",
+  for (const std::string& text : { "OFF\n4 2 0\n" + square_points + "3 0 1 2\n3 0 2 3\n",
          // The vertex and face counts are on the first line.
-         "OFF 4 2 5\n" + square + "3 0 1 2\n3 0 2 3\n",
+         "OFF 4 2 5\n" + square_points + "3 0 1 2\n3 0 2 3\n",
          // The edge count and the last newline are missing.
-         "OFF\n4 2\n" + square + "3 0 1 2\n3 0 2 3",
-         "# made by hand\nOFF # really\n\n4 2 0 # counts\n" + square + "3 0 1 2 # lower\n3 0 2 3\n",
+         "OFF\n4 2\n" + square_points + "3 0 1 2\n3 0 2 3",
+         "# made by hand\nOFF # really\n\n4 2 0 # counts\n" + square_points +
+           "3 0 1 2 # lower\n3 0 2 3\n",
          std::string("COFF\r\n4 2 0\r\n0 0 0 255 0 0 255\r\n1 0 0 0 0 0 0\r\n1 1 0 1 1 1 1\r\n"
                      "0 1 0 1 1 1 1\r\n3 0 1 2\r\n3 0 2 3\r\n"),
          std::string("NOFF\n4 2 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n"
                      "3 0 2 3\n"),
          std::string("STCNOFF\n4 2 0\n0 0 0 0 0 1 0 0 0 0 .5 .5\n1 0 0 0 0 1 0 0 0 0 1 1\n"
                      "1 1 0 0 0 1 0 0 0 0 .5 .5\n0 1 0 0 0 1 0 0 0 0 1 1\n3 0 1 2\n3 0 2 3\n"),
-         "OFF\n4 2 0\n" + square + "3 0 1 2 255 0 0\n3 0 2 3 0.5 0.5 0.5\ntrailing words\n",
+         "OFF\n4 2 0\n" + square_points + "3 0 1 2 255 0 0\n3 0 2 3 0.5 0.5 0.5\ntrailing words\n",
          // The face with two corners is skipped.
-         "OFF\n4 3 0\n" + square + "3 0 1 2\n2 0 1\n3 0 2 3\n" })
+         "OFF\n4 3 0\n" + square_points + "3 0 1 2\n2 0 1\n3 0 2 3\n" })
   {
     ASSERT_EQ(this->off_error(text), "") << text;
     EXPECT_EQ(this->mesh.points, corners);
@@ -176,7 +177,7 @@ TEST_F(TextFiles, OffVariantsOfTheWild)
     EXPECT_EQ(fan_triangles(this->mesh).rows(), 2);
   }
   EXPECT_EQ(this->mesh.skipped, 1);
-  ASSERT_EQ(this->off_error("OFF\n4 1 0\n" + square + "4 0 1 2 3\n"), "");
+  ASSERT_EQ(this->off_error("OFF\n4 1 0\n" + square_points + "4 0 1 2 3\n"), "");
   const Triangles fan = fan_triangles(this->mesh);
   EXPECT_EQ(fan, (Triangles(2, 3) << 0, 1, 2, 0, 2, 3).finished());
 }
@@ -188,20 +189,21 @@ TEST_F(TextFiles, OffErrorsNameTheLine)
   EXPECT_THAT(this->off_error("OFF BINARY\n1 1 1\n"), HasSubstr("binary"));
   EXPECT_THAT(this->off_error("4OFF\n1 1 1\n"), HasSubstr("not three-dimensional"));
   EXPECT_THAT(this->off_error("OFF\n-3 1 0\n"), HasSubstr("line 2"));
-  EXPECT_THAT(this->off_error("OFF\n4 x 0\n" + square), HasSubstr("'x'"));
+  EXPECT_THAT(this->off_error("OFF\n4 x 0\n" + square_points), HasSubstr("'x'"));
   EXPECT_THAT(this->off_error("OFF\n4 1 0\n0 0 0\n1 nan 0\n1 1 0\n0 1 0\n3 0 1 2\n"),
     HasSubstr("line 4: a vertex coordinate is not a finite number: 'nan'"));
   EXPECT_THAT(this->off_error("OFF\n4 1 0\n0 0 0\n1 1e999 0\n1 1 0\n0 1 0\n3 0 1 2\n"),
     HasSubstr("line 4: a vertex coordinate is not a finite number"));
   EXPECT_THAT(
     this->off_error("OFF\n4 1 0\n0 0 0\n1 0,5 0\n1 1 0\n0 1 0\n3 0 1 2\n"), HasSubstr("line 4"));
-  EXPECT_THAT(this->off_error("OFF\n4 1 0\n" + square + "3 0 1 4\n"),
+  EXPECT_THAT(this->off_error("OFF\n4 1 0\n" + square_points + "3 0 1 4\n"),
     HasSubstr("line 7: a vertex id of a face is out of range: '4'"));
-  EXPECT_THAT(this->off_error("OFF\n4 1 0\n" + square + "3 0 1 -1\n"), HasSubstr("line 7"));
+  EXPECT_THAT(this->off_error("OFF\n4 1 0\n" + square_points + "3 0 1 -1\n"), HasSubstr("line 7"));
+  EXPECT_THAT(this->off_error("OFF\n4 2 0\n" + square_points + "3 0 1 2\n"),
+    HasSubstr("unexpected end of file"));
+  EXPECT_THAT(this->off_error("OFF\n1000000000 2 0\n" + square_points), HasSubstr("truncated"));
   EXPECT_THAT(
-    this->off_error("OFF\n4 2 0\n" + square + "3 0 1 2\n"), HasSubstr("unexpected end of file"));
-  EXPECT_THAT(this->off_error("OFF\n1000000000 2 0\n" + square), HasSubstr("truncated"));
-  EXPECT_THAT(this->off_error("OFF\n4 99999999999999999999 0\n" + square), HasSubstr("line 2"));
+    this->off_error("OFF\n4 99999999999999999999 0\n" + square_points), HasSubstr("line 2"));
 }
 
 TEST_F(TextFiles, ObjCornersIdsAndErrors)

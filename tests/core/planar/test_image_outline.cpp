@@ -47,7 +47,7 @@ Picture paint(Index columns, Index rows, const Function& alpha)
   return picture;
 }
 
-Picture noise(Index columns, Index rows, unsigned seed, bool binary)
+Picture noise_picture(Index columns, Index rows, unsigned seed, bool binary)
 {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> any(0.0, 1.0);
@@ -57,7 +57,7 @@ Picture noise(Index columns, Index rows, unsigned seed, bool binary)
 
 /// Return the signed area of an outline. Expect that every vertex is the end of one segment and the
 /// start of another one.
-double area_of(const ImageOutline& outline)
+double outline_area(const ImageOutline& outline)
 {
   std::vector<int> balance(outline.points.rows(), 0);
   double twice = 0.0;
@@ -65,7 +65,7 @@ double area_of(const ImageOutline& outline)
   {
     const Vec2 a = outline.points.row(outline.segments(e, 0));
     const Vec2 b = outline.points.row(outline.segments(e, 1));
-    twice += a.x() * b.y() - a.y() * b.x();
+    twice += cross(a, b);
     balance[outline.segments(e, 0)] += 1;
     balance[outline.segments(e, 1)] += 10;
   }
@@ -73,9 +73,10 @@ double area_of(const ImageOutline& outline)
   return 0.5 * twice;
 }
 
+/// Return twice the signed area of a triangle.
 double turn(const Vec2& a, const Vec2& b, const Vec2& c)
 {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+  return cross(b - a, c - a);
 }
 
 /// Count the pairs of segments that cross or touch without a common vertex, by brute force.
@@ -183,7 +184,7 @@ TEST(ImageOutline, DiscWithinAPixel)
       }
       if (simplify == 0.0)
       {
-        EXPECT_NEAR(area_of(outline), M_PI * radius * radius, smooth ? 10.0 : 40.0);
+        EXPECT_NEAR(outline_area(outline), M_PI * radius * radius, smooth ? 10.0 : 40.0);
       }
       EXPECT_GE(outline.points.rows(), simplify == 0.0 ? 300 : 12);
       EXPECT_LE(outline.points.rows(), simplify < 0.5 ? 500 : 100);
@@ -197,7 +198,7 @@ TEST(ImageOutline, StaysWithinTheToleranceAndNeverCrosses)
   {
     for (const bool binary : { true, false })
     {
-      const Picture picture = noise(24, 20, seed, binary);
+      const Picture picture = noise_picture(24, 20, seed, binary);
       ImageOutline contour, outline;
       ASSERT_TRUE(outline_of(picture, contour, 0.0).ok());
       EXPECT_EQ(crossings(contour), 0);
@@ -205,7 +206,7 @@ TEST(ImageOutline, StaysWithinTheToleranceAndNeverCrosses)
       {
         const Status status = outline_of(picture, outline, simplify);
         ASSERT_TRUE(status.ok()) << status.message;
-        area_of(outline);
+        outline_area(outline);
         EXPECT_EQ(crossings(outline), 0);
         EXPECT_LT(outline.points.rows(), contour.points.rows());
         EXPECT_LE(one_way(contour, outline), simplify + 1e-9);
@@ -218,7 +219,7 @@ TEST(ImageOutline, StaysWithinTheToleranceAndNeverCrosses)
 TEST(ImageOutline, OneComponentALoop)
 {
   // The winding number of the contour at a pixel's center is 1 inside and 0 outside.
-  const Picture picture = noise(40, 33, 5, false);
+  const Picture picture = noise_picture(40, 33, 5, false);
   ImageOutline outline;
   ASSERT_TRUE(outline_of(picture, outline, 0.0).ok());
   const CurveWindingNumber winding(outline.points, outline.segments);
@@ -273,7 +274,7 @@ TEST(ImageOutline, HolesAndIslands)
   const Status status = outline_of(picture, outline);
   ASSERT_TRUE(status.ok());
   EXPECT_EQ(status.report.number("counts.loops", -1), 3);
-  EXPECT_NEAR(area_of(outline), M_PI * (25 * 25 - 15 * 15 + 5 * 5), 60.0);
+  EXPECT_NEAR(outline_area(outline), M_PI * (25 * 25 - 15 * 15 + 5 * 5), 60.0);
 }
 
 TEST(ImageOutline, OpaqueImageReachesHalfAPixelOutside)
@@ -284,7 +285,7 @@ TEST(ImageOutline, OpaqueImageReachesHalfAPixelOutside)
   EXPECT_EQ(outline.points.col(0).maxCoeff(), 39.5);
   EXPECT_EQ(outline.points.col(1).maxCoeff(), 29.5);
   // The tolerance is half a pixel on all sides.
-  EXPECT_NEAR(area_of(outline), 40 * 30, 4 * 0.125 + 0.5 * 140);
+  EXPECT_NEAR(outline_area(outline), 40 * 30, 4 * 0.125 + 0.5 * 140);
 }
 
 TEST(ImageOutline, OnePixel)
@@ -292,7 +293,7 @@ TEST(ImageOutline, OnePixel)
   ImageOutline outline;
   ASSERT_TRUE(outline_of({ { 1.0f } }, outline, 1.0).ok());
   EXPECT_EQ(outline.points.rows(), 4);
-  EXPECT_NEAR(area_of(outline), 0.5, 1e-12);
+  EXPECT_NEAR(outline_area(outline), 0.5, 1e-12);
 }
 
 TEST(ImageOutline, Refuses)
@@ -345,7 +346,7 @@ TEST(ImageOutline, HugeImageInSeconds)
     {}, outline, context);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   ASSERT_TRUE(status.ok());
-  EXPECT_NEAR(area_of(outline) / (M_PI * 3900.0 * 3900.0), 1.0, 1e-3);
+  EXPECT_NEAR(outline_area(outline) / (M_PI * 3900.0 * 3900.0), 1.0, 1e-3);
   EXPECT_LT(outline.points.rows(), 3000);
   // The measured time is 1 s on an idle machine and 21 s with sanitizers.
   EXPECT_LT(seconds.count(), test::sanitized ? 120.0 : 20.0);

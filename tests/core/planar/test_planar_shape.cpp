@@ -44,7 +44,8 @@ struct Curves
   }
 };
 
-std::vector<Vec2> ring(int count, double radius, double turns = 1.0, const Vec2& center = { 0, 0 })
+std::vector<Vec2> polygon_on_circle(
+  int count, double radius, double turns = 1.0, const Vec2& center = { 0, 0 })
 {
   std::vector<Vec2> corners;
   for (int k = 0; k < count; ++k)
@@ -55,15 +56,10 @@ std::vector<Vec2> ring(int count, double radius, double turns = 1.0, const Vec2&
   return corners;
 }
 
-const std::vector<Vec2> square{ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
-
-double cross(const Vec2& a, const Vec2& b)
-{
-  return a.x() * b.y() - a.y() * b.x();
-}
+const std::vector<Vec2> unit_square{ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
 
 /// Return the sum of the triangles' areas. Expect that each area is positive.
-double area_of(const PlanarShape& shape)
+double shape_area(const PlanarShape& shape)
 {
   double area = 0.0;
   for (Index t = 0; t < shape.triangles.rows(); ++t)
@@ -168,7 +164,7 @@ protected:
     status = this->run(curves);
     EXPECT_TRUE(status.ok()) << status.message;
     expect_mesh(shape);
-    const double sum = area_of(shape);
+    const double sum = shape_area(shape);
     // The area in the report was computed before the positions of new points were rounded.
     const double rounding = 0x1p-50 * curves.points.cwiseAbs().maxCoeff();
     EXPECT_NEAR(status.report.number("area", -1), sum, 1e-12 * sum + 100.0 * rounding);
@@ -191,7 +187,7 @@ protected:
 /// Return the five tips of the star {5/2} in the order in which one closed line visits them.
 std::vector<Vec2> pentagram()
 {
-  return ring(5, 1.0, 2.0);
+  return polygon_on_circle(5, 1.0, 2.0);
 }
 
 /// Return the area of the whole star if `all` is true, otherwise the area of its inner pentagon.
@@ -206,7 +202,7 @@ double pentagram_area(bool all)
 
 TEST_F(PlanarShapeTest, Square)
 {
-  EXPECT_NEAR(area(Curves().add(square)), 1.0, 1e-14);
+  EXPECT_NEAR(area(Curves().add(unit_square)), 1.0, 1e-14);
   EXPECT_GE(smallest_angle(shape), 30.0 - 1e-9);
   EXPECT_TRUE((shape.winding_numbers.array() == 1.0).all());
   EXPECT_TRUE(status.warnings.empty());
@@ -217,8 +213,8 @@ TEST_F(PlanarShapeTest, Square)
   }
   for (int k = 0; k < 4; ++k)
   {
-    EXPECT_EQ(Vec2(shape.points.row(k)), square[k]);
-    EXPECT_NEAR(covered(shape, square[k], square[(k + 1) % 4]), 1.0, 1e-12);
+    EXPECT_EQ(Vec2(shape.points.row(k)), unit_square[k]);
+    EXPECT_NEAR(covered(shape, unit_square[k], unit_square[(k + 1) % 4]), 1.0, 1e-12);
   }
   const double longest = options.edge * std::sqrt(2.0);
   EXPECT_LE(status.report.number("longest_edge", 1.0), longest * (1.0 + 1e-12));
@@ -229,18 +225,18 @@ TEST_F(PlanarShapeTest, WithoutRefinement)
 {
   options.edge = 0.0;
   options.min_angle = 0.0;
-  EXPECT_NEAR(area(Curves().add(square)), 1.0, 1e-14);
+  EXPECT_NEAR(area(Curves().add(unit_square)), 1.0, 1e-14);
   EXPECT_EQ(shape.triangles.rows(), 2);
   EXPECT_EQ(shape.points.rows(), 4);
 }
 
 TEST_F(PlanarShapeTest, HolesRunTheOtherWay)
 {
-  std::vector<Vec2> hole = ring(48, 0.5);
+  std::vector<Vec2> hole = polygon_on_circle(48, 0.5);
   const double outer = 24.0 * std::sin(2.0 * M_PI / 48.0);
-  EXPECT_NEAR(area(Curves().add(ring(48, 1.0)).add(hole)), outer, 1e-12);
+  EXPECT_NEAR(area(Curves().add(polygon_on_circle(48, 1.0)).add(hole)), outer, 1e-12);
   std::reverse(hole.begin(), hole.end());
-  const Curves annulus = Curves().add(ring(48, 1.0)).add(hole);
+  const Curves annulus = Curves().add(polygon_on_circle(48, 1.0)).add(hole);
   EXPECT_NEAR(area(annulus), 0.75 * outer, 1e-12);
   EXPECT_GE(smallest_angle(shape), 30.0 - 1e-9);
   for (Index e = 0; e < annulus.segments.rows(); ++e)
@@ -273,7 +269,7 @@ TEST_F(PlanarShapeTest, PentagramByThreshold)
 
 TEST_F(PlanarShapeTest, OpenSquareGetsItsFourthSide)
 {
-  EXPECT_NEAR(area(Curves().add(square, false)), 1.0, 1e-14);
+  EXPECT_NEAR(area(Curves().add(unit_square, false)), 1.0, 1e-14);
   EXPECT_EQ(status.report.number("counts.open_ends", -1), 2);
   EXPECT_LT(shape.winding_numbers.maxCoeff(), 1.0);
   EXPECT_GT(shape.winding_numbers.minCoeff(), 0.5);
@@ -294,7 +290,7 @@ TEST_F(PlanarShapeTest, FigureEight)
 
 TEST_F(PlanarShapeTest, ClockwiseIsTurned)
 {
-  std::vector<Vec2> clockwise(square.rbegin(), square.rend());
+  std::vector<Vec2> clockwise(unit_square.rbegin(), unit_square.rend());
   EXPECT_NEAR(area(Curves().add(clockwise)), 1.0, 1e-14);
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("clockwise"));
@@ -303,16 +299,16 @@ TEST_F(PlanarShapeTest, ClockwiseIsTurned)
 TEST_F(PlanarShapeTest, OverlapsAndDoubledCurves)
 {
   std::vector<Vec2> moved;
-  for (const Vec2& p : square)
+  for (const Vec2& p : unit_square)
   {
     // This square overlaps parts of two sides of the first one.
     moved.emplace_back(p + Vec2(0.5, 0.0));
   }
-  const Curves two = Curves().add(square).add(moved);
+  const Curves two = Curves().add(unit_square).add(moved);
   EXPECT_NEAR(area(two), 1.5, 1e-14);
   options.winding_threshold = 1.5;
   EXPECT_NEAR(area(two), 0.5, 1e-14);
-  const Curves doubled = Curves().add(square).add(square);
+  const Curves doubled = Curves().add(unit_square).add(unit_square);
   EXPECT_NEAR(area(doubled), 1.0, 1e-14);
   EXPECT_TRUE((shape.winding_numbers.array() == 2.0).all());
   EXPECT_EQ(shape.original_vertices[3], 3); // of equal vertices the first one is kept
@@ -324,7 +320,7 @@ TEST_F(PlanarShapeTest, LooseSegmentsAreACurve)
   Curves soup;
   for (int k = 0; k < 4; ++k)
   {
-    soup.add({ square[k], square[(k + 1) % 4] }, false);
+    soup.add({ unit_square[k], unit_square[(k + 1) % 4] }, false);
   }
   EXPECT_NEAR(area(soup), 1.0, 1e-14);
 }
@@ -372,7 +368,7 @@ TEST_F(PlanarShapeTest, HandlesAreVerticesAndBonesEdges)
     /* outside */ 3.0, 3.0;
   handles.bones.resize(1, 2);
   handles.bones << 1, 2;
-  EXPECT_NEAR(area(Curves().add(square)), 1.0, 1e-14);
+  EXPECT_NEAR(area(Curves().add(unit_square)), 1.0, 1e-14);
   ASSERT_EQ(shape.handle_vertices.size(), 5u);
   for (const int h : { 0, 1, 3 })
   {
@@ -393,7 +389,7 @@ TEST_F(PlanarShapeTest, HandleAtAVertexOfTheCurve)
 {
   handles.points.resize(1, 2);
   handles.points << 1.0, 1.0;
-  EXPECT_NEAR(area(Curves().add(square)), 1.0, 1e-14);
+  EXPECT_NEAR(area(Curves().add(unit_square)), 1.0, 1e-14);
   EXPECT_EQ(shape.handle_vertices[0], 2);
   EXPECT_EQ(shape.original_vertices[2], 2);
 }
@@ -412,7 +408,7 @@ TEST_F(PlanarShapeTest, ScaleAndPlaceDoNotMatter)
     EXPECT_EQ(shape.triangles.rows(), triangles) << scale;
     PlanarShape back = shape;
     back.points /= scale;
-    EXPECT_NEAR(area_of(back), expected, 1e-12);
+    EXPECT_NEAR(shape_area(back), expected, 1e-12);
   }
   for (const double far : { 1e3, 1e9 })
   {
@@ -467,7 +463,7 @@ TEST_F(PlanarShapeTest, TanglesOnALatticeAndFarAway)
     }
     EXPECT_GT(area(Curves().add(on_lattice)), 0.0);
     EXPECT_TRUE(run(Curves().add(far)).ok()) << status.message;
-    EXPECT_GT(area_of(shape), 0.0);
+    EXPECT_GT(shape_area(shape), 0.0);
   }
 }
 
@@ -491,7 +487,7 @@ TEST_F(PlanarShapeTest, Refuses)
   refuses(Curves().add({ { 0, 0 }, { 1, 1 }, { 3, 3 } }), "one line");
   refuses(Curves().add({ { 0, 0 }, { NAN, 1 }, { 3, 3 } }), "vertex 1");
   refuses(Curves().add({ { 0, 0 }, { INFINITY, 1 }, { 3, 3 } }), "finite");
-  Curves wrong = Curves().add(square);
+  Curves wrong = Curves().add(unit_square);
   wrong.segments(2, 1) = 4;
   refuses(wrong, "segment 2 references vertex 4");
   // The winding number between the two arms is below 1/2.
@@ -502,7 +498,7 @@ TEST_F(PlanarShapeTest, Refuses)
 
 TEST_F(PlanarShapeTest, RefusesOptions)
 {
-  const Curves curves = Curves().add(square);
+  const Curves curves = Curves().add(unit_square);
   const PlanarShapeOptions good;
   options.winding_threshold = 0.0;
   refuses(curves, "threshold");
@@ -532,7 +528,7 @@ TEST_F(PlanarShapeTest, RefusesOptions)
 
 TEST_F(PlanarShapeTest, Cancel)
 {
-  const Curves curves = Curves().add(square);
+  const Curves curves = Curves().add(unit_square);
   ExecutionContext context;
   context.request_cancel();
   EXPECT_EQ(planar_shape(curves.points, curves.segments, handles, options, shape, context).code,
@@ -543,7 +539,7 @@ TEST_F(PlanarShapeTest, Cancel)
 TEST(PlanarShape, WithoutHelperItIsUnavailable)
 {
   const test::Environment no_helper("BINDPOSE_MESHER", "/nowhere/bindpose-mesher");
-  const Curves curves = Curves().add(square);
+  const Curves curves = Curves().add(unit_square);
   ExecutionContext context;
   PlanarShape shape;
   const Status status = planar_shape(curves.points, curves.segments,

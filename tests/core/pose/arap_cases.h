@@ -3,8 +3,8 @@
 
 // Poses and checks that the tests of reduced as-rigid-as-possible (ARAP) deformation share.
 
-#include "pose/transform_parts.h"
 #include "pose/reduced_arap.h"
+#include "support/affines.h"
 #include "support/bars.h"
 #include "support/meshes.h"
 
@@ -12,25 +12,6 @@
 
 namespace bindpose::test
 {
-
-inline Affine rigid(double degrees, const Vec3& axis, const Vec3& move)
-{
-  Affine t;
-  t.leftCols<3>() =
-    Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, axis.normalized()).toRotationMatrix();
-  t.col(3) = move;
-  return t;
-}
-
-inline Points moved(const Points& points, const Affine& t)
-{
-  Points result(points.rows(), 3);
-  for (Index v = 0; v < points.rows(); ++v)
-  {
-    result.row(v) = (t * points.row(v).transpose().homogeneous()).transpose();
-  }
-  return result;
-}
 
 inline Pose posed(const Handles& handles, HandleMode mode, const Affine& t = identity_affine())
 {

@@ -2,6 +2,7 @@
 // gradients and with singular values from Eigen.
 #include "pose/element_stretch.h"
 
+#include "support/affines.h"
 #include "support/meshes.h"
 
 #include <Eigen/LU>
@@ -12,23 +13,18 @@
 #include <cmath>
 
 using namespace bindpose;
+using test::rotation;
 
 namespace
 {
-Eigen::Matrix3d rotation(double degrees, const Vec3& axis)
+/// Return the points after a linear map and a translation.
+Points mapped(const Points& points, const Eigen::Matrix3d& linear, const Vec3& by = Vec3::Zero())
 {
-  return Eigen::AngleAxisd(degrees * std::acos(-1.0) / 180.0, axis.normalized()).toRotationMatrix();
-}
-
-Points moved(const Points& points, const Eigen::Matrix3d& linear, const Vec3& by = Vec3::Zero())
-{
-  Points result = points * linear.transpose();
-  result.rowwise() += by.transpose();
-  return result;
+  return test::moved(points, test::affine(linear, by));
 }
 
 template <typename Elements>
-Status measure(const Points& rest, const Points& posed, const Elements& elements,
+Status measure_stretch(const Points& rest, const Points& posed, const Elements& elements,
   ElementStretch& stretch, double limit = 2.0, int threads = 0)
 {
   ExecutionContext context;
@@ -44,7 +40,7 @@ Report report_of(
   const Points& rest, const Points& posed, const Elements& elements, double limit = 2.0)
 {
   ElementStretch stretch;
-  const Status status = measure(rest, posed, elements, stretch, limit);
+  const Status status = measure_stretch(rest, posed, elements, stretch, limit);
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.warnings.empty(), status.report.number("counts.inverted_elements", -1) == 0);
   return status.report;
@@ -68,9 +64,9 @@ TEST(ElementStretch, RigidMotionsStretchNothing)
   const Eigen::Matrix3d turn = rotation(77, Vec3(1, -2, 0.5));
   const TetMesh box = test::tet_box(5, 4, 3);
   const TriangleMesh ball = test::sphere(3);
-  const Report of_tets = report_of(box.points, moved(box.points, turn, Vec3(3, 1, 7)), box.tets);
+  const Report of_tets = report_of(box.points, mapped(box.points, turn, Vec3(3, 1, 7)), box.tets);
   const Report of_triangles =
-    report_of(ball.points, moved(ball.points, turn, Vec3(3, 1, 7)), ball.triangles);
+    report_of(ball.points, mapped(ball.points, turn, Vec3(3, 1, 7)), ball.triangles);
   for (const Report& report : { of_tets, of_triangles })
   {
     EXPECT_EQ(report.number("counts.inverted_elements", -1), 0);
@@ -88,7 +84,7 @@ TEST(ElementStretch, AffineMapsHaveTheirSingularValuesEverywhere)
   const TetMesh box = test::tet_box(3, 3, 3);
   const Eigen::Matrix3d stretch =
     rotation(30, Vec3(1, 1, 0)) * Vec3(3.0, 0.8, 0.25).asDiagonal() * rotation(-50, Vec3(0, 1, 2));
-  const Report report = report_of(box.points, moved(box.points, stretch), box.tets);
+  const Report report = report_of(box.points, mapped(box.points, stretch), box.tets);
   EXPECT_NEAR(report.number("largest_stretch", 0), 3.0, 1e-12);
   EXPECT_NEAR(report.number("smallest_stretch", 0), 0.25, 1e-12);
   EXPECT_EQ(report.number("counts.stretched_elements", 0), box.tets.rows());
@@ -97,7 +93,7 @@ TEST(ElementStretch, AffineMapsHaveTheirSingularValuesEverywhere)
   const TriangleMesh square = test::grid(4, 4);
   const Eigen::Matrix3d in_plane = Vec3(1.5, 0.75, 9.0).asDiagonal();
   const Report flat = report_of(
-    square.points, moved(square.points, rotation(40, Vec3(1, 0, 1)) * in_plane), square.triangles);
+    square.points, mapped(square.points, rotation(40, Vec3(1, 0, 1)) * in_plane), square.triangles);
   EXPECT_NEAR(flat.number("largest_stretch", 0), 1.5, 1e-13);
   EXPECT_NEAR(flat.number("smallest_stretch", 0), 0.75, 1e-13);
   EXPECT_EQ(flat.number("counts.stretched_elements", -1), 0);
@@ -130,7 +126,7 @@ TEST(ElementStretch, OneReflectedTetIsFoundAndNamed)
   Points posed = rest;
   posed(4, 2) = -1.0;
   ElementStretch stretch;
-  const Status status = measure(rest, posed, tets, stretch);
+  const Status status = measure_stretch(rest, posed, tets, stretch);
   EXPECT_EQ(status.report.number("counts.inverted_elements", 0), 1);
   EXPECT_EQ(status.report.number("counts.stretched_elements", -1), 0)
     << "mirrored, as long as it was";
@@ -152,7 +148,7 @@ TEST(ElementStretch, CollapseIsZeroNotInverted)
   const TetMesh box = test::tet_box(2, 2, 2);
   for (const Vec3& scale : { Vec3(1, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, 0) })
   {
-    const Report report = report_of(box.points, moved(box.points, scale.asDiagonal()), box.tets);
+    const Report report = report_of(box.points, mapped(box.points, scale.asDiagonal()), box.tets);
     EXPECT_EQ(report.number("counts.inverted_elements", -1), 0);
     EXPECT_EQ(report.number("counts.stretched_elements", -1), 48);
     EXPECT_NEAR(report.number("smallest_stretch", -1), 0.0, 1e-14);
@@ -167,7 +163,7 @@ TEST(ElementStretch, TrianglesFlipInAPlaneOnly)
   mirrored.col(0) *= -1.0;
   EXPECT_EQ(
     report_of(square.points, mirrored, square.triangles).number("counts.inverted_elements", 0), 12);
-  const Points turned = moved(square.points, rotation(180, Vec3(0, 0, 1)));
+  const Points turned = mapped(square.points, rotation(180, Vec3(0, 0, 1)));
   EXPECT_EQ(
     report_of(square.points, turned, square.triangles).number("counts.inverted_elements", -1), 0);
   // No common plane defines an orientation for the triangles of a closed surface.
@@ -183,7 +179,7 @@ TEST(ElementStretch, AreThoseOfEigenForRandomPoses)
   const TetMesh box = test::tet_box(9, 9, 9);
   const Points posed = shaken(box.points, 0.06);
   ElementStretch stretch;
-  const Status status = measure(box.points, posed, box.tets, stretch);
+  const Status status = measure_stretch(box.points, posed, box.tets, stretch);
   Index inverted = 0, stretched = 0;
   double largest = 0.0, smallest = 1e300;
   for (Index t = 0; t < box.tets.rows(); ++t)
@@ -217,7 +213,7 @@ TEST(ElementStretch, AreThoseOfEigenForRandomTriangles)
   const TriangleMesh ball = test::sphere(3);
   const Points posed = shaken(ball.points, 0.2);
   ElementStretch stretch;
-  measure(ball.points, posed, ball.triangles, stretch);
+  measure_stretch(ball.points, posed, ball.triangles, stretch);
   for (Index t = 0; t < ball.triangles.rows(); ++t)
   {
     // Extend the gradient by the normal: it is mapped to the posed normal with a stretch of 1.
@@ -244,8 +240,8 @@ TEST(ElementStretch, DoNotDependOnThreadsSizeOrPlace)
   const TetMesh box = test::tet_box(12, 12, 12);
   const Points posed = shaken(box.points, 0.03);
   ElementStretch one, many;
-  const Status serial = measure(box.points, posed, box.tets, one, 2.0, 1);
-  const Status parallel = measure(box.points, posed, box.tets, many, 2.0, 4);
+  const Status serial = measure_stretch(box.points, posed, box.tets, one, 2.0, 1);
+  const Status parallel = measure_stretch(box.points, posed, box.tets, many, 2.0, 4);
   EXPECT_EQ(one.largest, many.largest);
   EXPECT_EQ(one.smallest, many.smallest);
   EXPECT_EQ(serial.warnings, parallel.warnings);
@@ -253,7 +249,7 @@ TEST(ElementStretch, DoNotDependOnThreadsSizeOrPlace)
   for (const double scale : { 0x1p-200, 0x1p200 })
   {
     ElementStretch scaled;
-    measure(Points(scale * box.points), Points(scale * posed), box.tets, scaled);
+    measure_stretch(Points(scale * box.points), Points(scale * posed), box.tets, scaled);
     EXPECT_EQ(scaled.largest, one.largest) << scale;
   }
 }
@@ -265,27 +261,28 @@ TEST(ElementStretch, DegenerateElementsAreCountedApart)
   Tets tets(2, 4);
   tets << 0, 1, 2, 3, 0, 1, 2, 4;
   ElementStretch stretch;
-  const Report report = measure(rest, rest, tets, stretch).report;
+  const Report report = measure_stretch(rest, rest, tets, stretch).report;
   EXPECT_EQ(report.number("counts.degenerate_elements", 0), 1);
   EXPECT_EQ(report.number("largest_stretch", 0), 1.0);
   EXPECT_TRUE(std::isnan(stretch.largest[0]));
   Triangles triangles(2, 3);
   triangles << 0, 1, 1, 0, 0, 0;
-  const Report none = measure(rest, rest, triangles, stretch).report;
+  const Report none = measure_stretch(rest, rest, triangles, stretch).report;
   EXPECT_EQ(none.number("counts.degenerate_elements", 0), 2);
   EXPECT_EQ(none.find("largest_stretch"), nullptr);
-  EXPECT_EQ(measure(rest, rest, Triangles(0, 3), stretch).report.number("counts.elements", -1), 0);
+  EXPECT_EQ(
+    measure_stretch(rest, rest, Triangles(0, 3), stretch).report.number("counts.elements", -1), 0);
 }
 
 TEST(ElementStretch, BadInputAndCancel)
 {
   const TetMesh box = test::tet_box(1, 1, 1);
   ElementStretch stretch;
-  EXPECT_EQ(
-    measure(box.points, box.points, box.tets, stretch, 0.5).code, StatusCode::invalid_input);
-  EXPECT_EQ(measure(box.points, box.points, box.tets, stretch, std::nan("")).code,
+  EXPECT_EQ(measure_stretch(box.points, box.points, box.tets, stretch, 0.5).code,
     StatusCode::invalid_input);
-  EXPECT_EQ(measure(box.points, Points(Points::Zero(3, 3)), box.tets, stretch).code,
+  EXPECT_EQ(measure_stretch(box.points, box.points, box.tets, stretch, std::nan("")).code,
+    StatusCode::invalid_input);
+  EXPECT_EQ(measure_stretch(box.points, Points(Points::Zero(3, 3)), box.tets, stretch).code,
     StatusCode::invalid_input);
   ExecutionContext context;
   context.request_cancel();

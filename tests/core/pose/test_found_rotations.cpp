@@ -10,7 +10,7 @@ using namespace bindpose;
 namespace
 {
 /// Return two bones in a chain, a region, and a point on the second bone, the forearm.
-Handles arm()
+Handles two_bone_arm()
 {
   Handles handles(4);
   handles[3].name = "p";
@@ -29,7 +29,7 @@ Handles arm()
   return handles;
 }
 
-Affine turned(double angle)
+Affine turned_about_z(double angle)
 {
   Affine transform = identity_affine();
   transform.leftCols<3>() = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
@@ -38,7 +38,7 @@ Affine turned(double angle)
 
 std::vector<HandleMode> modes(const Pose& pose)
 {
-  return modes_of(with_found_rotations(arm(), pose));
+  return modes_of(with_found_rotations(two_bone_arm(), pose));
 }
 } // namespace
 
@@ -60,7 +60,7 @@ TEST(FoundRotations, RotatedScaledStretchedAndTwistedHandlesHoldEverything)
   for (const std::size_t h : { 0, 3 })
   {
     Pose pose(4);
-    pose[h].transform = turned(0.1);
+    pose[h].transform = turned_about_z(0.1);
     EXPECT_EQ(modes(pose)[h], HandleMode::full);
     pose[h].transform = identity_affine();
     pose[h].transform.leftCols<3>() *= 1.1;
@@ -78,9 +78,9 @@ TEST(FoundRotations, RotatedScaledStretchedAndTwistedHandlesHoldEverything)
 TEST(FoundRotations, ChildrenAreTakenRelativeToTheirParents)
 {
   Pose pose(4);
-  pose[0].transform = turned(0.7);
-  follow_parent(arm(), Pose(4), 1, pose);
-  follow_parent(arm(), Pose(4), 3, pose);
+  pose[0].transform = turned_about_z(0.7);
+  follow_parent(two_bone_arm(), Pose(4), 1, pose);
+  follow_parent(two_bone_arm(), Pose(4), 3, pose);
   EXPECT_EQ(modes(pose)[0], HandleMode::full);
   EXPECT_EQ(modes(pose)[1], HandleMode::full) << "the parent carries the bone";
   EXPECT_EQ(modes(pose)[3], HandleMode::position);
@@ -92,7 +92,7 @@ TEST(FoundRotations, ChildrenAreTakenRelativeToTheirParents)
   EXPECT_EQ(modes(pose)[1], HandleMode::full) << "the bone stays in the world";
   pose[1].transform = further;
   EXPECT_EQ(modes(pose)[1], HandleMode::position) << "translated in the world";
-  pose[1].transform = turned(0.3);
+  pose[1].transform = turned_about_z(0.3);
   EXPECT_EQ(modes(pose)[1], HandleMode::full);
 }
 

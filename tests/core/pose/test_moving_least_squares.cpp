@@ -3,6 +3,8 @@
 // formulas evaluated directly, and with known integrals.
 #include "pose/moving_least_squares.h"
 
+#include "support/affines.h"
+#include "support/differences.h"
 #include "support/handles.h"
 #include "support/meshes.h"
 
@@ -13,30 +15,21 @@
 #include <cmath>
 
 using namespace bindpose;
+using test::affine;
+using test::largest_distance;
+using test::moved;
+using test::rotation;
 
 namespace
 {
-Handle point(const Vec3& at, Index number)
+Handle numbered_point(const Vec3& at, Index number)
 {
   return test::point_handle("p" + std::to_string(number), at);
 }
 
-Handle bone(const Vec3& head, const Vec3& tail, Index number)
+Handle numbered_bone(const Vec3& head, const Vec3& tail, Index number)
 {
   return test::bone_handle("b" + std::to_string(number), head, tail);
-}
-
-Eigen::Matrix3d rotation(double degrees, const Vec3& axis)
-{
-  return Eigen::AngleAxisd(degrees * std::acos(-1.0) / 180.0, axis.normalized()).toRotationMatrix();
-}
-
-Affine affine(const Eigen::Matrix3d& linear, const Vec3& translation)
-{
-  Affine t;
-  t.leftCols<3>() = linear;
-  t.col(3) = translation;
-  return t;
 }
 
 Pose pose_of(const std::vector<Affine>& transforms)
@@ -49,15 +42,11 @@ Pose pose_of(const std::vector<Affine>& transforms)
   return pose;
 }
 
-Points random_points(Index count, bool flat, std::uint64_t seed = 5)
+/// Return random points in space or in the plane z = 0.
+Points random_rest(Index count, bool flat, std::uint64_t seed = 5)
 {
-  test::Random random(seed);
-  Points points(count, 3);
-  for (Index v = 0; v < count; ++v)
-  {
-    points.row(v) = random.in_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)).transpose();
-    points(v, 2) *= flat ? 0.0 : 1.0;
-  }
+  Points points = test::random_points(count, 1.0, seed);
+  points.col(2) *= flat ? 0.0 : 1.0;
   return points;
 }
 
@@ -65,9 +54,9 @@ Points random_points(Index count, bool flat, std::uint64_t seed = 5)
 Handles mixed_handles(bool flat)
 {
   const double z = flat ? 0.0 : 1.0;
-  return { point(Vec3(-0.8, 0.1, 0.3 * z), 0), point(Vec3(0.2, 0.7, -0.4 * z), 1),
-    bone(Vec3(-0.3, -0.6, 0.1 * z), Vec3(0.4, -0.5, 0.6 * z), 2),
-    bone(Vec3(0.5, 0.1, -0.2 * z), Vec3(0.9, 0.8, 0.1 * z), 3) };
+  return { numbered_point(Vec3(-0.8, 0.1, 0.3 * z), 0), numbered_point(Vec3(0.2, 0.7, -0.4 * z), 1),
+    numbered_bone(Vec3(-0.3, -0.6, 0.1 * z), Vec3(0.4, -0.5, 0.6 * z), 2),
+    numbered_bone(Vec3(0.5, 0.1, -0.2 * z), Vec3(0.9, 0.8, 0.1 * z), 3) };
 }
 
 /// Return a pose with a different motion of each handle.
@@ -93,18 +82,6 @@ Points warped(const Points& rest, const Handles& handles, const Pose& pose, doub
   status = warp.warp(context, handles, pose, posed);
   EXPECT_TRUE(status.ok()) << status.message;
   return posed;
-}
-
-Points moved(const Points& points, const Affine& t)
-{
-  Points result = points * t.leftCols<3>().transpose();
-  result.rowwise() += t.col(3).transpose();
-  return result;
-}
-
-double difference(const Points& a, const Points& b)
-{
-  return (a - b).rowwise().norm().maxCoeff();
 }
 
 /// Evaluate the paper's formulas for one point. A bone is replaced by very many points. The weight
@@ -170,9 +147,9 @@ TEST(MovingLeastSquares, RestStaysAndRigidPosesAreExact)
 {
   for (const bool flat : { false, true })
   {
-    const Points rest = random_points(400, flat);
+    const Points rest = random_rest(400, flat);
     const Handles handles = mixed_handles(flat);
-    EXPECT_LT(difference(warped(rest, handles, Pose(4)), rest), 1e-13);
+    EXPECT_LT(largest_distance(warped(rest, handles, Pose(4)), rest), 1e-13);
     for (const double degrees : { 0.0, 33.0, 120.0, 180.0, -90.0 })
     {
       const Vec3 axis = flat ? Vec3(0, 0, 1) : Vec3(0.3, -1, 0.5);
@@ -180,7 +157,8 @@ TEST(MovingLeastSquares, RestStaysAndRigidPosesAreExact)
       for (const double exponent : { 1.0, 1.5, 3.0 })
       {
         const Points posed = warped(rest, handles, pose_of({ 4, motion }), exponent);
-        EXPECT_LT(difference(posed, moved(rest, motion)), 1e-12) << degrees << " " << exponent;
+        EXPECT_LT(largest_distance(posed, moved(rest, motion)), 1e-12)
+          << degrees << " " << exponent;
       }
     }
   }
@@ -210,7 +188,8 @@ TEST(MovingLeastSquares, HandlesAreInterpolated)
     }
     for (const double exponent : { 1.0, 2.0, 8.0 })
     {
-      EXPECT_LT(difference(warped(rest, handles, pose, exponent), expected), 1e-10) << exponent;
+      EXPECT_LT(largest_distance(warped(rest, handles, pose, exponent), expected), 1e-10)
+        << exponent;
     }
   }
 }
@@ -219,7 +198,7 @@ TEST(MovingLeastSquares, IsThePapersFormula)
 {
   for (const bool flat : { false, true })
   {
-    const Points rest = random_points(60, flat, 8);
+    const Points rest = random_rest(60, flat, 8);
     const Handles handles = mixed_handles(flat);
     const Pose pose = mixed_pose(flat);
     for (const double exponent : { 1.0, 1.7, 2.0 })
@@ -236,9 +215,10 @@ TEST(MovingLeastSquares, IsThePapersFormula)
 
 TEST(MovingLeastSquares, PointsAloneAreThePapersFormulaToRounding)
 {
-  const Handles handles{ point(Vec3(-0.8, 0.1, 0.2), 0), point(Vec3(0.2, 0.7, -0.5), 1),
-    point(Vec3(0.6, -0.4, 0.1), 2), point(Vec3(-0.1, -0.2, 0.9), 3) };
-  const Points rest = random_points(200, false, 2);
+  const Handles handles{ numbered_point(Vec3(-0.8, 0.1, 0.2), 0),
+    numbered_point(Vec3(0.2, 0.7, -0.5), 1), numbered_point(Vec3(0.6, -0.4, 0.1), 2),
+    numbered_point(Vec3(-0.1, -0.2, 0.9), 3) };
+  const Points rest = random_rest(200, false, 2);
   const Points posed = warped(rest, handles, mixed_pose(false));
   for (Index v = 0; v < rest.rows(); ++v)
   {
@@ -251,7 +231,7 @@ TEST(MovingLeastSquares, MotionsAndScalesGoThrough)
 {
   for (const bool flat : { false, true })
   {
-    const Points rest = random_points(200, flat);
+    const Points rest = random_rest(200, flat);
     const Handles handles = mixed_handles(flat);
     const Pose pose = mixed_pose(flat);
     const Points posed = warped(rest, handles, pose);
@@ -271,7 +251,7 @@ TEST(MovingLeastSquares, MotionsAndScalesGoThrough)
         change.leftCols<3>() * pose[j].transform.col(3) + change.col(3) - linear * change.col(3);
     }
     const Points after = warped(moved(rest, change), changed, conjugate);
-    EXPECT_LT(difference(after, moved(posed, change)), 1e-8);
+    EXPECT_LT(largest_distance(after, moved(posed, change)), 1e-8);
     // Translate only the pose, even by large distances.
     const Affine shift = affine(Eigen::Matrix3d::Identity(), Vec3(1e3, 2e3, flat ? 0 : -5e2));
     Pose shifted = pose;
@@ -279,37 +259,39 @@ TEST(MovingLeastSquares, MotionsAndScalesGoThrough)
     {
       one.transform.col(3) += shift.col(3);
     }
-    EXPECT_LT(difference(warped(rest, handles, shifted), moved(posed, shift)), 1e-9);
+    EXPECT_LT(largest_distance(warped(rest, handles, shifted), moved(posed, shift)), 1e-9);
   }
 }
 
 TEST(MovingLeastSquares, OneHandleTellsOnlyWhatItCan)
 {
-  const Points rest = random_points(50, false);
+  const Points rest = random_rest(50, false);
   const Affine motion = affine(rotation(60, Vec3(0, 0, 1)), Vec3(1, 2, 3));
   // The translation of a single point handle translates all points.
-  const Handles one{ point(Vec3(0.3, 0.2, 0.1), 0) };
+  const Handles one{ numbered_point(Vec3(0.3, 0.2, 0.1), 0) };
   const Vec3 step = motion.leftCols<3>() * one[0].head + motion.col(3) - one[0].head;
-  EXPECT_LT(difference(warped(rest, one, pose_of({ motion })),
+  EXPECT_LT(largest_distance(warped(rest, one, pose_of({ motion })),
               moved(rest, affine(Eigen::Matrix3d::Identity(), step))),
     1e-14);
   // In the plane, one bone determines the whole motion.
-  const Points flat = random_points(50, true);
-  const Handles stick{ bone(Vec3(0, 0, 0), Vec3(1, 0, 0), 0) };
+  const Points flat = random_rest(50, true);
+  const Handles stick{ numbered_bone(Vec3(0, 0, 0), Vec3(1, 0, 0), 0) };
   const Affine in_plane = affine(rotation(60, Vec3(0, 0, 1)), Vec3(1, 2, 0));
-  EXPECT_LT(difference(warped(flat, stick, pose_of({ in_plane })), moved(flat, in_plane)), 1e-12);
+  EXPECT_LT(
+    largest_distance(warped(flat, stick, pose_of({ in_plane })), moved(flat, in_plane)), 1e-12);
   // In space, the smallest rotation is used. It reproduces a rotation of the bone's direction, and
   // ignores a rotation around the bone.
-  EXPECT_LT(difference(warped(rest, stick, pose_of({ in_plane })), moved(rest, in_plane)), 1e-12);
+  EXPECT_LT(
+    largest_distance(warped(rest, stick, pose_of({ in_plane })), moved(rest, in_plane)), 1e-12);
   const Affine roll = affine(rotation(70, Vec3(1, 0, 0)), Vec3::Zero());
-  EXPECT_LT(difference(warped(rest, stick, pose_of({ roll })), rest), 1e-12);
+  EXPECT_LT(largest_distance(warped(rest, stick, pose_of({ roll })), rest), 1e-12);
 }
 
 TEST(MovingLeastSquares, AMirroredPoseInThePlaneDoesNotLeaveIt)
 {
-  const Points rest = random_points(100, true);
-  const Handles handles{ point(Vec3(-0.5, 0, 0), 0), point(Vec3(0.5, 0, 0), 1),
-    point(Vec3(0, 0.6, 0), 2) };
+  const Points rest = random_rest(100, true);
+  const Handles handles{ numbered_point(Vec3(-0.5, 0, 0), 0), numbered_point(Vec3(0.5, 0, 0), 1),
+    numbered_point(Vec3(0, 0.6, 0), 2) };
   // In space, a rotation by 180 degrees would fit better, but points in a plane must stay in the
   // plane.
   const Pose mirror = pose_of({ affine(Eigen::Matrix3d::Identity(), Vec3::Zero()),
@@ -320,27 +302,27 @@ TEST(MovingLeastSquares, AMirroredPoseInThePlaneDoesNotLeaveIt)
 
 TEST(MovingLeastSquares, ModesPositionAndFree)
 {
-  const Points rest = random_points(100, false);
+  const Points rest = random_rest(100, false);
   const Handles handles = mixed_handles(false);
   Pose pose = mixed_pose(false);
   // A handle of mode free has no effect, even on a point at its position. This handle is between
   // the others, so the extent of the handles, which is the unit of length of bones, does not
   // change.
   Handles more = handles;
-  more.push_back(point(Vec3(0.1, 0, 0), 4));
+  more.push_back(numbered_point(Vec3(0.1, 0, 0), 4));
   Pose with_free = pose;
   with_free.push_back(pose[1]);
   with_free[4].mode = HandleMode::free;
   Points on = rest;
   on.row(0) << 0.1, 0, 0;
-  EXPECT_LT(difference(warped(on, more, with_free), warped(on, handles, pose)), 1e-12);
+  EXPECT_LT(largest_distance(warped(on, more, with_free), warped(on, handles, pose)), 1e-12);
   // Mode position uses only the translation of the handle's pivot.
   Pose position = pose;
   position[2].mode = HandleMode::position;
   const Vec3 head = handles[2].head;
   const Vec3 goes = pose[2].transform.leftCols<3>() * head + pose[2].transform.col(3);
   pose[2].transform = affine(Eigen::Matrix3d::Identity(), goes - head);
-  EXPECT_EQ(difference(warped(rest, handles, position), warped(rest, handles, pose)), 0.0);
+  EXPECT_EQ(largest_distance(warped(rest, handles, position), warped(rest, handles, pose)), 0.0);
   // If all handles have mode free, the result is the rest shape, with a warning.
   for (HandlePose& one : pose)
   {
@@ -367,7 +349,7 @@ TEST(MovingLeastSquares, SharesOfABoneAreTheIntegrals)
   {
     for (const double a : { 0.0, 0.3, 1.0 })
     {
-      const Handles handles{ bone(Vec3(0, 0, 0), Vec3(1, 0, 0), 0) };
+      const Handles handles{ numbered_bone(Vec3(0, 0, 0), Vec3(1, 0, 0), 0) };
       Points rest(1, 3);
       rest << a, d, 0.0;
       MovingLeastSquares warp;
@@ -388,7 +370,7 @@ TEST(MovingLeastSquares, SharesOfABoneAreTheIntegrals)
   }
   // The point is on the line of the bone, beyond its end. The weight is the integral of 1 / s^2
   // from d to d + 1.
-  const Handles handles{ bone(Vec3(0, 0, 0), Vec3(1, 0, 0), 0) };
+  const Handles handles{ numbered_bone(Vec3(0, 0, 0), Vec3(1, 0, 0), 0) };
   Points rest(1, 3);
   rest << 1.25, 0.0, 0.0;
   MovingLeastSquares warp;
@@ -399,7 +381,7 @@ TEST(MovingLeastSquares, SharesOfABoneAreTheIntegrals)
 
 TEST(MovingLeastSquares, TheSameBitsForAnyNumberOfThreads)
 {
-  const Points rest = random_points(5000, false);
+  const Points rest = random_rest(5000, false);
   const Points one = warped(rest, mixed_handles(false), mixed_pose(false), 1.3, 1);
   const Points two = warped(rest, mixed_handles(false), mixed_pose(false), 1.3, 2);
   EXPECT_EQ(one, two);
@@ -409,7 +391,7 @@ TEST(MovingLeastSquares, WhatCannotBeUsedIsOneSentence)
 {
   ExecutionContext context;
   MovingLeastSquares warp;
-  const Points rest = random_points(10, false);
+  const Points rest = random_rest(10, false);
   for (const double exponent : { 0.0, 0.99, 8.1, -1.0, std::nan("") })
   {
     const Status status = warp.bind(context, { exponent }, rest, mixed_handles(false));

@@ -96,7 +96,7 @@ const Harmonic polynomials[] = { { 1, [](double x, double y) { return x * x - y 
   { 3, [](double x, double y) { return (x * x + y * y) * (x * x + y * y) * x; } } };
 
 /// Return the deflection at the center of a unit plate under a uniform load of 1.
-double plate(int n, PatchBoundary boundary)
+double plate_deflection(int n, PatchBoundary boundary)
 {
   Square square(n, 1, Vec3::Zero());
   square.load = Rows::Ones(square.mesh.points.rows(), 1);
@@ -192,9 +192,9 @@ TEST(Polyharmonic, PlatesBendAsTheyShould)
   const double supported[] = { 0.0040548, 0.0040605, 0.0040619, 0.0040622 };
   for (int i = 0; i < 4; ++i)
   {
-    EXPECT_NEAR(plate(n[i], PatchBoundary::tangent), clamped[i], 5.1e-8);
-    EXPECT_NEAR(plate(n[i], PatchBoundary::region), clamped[i], 5.1e-8);
-    EXPECT_NEAR(plate(n[i], PatchBoundary::curve), supported[i], 5.1e-8);
+    EXPECT_NEAR(plate_deflection(n[i], PatchBoundary::tangent), clamped[i], 5.1e-8);
+    EXPECT_NEAR(plate_deflection(n[i], PatchBoundary::region), clamped[i], 5.1e-8);
+    EXPECT_NEAR(plate_deflection(n[i], PatchBoundary::curve), supported[i], 5.1e-8);
   }
 }
 

@@ -19,7 +19,7 @@ namespace
 {
 /// Return a point, and a chain of two bones along x. The second bone in the list is the parent of
 /// the first one.
-Handles rig()
+Handles point_and_chain()
 {
   Handles handles{ test::point_handle("p", Vec3(1, 2, 3)),
     test::bone_handle("fore", Vec3(1, 0, 0), Vec3(2, 0, 0)),
@@ -31,16 +31,16 @@ Handles rig()
 Pose read(const std::string& text, const Pose& base = Pose(3))
 {
   PoseSequence sequence;
-  const Status status = parse_pose_file(text, rig(), sequence);
+  const Status status = parse_pose_file(text, point_and_chain(), sequence);
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(sequence.frames.size(), 1u);
-  return apply_edits(sequence.frames[0], rig(), base);
+  return apply_edits(sequence.frames[0], point_and_chain(), base);
 }
 
 std::string message(const std::string& text)
 {
   PoseSequence sequence;
-  const Status status = parse_pose_file(text, rig(), sequence);
+  const Status status = parse_pose_file(text, point_and_chain(), sequence);
   EXPECT_EQ(status.code, StatusCode::invalid_input) << text;
   EXPECT_TRUE(sequence.frames.empty());
   return status.message;
@@ -125,7 +125,7 @@ TEST(PoseFile, AMissingVersionWarnsIfChildrenWouldFollow)
   const auto warnings = [](const std::string& text)
   {
     PoseSequence sequence;
-    const Status status = parse_pose_file(text, rig(), sequence);
+    const Status status = parse_pose_file(text, point_and_chain(), sequence);
     EXPECT_TRUE(status.ok()) << status.message;
     return status.warnings;
   };
@@ -201,8 +201,9 @@ TEST(PoseFile, FollowersKeepTheirPlaceRelativeToTheParent)
       R"({"version": 2, "handles": {"upper": {"translate": [0, 2, 0], "stretch": 0.5}}})", base);
     // The child's transform relative to the tail of its parent has not changed.
     Affine back, back_then;
-    ASSERT_TRUE(invert(transform_for_child(rig()[2], pose[2], Vec3(1, 0, 0)), back));
-    ASSERT_TRUE(invert(transform_for_child(rig()[2], base[2], Vec3(1, 0, 0)), back_then));
+    ASSERT_TRUE(invert(transform_for_child(point_and_chain()[2], pose[2], Vec3(1, 0, 0)), back));
+    ASSERT_TRUE(
+      invert(transform_for_child(point_and_chain()[2], base[2], Vec3(1, 0, 0)), back_then));
     EXPECT_LT((composed(back, pose[1].transform) - composed(back_then, base[1].transform))
                 .cwiseAbs()
                 .maxCoeff(),
@@ -304,12 +305,12 @@ TEST(PoseFile, SequencesHaveFramesAndARate)
   PoseSequence sequence;
   ASSERT_TRUE(parse_pose_file(R"({"frames": [{"handles": {}},
     {"handles": {"p": {"translate": [1, 0, 0]}}}], "fps": 12.5})",
-    rig(), sequence)
+    point_and_chain(), sequence)
                 .ok());
   ASSERT_EQ(sequence.frames.size(), 2u);
   EXPECT_EQ(sequence.frames_per_second, 12.5);
   EXPECT_TRUE(sequence.frames[0].handles.empty());
-  EXPECT_EQ(apply_edits(sequence.frames[1], rig(), Pose(3))[0].transform(0, 3), 1.0);
+  EXPECT_EQ(apply_edits(sequence.frames[1], point_and_chain(), Pose(3))[0].transform(0, 3), 1.0);
 }
 
 // The caller evaluates the expressions. The expressions of this test are 't', 'twice t' and
@@ -325,23 +326,23 @@ TEST(PoseFile, TextsAreExpressionsInTime)
     "p": {"mode": "position", "translate": ["t", 1, "twice t"]},
     "upper": {"rotate": {"axis": [0, 0, 1], "degrees": "t"}, "stretch": "t"}}})";
   PoseSequence sequence;
-  ASSERT_TRUE(parse_pose_file(text, rig(), sequence, expression, 90.0).ok());
+  ASSERT_TRUE(parse_pose_file(text, point_and_chain(), sequence, expression, 90.0).ok());
   EXPECT_TRUE(sequence.has_expressions);
-  const Pose pose = apply_edits(sequence.frames[0], rig(), Pose(3));
+  const Pose pose = apply_edits(sequence.frames[0], point_and_chain(), Pose(3));
   EXPECT_EQ(pose[0].transform.col(3), Vec3(90, 1, 180));
   EXPECT_LT((apply(pose[2].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-14);
   EXPECT_EQ(pose[2].stretch, 90.0);
   // In a sequence, the variable t is the time of the frame.
   const std::string frame = R"({"handles": {"p": {"translate": ["t", 0, 0]}}})";
-  ASSERT_TRUE(parse_pose_file(
-    R"({"fps": 4, "frames": [)" + frame + "," + frame + "]}", rig(), sequence, expression, 90.0)
+  ASSERT_TRUE(parse_pose_file(R"({"fps": 4, "frames": [)" + frame + "," + frame + "]}",
+    point_and_chain(), sequence, expression, 90.0)
                 .ok());
   EXPECT_EQ(*sequence.frames[1].handles[0].translate, Vec3(0.25, 0, 0));
 
   const auto wrong = [&](const std::string& entry)
   {
-    const Status status =
-      parse_pose_file(R"({"handles": {"p": {)" + entry + "}}}", rig(), sequence, expression, 0.5);
+    const Status status = parse_pose_file(
+      R"({"handles": {"p": {)" + entry + "}}}", point_and_chain(), sequence, expression, 0.5);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     return status.message;
   };
@@ -452,10 +453,10 @@ TEST(PoseFile, WhatIsWrittenIsReadBack)
         HandleMode::automatic };
       pose[h].mode = modes[random.below(4)];
       const bool moves = random.below(4) == 0;
-      pose[h].transform = affine_about(rig()[h].head,
+      pose[h].transform = affine_about(point_and_chain()[h].head,
         moves ? Eigen::Matrix3d::Identity().eval() : Eigen::Matrix3d(random.uniform(0.1, 3) * r),
         random.in_box(-Vec3::Ones(), Vec3::Ones()));
-      if (!moves && rig()[h].kind == HandleKind::bone)
+      if (!moves && point_and_chain()[h].kind == HandleKind::bone)
       {
         pose[h].stretch = random.uniform(0.5, 2);
         pose[h].twist << random.uniform(-90, 90), random.uniform(-90, 90);
@@ -464,10 +465,10 @@ TEST(PoseFile, WhatIsWrittenIsReadBack)
     poses.push_back(pose);
   }
   std::string text;
-  const Status status = format_pose_file(poses, 30.0, rig(), text);
+  const Status status = format_pose_file(poses, 30.0, point_and_chain(), text);
   ASSERT_TRUE(status.ok() && status.warnings.empty());
   PoseSequence sequence;
-  ASSERT_TRUE(parse_pose_file(text, rig(), sequence).ok());
+  ASSERT_TRUE(parse_pose_file(text, point_and_chain(), sequence).ok());
   ASSERT_EQ(sequence.frames.size(), 20u);
   EXPECT_EQ(sequence.frames_per_second, 30.0);
   Pose other(3); // the result does not depend on the base
@@ -475,7 +476,7 @@ TEST(PoseFile, WhatIsWrittenIsReadBack)
   other[1].mode = HandleMode::free;
   for (std::size_t frame = 0; frame < 20; ++frame)
   {
-    const Pose back = apply_edits(sequence.frames[frame], rig(), other);
+    const Pose back = apply_edits(sequence.frames[frame], point_and_chain(), other);
     for (std::size_t h = 0; h < 3; ++h)
     {
       EXPECT_EQ(back[h].mode, poses[frame][h].mode);
@@ -489,7 +490,7 @@ TEST(PoseFile, WhatIsWrittenIsReadBack)
 TEST(PoseFile, WhatIsWrittenCanBeRead)
 {
   std::string text;
-  Handles handles = rig();
+  Handles handles = point_and_chain();
   handles[1].name = "caf\xe9"; // Latin-1 encoding
   EXPECT_THAT(format_pose_file({ Pose(3) }, 24.0, handles, text).message, HasSubstr("UTF-8"));
   handles[1].name = "two\nlines \"quoted\"";
@@ -501,12 +502,13 @@ TEST(PoseFile, WhatIsWrittenCanBeRead)
   // JSON cannot represent infinity.
   Pose pose(3);
   pose[1].stretch = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(format_pose_file({ pose }, 24.0, rig(), text).message, HasSubstr("'fore'"));
+  EXPECT_THAT(
+    format_pose_file({ pose }, 24.0, point_and_chain(), text).message, HasSubstr("'fore'"));
   pose = Pose(3);
   pose[0].transform(0, 0) = 1e308;
-  EXPECT_TRUE(format_pose_file({ pose }, 24.0, rig(), text).ok());
+  EXPECT_TRUE(format_pose_file({ pose }, 24.0, point_and_chain(), text).ok());
   pose[0].transform(1, 1) = 1e308; // this moves the pivot of the handle to 2e308
-  EXPECT_THAT(format_pose_file({ pose }, 24.0, rig(), text).message, HasSubstr("'p'"));
+  EXPECT_THAT(format_pose_file({ pose }, 24.0, point_and_chain(), text).message, HasSubstr("'p'"));
   // The squares of these lengths overflow or underflow, but their ratio is representable.
   EXPECT_EQ(
     read(R"({"handles": {"fore": {"head": [0, 0, 0], "tail": [0, 1e200, 0]}}})")[1].stretch, 1e200);
@@ -527,13 +529,13 @@ TEST(PoseFile, ScalesUnevenByRoundoffAreEven)
     const Vec3 uneven(scale, scale * (1.0 + 2e-6), scale * (1.0 - 1.8e-6));
     pose[0].transform.leftCols<3>() = turn * uneven.asDiagonal();
     std::string text;
-    Status status = format_pose_file({ pose }, 24.0, rig(), text);
+    Status status = format_pose_file({ pose }, 24.0, point_and_chain(), text);
     ASSERT_TRUE(status.ok());
     EXPECT_TRUE(status.warnings.empty()) << status.warnings[0];
     EXPECT_LT((read(text)[0].transform - pose[0].transform).cwiseAbs().maxCoeff(), 1e-5 * scale);
     // A scale that is intentionally non-uniform by a factor of 1.001 is not recognized as uniform.
     pose[0].transform.leftCols<3>() = turn * Vec3(scale, scale, 1.001 * scale).asDiagonal();
-    status = format_pose_file({ pose }, 24.0, rig(), text);
+    status = format_pose_file({ pose }, 24.0, point_and_chain(), text);
     EXPECT_EQ(status.warnings.size(), 1u);
   }
 }
@@ -543,7 +545,7 @@ TEST(PoseFile, WhatAFileCannotHoldIsSaid)
   Pose pose(3);
   pose[0].transform(0, 1) = 0.5;
   std::string text;
-  const Status status = format_pose_file({ pose }, 24.0, rig(), text);
+  const Status status = format_pose_file({ pose }, 24.0, point_and_chain(), text);
   ASSERT_TRUE(status.ok());
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("'p'"));
@@ -552,10 +554,12 @@ TEST(PoseFile, WhatAFileCannotHoldIsSaid)
   // There is one warning for all handles and poses.
   Pose sheared = pose;
   sheared[1].transform(1, 1) = 1.5;
-  Status grouped = format_pose_file({ pose, Pose(3), sheared, sheared }, 24.0, rig(), text);
+  Status grouped =
+    format_pose_file({ pose, Pose(3), sheared, sheared }, 24.0, point_and_chain(), text);
   ASSERT_EQ(grouped.warnings.size(), 1u);
   EXPECT_THAT(grouped.warnings[0], HasSubstr("2 handles ('p', '"));
   EXPECT_THAT(grouped.warnings[0], HasSubstr("in 3 of 4 poses"));
-  EXPECT_EQ(format_pose_file({}, 24.0, rig(), text).code, StatusCode::invalid_input);
-  EXPECT_EQ(format_pose_file({ Pose(2) }, 24.0, rig(), text).code, StatusCode::invalid_input);
+  EXPECT_EQ(format_pose_file({}, 24.0, point_and_chain(), text).code, StatusCode::invalid_input);
+  EXPECT_EQ(
+    format_pose_file({ Pose(2) }, 24.0, point_and_chain(), text).code, StatusCode::invalid_input);
 }

@@ -2,8 +2,12 @@
 // of these edges: common motions, degenerate edges, and trees of edges along the shape.
 #include "pose/pseudo_edges.h"
 
+#include "base/constants.h"
 #include "pose/skinning.h"
 
+#include "support/affines.h"
+#include "support/differences.h"
+#include "support/handles.h"
 #include "support/meshes.h"
 
 #include <Eigen/Geometry>
@@ -14,34 +18,12 @@
 #include <cmath>
 
 using namespace bindpose;
+using test::largest_difference;
+using test::point_handles;
+using test::rotation;
 
 namespace
 {
-const double pi = std::acos(-1.0);
-
-Handle point(const Vec3& at, Index number)
-{
-  Handle handle;
-  handle.name = "p" + std::to_string(number);
-  handle.head = handle.tail = at;
-  return handle;
-}
-
-Handles points(const std::vector<Vec3>& places)
-{
-  Handles handles;
-  for (const Vec3& place : places)
-  {
-    handles.push_back(point(place, static_cast<Index>(handles.size())));
-  }
-  return handles;
-}
-
-Eigen::Matrix3d rotation(double degrees, const Vec3& axis)
-{
-  return Eigen::AngleAxisd(degrees * pi / 180.0, axis.normalized()).toRotationMatrix();
-}
-
 /// Return a pose that translates each pivot as the rigid motion would, but rotates no handle.
 Pose translations(
   const Handles& handles, const Eigen::Matrix3d& turn, const Vec3& by = Vec3::Zero())
@@ -60,27 +42,22 @@ Eigen::Matrix3d linear(const Pose& pose, std::size_t h)
   return pose[h].transform.leftCols<3>();
 }
 
-double difference(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b)
-{
-  return (a - b).cwiseAbs().maxCoeff();
-}
-
-const Handles corners =
-  points({ Vec3(0, 0, 0.5), Vec3(2, 0, 0.5), Vec3(2.5, 1, 0.5), Vec3(-0.3, 1.7, 0.5) });
-const PseudoEdges ring = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } };
+const Handles corner_handles =
+  point_handles({ Vec3(0, 0, 0.5), Vec3(2, 0, 0.5), Vec3(2.5, 1, 0.5), Vec3(-0.3, 1.7, 0.5) });
+const PseudoEdges edges_of_ring = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } };
 } // namespace
 
 TEST(PseudoEdges, WhatStaysOrIsMovedAlongDoesNotTurn)
 {
-  Pose pose = translations(corners, Eigen::Matrix3d::Identity(), Vec3(3, -1, 2));
-  turn_by_pseudo_edges(corners, ring, true, pose);
-  for (std::size_t h = 0; h < corners.size(); ++h)
+  Pose pose = translations(corner_handles, Eigen::Matrix3d::Identity(), Vec3(3, -1, 2));
+  turn_by_pseudo_edges(corner_handles, edges_of_ring, true, pose);
+  for (std::size_t h = 0; h < corner_handles.size(); ++h)
   {
-    EXPECT_LT(difference(linear(pose, h), Eigen::Matrix3d::Identity()), 1e-15);
+    EXPECT_LT(largest_difference(linear(pose, h), Eigen::Matrix3d::Identity()), 1e-15);
     EXPECT_LT((pose[h].transform.col(3) - Vec3(3, -1, 2)).norm(), 1e-15);
   }
-  Pose rest(corners.size());
-  turn_by_pseudo_edges(corners, ring, false, rest);
+  Pose rest(corner_handles.size());
+  turn_by_pseudo_edges(corner_handles, edges_of_ring, false, rest);
   for (const HandlePose& one : rest)
   {
     EXPECT_EQ(one.transform, identity_affine()) << "no bit moves at rest";
@@ -92,11 +69,11 @@ TEST(PseudoEdges, ARigidMotionInThePlaneIsFoundExactly)
   for (const double degrees : { 1e-6, 30.0, 90.0, -135.0, 179.9, 180.0, -179.9 })
   {
     const Eigen::Matrix3d turn = rotation(degrees, Vec3(0, 0, 1));
-    Pose pose = translations(corners, turn, Vec3(0.2, 5, 0));
-    turn_by_pseudo_edges(corners, ring, false, pose);
-    for (std::size_t h = 0; h < corners.size(); ++h)
+    Pose pose = translations(corner_handles, turn, Vec3(0.2, 5, 0));
+    turn_by_pseudo_edges(corner_handles, edges_of_ring, false, pose);
+    for (std::size_t h = 0; h < corner_handles.size(); ++h)
     {
-      EXPECT_LT(difference(linear(pose, h), turn), 1e-13) << degrees;
+      EXPECT_LT(largest_difference(linear(pose, h), turn), 1e-13) << degrees;
       EXPECT_LT((pose[h].transform.col(3) - Vec3(0.2, 5, 0)).norm(), 1e-12) << degrees;
       EXPECT_EQ(pose[h].mode, HandleMode::full);
     }
@@ -117,13 +94,13 @@ TEST(PseudoEdges, SkinningByTheRotationsOfARigidMotionIsThatMotion)
     weights.row(v) /= weights.row(v).sum();
   }
   const Eigen::Matrix3d turn = rotation(110, Vec3(0, 0, 1));
-  Pose pose = translations(corners, turn);
-  turn_by_pseudo_edges(corners, ring, false, pose);
+  Pose pose = translations(corner_handles, turn);
+  turn_by_pseudo_edges(corner_handles, edges_of_ring, false, pose);
   ExecutionContext context;
   Skinning skinning;
   ASSERT_TRUE(skinning.bind(context, weights).ok());
   std::vector<Affine> transforms;
-  ASSERT_TRUE(skinning_transforms(corners, pose, transforms).warnings.empty());
+  ASSERT_TRUE(skinning_transforms(corner_handles, pose, transforms).warnings.empty());
   Points posed;
   ASSERT_TRUE(skinning.linear_blend(context, mesh.points, transforms, posed).ok());
   EXPECT_LT((posed - mesh.points * turn.transpose()).cwiseAbs().maxCoeff(), 1e-13);
@@ -131,7 +108,7 @@ TEST(PseudoEdges, SkinningByTheRotationsOfARigidMotionIsThatMotion)
 
 TEST(PseudoEdges, AnEdgeDoesNotSeeATurnAboutItself)
 {
-  const Handles pair = points({ Vec3(0, 0, 0), Vec3(0, 0, 1) });
+  const Handles pair = point_handles({ Vec3(0, 0, 0), Vec3(0, 0, 1) });
   Pose pose = translations(pair, rotation(70, Vec3(0, 0, 1)));
   turn_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
   EXPECT_EQ(pose[0].transform, identity_affine());
@@ -141,10 +118,10 @@ TEST(PseudoEdges, AnEdgeDoesNotSeeATurnAboutItself)
 TEST(PseudoEdges, OppositeDirectionsTurnAboutAFixedAxis)
 {
   // The axis is perpendicular to the plane z = const, which contains both directions.
-  EXPECT_LT(difference(
+  EXPECT_LT(largest_difference(
               least_rotation(Vec3(1, 0, 0), Vec3(-2, 0, 0)).matrix(), rotation(180, Vec3(0, 0, 1))),
     1e-15);
-  EXPECT_LT(difference(least_rotation(Vec3(3, -4, 0), Vec3(-3, 4, 0)).matrix(),
+  EXPECT_LT(largest_difference(least_rotation(Vec3(3, -4, 0), Vec3(-3, 4, 0)).matrix(),
               rotation(180, Vec3(0, 0, 1))),
     1e-15);
   test::Random random(9);
@@ -172,7 +149,8 @@ TEST(PseudoEdges, EdgesOfAHandleCountAlike)
 {
   // The two edges of the middle handle rotate by 0 and by 60 degrees, so the handle rotates by 30
   // degrees. Each neighbor has one edge and rotates with it.
-  const Handles row = points({ Vec3(-1, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(5, 5, 5) });
+  const Handles row =
+    point_handles({ Vec3(-1, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(5, 5, 5) });
   Pose pose(4);
   const Vec3 end = rotation(60, Vec3(0, 0, 1)) * Vec3(1, 0, 0);
   pose[2].transform.col(3) = end - Vec3(1, 0, 0);
@@ -180,15 +158,15 @@ TEST(PseudoEdges, EdgesOfAHandleCountAlike)
   const Affine own = pose[3].transform;
   turn_by_pseudo_edges(row, { { 0, 1 }, { 2, 1 } }, false, pose);
   EXPECT_EQ(linear(pose, 0), Eigen::Matrix3d::Identity());
-  EXPECT_LT(difference(linear(pose, 1), rotation(30, Vec3(0, 0, 1))), 1e-15);
-  EXPECT_LT(difference(linear(pose, 2), rotation(60, Vec3(0, 0, 1))), 1e-15);
+  EXPECT_LT(largest_difference(linear(pose, 1), rotation(30, Vec3(0, 0, 1))), 1e-15);
+  EXPECT_LT(largest_difference(linear(pose, 2), rotation(60, Vec3(0, 0, 1))), 1e-15);
   EXPECT_LT((pose[2].transform * Vec3(1, 0, 0).homogeneous() - end).norm(), 1e-15);
   EXPECT_EQ(pose[3].transform, own) << "no edge: its own";
 }
 
 TEST(PseudoEdges, TurnWhatTheUserTurnedAndScaleWhenAsked)
 {
-  const Handles pair = points({ Vec3(1, 1, 0), Vec3(3, 1, 0) });
+  const Handles pair = point_handles({ Vec3(1, 1, 0), Vec3(3, 1, 0) });
   const Eigen::Matrix3d turn = rotation(90, Vec3(0, 0, 1));
   Pose pose = translations(pair, turn);
   const Eigen::Matrix3d twist = rotation(25, Vec3(1, 0, 0));
@@ -200,15 +178,15 @@ TEST(PseudoEdges, TurnWhatTheUserTurnedAndScaleWhenAsked)
   const Vec3 before = pose[0].transform * pair[0].head.homogeneous();
   Pose scaled = pose;
   turn_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
-  EXPECT_LT(difference(linear(pose, 0), turn * twist), 1e-15);
+  EXPECT_LT(largest_difference(linear(pose, 0), turn * twist), 1e-15);
   EXPECT_LT((pose[0].transform * pair[0].head.homogeneous() - before).norm(), 1e-15);
   turn_by_pseudo_edges(pair, { { 0, 1 } }, true, scaled);
-  EXPECT_LT(difference(linear(scaled, 1), 3.0 * turn), 1e-14);
+  EXPECT_LT(largest_difference(linear(scaled, 1), 3.0 * turn), 1e-14);
 }
 
 TEST(PseudoEdges, FreeAndCollapsedEndsSayNothing)
 {
-  const Handles pair = points({ Vec3(0, 0, 0), Vec3(1, 0, 0) });
+  const Handles pair = point_handles({ Vec3(0, 0, 0), Vec3(1, 0, 0) });
   Pose pose(2);
   pose[0].mode = pose[1].mode = HandleMode::position;
   pose[1].transform.col(3) = Vec3(-1, 0, 0); // both handles are now at the same position
@@ -219,7 +197,7 @@ TEST(PseudoEdges, FreeAndCollapsedEndsSayNothing)
   pose[1].transform.col(3) = Vec3(-1, 1, 0);
   turn_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
   EXPECT_EQ(pose[0].mode, HandleMode::free);
-  EXPECT_LT(difference(linear(pose, 1), rotation(90, Vec3(0, 0, 1))), 1e-15);
+  EXPECT_LT(largest_difference(linear(pose, 1), rotation(90, Vec3(0, 0, 1))), 1e-15);
 }
 
 TEST(PseudoEdges, AutomaticOnesFollowTheShape)
@@ -236,13 +214,10 @@ TEST(PseudoEdges, AutomaticOnesFollowTheShape)
   {
     strip.points.row(v) = bent(strip.points.row(v));
   }
-  Handles handles = points({ bent(Vec3(6, 0.2, 0)), bent(Vec3(3, 0.2, 0)), bent(Vec3(0, 0.2, 0)),
-    bent(Vec3(4.5, 0.21, 0)) });
+  Handles handles = point_handles({ bent(Vec3(6, 0.2, 0)), bent(Vec3(3, 0.2, 0)),
+    bent(Vec3(0, 0.2, 0)), bent(Vec3(4.5, 0.21, 0)) });
   ASSERT_LT((handles[0].head - handles[2].head).norm(), (handles[0].head - handles[3].head).norm());
-  Handle bone = point(Vec3(1, 0, 0), 9);
-  bone.kind = HandleKind::bone;
-  bone.tail = Vec3(0, 1, 0);
-  handles.insert(handles.begin(), bone);
+  handles.insert(handles.begin(), test::bone_handle("bone", Vec3(1, 0, 0), Vec3(0, 1, 0)));
   const PseudoEdges expected = { { 1, 4 }, { 2, 4 }, { 2, 3 } };
   for (const int threads : { 1, 4 })
   {
@@ -269,7 +244,7 @@ TEST(PseudoEdges, AutomaticOnesAreAMinimumSpanningTreeOfShortestWays)
     places.emplace_back(box.points.row(random.below(box.points.rows())));
   }
   places.push_back(places[3] + Vec3(0.01, 0, 0)); // two handles are at one vertex
-  const Handles handles = points(places);
+  const Handles handles = point_handles(places);
   ExecutionContext context;
   PseudoEdges edges;
   ASSERT_TRUE(automatic_pseudo_edges(context, box.points, TetsView(box.tets), handles, edges).ok());
@@ -338,7 +313,7 @@ TEST(PseudoEdges, PartsHaveTreesOfTheirOwnAndLonelyPointsAreToldOf)
   const auto run = [&](const std::vector<Vec3>& places)
   {
     return automatic_pseudo_edges(
-      context, both.points, TrianglesView(both.triangles), points(places), edges);
+      context, both.points, TrianglesView(both.triangles), point_handles(places), edges);
   };
   EXPECT_TRUE(run({ Vec3(0, 0, 0), Vec3(5, 0, 0), Vec3(1, 1, 0), Vec3(6, 1, 0) }).warnings.empty());
   std::sort(edges.begin(), edges.end());
@@ -348,15 +323,15 @@ TEST(PseudoEdges, PartsHaveTreesOfTheirOwnAndLonelyPointsAreToldOf)
   EXPECT_EQ(run({ Vec3(0, 0, 0) }).warnings.size(), 1u);
   Points broken = both.points;
   broken(3, 1) = std::nan("");
-  EXPECT_EQ(automatic_pseudo_edges(
-              context, broken, TrianglesView(both.triangles), points({ Vec3::Zero() }), edges)
+  EXPECT_EQ(automatic_pseudo_edges(context, broken, TrianglesView(both.triangles),
+              point_handles({ Vec3::Zero() }), edges)
               .code,
     StatusCode::invalid_input);
 }
 
 TEST(PseudoEdges, JoinTwoDifferentPoints)
 {
-  Handles list = points({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0) });
+  Handles list = point_handles({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0) });
   EXPECT_TRUE(check_pseudo_edges(list, { { 0, 1 }, { 2, 1 } }).ok());
   EXPECT_EQ(check_pseudo_edges(list, { { 0, 1 }, { 1, 1 } }).code, StatusCode::invalid_input);
   EXPECT_EQ(check_pseudo_edges(list, { { 0, 3 } }).code, StatusCode::invalid_input);

@@ -36,9 +36,9 @@ test::Rig many_handles()
 }
 
 /// The reduced space of a rig, with the constraints for one choice of modes.
-struct Case
+struct BasisCase
 {
-  explicit Case(const test::Rig& rig)
+  explicit BasisCase(const test::Rig& rig)
   {
     ReducedArapOptions options;
     options.mass = true;
@@ -171,7 +171,7 @@ TEST(ReducedBasis, BothWaysLeadToTheSame)
 {
   for (const bool flat : { false, true })
   {
-    Case one(many_handles());
+    BasisCase one(many_handles());
     if (flat)
     {
       one.flatten();
@@ -203,7 +203,7 @@ TEST(ReducedBasis, TheQuickWayDeclinesWhatIsInDoubt)
 {
   const test::Rig rig = many_handles();
   ReducedBasis basis;
-  Case same(rig);
+  BasisCase same(rig);
   same.choose({}, { 0, 1 });
   ASSERT_TRUE(same.quickly(basis));
   const Eigen::RowVectorXd other = same.held.row(1);
@@ -227,7 +227,7 @@ TEST(ReducedBasis, TheQuickWayDeclinesWhatIsInDoubt)
   EXPECT_TRUE(basis.redundant().empty());
 
   // There are too many constraints for the fast construction.
-  Case many(rig);
+  BasisCase many(rig);
   many.choose({ 0, 1, 2, 3, 4 }, { 5, 6, 7, 8, 9 });
   ReducedBasis few;
   EXPECT_FALSE(many.quickly(few));
@@ -238,7 +238,7 @@ TEST(ReducedBasis, TheQuickWayDeclinesWhatIsInDoubt)
   {
     doubled.weights.col(0) = 0.5 * (rig.weights.col(0) + (1.0 - apart) * rig.weights.col(1));
     doubled.weights.col(1) = rig.weights.col(0) + rig.weights.col(1) - doubled.weights.col(0);
-    Case ill(doubled);
+    BasisCase ill(doubled);
     ill.choose({}, { 0 });
     ReducedBasis none;
     EXPECT_FALSE(ill.quickly(none)) << apart;

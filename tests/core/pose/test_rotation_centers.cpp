@@ -2,8 +2,11 @@
 // these centers reproduces rigid motions exactly, and twisted joints keep their width.
 #include "pose/rotation_centers.h"
 
+#include "base/constants.h"
 #include "pose/skinning.h"
 
+#include "support/affines.h"
+#include "support/differences.h"
 #include "support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -12,33 +15,15 @@
 #include <cmath>
 
 using namespace bindpose;
+using test::affine;
+using test::largest_distance;
+using test::moved;
+using test::rotation;
 
 namespace
 {
-const double pi = std::acos(-1.0);
-
-Eigen::Matrix3d rotation(double degrees, const Vec3& axis)
-{
-  return Eigen::AngleAxisd(degrees * pi / 180.0, axis.normalized()).toRotationMatrix();
-}
-
-Affine affine(const Eigen::Matrix3d& linear, const Vec3& translation)
-{
-  Affine t;
-  t.leftCols<3>() = linear;
-  t.col(3) = translation;
-  return t;
-}
-
-Points moved(const Points& points, const Affine& t)
-{
-  Points result = points * t.leftCols<3>().transpose();
-  result.rowwise() += t.col(3).transpose();
-  return result;
-}
-
 /// Return nonnegative weights. Rows sum to 1, and each row contains a zero.
-Weights random_weights(Index rows, Index cols)
+Weights random_weights_with_zeros(Index rows, Index cols)
 {
   test::Random random(8);
   Weights weights(rows, cols);
@@ -85,13 +70,13 @@ double similarity(const Eigen::RowVectorXd& a, const Eigen::RowVectorXd& b, doub
   return sum;
 }
 
-double size_of(const Points& p, const Tets& tets, Index e)
+double size_of_element(const Points& p, const Tets& tets, Index e)
 {
   return std::abs(
     tet_volume(p.row(tets(e, 0)), p.row(tets(e, 1)), p.row(tets(e, 2)), p.row(tets(e, 3))));
 }
 
-double size_of(const Points& p, const Triangles& triangles, Index e)
+double size_of_element(const Points& p, const Triangles& triangles, Index e)
 {
   const Vec3 a = p.row(triangles(e, 0)), b = p.row(triangles(e, 1)), c = p.row(triangles(e, 2));
   return 0.5 * (b - a).cross(c - a).norm();
@@ -115,7 +100,8 @@ Points plain_centers(
         mean += weights.row(elements(e, k)) / static_cast<double>(elements.cols());
         centroid += points.row(elements(e, k)).transpose() / static_cast<double>(elements.cols());
       }
-      const double s = similarity(weights.row(v), mean, width) * size_of(points, elements, e);
+      const double s =
+        similarity(weights.row(v), mean, width) * size_of_element(points, elements, e);
       amount += s;
       moment += s * centroid;
     }
@@ -138,11 +124,6 @@ Points found_centers(const Points& points, const Elements& elements, const Weigh
     rotation_centers(context, options, points, MatrixView<Elements>(elements), weights, centers);
   EXPECT_TRUE(status.ok()) << status.message;
   return centers;
-}
-
-double difference(const Points& a, const Points& b)
-{
-  return (a - b).rowwise().norm().maxCoeff();
 }
 
 RotationCentersOptions exact()
@@ -205,13 +186,13 @@ TEST(RotationCenters, AreThePapersSums)
   {
     RotationCentersOptions options = exact();
     options.width = width;
-    const Weights in_box = random_weights(box.points.rows(), 4);
-    EXPECT_LT(difference(found_centers(box.points, box.tets, in_box, options),
+    const Weights in_box = random_weights_with_zeros(box.points.rows(), 4);
+    EXPECT_LT(largest_distance(found_centers(box.points, box.tets, in_box, options),
                 plain_centers(box.points, box.tets, in_box, width)),
       1e-11)
       << width;
-    const Weights on_ball = random_weights(ball.points.rows(), 3);
-    EXPECT_LT(difference(found_centers(ball.points, ball.triangles, on_ball, options),
+    const Weights on_ball = random_weights_with_zeros(ball.points.rows(), 3);
+    EXPECT_LT(largest_distance(found_centers(ball.points, ball.triangles, on_ball, options),
                 plain_centers(ball.points, ball.triangles, on_ball, width)),
       1e-11)
       << width;
@@ -224,7 +205,7 @@ TEST(RotationCenters, GroupsMoveThemLittle)
   const Weights weights = smooth_weights(bar.points, 5);
   const Points plain = found_centers(bar.points, bar.tets, weights, exact());
   const Points grouped = found_centers(bar.points, bar.tets, weights);
-  EXPECT_LT(difference(grouped, plain), 1e-3 * bounding_box(bar.points).diagonal());
+  EXPECT_LT(largest_distance(grouped, plain), 1e-3 * bounding_box(bar.points).diagonal());
   RotationCentersOptions coarse;
   coarse.group_size = 0.05;
   ExecutionContext context;
@@ -283,7 +264,7 @@ TEST(RotationCenters, KeepTwistedJointsWide)
 TEST(RotationCenters, SkinningIsExactForOneMapOfAllHandles)
 {
   const TetMesh box = test::tet_box(4, 3, 3);
-  const Weights weights = random_weights(box.points.rows(), 5);
+  const Weights weights = random_weights_with_zeros(box.points.rows(), 5);
   const Points centers = found_centers(box.points, box.tets, weights);
   ExecutionContext context;
   Skinning skinning;
@@ -300,7 +281,7 @@ TEST(RotationCenters, SkinningIsExactForOneMapOfAllHandles)
   {
     const std::vector<Affine> all(5, map);
     ASSERT_TRUE(skinning.about_centers(context, box.points, all, centers, posed).ok());
-    EXPECT_LT(difference(posed, moved(box.points, map)), 1e-13);
+    EXPECT_LT(largest_distance(posed, moved(box.points, map)), 1e-13);
     Points normals = box.points.rowwise().normalized();
     normals.row(0) << 1, 0, 0;
     Points turned;
@@ -308,14 +289,14 @@ TEST(RotationCenters, SkinningIsExactForOneMapOfAllHandles)
     const Eigen::Matrix3d cofactors =
       map.leftCols<3>().determinant() * map.leftCols<3>().inverse().transpose();
     const Points expected = (normals * cofactors.transpose()).rowwise().normalized();
-    EXPECT_LT(difference(turned, expected), 1e-12);
+    EXPECT_LT(largest_distance(turned, expected), 1e-12);
   }
 }
 
 TEST(RotationCenters, TurnsByTheBlendAboutTheCenterThatTheBlendMoves)
 {
   const TetMesh box = test::tet_box(3, 3, 3);
-  const Weights weights = random_weights(box.points.rows(), 3);
+  const Weights weights = random_weights_with_zeros(box.points.rows(), 3);
   const Points centers = found_centers(box.points, box.tets, weights);
   const std::vector<Affine> maps{ affine(rotation(50, Vec3(1, 0, 1)), Vec3(1, 0, 0)),
     affine(rotation(-80, Vec3(0, 1, 1)), Vec3(0, 0.5, 0)),
@@ -352,17 +333,17 @@ TEST(RotationCenters, DoNotDependOnThreadsOrOrderAndFollowTheShape)
   const Points one = found_centers(bar.points, bar.tets, weights, {}, 1);
   EXPECT_EQ(one, found_centers(bar.points, bar.tets, weights, {}, 4));
   const Affine motion = affine(8.0 * rotation(33, Vec3(1, 2, 0)), Vec3(5, 6, 7));
-  EXPECT_LT(
-    difference(found_centers(moved(bar.points, motion), bar.tets, weights), moved(one, motion)),
+  EXPECT_LT(largest_distance(
+              found_centers(moved(bar.points, motion), bar.tets, weights), moved(one, motion)),
     1e-11);
   const Tets reversed = bar.tets.colwise().reverse();
-  EXPECT_LT(difference(found_centers(bar.points, reversed, weights), one), 1e-12);
+  EXPECT_LT(largest_distance(found_centers(bar.points, reversed, weights), one), 1e-12);
 }
 
 TEST(RotationCenters, BadInputAndCancel)
 {
   const TetMesh box = test::tet_box(2, 2, 2);
-  Weights weights = random_weights(box.points.rows(), 3);
+  Weights weights = random_weights_with_zeros(box.points.rows(), 3);
   ExecutionContext context;
   Points centers;
   const auto code = [&](const RotationCentersOptions& options)

@@ -11,7 +11,7 @@ using namespace bindpose;
 
 namespace
 {
-Eigen::Matrix3d random_matrix(test::Random& random)
+Eigen::Matrix3d random_square_matrix(test::Random& random)
 {
   Eigen::Matrix3d s;
   for (int i = 0; i < 9; ++i)
@@ -52,7 +52,7 @@ TEST(RotationFit, HundredThousandRandomMatricesAreAsGoodAsTheirSvd)
   std::vector<double> s(9 * count), r(9 * count, 0.0);
   for (Index k = 0; k < count; ++k)
   {
-    Eigen::Matrix3d matrix = random_matrix(random);
+    Eigen::Matrix3d matrix = random_square_matrix(random);
     if (k % 4 == 1) // the matrix is close to a reflection
     {
       matrix = random_rotation(random) * Vec3(1.0, 0.9, -0.5).asDiagonal() * matrix;
@@ -181,7 +181,7 @@ TEST(RotationFit, BatchesAndSinglesAgreeToTheBit)
     {
       const Vec3 a = random.in_box(-Vec3::Ones(), Vec3::Ones());
       const Eigen::Matrix3d matrix =
-        k % 3 == 2 ? Eigen::Matrix3d(a * a.reverse().transpose()) : random_matrix(random);
+        k % 3 == 2 ? Eigen::Matrix3d(a * a.reverse().transpose()) : random_square_matrix(random);
       const Eigen::Matrix3d previous = random_rotation(random);
       for (int e = 0; e < 9; ++e)
       {
@@ -256,7 +256,7 @@ TEST(RotationFit, SinglePrecisionLosesNextToNothing)
   std::vector<float> s(9 * count), turns(9 * count, 0.0F);
   for (Index k = 0; k < count; ++k)
   {
-    const Eigen::Matrix3d matrix = random_matrix(random).normalized();
+    const Eigen::Matrix3d matrix = random_square_matrix(random).normalized();
     for (int e = 0; e < 9; ++e)
     {
       s[e * count + k] = static_cast<float>(matrix(e / 3, e % 3));

@@ -4,7 +4,9 @@
 
 #include "pose/pose_file.h"
 #include "pose/transform_parts.h"
+#include "support/affines.h"
 #include "support/bars.h"
+#include "support/differences.h"
 #include "support/handles.h"
 #include "support/meshes.h"
 #include "weights/bone_projection.h"
@@ -16,25 +18,16 @@
 #include <limits>
 
 using namespace bindpose;
+using test::largest_distance;
+using test::moved;
 using testing::HasSubstr;
 
 namespace
 {
-Affine turn(double degrees, const Vec3& axis, const Vec3& pivot = Vec3::Zero(),
+Affine turn_about(double degrees, const Vec3& axis, const Vec3& pivot = Vec3::Zero(),
   const Vec3& move = Vec3::Zero())
 {
-  return affine_about(pivot,
-    Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, axis.normalized()).toRotationMatrix(), move);
-}
-
-Points moved(const Points& points, const Affine& t)
-{
-  Points result(points.rows(), 3);
-  for (Index v = 0; v < points.rows(); ++v)
-  {
-    result.row(v) = (t * points.row(v).transpose().homogeneous()).transpose();
-  }
-  return result;
+  return affine_about(pivot, test::rotation(degrees, axis), move);
 }
 
 struct Posed
@@ -64,7 +57,7 @@ Posed pose_with(const Points& points, const Weights& weights, const std::vector<
 }
 
 /// Return points of radius 1 around the x axis at x = 0.
-Points ring()
+Points ring_of_points()
 {
   Points points(16, 3);
   for (Index i = 0; i < 16; ++i)
@@ -97,12 +90,12 @@ TEST(Skinning, ACommonMotionMovesTheWhole)
 {
   const test::Rig rig = test::box();
   const Points pivots = handle_pivots(rig.handles);
-  Affine affine = turn(40, Vec3(1, 2, 3), Vec3(1, 0, 0), Vec3(3, -4, 5));
+  Affine affine = turn_about(40, Vec3(1, 2, 3), Vec3(1, 0, 0), Vec3(3, -4, 5));
   affine.leftCols<3>() *= Vec3(1.5, 0.7, 1.0).asDiagonal();
   const Posed sheared =
     pose_with(rig.mesh.points, rig.weights, std::vector<Affine>(5, affine), pivots);
   EXPECT_LT((sheared.linear - moved(rig.mesh.points, affine)).cwiseAbs().maxCoeff(), 1e-13);
-  const Affine rigid = turn(140, Vec3(-1, 2, 0.5), Vec3(0, 1, 0), Vec3(10, 0, 3));
+  const Affine rigid = turn_about(140, Vec3(-1, 2, 0.5), Vec3(0, 1, 0), Vec3(10, 0, 3));
   const Posed posed =
     pose_with(rig.mesh.points, rig.weights, std::vector<Affine>(5, rigid), pivots);
   EXPECT_LT((posed.linear - moved(rig.mesh.points, rigid)).cwiseAbs().maxCoeff(), 1e-12);
@@ -113,7 +106,7 @@ TEST(Skinning, OneHandleTakesAnyAffineMapExactlyUnderBoth)
 {
   const test::Rig rig = test::box();
   const Points points = rig.mesh.points.topRows(20);
-  Affine affine = turn(70, Vec3(1, 0, 3), Vec3(1, 2, 0), Vec3(0, -4, 5));
+  Affine affine = turn_about(70, Vec3(1, 0, 3), Vec3(1, 2, 0), Vec3(0, -4, 5));
   affine.leftCols<3>() *= Vec3(2.0, 0.5, -1.0).asDiagonal(); // includes a reflection
   Points pivot(1, 3);
   pivot << 0.3, 0.4, 0.5;
@@ -151,15 +144,15 @@ TEST(Skinning, ATwistedRingShrinksByTheCosineUnderLinearBlendAndNotUnderDual)
   for (const auto& [degrees, radius] :
     { std::pair<double, double>{ 90, std::sqrt(0.5) }, { 120, 0.5 }, { 180, 0.0 } })
   {
-    const Posed posed = pose_with(
-      ring(), half, { identity_affine(), turn(degrees, Vec3(1, 0, 0)) }, Points::Zero(2, 3));
+    const Posed posed = pose_with(ring_of_points(), half,
+      { identity_affine(), turn_about(degrees, Vec3(1, 0, 0)) }, Points::Zero(2, 3));
     for (Index i = 0; i < 16; ++i)
     {
       EXPECT_NEAR(posed.linear.row(i).norm(), radius, 1e-14);
       EXPECT_NEAR(posed.dual.row(i).norm(), 1.0, 1e-14);
     }
     // Dual quaternion skinning rotates by half the angle.
-    const Points exact = moved(ring(), turn(0.5 * degrees, Vec3(1, 0, 0)));
+    const Points exact = moved(ring_of_points(), turn_about(0.5 * degrees, Vec3(1, 0, 0)));
     EXPECT_LT((posed.dual - exact).cwiseAbs().maxCoeff(), 1e-14);
   }
 }
@@ -169,14 +162,15 @@ TEST(Skinning, ARotationAndItsFullTurnsAreOne)
 {
   const Weights half = Weights::Constant(16, 2, 0.5);
   const Vec3 axis(1, 0.2, -0.4);
-  const Affine base = turn(-100, Vec3(0, 1, 0));
+  const Affine base = turn_about(-100, Vec3(0, 1, 0));
   const Points pivots = Points::Zero(2, 3);
   for (const double degrees : { 10.0, 170.0, -170.0, 190.0 })
   {
     // The quaternions are q and -q: the angles differ by a full turn, and the matrices are equal up
     // to round-off.
-    const Posed a = pose_with(ring(), half, { base, turn(degrees, axis) }, pivots);
-    const Posed b = pose_with(ring(), half, { base, turn(degrees + 360.0, axis) }, pivots);
+    const Posed a = pose_with(ring_of_points(), half, { base, turn_about(degrees, axis) }, pivots);
+    const Posed b =
+      pose_with(ring_of_points(), half, { base, turn_about(degrees + 360.0, axis) }, pivots);
     EXPECT_LT((a.dual - b.dual).cwiseAbs().maxCoeff(), 1e-12);
     for (Index i = 0; i < 16; ++i)
     {
@@ -193,11 +187,12 @@ TEST(Skinning, DualQuaternionsCommuteWithMovesOfTheWorld)
   std::vector<Affine> transforms;
   for (int h = 0; h < 5; ++h)
   {
-    transforms.push_back(turn(random.uniform(-80, 80), random.in_box(-Vec3::Ones(), Vec3::Ones()),
-      Vec3::Zero(), random.in_box(-Vec3::Ones(), Vec3::Ones())));
+    transforms.push_back(
+      turn_about(random.uniform(-80, 80), random.in_box(-Vec3::Ones(), Vec3::Ones()), Vec3::Zero(),
+        random.in_box(-Vec3::Ones(), Vec3::Ones())));
     transforms.back().leftCols<3>() *= 1.2; // scales are blended about the pivots
   }
-  const Affine world = turn(50, Vec3(2, 1, 1), Vec3::Zero(), Vec3(7, 8, 9));
+  const Affine world = turn_about(50, Vec3(2, 1, 1), Vec3::Zero(), Vec3(7, 8, 9));
   const Affine back = affine_about(
     Vec3::Zero(), world.leftCols<3>().transpose(), -world.leftCols<3>().transpose() * world.col(3));
   const auto compose = [](const Affine& a, const Affine& b)
@@ -224,7 +219,7 @@ TEST(Skinning, NormalsStayNormalToPosedPlanes)
 {
   // A common affine map moves a plane. The transformed normals must remain normal to it.
   const Weights ones = Weights::Ones(3, 1);
-  Affine affine = turn(35, Vec3(3, 1, 2), Vec3::Zero(), Vec3(1, 2, 3));
+  Affine affine = turn_about(35, Vec3(3, 1, 2), Vec3::Zero(), Vec3(1, 2, 3));
   affine.leftCols<3>() *= Vec3(3.0, 0.5, 1.0).asDiagonal();
   Points triangle(3, 3);
   triangle << 0, 0, 0, 1, 0.2, 0.1, 0.3, 1, -0.5;
@@ -270,7 +265,7 @@ TEST(Skinning, AnyNumberOfThreadsGivesTheSameBits)
   std::vector<Affine> transforms;
   for (int h = 0; h < 5; ++h)
   {
-    transforms.push_back(turn(20.0 * h, Vec3(h, 1, 2), Vec3::Zero(), Vec3(0, h, 0)));
+    transforms.push_back(turn_about(20.0 * h, Vec3(h, 1, 2), Vec3::Zero(), Vec3(0, h, 0)));
   }
   const Points pivots = handle_pivots(rig.handles);
   const Posed one = pose_with(rig.mesh.points, rig.weights, transforms, pivots, rig.mesh.points, 1);
@@ -318,7 +313,7 @@ TEST(Skinning, ModesReadAsTranslationsAndIdentity)
   {
     handles[h].name = std::string(1, static_cast<char>('a' + h));
     handles[h].head = handles[h].tail = Vec3(static_cast<double>(h), 0, 0);
-    pose[h].transform = turn(90, Vec3(0, 0, 1), Vec3::Zero(), Vec3(0, 0, 2));
+    pose[h].transform = turn_about(90, Vec3(0, 0, 1), Vec3::Zero(), Vec3(0, 0, 2));
     pose[h].mode = static_cast<HandleMode>(h);
   }
   std::vector<Affine> transforms;
@@ -378,12 +373,12 @@ TEST(StretchableBones, WhatIsBeyondTheTailIsMovedNotScaled)
 
 TEST(StretchableBones, ATwistTurnsByTheEndpointWeightAndKeepsTheRadius)
 {
-  Points points = ring();
+  Points points = ring_of_points();
   points.col(0).setConstant(0.5);
   BoneChange bone = unit_bone;
   bone.twist = { 0.0, 180.0 };
   const Weights ones = Weights::Ones(16, 1);
-  Points quarter = moved(points, turn(90.0, Vec3::UnitX()));
+  Points quarter = moved(points, turn_about(90.0, Vec3::UnitX()));
   Points posed = stretched(points, ones, { identity_affine() }, { bone });
   EXPECT_LT((posed - quarter).cwiseAbs().maxCoeff(), 1e-15);
   // A painted endpoint weight replaces the computed weight. NaN means not painted.
@@ -391,7 +386,7 @@ TEST(StretchableBones, ATwistTurnsByTheEndpointWeightAndKeepsTheRadius)
   painted(3, 0) = std::numeric_limits<double>::quiet_NaN();
   posed = stretched(points, ones, { identity_affine() }, { bone }, painted);
   EXPECT_LT((posed.row(3) - quarter.row(3)).norm(), 1e-15);
-  quarter = moved(points, turn(45.0, Vec3::UnitX()));
+  quarter = moved(points, turn_about(45.0, Vec3::UnitX()));
   EXPECT_LT((posed.row(4) - quarter.row(4)).norm(), 1e-15);
 }
 
@@ -402,7 +397,7 @@ TEST(StretchableBones, WithoutAChangeAreLinearBlendBitForBit)
   std::vector<Affine> transforms;
   for (int h = 0; h < 5; ++h)
   {
-    transforms.push_back(turn(20.0 * h, Vec3(1, 2, h), Vec3(1, 0, 0), Vec3(0, h, -1)));
+    transforms.push_back(turn_about(20.0 * h, Vec3(1, 2, h), Vec3(1, 0, 0), Vec3(0, h, -1)));
   }
   const Points linear =
     pose_with(rig.mesh.points, rig.weights, transforms, handle_pivots(rig.handles)).linear;
@@ -414,7 +409,7 @@ TEST(StretchableBones, WithoutAChangeAreLinearBlendBitForBit)
   EXPECT_NE(posed, linear);
   EXPECT_EQ(stretched(rig.mesh.points, rig.weights, transforms, bones, Weights(), 3), posed);
   // A rigid motion of all handles is applied after stretch and twist.
-  const Affine rigid = turn(75.0, Vec3(-1, 1, 3), Vec3(2, 0, 1), Vec3(5, 6, 7));
+  const Affine rigid = turn_about(75.0, Vec3(-1, 1, 3), Vec3(2, 0, 1), Vec3(5, 6, 7));
   const Points here =
     stretched(rig.mesh.points, rig.weights, std::vector<Affine>(5, identity_affine()), bones);
   const Points there =
@@ -484,7 +479,7 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
     std::vector<BoneChange> bones;
     for (Index j = 0; j < handles; ++j)
     {
-      transforms.push_back(turn(between(-180, 180), random.in_box(-ones, ones), ones));
+      transforms.push_back(turn_about(between(-180, 180), random.in_box(-ones, ones), ones));
       transforms.back().leftCols<3>() *= between(0.5, 2.0);
       BoneChange bone{ Vec3(3, -2, 1) + random.in_box(-ones, ones), random.in_box(-ones, ones) };
       bone.stretch = random.below(3) == 0 ? 1.0 : between(-1.0, 3.0);
@@ -605,7 +600,7 @@ std::vector<Affine> wild_transforms(test::Random& random, bool shears)
   std::vector<Affine> transforms;
   for (int h = 0; h < 5; ++h)
   {
-    Affine t = turn(random.uniform(-180, 180), random.in_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)),
+    Affine t = turn_about(random.uniform(-180, 180), random.in_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)),
       Vec3(h, 0, 1), random.in_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
     if (shears)
     {
@@ -647,11 +642,6 @@ Blends blends_of(const Points& points, const Weights& weights,
       .ok());
   return blends;
 }
-
-double difference(const Points& a, const Points& b)
-{
-  return (a - b).rowwise().norm().maxCoeff();
-}
 } // namespace
 
 TEST(Skinning, SinglePrecisionIsRightToAMillionthOfTheDiagonal)
@@ -676,10 +666,10 @@ TEST(Skinning, SinglePrecisionIsRightToAMillionthOfTheDiagonal)
       }
       const Blends exact = blends_of(points, rig.weights, transforms, centers, {});
       const Blends fast = blends_of(points, rig.weights, transforms, centers, single);
-      EXPECT_LT(difference(fast.linear, exact.linear), 1e-6 * diagonal);
-      EXPECT_LT(difference(fast.dual, exact.dual), 1e-6 * diagonal);
-      EXPECT_LT(difference(fast.linear_normals, exact.linear_normals), 1e-4);
-      EXPECT_LT(difference(fast.dual_normals, exact.dual_normals), 1e-4);
+      EXPECT_LT(largest_distance(fast.linear, exact.linear), 1e-6 * diagonal);
+      EXPECT_LT(largest_distance(fast.dual, exact.dual), 1e-6 * diagonal);
+      EXPECT_LT(largest_distance(fast.linear_normals, exact.linear_normals), 1e-4);
+      EXPECT_LT(largest_distance(fast.dual_normals, exact.dual_normals), 1e-4);
       const Blends again = blends_of(points, rig.weights, transforms, centers, single, nullptr, 1);
       EXPECT_EQ(again.linear, fast.linear);
       EXPECT_EQ(again.dual, fast.dual);
@@ -719,7 +709,7 @@ TEST(Skinning, ManyInstancesAreEachLikeOne)
   {
     Points alone;
     ASSERT_TRUE(skinning.linear_blend(one, rest, transforms[i], alone).ok());
-    EXPECT_LT(difference(posed[i].cast<double>(), alone), 1e-6 * diagonal) << i;
+    EXPECT_LT(largest_distance(posed[i].cast<double>(), alone), 1e-6 * diagonal) << i;
   }
   EXPECT_EQ(posed[7], rest.cast<float>());
 
@@ -789,8 +779,8 @@ TEST(Skinning, DroppedWeightsAreCountedAndTheirErrorIsBounded)
     const Blends fewer = blends_of(rig.mesh.points, weights, transforms, pivots, options, &bound);
     EXPECT_EQ(bound.report.number("counts.dropped_weights", -1), static_cast<double>(dropped));
     EXPECT_NEAR(bound.report.number("dropped_share", -1), share, 1e-12);
-    EXPECT_LT(difference(fewer.linear, twin), 1e-12);
-    EXPECT_LE(difference(fewer.linear, exact.linear), share * reach + 1e-12);
+    EXPECT_LT(largest_distance(fewer.linear, twin), 1e-12);
+    EXPECT_LE(largest_distance(fewer.linear, exact.linear), share * reach + 1e-12);
   }
   ExecutionContext context;
   Skinning skinning;

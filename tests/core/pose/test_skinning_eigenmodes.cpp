@@ -12,14 +12,14 @@ using namespace bindpose::test;
 namespace
 {
 /// The eigenproblem of a box of tets that is fixed at x = 0.
-struct Held
+struct FixedBox
 {
   TetMesh mesh;
   SparseMatrix stiffness;
   Eigen::VectorXd mass;
   std::vector<Index> zero;
 
-  explicit Held(TetMesh box)
+  explicit FixedBox(TetMesh box)
     : mesh(std::move(box)), stiffness(stiffness_matrix(this->mesh.points, this->mesh.tets)),
       mass(lumped_mass(this->mesh.points, this->mesh.tets))
   {
@@ -38,7 +38,7 @@ struct Held
 // lambda is the square of the wave number (k - 1/2) pi / l.
 TEST(SkinningEigenmodes, OfABarHeldAtOneEndAreSines)
 {
-  const Held bar(tet_box(48, 2, 2, Vec3::Zero(), Vec3(6.0, 0.25, 0.25)));
+  const FixedBox bar(tet_box(48, 2, 2, Vec3::Zero(), Vec3(6.0, 0.25, 0.25)));
   ExecutionContext context;
   Eigenmodes found;
   ASSERT_TRUE(skinning_eigenmodes(context, bar.stiffness, bar.mass, bar.zero, 6, found).ok());
@@ -59,7 +59,7 @@ TEST(SkinningEigenmodes, OfABarHeldAtOneEndAreSines)
 TEST(SkinningEigenmodes, SolveTheProblemAndAreOrthogonal)
 {
   // The box is as wide as high, so its eigenvalues occur in pairs.
-  const Held box(tet_box(6, 5, 5));
+  const FixedBox box(tet_box(6, 5, 5));
   ExecutionContext context;
   Eigenmodes found;
   ASSERT_TRUE(skinning_eigenmodes(context, box.stiffness, box.mass, box.zero, 15, found).ok());
@@ -96,7 +96,7 @@ TEST(SkinningEigenmodes, SolveTheProblemAndAreOrthogonal)
 
 TEST(SkinningEigenmodes, SameBitsAgainAndOnManyThreads)
 {
-  const Held box(tet_box(6, 5, 5));
+  const FixedBox box(tet_box(6, 5, 5));
   Eigenmodes found[2];
   for (int i = 0; i < 2; ++i)
   {
@@ -117,7 +117,7 @@ TEST(SkinningEigenmodes, APartThatNothingHoldsMayMoveAsAWhole)
   two.points.bottomRows(n) = one.points.rowwise() + Eigen::RowVector3d(5, 0, 0);
   two.tets.conservativeResize(2 * one.tets.rows(), 4);
   two.tets.bottomRows(one.tets.rows()) = one.tets.array() + static_cast<int>(n);
-  const Held held(two);
+  const FixedBox held(two);
   ExecutionContext context;
   Eigenmodes found;
   ASSERT_TRUE(skinning_eigenmodes(context, held.stiffness, held.mass, held.zero, 4, found).ok());
@@ -129,7 +129,7 @@ TEST(SkinningEigenmodes, APartThatNothingHoldsMayMoveAsAWhole)
 
 TEST(SkinningEigenmodes, NothingFreeGivesNoModesAndCancelEnds)
 {
-  const Held box(tet_box(6, 5, 5));
+  const FixedBox box(tet_box(6, 5, 5));
   std::vector<Index> all;
   for (Index v = 0; v < box.mesh.points.rows(); ++v)
   {

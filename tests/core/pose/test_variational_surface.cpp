@@ -3,6 +3,8 @@
 #include "pose/variational_surface.h"
 
 #include "core/pose/full_arap_cases.h"
+#include "support/affines.h"
+#include "support/differences.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -69,22 +71,9 @@ struct Bump
   }
 };
 
-Affine turned(const Vec3& axis, double angle, const Vec3& shift)
+Affine rigid_motion(const Vec3& axis, double angle, const Vec3& shift)
 {
-  Affine t;
-  t.leftCols<3>() = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-  t.col(3) = shift;
-  return t;
-}
-
-Points moved(const Points& points, const Affine& t)
-{
-  return (points * t.leftCols<3>().transpose()).rowwise() + t.col(3).transpose();
-}
-
-double difference(const Points& a, const Points& b)
-{
-  return (a - b).cwiseAbs().maxCoeff();
+  return affine(Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix(), shift);
 }
 
 /// Return a strip of the cylinder of radius 1 around the x axis.
@@ -137,7 +126,7 @@ TEST(VariationalSurface, RestIsRestWhateverTheMesh)
     bump.options.boundary = boundary;
     bump.pose[0].transform = identity_affine();
     ASSERT_TRUE(bump.solve().ok());
-    EXPECT_EQ(difference(bump.surface.posed(), bump.mesh.points), 0.0);
+    EXPECT_EQ(largest_difference(bump.surface.posed(), bump.mesh.points), 0.0);
   }
 }
 
@@ -155,7 +144,7 @@ TEST(VariationalSurface, AMotionOfAllThatIsHeldMovesAll)
   for (const Case& c :
     { Case{ true, true, 1.1 }, Case{ true, false, 0.0 }, Case{ false, false, 1.1 } })
   {
-    const Affine motion = turned(Vec3(1, 2, 3), c.angle, shift);
+    const Affine motion = rigid_motion(Vec3(1, 2, 3), c.angle, shift);
     Bump bump;
     bump.mesh = c.bent ? bent_square() : bump.mesh;
     bump.options.fixed.clear();
@@ -171,7 +160,7 @@ TEST(VariationalSurface, AMotionOfAllThatIsHeldMovesAll)
     const Points rest = bump.surface.posed();
     bump.pose[0].transform = motion;
     ASSERT_TRUE(bump.surface.solve(bump.context, bump.pose).ok());
-    EXPECT_LT(difference(bump.surface.posed(), moved(rest, motion)), 1e-12);
+    EXPECT_LT(largest_difference(bump.surface.posed(), moved(rest, motion)), 1e-12);
     EXPECT_EQ(bump.surface.factorizations(), 1);
   }
 }
@@ -189,7 +178,7 @@ TEST(VariationalSurface, AMeshElsewhereAndOfAnotherSizeIsThatMesh)
       bump.options.fair = true;
       ASSERT_TRUE(bump.solve().ok());
       const Points here = bump.surface.posed();
-      const Affine motion = turned(Vec3(-1, 2, 1), 2.0, Vec3(3.0, 1.0, -4.0));
+      const Affine motion = rigid_motion(Vec3(-1, 2, 1), 2.0, Vec3(3.0, 1.0, -4.0));
       const double scale = 1000.0;
       Bump other;
       other.options = bump.options;
@@ -197,7 +186,7 @@ TEST(VariationalSurface, AMeshElsewhereAndOfAnotherSizeIsThatMesh)
       const Vec3 up = scale * motion.leftCols<3>() * Vec3(0, 0, 0.4);
       other.pose[0].transform.col(3) = up;
       ASSERT_TRUE(other.solve().ok());
-      EXPECT_LT(difference(other.surface.posed() / scale, moved(here, motion)), 1e-10);
+      EXPECT_LT(largest_difference(other.surface.posed() / scale, moved(here, motion)), 1e-10);
     }
   }
 }
@@ -211,11 +200,11 @@ TEST(VariationalSurface, MovingAHandleDoesNotFactorAgain)
   ASSERT_TRUE(bump.surface.solve(bump.context, bump.pose).ok());
   const Points flat = bump.mesh.points;
   // The result is a linear function of the pose.
-  EXPECT_LT(difference(bump.surface.posed() - flat, 2.0 * (once - flat)), 1e-13);
+  EXPECT_LT(largest_difference(bump.surface.posed() - flat, 2.0 * (once - flat)), 1e-13);
   EXPECT_EQ(bump.surface.factorizations(), 1);
   bump.pose[0].mode = HandleMode::free;
   ASSERT_TRUE(bump.surface.solve(bump.context, bump.pose).ok());
-  EXPECT_EQ(difference(bump.surface.posed(), flat), 0.0);
+  EXPECT_EQ(largest_difference(bump.surface.posed(), flat), 0.0);
   EXPECT_EQ(bump.surface.factorizations(), 2);
 }
 
@@ -255,7 +244,7 @@ TEST(VariationalSurface, AFlatPatchFairedOnItsOwnPlaneIsItself)
     const Points flat = bump.mesh.points;
     bump.mesh.points = noisy;
     ASSERT_TRUE(bump.solve().ok());
-    EXPECT_LT(difference(bump.surface.posed(), flat), 1e-12) << to_string(boundary);
+    EXPECT_LT(largest_difference(bump.surface.posed(), flat), 1e-12) << to_string(boundary);
   }
 }
 
@@ -272,7 +261,7 @@ TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
   const Points around = bump.surface.posed();
   bump.options.tangent_source = PatchTangents::clamped;
   ASSERT_TRUE(bump.solve().ok());
-  EXPECT_GT(difference(bump.surface.posed(), around), 1e-3); // clamped tangents make a cusp
+  EXPECT_GT(largest_difference(bump.surface.posed(), around), 1e-3); // clamped tangents make a cusp
   // If displacements are smoothed, clamped tangents keep those of the rest shape.
   bump.options.fair = false;
   bump.handles = { point_handle("p", Vec3(0.5, 0.5, 0.0)) };
@@ -282,7 +271,7 @@ TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
   const Points clamped = bump.surface.posed();
   bump.options.tangent_source = PatchTangents::surroundings;
   ASSERT_TRUE(bump.solve().ok());
-  EXPECT_EQ(difference(bump.surface.posed(), clamped), 0.0);
+  EXPECT_EQ(largest_difference(bump.surface.posed(), clamped), 0.0);
 }
 
 TEST(VariationalSurface, ACurveAloneIsAMembrane)
@@ -296,7 +285,7 @@ TEST(VariationalSurface, ACurveAloneIsAMembrane)
     const Status status = bump.solve();
     ASSERT_TRUE(status.ok());
     membrane = order == 1 ? bump.surface.posed() : membrane;
-    EXPECT_LT(difference(bump.surface.posed(), membrane), 1e-12);
+    EXPECT_LT(largest_difference(bump.surface.posed(), membrane), 1e-12);
     EXPECT_EQ(status.warnings.size(), order == 1 ? 0u : 1u);
   }
 }

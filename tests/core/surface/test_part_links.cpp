@@ -26,7 +26,7 @@ Vec3 random_point(std::mt19937& random, double size)
   return { x, y, along(random) };
 }
 
-Corners corners(const TriangleMesh& mesh, Index f)
+Corners corners_of_triangle(const TriangleMesh& mesh, Index f)
 {
   return { mesh.points.row(mesh.triangles(f, 0)), mesh.points.row(mesh.triangles(f, 1)),
     mesh.points.row(mesh.triangles(f, 2)) };
@@ -74,7 +74,8 @@ double shortest_forest(const Shape& shape, const std::vector<char>& held)
       if (shape.parts[f] != shape.parts[g])
       {
         std::array<Vec3, 2> places;
-        edges.push_back({ nearest_places(corners(shape.mesh, f), corners(shape.mesh, g), places),
+        edges.push_back({ nearest_places(corners_of_triangle(shape.mesh, f),
+                            corners_of_triangle(shape.mesh, g), places),
           shape.parts[f], shape.parts[g] });
       }
     }
@@ -176,8 +177,8 @@ TEST(PartLinks, AreTheShortestForestOfAllPairs)
       {
         std::array<Vec3, 2> on;
         const Vec3& place = link.places[k];
-        EXPECT_LT(
-          nearest_places({ place, place, place }, corners(shape.mesh, link.triangles[k]), on),
+        EXPECT_LT(nearest_places({ place, place, place },
+                    corners_of_triangle(shape.mesh, link.triangles[k]), on),
           1e-12);
       }
     }

@@ -57,20 +57,6 @@ void expect_the_counts(const Listed& listed)
   EXPECT_EQ(count(Defect::self_intersection) == 0, found.self_intersections == 0);
   EXPECT_EQ(count(Defect::inward_component) == 0, found.inward_components == 0);
 }
-
-/// Return the mesh with separate vertices for every triangle.
-TriangleMesh soup(const TriangleMesh& mesh)
-{
-  TriangleMesh result;
-  result.points.resize(3 * mesh.triangles.rows(), 3);
-  result.triangles.resize(mesh.triangles.rows(), 3);
-  for (Index k = 0; k < mesh.triangles.size(); ++k)
-  {
-    result.points.row(k) = mesh.points.row(mesh.triangles.data()[k]);
-    result.triangles.data()[k] = k;
-  }
-  return result;
-}
 } // namespace
 
 TEST(SurfaceDefects, ACleanSurfaceHasNone)
@@ -96,7 +82,7 @@ TEST(SurfaceDefects, AnOpenCubeShowsItsRim)
 
 TEST(SurfaceDefects, LooseTrianglesAreDuplicateVerticesNotEdges)
 {
-  const Listed found = listed(soup(test::cube()));
+  const Listed found = listed(test::unwelded(test::cube()));
   expect_the_counts(found);
   EXPECT_EQ(found.places.size(), 36u - 8u);
   EXPECT_EQ(found.of(Defect::duplicate_vertex).size(), found.places.size());

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 namespace
 {
 /// Solve with the weight method that has this word in the registry.
-WeightsResult solve(const WeightsProblem& problem, const char* word,
+WeightsResult solve_by_word(const WeightsProblem& problem, const char* word,
   const WeightsOptions& options = {}, Status* status = nullptr)
 {
   ExecutionContext context;
@@ -41,7 +41,7 @@ WeightsResult solve(const WeightsProblem& problem, const char* word,
 WeightsResult baseline(
   const WeightsProblem& problem, const char* word, const WeightsOptions& options = {})
 {
-  WeightsResult result = solve(problem, word, options);
+  WeightsResult result = solve_by_word(problem, word, options);
   EXPECT_LE((result.weights.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
   return result;
 }
@@ -60,7 +60,7 @@ double affine_error(const WeightsProblem& problem, const WeightsResult& result)
   return (result.raw * handles - problem.mesh.domain.points).cwiseAbs().maxCoeff();
 }
 
-double difference(const WeightsResult& a, const WeightsResult& b)
+double difference_of_weights(const WeightsResult& a, const WeightsResult& b)
 {
   return (a.weights - b.weights).cwiseAbs().maxCoeff();
 }
@@ -120,12 +120,12 @@ TEST(LinearSubspace, PointsCarryAffineMaps)
   const WeightsProblem box = problem_of(test::to_domain(test::tet_box(5, 4, 6)),
     test::point_handles({ Vec3(0.1, 0.2, 0.1), Vec3(0.9, 0.1, 0.3), Vec3(0.2, 0.9, 0.4),
       Vec3(0.5, 0.5, 0.95), Vec3(0.8, 0.7, 0.6) }));
-  EXPECT_LT(affine_error(box, solve(box, "linear-subspace")), 1e-9);
-  EXPECT_GT(affine_error(box, solve(box, "biharmonic")), 1e-2);
+  EXPECT_LT(affine_error(box, solve_by_word(box, "linear-subspace")), 1e-9);
+  EXPECT_GT(affine_error(box, solve_by_word(box, "biharmonic")), 1e-2);
   const WeightsProblem square =
     problem_of(test::to_domain(test::grid(20, 20)), test::five_points());
-  EXPECT_LT(affine_error(square, solve(square, "linear-subspace")), 1e-9);
-  EXPECT_GT(affine_error(square, solve(square, "biharmonic")), 1e-2);
+  EXPECT_LT(affine_error(square, solve_by_word(square, "linear-subspace")), 1e-9);
+  EXPECT_GT(affine_error(square, solve_by_word(square, "biharmonic")), 1e-2);
 }
 
 TEST(LinearSubspace, HandlesThatDoNotSpanAreAWarning)
@@ -133,7 +133,7 @@ TEST(LinearSubspace, HandlesThatDoNotSpanAreAWarning)
   Status status;
   const WeightsProblem two = problem_of(test::to_domain(test::grid(12, 12)),
     test::point_handles({ Vec3(0.2, 0.5, 0.0), Vec3(0.8, 0.5, 0.0) }));
-  const WeightsResult weights = solve(two, "linear-subspace", {}, &status);
+  const WeightsResult weights = solve_by_word(two, "linear-subspace", {}, &status);
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("do not span"));
   // The result is nearly linear along the line through the two handles.
@@ -147,7 +147,9 @@ TEST(LinearSubspace, OnClosedSurfacesItIsBiharmonic)
 {
   const WeightsProblem sphere = problem_of(test::to_domain(test::sphere(2)),
     test::point_handles({ Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1) }));
-  EXPECT_LT(difference(solve(sphere, "linear-subspace"), solve(sphere, "biharmonic")), 1e-8);
+  EXPECT_LT(difference_of_weights(
+              solve_by_word(sphere, "linear-subspace"), solve_by_word(sphere, "biharmonic")),
+    1e-8);
 }
 
 TEST(GraphBiharmonic, DependsOnTheMesh)
@@ -164,7 +166,7 @@ TEST(GraphBiharmonic, DependsOnTheMesh)
   const WeightsProblem problem = problem_of(warped.domain, warped.handles, warped.region_ids);
   const auto error = [&](const char* method)
   {
-    const WeightsResult result = solve(problem, method);
+    const WeightsResult result = solve_by_word(problem, method);
     double largest = 0.0;
     for (Index v = 0; v < problem.vertex_count(); ++v)
     {
@@ -237,17 +239,19 @@ TEST(SmoothedHarmonic, LiesBetweenHarmonicAndBiharmonic)
 {
   const WeightsProblem problem =
     problem_of(test::to_domain(test::grid(24, 24)), test::five_points());
-  const WeightsResult harmonic = solve(problem, "harmonic");
-  const WeightsResult biharmonic = solve(problem, "biharmonic");
+  const WeightsResult harmonic = solve_by_word(problem, "harmonic");
+  const WeightsResult biharmonic = solve_by_word(problem, "biharmonic");
   WeightsOptions options;
   options.smoothing = 0.0;
-  EXPECT_LT(difference(baseline(problem, "smoothed-harmonic", options), harmonic), 1e-12);
+  EXPECT_LT(
+    difference_of_weights(baseline(problem, "smoothed-harmonic", options), harmonic), 1e-12);
   options.smoothing = 1e3;
-  EXPECT_LT(difference(baseline(problem, "smoothed-harmonic", options), biharmonic), 1e-6);
+  EXPECT_LT(
+    difference_of_weights(baseline(problem, "smoothed-harmonic", options), biharmonic), 1e-6);
   options.smoothing = 0.05;
   const WeightsResult between = baseline(problem, "smoothed-harmonic", options);
-  EXPECT_GT(difference(between, harmonic), 0.02);
-  EXPECT_GT(difference(between, biharmonic), 0.02);
+  EXPECT_GT(difference_of_weights(between, harmonic), 0.02);
+  EXPECT_GT(difference_of_weights(between, biharmonic), 0.02);
 }
 
 TEST(BoneHeat, GoesFromHarmonicToNearest)
@@ -256,7 +260,9 @@ TEST(BoneHeat, GoesFromHarmonicToNearest)
     problem_of(test::to_domain(test::grid(24, 24)), test::five_points());
   WeightsOptions options;
   options.heat = 1e-12;
-  EXPECT_LT(difference(baseline(problem, "bone-heat", options), solve(problem, "harmonic")), 1e-8);
+  EXPECT_LT(difference_of_weights(
+              baseline(problem, "bone-heat", options), solve_by_word(problem, "harmonic")),
+    1e-8);
   options.heat = 1e12;
   const WeightsResult nearest = baseline(problem, "bone-heat", options);
   for (Index v = 0; v < problem.vertex_count(); ++v)

@@ -24,7 +24,7 @@ Index euler(const Triangles& triangles)
 }
 
 /// Return the unit square, divided into 8 x 8 cells.
-TriangleMesh square()
+TriangleMesh square_of_cells()
 {
   return test::grid(8, 8);
 }
@@ -59,7 +59,7 @@ Index count(const BoneCut& cut, Index side)
 
 TEST(BoneCut, ASlitInsideIsAHole)
 {
-  const TriangleMesh mesh = square();
+  const TriangleMesh mesh = square_of_cells();
   const Handles bones{ test::bone_handle("b", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)) };
   const BoneCut result = cut(mesh, bones);
   // Five vertices are on the bone, two of them are its ends.
@@ -90,7 +90,7 @@ TEST(BoneCut, ASlitInsideIsAHole)
 
 TEST(BoneCut, ABoneFromEdgeToEdgeMakesTwoPieces)
 {
-  const TriangleMesh mesh = square();
+  const TriangleMesh mesh = square_of_cells();
   const Handles bones{ test::bone_handle("b", Vec3(0.5, 0, 0), Vec3(0.5, 1, 0)) };
   const BoneCut result = cut(mesh, bones);
   EXPECT_EQ(result.points.rows() - mesh.points.rows(), 9);
@@ -101,7 +101,7 @@ TEST(BoneCut, ABoneFromEdgeToEdgeMakesTwoPieces)
 
 TEST(BoneCut, BonesThatMeetAndCross)
 {
-  const TriangleMesh mesh = square();
+  const TriangleMesh mesh = square_of_cells();
   // The cross touches no boundary, so it makes one hole. The vertex in its middle becomes four
   // points.
   const Handles cross{ test::bone_handle("a", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)),
@@ -157,7 +157,7 @@ TEST(BoneCut, BonesOfOneEdgeEachOpenTogether)
 
 TEST(BoneCut, ABoneOnTheBoundaryHasOneSide)
 {
-  const TriangleMesh mesh = square();
+  const TriangleMesh mesh = square_of_cells();
   const Handles bones{ test::bone_handle("b", Vec3(0, 0, 0), Vec3(1, 0, 0)) };
   const BoneCut result = cut(mesh, bones);
   EXPECT_EQ(result.points.rows(), mesh.points.rows());
@@ -167,7 +167,7 @@ TEST(BoneCut, ABoneOnTheBoundaryHasOneSide)
 
 TEST(BoneCut, OtherHandlesAreNoCuts)
 {
-  const TriangleMesh mesh = square();
+  const TriangleMesh mesh = square_of_cells();
   const Handles handles{ test::point_handle("p", Vec3(0.125, 0.125, 0)),
     test::bone_handle("b", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)) };
   const BoneCut result = cut(mesh, handles);
@@ -180,7 +180,7 @@ TEST(BoneCut, WhatCannotBeCutIsOneSentence)
 {
   ExecutionContext context;
   BoneCut result;
-  const TriangleMesh mesh = square();
+  const TriangleMesh mesh = square_of_cells();
   const auto message = [&](const TriangleMesh& m, const Handles& handles)
   {
     const Status status = cut_along_bones(m.points, m.triangles, handles, {}, context, result);

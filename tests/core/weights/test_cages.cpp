@@ -13,19 +13,14 @@
 #include <gtest/gtest.h>
 
 using namespace bindpose;
+using test::bounded;
+using test::cage_vertex_handle;
 using test::problem_of;
 using testing::HasSubstr;
 
 namespace
 {
 using CagesInTets = test::NeedsMesher;
-
-Handle cage_vertex(const std::string& name, const Vec3& at)
-{
-  Handle handle = test::point_handle(name, at);
-  handle.kind = HandleKind::cage_vertex;
-  return handle;
-}
 
 /// Return a polyline of cage edges, closed or open.
 Handles polyline(const std::vector<Vec3>& corners, bool closed)
@@ -34,7 +29,7 @@ Handles polyline(const std::vector<Vec3>& corners, bool closed)
   const auto count = static_cast<Index>(corners.size());
   for (Index i = 0; i < count; ++i)
   {
-    handles.push_back(cage_vertex("c" + std::to_string(i), corners[i]));
+    handles.push_back(cage_vertex_handle("c" + std::to_string(i), corners[i]));
     if (closed || i + 1 < count)
     {
       handles.back().cage.push_back({ i, (i + 1) % count, -1 });
@@ -50,7 +45,7 @@ Handles cube_cage(double half)
   Handles handles;
   for (Index v = 0; v < cube.points.rows(); ++v)
   {
-    handles.push_back(cage_vertex("c" + std::to_string(v), cube.points.row(v)));
+    handles.push_back(cage_vertex_handle("c" + std::to_string(v), cube.points.row(v)));
   }
   for (Index f = 0; f < cube.triangles.rows(); ++f)
   {
@@ -58,15 +53,6 @@ Handles cube_cage(double half)
     handles[face[0]].cage.push_back({ face[0], face[1], face[2] });
   }
   return handles;
-}
-
-WeightsResult bounded(const WeightsProblem& problem)
-{
-  ExecutionContext context;
-  WeightsResult result;
-  const Status status = bounded_biharmonic_weights(problem, {}, context, result);
-  EXPECT_TRUE(status.ok()) << status.message;
-  return result;
 }
 
 /// Expect that the weights along the element from corner a to corner b (and c) are barycentric

@@ -22,18 +22,19 @@ namespace
 {
 using SurfaceWeightsInTets = test::NeedsMesher;
 
-Status bounded(const WeightsProblem& problem, ExecutionContext& context, WeightsResult& result)
+Status bounded_method(
+  const WeightsProblem& problem, ExecutionContext& context, WeightsResult& result)
 {
   return bounded_biharmonic_weights(problem, {}, context, result);
 }
 
-Status solve(const TriangleMesh& mesh, const Handles& handles, const SurfaceWeightsOptions& options,
-  SurfaceWeights& result, int threads = 0)
+Status solve_surface_weights(const TriangleMesh& mesh, const Handles& handles,
+  const SurfaceWeightsOptions& options, SurfaceWeights& result, int threads = 0)
 {
   ExecutionContext context;
   context.set_threads(threads);
   return surface_weights(
-    mesh.points, mesh.triangles, {}, handles, options, {}, bounded, context, result);
+    mesh.points, mesh.triangles, {}, handles, options, {}, bounded_method, context, result);
 }
 
 SurfaceWeightsOptions in(WeightsDomain domain, Index resolution = 0)
@@ -77,7 +78,7 @@ TEST_F(SurfaceWeightsInTets, OfTheVolumeAreTheStagesByHand)
 {
   const TriangleMesh mesh = long_box();
   SurfaceWeights result;
-  Status status = solve(mesh, three_along(), in(WeightsDomain::volume), result);
+  Status status = solve_surface_weights(mesh, three_along(), in(WeightsDomain::volume), result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.text("domain"), "volume");
   EXPECT_EQ(status.report.text("tetrahedralize.method"), "cdt");
@@ -93,7 +94,7 @@ TEST_F(SurfaceWeightsInTets, OfTheVolumeAreTheStagesByHand)
   ASSERT_TRUE(
     make_weights_problem(test::to_domain(tets.mesh), {}, three_along(), {}, context, problem).ok());
   WeightsResult solved;
-  ASSERT_TRUE(bounded(problem, context, solved).ok());
+  ASSERT_TRUE(bounded_method(problem, context, solved).ok());
   Weights carried;
   TransferCounts counts;
   ASSERT_TRUE(
@@ -110,14 +111,15 @@ TEST(SurfaceWeights, OfTheEmbeddingAreNearThoseOfAFineVolume)
   ASSERT_TRUE(
     make_weights_problem(test::to_domain(fine), {}, three_along(), {}, context, problem).ok());
   WeightsResult solved;
-  ASSERT_TRUE(bounded(problem, context, solved).ok());
+  ASSERT_TRUE(bounded_method(problem, context, solved).ok());
   Weights truth;
   TransferCounts counts;
   ASSERT_TRUE(
     transfer(problem.mesh.domain, solved.weights, mesh.points, {}, context, truth, counts).ok());
 
   SurfaceWeights result;
-  const Status status = solve(mesh, three_along(), in(WeightsDomain::embedding), result);
+  const Status status =
+    solve_surface_weights(mesh, three_along(), in(WeightsDomain::embedding), result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.text("domain"), "embedding");
   expect_weights(result.weights, mesh.points.rows(), 3);
@@ -146,7 +148,8 @@ TEST(SurfaceWeights, ProngsThatAreNearButNotConnectedDoNotShareWeights)
   const Handles handles{ test::point_handle("base", { -0.3, 0.5, 0.25 }),
     test::point_handle("a", { 3.8, 0.25, 0.25 }), test::point_handle("b", { 3.8, 0.8, 0.25 }) };
   SurfaceWeights result;
-  const Status status = solve(fork, handles, in(WeightsDomain::embedding, 13), result);
+  const Status status =
+    solve_surface_weights(fork, handles, in(WeightsDomain::embedding, 13), result);
   ASSERT_TRUE(status.usable()) << status.message;
   for (Index v = 0; v < fork.points.rows(); ++v)
   {
@@ -167,7 +170,7 @@ TEST(SurfaceWeights, BonesInPartsThatShareTetsFindTheirOwn)
     boundary_triangles(test::tet_box(16, 16, 1).tets) };
   const TriangleMesh slabs = test::join(below, test::translated(below, Vec3(0, 0, 0.15)));
   SurfaceWeights result;
-  const Status status = solve(slabs,
+  const Status status = solve_surface_weights(slabs,
     { test::bone_handle("low", { 0.5, 2, 0.05 }, { 3.5, 2, 0.05 }),
       test::bone_handle("high", { 0.5, 2, 0.2 }, { 3.5, 2, 0.2 }) },
     in(WeightsDomain::embedding, 8), result);
@@ -198,7 +201,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsTheHandleNearestToItsSurface)
     SurfaceWeightsOptions options = in(WeightsDomain::embedding, resolution);
     options.guard = false;
     SurfaceWeights result;
-    const Status status = solve(shape, handles, options, result);
+    const Status status = solve_surface_weights(shape, handles, options, result);
     ASSERT_TRUE(status.ok()) << status.message;
     for (Index v = bars.points.rows(); v < shape.points.rows(); ++v)
     {
@@ -230,7 +233,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
     SurfaceWeightsOptions options = in(WeightsDomain::embedding, resolution);
     options.guard = false;
     SurfaceWeights result;
-    const Status status = solve(shape, handles, options, result);
+    const Status status = solve_surface_weights(shape, handles, options, result);
     ASSERT_TRUE(status.ok()) << status.message;
     EXPECT_THAT(status.warnings, testing::Contains(HasSubstr("2 connected parts have no handle")));
     EXPECT_EQ(status.report.number("counts.linked_parts", 0.0), 2.0);
@@ -310,26 +313,27 @@ TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
 {
   const Handles handles = three_along();
   SurfaceWeights result;
-  Status status = solve(long_box(), handles, {}, result);
+  Status status = solve_surface_weights(long_box(), handles, {}, result);
   EXPECT_EQ(result.domain, WeightsDomain::volume);
   EXPECT_EQ(
     status.report.text("domain_reason"), "the surface is closed and its tets are well shaped");
 
   const TriangleMesh flat = test::grid(16, 4, 4.0, 1.0);
-  status = solve(flat, { handles[0], handles[1] }, {}, result);
+  status = solve_surface_weights(flat, { handles[0], handles[1] }, {}, result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(result.domain, WeightsDomain::surface);
   expect_weights(result.weights, flat.points.rows(), 2);
 
   TriangleMesh sheet = flat;
   sheet.points.col(2) = 1e-2 * sheet.points.col(0).array().square();
-  status = solve(sheet, { handles[0], handles[1] }, {}, result);
+  status = solve_surface_weights(sheet, { handles[0], handles[1] }, {}, result);
   ASSERT_TRUE(status.usable()) << status.message;
   EXPECT_EQ(result.domain, WeightsDomain::embedding);
   EXPECT_EQ(status.report.text("domain_reason"), "the surface is not closed");
   expect_weights(result.weights, sheet.points.rows(), 2);
 
-  status = solve(sheet, { handles[0], handles[1] }, in(WeightsDomain::volume), result);
+  status =
+    solve_surface_weights(sheet, { handles[0], handles[1] }, in(WeightsDomain::volume), result);
   // The status may be a failure. Then the tets do not fill enough of the region where the sheet's
   // winding number is high.
   if (status.usable())
@@ -339,7 +343,7 @@ TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
 
   const TriangleMesh dense = test::sphere(5, 2.0, Vec3(2, 0, 0));
   ASSERT_GT(dense.triangles.rows(), 20000);
-  status = solve(dense, handles, {}, result);
+  status = solve_surface_weights(dense, handles, {}, result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(result.domain, WeightsDomain::embedding);
   EXPECT_EQ(status.report.text("domain_reason"), "the surface has many triangles");
@@ -355,7 +359,7 @@ TEST_F(SurfaceWeightsInTets, TheEmbeddingTakesOverWhereTheVolumeFails)
       [&](const WeightsProblem& problem, ExecutionContext& context, WeightsResult& result)
     {
       const bool lattice = problem.mesh.domain.shares.size() > 0;
-      const Status status = bounded(problem, context, result);
+      const Status status = bounded_method(problem, context, result);
       return lattice ? status : failure;
     };
     const auto run = [&](WeightsDomain domain, SurfaceWeights& result)
@@ -395,7 +399,7 @@ TEST_F(SurfaceWeightsInTets, ACoarserLatticeServesWhereTheFinerOneDoesNotConverg
     box.points, box.triangles, {}, three_along(), in(WeightsDomain::embedding), {},
     [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
     {
-      Status solved = bounded(problem, of_method, weights);
+      Status solved = bounded_method(problem, of_method, weights);
       solved.code = ++calls == 2 ? StatusCode::not_converged : solved.code;
       return solved;
     },
@@ -427,7 +431,7 @@ TEST(SurfaceWeights, PreviewComesFirstAndItsDifferenceIsReported)
     [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
     {
       solved = true;
-      return bounded(problem, of_method, weights);
+      return bounded_method(problem, of_method, weights);
     },
     context, result);
   ASSERT_TRUE(status.ok()) << status.message;
@@ -445,9 +449,9 @@ TEST(SurfaceWeights, RawOnesAreCarriedOnlyWhenAskedForAndChangeNothing)
   SurfaceWeightsOptions options = in(WeightsDomain::embedding);
   options.guard = false;
   SurfaceWeights without, with;
-  ASSERT_TRUE(solve(mesh, three_along(), options, without).usable());
+  ASSERT_TRUE(solve_surface_weights(mesh, three_along(), options, without).usable());
   options.keep_raw = true;
-  ASSERT_TRUE(solve(mesh, three_along(), options, with).usable());
+  ASSERT_TRUE(solve_surface_weights(mesh, three_along(), options, with).usable());
   EXPECT_EQ(without.raw.cols(), 0);
   EXPECT_EQ(with.weights, without.weights);
   ASSERT_EQ(with.raw.rows(), mesh.points.rows());
@@ -462,8 +466,12 @@ TEST(SurfaceWeights, RawOnesAreCarriedOnlyWhenAskedForAndChangeNothing)
 TEST(SurfaceWeights, AreTheSameBitsOnAnyNumberOfThreads)
 {
   SurfaceWeights one, many;
-  ASSERT_TRUE(solve(long_box(), three_along(), in(WeightsDomain::embedding, 16), one, 1).usable());
-  ASSERT_TRUE(solve(long_box(), three_along(), in(WeightsDomain::embedding, 16), many, 4).usable());
+  ASSERT_TRUE(
+    solve_surface_weights(long_box(), three_along(), in(WeightsDomain::embedding, 16), one, 1)
+      .usable());
+  ASSERT_TRUE(
+    solve_surface_weights(long_box(), three_along(), in(WeightsDomain::embedding, 16), many, 4)
+      .usable());
   EXPECT_TRUE((one.weights.array() == many.weights.array()).all());
 }
 
@@ -476,7 +484,8 @@ TEST(SurfaceWeights, PointsOfTheSurfaceThatAreHandlesHaveTheirRows)
     handles.push_back(test::point_handle("h" + std::to_string(v), mesh.points.row(v)));
   }
   SurfaceWeights result;
-  ASSERT_TRUE(solve(mesh, handles, in(WeightsDomain::embedding, 14), result).usable());
+  ASSERT_TRUE(
+    solve_surface_weights(mesh, handles, in(WeightsDomain::embedding, 14), result).usable());
   Index j = 0;
   for (const Index v : { 0, 77, 201, 333, 512, 640 })
   {
@@ -510,22 +519,23 @@ TEST(SurfaceWeights, RefusesWhatItCannotUse)
   SurfaceWeights result;
   const TriangleMesh mesh = test::sphere(2);
   const Handles handles{ test::point_handle("p", { 0, 0, 0.5 }) };
-  EXPECT_THAT(solve(mesh, handles, in(WeightsDomain::embedding, 3), result).message,
+  EXPECT_THAT(solve_surface_weights(mesh, handles, in(WeightsDomain::embedding, 3), result).message,
     HasSubstr("between 6 and 1000"));
-  EXPECT_EQ(solve(mesh, {}, {}, result).code, StatusCode::invalid_input);
+  EXPECT_EQ(solve_surface_weights(mesh, {}, {}, result).code, StatusCode::invalid_input);
   ExecutionContext context;
   const std::vector<Index> regions(static_cast<std::size_t>(mesh.points.rows()), 1);
-  Status status = surface_weights(mesh.points, mesh.triangles, regions,
-    { test::region_handle("r", 1) }, in(WeightsDomain::embedding), {}, bounded, context, result);
+  Status status =
+    surface_weights(mesh.points, mesh.triangles, regions, { test::region_handle("r", 1) },
+      in(WeightsDomain::embedding), {}, bounded_method, context, result);
   EXPECT_THAT(status.message, HasSubstr("regions need tets"));
   status = surface_weights(
-    mesh.points, mesh.triangles, { 1, 2 }, handles, {}, {}, bounded, context, result);
+    mesh.points, mesh.triangles, { 1, 2 }, handles, {}, {}, bounded_method, context, result);
   EXPECT_THAT(status.message, HasSubstr("2 region labels"));
   SurfaceWeightsOptions canceled = in(WeightsDomain::embedding);
   ExecutionContext stopped;
   stopped.request_cancel();
-  EXPECT_EQ(surface_weights(
-              mesh.points, mesh.triangles, {}, handles, canceled, {}, bounded, stopped, result)
+  EXPECT_EQ(surface_weights(mesh.points, mesh.triangles, {}, handles, canceled, {}, bounded_method,
+              stopped, result)
               .code,
     StatusCode::canceled);
 }

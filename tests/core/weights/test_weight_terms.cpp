@@ -37,7 +37,7 @@ struct Solved
   }
 };
 
-Solved solve(const Domain& domain, const Handles& handles, const WeightsOptions& options,
+Solved solve_with_terms(const Domain& domain, const Handles& handles, const WeightsOptions& options,
   const std::vector<Index>& regions = {}, WeightsKernel kernel = bounded_biharmonic_weights)
 {
   Solved solved;
@@ -152,7 +152,7 @@ TEST(WeightTerms, BoundsAndPinsAreTheDenseMinimizer)
   options.terms.lower = no_values(domain, handles);
   options.terms.upper = no_values(domain, handles);
   options.terms.pinned = no_values(domain, handles);
-  const WeightsProblem plain = solve(domain, handles, WeightsOptions()).problem;
+  const WeightsProblem plain = solve_with_terms(domain, handles, WeightsOptions()).problem;
   for (Index v = 0; v < domain.points.rows(); ++v)
   {
     if (plain.constraints.roles[v] != VertexRole::solved)
@@ -168,7 +168,7 @@ TEST(WeightTerms, BoundsAndPinsAreTheDenseMinimizer)
         kind > 0.55 && kind < 0.6 ? 0.25 * uniform(random) : std::nan("");
     }
   }
-  const Solved solved = solve(domain, handles, options);
+  const Solved solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   const Eigen::MatrixXd q = Eigen::MatrixXd(solved.problem.energy(2));
   for (Index j = 0; j < 3; ++j)
@@ -216,7 +216,7 @@ TEST(WeightTerms, BoundsOfHandlesWidenTheBox)
   options.terms.handle_bounds.resize(5, 2);
   options.terms.handle_bounds.col(0).setConstant(-3.0);
   options.terms.handle_bounds.col(1).setConstant(4.0);
-  const Solved wide = solve(domain, handles, options);
+  const Solved wide = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(wide.status.ok()) << wide.status.message;
   ExecutionContext context;
   WeightsResult free;
@@ -230,7 +230,7 @@ TEST(WeightTerms, BoundsOfHandlesWidenTheBox)
   WeightsOptions pinned;
   pinned.terms.pinned = no_values(domain, one);
   pinned.terms.pinned(400, 0) = 1.0;
-  EXPECT_EQ(solve(domain, one, pinned).result.raw.minCoeff(), 1.0);
+  EXPECT_EQ(solve_with_terms(domain, one, pinned).result.raw.minCoeff(), 1.0);
 }
 
 TEST(WeightTerms, WhatContradictsIsNamed)
@@ -242,7 +242,7 @@ TEST(WeightTerms, WhatContradictsIsNamed)
     WeightsOptions options;
     options.terms.lower = options.terms.upper = options.terms.pinned = no_values(domain, handles);
     change(options.terms);
-    return solve(domain, handles, options).status;
+    return solve_with_terms(domain, handles, options).status;
   };
   expect_error(with(
                  [](WeightTerms& terms)
@@ -288,7 +288,7 @@ TEST(WeightTerms, WhatContradictsIsNamed)
   WeightsResult result;
   WeightsOptions painted;
   painted.terms.rigidity = Eigen::VectorXd::Ones(81);
-  const WeightsProblem problem = solve(domain, handles, painted).problem;
+  const WeightsProblem problem = solve_with_terms(domain, handles, painted).problem;
   expect_error(biharmonic_weights(problem, {}, context, result), { "bounded and monotone" });
 }
 
@@ -308,7 +308,7 @@ TEST(WeightTerms, GradientsFallWithRigidity)
       options.terms.rigidity[v] = x > 0.45 && x < 0.75 ? paint : 0.0;
     }
     options.tolerance = 1e-9;
-    const Solved solved = solve(bar.domain, bar.handles, options, bar.region_ids);
+    const Solved solved = solve_with_terms(bar.domain, bar.handles, options, bar.region_ids);
     ASSERT_TRUE(solved.status.ok()) << solved.status.message;
     steepest.push_back(0.0);
     for (int i = 0; i < n; ++i)
@@ -344,7 +344,8 @@ TEST(WeightTerms, RigidityHasNoUnitAndHardlyDependsOnTheMesh)
     {
       options.terms.rigidity[v] = (mesh.points.row(v) / scale).norm() > 0.7;
     }
-    return solve(test::to_domain(mesh), handles, options).result.raw((n / 2) * (n + 1) + n / 2, 0);
+    return solve_with_terms(test::to_domain(mesh), handles, options)
+      .result.raw((n / 2) * (n + 1) + n / 2, 0);
   };
   EXPECT_NEAR(weight_at_center(20, 1.0), weight_at_center(20, 1000.0), 1e-7);
   EXPECT_NEAR(weight_at_center(20, 1.0), weight_at_center(40, 1.0), 0.03);
@@ -357,7 +358,7 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
   const Handles handles = test::five_points();
   WeightsOptions options;
   options.tolerance = 1e-9;
-  const Solved free = solve(domain, handles, options);
+  const Solved free = solve_with_terms(domain, handles, options);
   options.terms.rigid_sets.assign(static_cast<std::size_t>(domain.points.rows()), 0);
   const Vec3 p4 = handles[3].head;
   for (Index v = 0; v < domain.points.rows(); ++v)
@@ -367,7 +368,7 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
       : (p - p4).norm() < 0.12                                          ? 8
                                                                         : 0;
   }
-  const Solved solved = solve(domain, handles, options);
+  const Solved solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   EXPECT_EQ(solved.result.analyses, 1);
   EXPECT_GT(solved.energy(), 1.01 * free.energy());
@@ -415,8 +416,8 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
   WeightsOptions joined;
   joined.terms.rigid_sets.assign(static_cast<std::size_t>(2 * count), 0);
   joined.terms.rigid_sets[12] = joined.terms.rigid_sets[12 + count] = 1;
-  const Solved both =
-    solve(parts, test::point_handles({ Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(1, 0, 0) }), joined);
+  const Solved both = solve_with_terms(
+    parts, test::point_handles({ Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(1, 0, 0) }), joined);
   ASSERT_TRUE(both.status.ok()) << both.status.message;
   EXPECT_TRUE(both.status.warnings.empty());
   for (Index v = count; v < 2 * count; ++v)
@@ -444,7 +445,7 @@ TEST(WeightTerms, MonotoneWeightsTakeThem)
   const Index pin = 10 * 21 + 5;
   options.terms.pinned(pin, 0) = 0.3;
   options.terms.upper(3 * 21 + 9, 0) = 0.45;
-  const Solved solved = solve(domain, handles, options, {}, monotone_weights);
+  const Solved solved = solve_with_terms(domain, handles, options, {}, monotone_weights);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   EXPECT_EQ(solved.result.raw(pin, 0), 0.3);
   EXPECT_LE(solved.result.raw(3 * 21 + 9, 0), 0.45);
@@ -463,8 +464,8 @@ TEST(WeightTerms, MonotoneWeightsTakeThem)
   {
     options.terms.upper(v, 0) = std::nan("");
   }
-  expect_error(
-    solve(domain, handles, options, {}, monotone_weights).status, { "'p1'", "vertex", "monotone" });
+  expect_error(solve_with_terms(domain, handles, options, {}, monotone_weights).status,
+    { "'p1'", "vertex", "monotone" });
 }
 
 TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
@@ -475,9 +476,9 @@ TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
     { Vec3(0.25, 0.25, 0), Vec3(0.75, 0.25, 0), Vec3(0.5, 0.75, 0), Vec3(0.125, 0.875, 0) });
   WeightsOptions options;
   options.tolerance = 1e-9;
-  const Solved free = solve(domain, handles, options);
+  const Solved free = solve_with_terms(domain, handles, options);
   options.terms.mirror = mirrored(n);
-  const Solved solved = solve(domain, handles, options);
+  const Solved solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   double free_difference = 0.0;
   for (Index v = 0; v < domain.points.rows(); ++v)
@@ -505,7 +506,7 @@ TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
   plane.tolerance = 1e-9;
   plane.terms.mirror_origin = Vec3(0.5, 0, 0);
   plane.terms.mirror_normal = Vec3(2, 0, 0);
-  const Solved by_plane = solve(domain, handles, plane);
+  const Solved by_plane = solve_with_terms(domain, handles, plane);
   EXPECT_EQ(by_plane.problem.terms.mirror, options.terms.mirror);
   EXPECT_EQ((by_plane.result.raw - solved.result.raw).cwiseAbs().maxCoeff(), 0.0);
 }
@@ -519,7 +520,7 @@ TEST(WeightTerms, FewInfluences)
   {
     WeightsOptions options;
     options.maximum_influences = most;
-    const Solved solved = solve(domain, handles, options);
+    const Solved solved = solve_with_terms(domain, handles, options);
     ASSERT_TRUE(solved.status.ok()) << solved.status.message;
     for (Index v = 0; v < domain.points.rows(); ++v)
     {
@@ -544,7 +545,7 @@ TEST(WeightTerms, CoupledColumnsAreTheDenseMinimizer)
   WeightsOptions options;
   options.tolerance = 1e-8;
   options.partition = PartitionOfUnity::coupled;
-  const Solved solved = solve(domain, handles, options);
+  const Solved solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   // Compute the reference by descent steps that shift weight between two columns of one vertex, for
   // all pairs of columns in turn.
@@ -596,9 +597,9 @@ TEST(WeightTerms, CoupledColumnsSumToOne)
   const Domain domain = test::to_domain(test::grid(30, 30));
   const Handles handles = test::five_points();
   WeightsOptions options;
-  const Solved alone = solve(domain, handles, options);
+  const Solved alone = solve_with_terms(domain, handles, options);
   options.partition = PartitionOfUnity::coupled;
-  const Solved solved = solve(domain, handles, options);
+  const Solved solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   const SparseMatrix q = solved.problem.energy(2);
   const Weights& w = solved.result.raw;
@@ -658,9 +659,9 @@ TEST(WeightTerms, CoupledIsTheSameForOneAndTwoHandles)
     handles.resize(count);
     WeightsOptions options;
     options.tolerance = 1e-9;
-    const Solved alone = solve(domain, handles, options);
+    const Solved alone = solve_with_terms(domain, handles, options);
     options.partition = PartitionOfUnity::coupled;
-    const Solved coupled = solve(domain, handles, options);
+    const Solved coupled = solve_with_terms(domain, handles, options);
     ASSERT_TRUE(coupled.status.ok()) << coupled.status.message;
     EXPECT_LE((coupled.result.weights - alone.result.weights).cwiseAbs().maxCoeff(), 1e-6);
   }
@@ -678,7 +679,7 @@ TEST(WeightTerms, CoupledKeepsPinsBoundsSetsAndInfluences)
   options.terms.pinned(100, 1) = 0.4;
   options.terms.upper(8 * 17 + 4, 0) = 0.2;
   options.terms.rigid_sets[5] = options.terms.rigid_sets[6] = options.terms.rigid_sets[7] = 1;
-  const Solved solved = solve(domain, handles, options);
+  const Solved solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   EXPECT_EQ(solved.result.weights(100, 1), 0.4);
   EXPECT_LE(solved.result.weights(8 * 17 + 4, 0), 0.2 + 1e-15);
@@ -691,10 +692,11 @@ TEST(WeightTerms, CoupledKeepsPinsBoundsSetsAndInfluences)
   options.terms.upper.row(100).setConstant(0.1);
   options.terms.pinned(100, 1) = std::nan("");
   options.maximum_influences = 0;
-  expect_error(solve(domain, handles, options).status, { "vertex 100", "sum to one" });
+  expect_error(solve_with_terms(domain, handles, options).status, { "vertex 100", "sum to one" });
   WeightsOptions monotone;
   monotone.partition = PartitionOfUnity::coupled;
-  expect_error(solve(domain, handles, monotone, {}, monotone_weights).status, { "coupled" });
+  expect_error(
+    solve_with_terms(domain, handles, monotone, {}, monotone_weights).status, { "coupled" });
 }
 
 TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
@@ -703,7 +705,7 @@ TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
   const Handles handles = test::five_points();
   WeightsOptions options;
   options.partition = PartitionOfUnity::coupled;
-  const WeightsProblem problem = solve(domain, handles, options).problem;
+  const WeightsProblem problem = solve_with_terms(domain, handles, options).problem;
   Weights first;
   for (const int threads : { 1, 2, 3 })
   {

@@ -15,24 +15,11 @@
 #include <map>
 
 using namespace bindpose;
+using test::bounded;
 using test::problem_of;
 
 namespace
 {
-WeightsResult bounded(
-  const WeightsProblem& problem, int order = 2, double tolerance = 1e-6, int threads = 0)
-{
-  ExecutionContext context;
-  context.set_threads(threads);
-  WeightsOptions options;
-  options.order = order;
-  options.tolerance = tolerance;
-  WeightsResult result;
-  const Status status = bounded_biharmonic_weights(problem, options, context, result);
-  EXPECT_TRUE(status.ok()) << status.message;
-  return result;
-}
-
 WeightsResult monotone(const WeightsProblem& problem, int order = 2)
 {
   ExecutionContext context;

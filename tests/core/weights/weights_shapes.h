@@ -3,6 +3,7 @@
 
 // Domains and handles that the tests of weights share.
 
+#include "weights/bounded_biharmonic_weights.h"
 #include "weights/weights_problem.h"
 
 #include "support/handles.h"
@@ -44,15 +45,19 @@ inline WeightsProblem problem_of(const Domain& domain, const Handles& handles,
   return problem;
 }
 
-/// Return point handles with the names p1, p2, …
-inline Handles point_handles(const std::vector<Vec3>& places)
+/// Compute bounded biharmonic weights. Expect success.
+inline WeightsResult bounded(
+  const WeightsProblem& problem, int order = 2, double tolerance = 1e-6, int threads = 0)
 {
-  Handles handles;
-  for (const Vec3& place : places)
-  {
-    handles.push_back(point_handle("p" + std::to_string(handles.size() + 1), place));
-  }
-  return handles;
+  ExecutionContext context;
+  context.set_threads(threads);
+  WeightsOptions options;
+  options.order = order;
+  options.tolerance = tolerance;
+  WeightsResult result;
+  const Status status = bounded_biharmonic_weights(problem, options, context, result);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return result;
 }
 
 /// Return the five point handles on the unit square for which extrema and energies of weights are

@@ -30,7 +30,7 @@ Triangles stacked(const Triangles& a, const Triangles& b)
 }
 
 /// Return the sum over the triangles of the squared longest edge.
-double size_of(const Points& points, const Triangles& triangles)
+double sum_of_longest_edges(const Points& points, const Triangles& triangles)
 {
   double sum = 0.0;
   for (Index t = 0; t < triangles.rows(); ++t)
@@ -60,7 +60,8 @@ TEST(BoundaryCaps, CloseAllOfSeveralParts)
   const Triangles smaller = smaller_caps(both.points, both.triangles, caps);
   EXPECT_TRUE(open_edges(stacked(both.triangles, smaller)).empty());
   EXPECT_EQ(smaller.rows(), strip.triangles.rows() + 2);
-  EXPECT_LT(size_of(both.points, smaller), 0.1 * size_of(both.points, caps));
+  EXPECT_LT(
+    sum_of_longest_edges(both.points, smaller), 0.1 * sum_of_longest_edges(both.points, caps));
   for (Index t = 2; t < smaller.rows(); ++t)
   {
     for (int k = 0; k < 3; ++k)

@@ -2,6 +2,9 @@
 // is the reference.
 #include "winding/curve_winding_number.h"
 
+#include "base/constants.h"
+
+#include "support/curves.h"
 #include "support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -11,41 +14,10 @@
 #include <limits>
 
 using namespace bindpose;
+using test::Curve;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
-struct Curve
-{
-  PlanePoints points{ 0, 2 };
-  Segments segments{ 0, 2 };
-
-  /// Append segments along the vertices. If closed, append a segment back to the first vertex.
-  void add(const std::vector<Vec2>& vertices, bool closed)
-  {
-    const Index first = this->points.rows();
-    const auto count = static_cast<Index>(vertices.size());
-    this->points.conservativeResize(first + count, 2);
-    for (Index i = 0; i < count; ++i)
-    {
-      this->points.row(first + i) = vertices[i].transpose();
-    }
-    const Index added = closed ? count : count - 1;
-    const Index before = this->segments.rows();
-    this->segments.conservativeResize(before + added, 2);
-    for (Index i = 0; i < added; ++i)
-    {
-      this->segments.row(before + i) << first + i, first + (i + 1) % count;
-    }
-  }
-  void add_segment(Index from, Index to)
-  {
-    this->segments.conservativeResize(this->segments.rows() + 1, 2);
-    this->segments.row(this->segments.rows() - 1) << from, to;
-  }
-};
-
 Curve curve_of(const std::vector<Vec2>& vertices, bool closed = true)
 {
   Curve curve;
@@ -54,7 +26,7 @@ Curve curve_of(const std::vector<Vec2>& vertices, bool closed = true)
 }
 
 /// Return [lower, upper]^2, counter-clockwise from the lower left corner.
-std::vector<Vec2> square(double lower = -1.0, double upper = 1.0)
+std::vector<Vec2> square_corners(double lower = -1.0, double upper = 1.0)
 {
   return { { lower, lower }, { upper, lower }, { upper, upper }, { lower, upper } };
 }
@@ -65,7 +37,8 @@ std::vector<Vec2> reversed(std::vector<Vec2> vertices)
   return vertices;
 }
 
-void expect_winding(const Curve& curve, const Vec2& p, double expected, double tolerance = 1e-15)
+void expect_curve_winding(
+  const Curve& curve, const Vec2& p, double expected, double tolerance = 1e-15)
 {
   EXPECT_NEAR(curve_winding_number_direct(curve.points, curve.segments, p), expected,
     std::max(tolerance, 1e-14))
@@ -88,7 +61,7 @@ std::vector<Vec2> flower(Index count, double amplitude, int waves)
   return vertices;
 }
 
-PlanePoints random_points(Index count, double reach, std::uint64_t seed)
+PlanePoints random_plane_points(Index count, double reach, std::uint64_t seed)
 {
   test::Random random(seed);
   PlanePoints points(count, 2);
@@ -102,9 +75,9 @@ PlanePoints random_points(Index count, double reach, std::uint64_t seed)
 
 TEST(CurveWindingNumber, ClosedCurvesGiveWholeNumbersExactly)
 {
-  const Curve curve = curve_of(square());
+  const Curve curve = curve_of(square_corners());
   const CurveWindingNumber winding(curve.points, curve.segments);
-  const Curve clockwise = curve_of(reversed(square()));
+  const Curve clockwise = curve_of(reversed(square_corners()));
   const CurveWindingNumber minus(clockwise.points, clockwise.segments);
   test::Random random(7);
   for (int i = 0; i < 2000; ++i)
@@ -118,20 +91,20 @@ TEST(CurveWindingNumber, ClosedCurvesGiveWholeNumbersExactly)
 
 TEST(CurveWindingNumber, ThreeSidesOfASquareAreThreeQuarters)
 {
-  expect_winding(curve_of(square(), false), Vec2::Zero(), 0.75);
+  expect_curve_winding(curve_of(square_corners(), false), Vec2::Zero(), 0.75);
 }
 
 TEST(CurveWindingNumber, SegmentSeenUnderARightAngleIsAQuarter)
 {
   const Curve segment = curve_of({ { 1, -1 }, { 1, 1 } }, false);
-  expect_winding(segment, Vec2::Zero(), 0.25);
-  expect_winding(segment, Vec2(2, 0), -0.25);
+  expect_curve_winding(segment, Vec2::Zero(), 0.25);
+  expect_curve_winding(segment, Vec2(2, 0), -0.25);
   // The angle is the same for a segment behind the point. Such a segment crosses the negative x
   // axis.
-  expect_winding(curve_of({ { -1, 1 }, { -1, -1 } }, false), Vec2::Zero(), 0.25);
+  expect_curve_winding(curve_of({ { -1, 1 }, { -1, -1 } }, false), Vec2::Zero(), 0.25);
   // At the third corner of an equilateral triangle, the opposite side subtends an angle of 60
   // degrees.
-  expect_winding(
+  expect_curve_winding(
     curve_of({ { 0, 0 }, { 1, 0 } }, false), Vec2(0.5, 0.5 * std::sqrt(3.0)), 1.0 / 6.0);
 }
 
@@ -144,43 +117,43 @@ TEST(CurveWindingNumber, PentagramWindsTwiceInItsCenterAndOnceInItsArms)
     vertices.emplace_back(std::cos(angle), std::sin(angle));
   }
   const Curve star = curve_of(vertices);
-  expect_winding(star, Vec2(0, 0), 2.0, 0.0);
-  expect_winding(star, Vec2(0, 0.8), 1.0, 0.0);
-  expect_winding(star, Vec2(0, -0.8), 0.0, 0.0);
+  expect_curve_winding(star, Vec2(0, 0), 2.0, 0.0);
+  expect_curve_winding(star, Vec2(0, 0.8), 1.0, 0.0);
+  expect_curve_winding(star, Vec2(0, -0.8), 0.0, 0.0);
   const Report report = CurveWindingNumber(star.points, star.segments).status().report;
   EXPECT_EQ(report.number("counts.open_ends", -1), 0);
 }
 
 TEST(CurveWindingNumber, PartsAddUp)
 {
-  Curve nested = curve_of(square());
-  nested.add(square(-0.5, 0.5), true);
-  expect_winding(nested, Vec2::Zero(), 2.0, 0.0);
-  Curve ring = curve_of(square());
-  ring.add(reversed(square(-0.5, 0.5)), true);
-  expect_winding(ring, Vec2::Zero(), 0.0, 0.0);
-  expect_winding(ring, Vec2(0.75, 0), 1.0, 0.0);
-  Curve overlapping = curve_of(square());
-  overlapping.add(square(0.0, 2.0), true);
-  expect_winding(overlapping, Vec2(0.5, 0.5), 2.0, 0.0);
+  Curve nested = curve_of(square_corners());
+  nested.add(square_corners(-0.5, 0.5), true);
+  expect_curve_winding(nested, Vec2::Zero(), 2.0, 0.0);
+  Curve ring = curve_of(square_corners());
+  ring.add(reversed(square_corners(-0.5, 0.5)), true);
+  expect_curve_winding(ring, Vec2::Zero(), 0.0, 0.0);
+  expect_curve_winding(ring, Vec2(0.75, 0), 1.0, 0.0);
+  Curve overlapping = curve_of(square_corners());
+  overlapping.add(square_corners(0.0, 2.0), true);
+  expect_curve_winding(overlapping, Vec2(0.5, 0.5), 2.0, 0.0);
   // The top side of the square is repeated, or reversed.
-  Curve doubled = curve_of(square());
+  Curve doubled = curve_of(square_corners());
   doubled.add_segment(2, 3);
-  expect_winding(doubled, Vec2::Zero(), 1.25);
-  Curve flipped = curve_of(square(), false);
+  expect_curve_winding(doubled, Vec2::Zero(), 1.25);
+  Curve flipped = curve_of(square_corners(), false);
   flipped.segments.row(2) << 3, 2;
   flipped.add_segment(3, 0);
-  expect_winding(flipped, Vec2::Zero(), 0.5);
+  expect_curve_winding(flipped, Vec2::Zero(), 0.5);
 }
 
 TEST(CurveWindingNumber, PrincipalValueOnTheCurve)
 {
-  const Curve curve = curve_of(square());
+  const Curve curve = curve_of(square_corners());
   const CurveWindingNumber winding(curve.points, curve.segments);
   for (const auto& [p, expected] : std::vector<std::pair<Vec2, double>>{ { { 1, 0.3 }, 0.5 },
          { { -0.2, -1 }, 0.5 }, { { -1, 0 }, 0.5 }, { { 1, 1 }, 0.25 }, { { -1, -1 }, 0.25 } })
   {
-    expect_winding(curve, p, expected);
+    expect_curve_winding(curve, p, expected);
     bool on_curve = false;
     winding.evaluate_at(p, &on_curve);
     EXPECT_TRUE(on_curve) << p.transpose();
@@ -196,17 +169,17 @@ TEST(CurveWindingNumber, PrincipalValueOnTheCurve)
   }
   const Curve heptagon = curve_of(vertices);
   // The tolerance allows for rounded coordinates.
-  expect_winding(heptagon, vertices[3], 5.0 / 14.0, 1e-10);
-  expect_winding(heptagon, 0.5 * (vertices[1] + vertices[2]), 0.5, 1e-10);
-  expect_winding(heptagon, 0.3 * vertices[6] + 0.7 * vertices[0], 0.5, 1e-10);
+  expect_curve_winding(heptagon, vertices[3], 5.0 / 14.0, 1e-10);
+  expect_curve_winding(heptagon, 0.5 * (vertices[1] + vertices[2]), 0.5, 1e-10);
+  expect_curve_winding(heptagon, 0.3 * vertices[6] + 0.7 * vertices[0], 0.5, 1e-10);
   // The points are at an open end, and on a segment that is repeated in the opposite direction.
-  expect_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 1, 1 } }, false), Vec2(0, 0), 0.125);
-  expect_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 0, 0 } }, false), Vec2(0.5, 0), 0.0);
+  expect_curve_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 1, 1 } }, false), Vec2(0, 0), 0.125);
+  expect_curve_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 0, 0 } }, false), Vec2(0.5, 0), 0.0);
 }
 
 TEST(CurveWindingNumber, JumpsByOneAcrossTheCurveAndNotAcrossChords)
 {
-  const Curve curve = curve_of(square(), false); // the side x = -1 is open
+  const Curve curve = curve_of(square_corners(), false); // the side x = -1 is open
   const CurveWindingNumber winding(curve.points, curve.segments);
   for (const double e : { 1e-3, 1e-6, 1e-9, 1e-14 })
   {
@@ -288,7 +261,7 @@ TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnLongCurves)
   const CurveWindingNumber winding(curve.points, curve.segments);
   EXPECT_EQ(winding.status().report.number("counts.open_ends", -1), 202);
   EXPECT_EQ(winding.status().report.number("counts.components", -1), 202);
-  PlanePoints queries = random_points(2000, 1.6, 5);
+  PlanePoints queries = random_plane_points(2000, 1.6, 5);
   for (Index i = 0; i < 600; ++i) // points at vertices, at midpoints of segments, and next to them
   {
     const Index e = (37 * i) % curve.segments.rows();
@@ -315,7 +288,7 @@ TEST(CurveWindingNumber, FlowerIsInsideWhereItsRadiusSays)
   // The distance of the polygon from its curve is below 1e-5.
   const Curve curve = curve_of(flower(20000, 0.3, 9));
   const CurveWindingNumber winding(curve.points, curve.segments);
-  const PlanePoints queries = random_points(5000, 1.5, 11);
+  const PlanePoints queries = random_plane_points(5000, 1.5, 11);
   for (Index i = 0; i < queries.rows(); ++i)
   {
     const double r = queries.row(i).norm();
@@ -345,11 +318,11 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
 
   Curve curve = curve_of(flower(200, 0.3, 5), false);
   curve.add({ { -1, 0.3 }, { 0.4, 0.5 }, { 0.1, -0.8 } }, false);
-  curve.add(square(-0.1, 0.2), true);
+  curve.add(square_corners(-0.1, 0.2), true);
   for (const double unit : { 1.0, 1000.0 })
   {
     const CurveWindingNumber winding(PlanePoints(unit * curve.points), curve.segments);
-    PlanePoints queries = unit * random_points(200, 1.4, 3);
+    PlanePoints queries = unit * random_plane_points(200, 1.4, 3);
     Eigen::VectorXd gradients(2 * queries.rows());
     ASSERT_TRUE(winding.evaluate_gradient(queries, context, gradients.data()).ok());
     for (Index i = 0; i < queries.rows(); ++i)
@@ -367,7 +340,7 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
     }
   }
   // The gradient is zero inside of a closed curve, finite at an open end, and zero far away.
-  const Curve closed = curve_of(square());
+  const Curve closed = curve_of(square_corners());
   ASSERT_TRUE(CurveWindingNumber(closed.points, closed.segments)
                 .evaluate_gradient(query, context, gradient.data())
                 .ok());
@@ -390,10 +363,10 @@ TEST(CurveWindingNumber, ShiftsScalesAndOrderDoNotMatter)
 {
   Curve curve = curve_of(flower(400, 0.3, 7));
   curve.add(flower(90, 0.2, 3), false);
-  curve.add(square(-0.2, 0.3), false);
+  curve.add(square_corners(-0.2, 0.3), false);
   const auto snap = [](double x) { return std::round(x * 0x1p20) * 0x1p-20; };
   curve.points = PlanePoints(curve.points.unaryExpr(snap));
-  const PlanePoints queries = random_points(300, 1.5, 17).unaryExpr(snap);
+  const PlanePoints queries = random_plane_points(300, 1.5, 17).unaryExpr(snap);
   const auto values = [](const PlanePoints& points, const Segments& segments, const PlanePoints& at)
   {
     Eigen::VectorXd w;
@@ -431,10 +404,10 @@ TEST(CurveWindingNumber, HugeAndTinyCurvesAreNoExceptions)
 {
   for (const double size : { 1e-320, 1e-300, 1.0, 1e150, 1e307, 1.7e308 })
   {
-    const Curve curve = curve_of(square(-size, size));
+    const Curve curve = curve_of(square_corners(-size, size));
     EXPECT_EQ(CurveWindingNumber(curve.points, curve.segments).evaluate_at(Vec2::Zero()), 1.0)
       << size;
-    expect_winding(curve_of(square(-size, size), false), Vec2::Zero(), 0.75);
+    expect_curve_winding(curve_of(square_corners(-size, size), false), Vec2::Zero(), 0.75);
   }
 }
 
@@ -443,7 +416,7 @@ TEST(CurveWindingNumber, ReportTellsWhatTheCurveIs)
   // Each side of the square has its own vertices at its ends. Later a side is repeated, and two
   // segments have length zero: one with equal ids, one with equal positions.
   Curve curve;
-  const std::vector<Vec2> corners = square();
+  const std::vector<Vec2> corners = square_corners();
   for (int i = 0; i < 4; ++i)
   {
     curve.add({ corners[i], corners[(i + 1) % 4] }, false);
@@ -494,7 +467,7 @@ TEST(CurveWindingNumber, BadInputIsNamed)
 {
   ExecutionContext context;
   CurveWindingNumber winding;
-  Curve curve = curve_of(square());
+  Curve curve = curve_of(square_corners());
   curve.segments(2, 1) = 4;
   Status status = winding.build(curve.points, curve.segments, context);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
@@ -503,7 +476,7 @@ TEST(CurveWindingNumber, BadInputIsNamed)
   EXPECT_EQ(winding.evaluate(curve.points, context, w).code, StatusCode::invalid_input);
   curve.segments(2, 1) = -1;
   EXPECT_EQ(winding.build(curve.points, curve.segments, context).code, StatusCode::invalid_input);
-  curve = curve_of(square());
+  curve = curve_of(square_corners());
   for (const double bad :
     { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
   {
@@ -521,7 +494,7 @@ TEST(CurveWindingNumber, BadInputIsNamed)
 
 TEST(CurveWindingNumber, PointsThatAreNoneGiveNaN)
 {
-  const Curve curve = curve_of(square());
+  const Curve curve = curve_of(square_corners());
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   PlanePoints queries(5, 2);
   queries << 0, 0, nan, 0, 0, std::numeric_limits<double>::infinity(), 1e300, 0, 1, 1;
@@ -546,7 +519,7 @@ TEST(CurveWindingNumber, SameBitsOnAnyNumberOfThreads)
 {
   Curve curve = curve_of(flower(100000, 0.3, 9));
   curve.add(flower(30000, 0.2, 4), false);
-  const PlanePoints queries = random_points(100000, 1.5, 23);
+  const PlanePoints queries = random_plane_points(100000, 1.5, 23);
   std::vector<Eigen::VectorXd> values;
   for (const int threads : { 1, 2, 3 })
   {
@@ -564,7 +537,7 @@ TEST(CurveWindingNumber, SameBitsOnAnyNumberOfThreads)
 TEST(CurveWindingNumber, CancelsMidwayAndRunsAgain)
 {
   const Curve curve = curve_of(flower(200000, 0.3, 9));
-  const PlanePoints queries = random_points(300000, 1.5, 29);
+  const PlanePoints queries = random_plane_points(300000, 1.5, 29);
   int allowed = 0;
   int asked = 0;
   ExecutionContext probe({},

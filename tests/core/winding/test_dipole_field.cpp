@@ -18,14 +18,14 @@ namespace
 {
 constexpr double touch_tolerance = 0x1.0p-49;
 
-struct Case
+struct FieldCase
 {
   std::string name;
   TriangleMesh mesh;
   std::vector<int> multiplicities;
 };
 
-Case once(std::string name, TriangleMesh mesh)
+FieldCase once(std::string name, TriangleMesh mesh)
 {
   std::vector<int> ones(static_cast<std::size_t>(mesh.triangles.rows()), 1);
   return { std::move(name), std::move(mesh), std::move(ones) };
@@ -81,7 +81,7 @@ TriangleMesh caps(int loops)
 }
 
 /// Return triangles of all sizes at random positions, some of them degenerate.
-TriangleMesh soup(Index count)
+TriangleMesh random_soup(Index count)
 {
   test::Random random(23);
   TriangleMesh mesh{ Points(3 * count, 3), Triangles(count, 3) };
@@ -107,19 +107,19 @@ TriangleMesh soup(Index count)
   return mesh;
 }
 
-std::vector<Case> all_cases()
+std::vector<FieldCase> all_cases()
 {
-  std::vector<Case> cases;
+  std::vector<FieldCase> cases;
   cases.push_back(once("closed", bumpy(3)));
   TriangleMesh open = bumpy(4);
   open.triangles.conservativeResize(3 * open.triangles.rows() / 4, 3);
   cases.push_back(once("open", open));
   cases.push_back(once("caps", caps(60)));
-  cases.push_back(once("soup", soup(500)));
-  cases.push_back(once("one triangle", soup(1)));
+  cases.push_back(once("soup", random_soup(500)));
+  cases.push_back(once("one triangle", random_soup(1)));
   cases.back().mesh.points << 0.1, 0.2, 0.3, 0.9, 0.1, -0.2, -0.3, 0.8, 0.4;
   cases.push_back(once("slivers", test::grid(1, 300)));
-  Case counted = once("multiplicities", soup(400));
+  FieldCase counted = once("multiplicities", random_soup(400));
   for (std::size_t t = 0; t < counted.multiplicities.size(); ++t)
   {
     constexpr int some[] = { 1, -1, 2, -2, 0, 5 };
@@ -131,7 +131,7 @@ std::vector<Case> all_cases()
 
 /// Return the plain sum over the triangles. Triangles with multiplicities other than 1 are
 /// evaluated one by one.
-double expected_at(const Case& c, const Vec3& p)
+double expected_at(const FieldCase& c, const Vec3& p)
 {
   if (std::all_of(c.multiplicities.begin(), c.multiplicities.end(), [](int m) { return m == 1; }))
   {
@@ -146,7 +146,7 @@ double expected_at(const Case& c, const Vec3& p)
   return sum;
 }
 
-DipoleField make(const Case& c, double tolerance, int threads = 1)
+DipoleField field_of(const FieldCase& c, double tolerance, int threads = 1)
 {
   ExecutionContext context;
   context.set_threads(threads);
@@ -187,11 +187,11 @@ std::vector<Vec3> points_for(const TriangleMesh& mesh, int count, test::Random& 
 
 TEST(DipoleField, IsTheWindingNumberWithinTheTolerance)
 {
-  for (const Case& c : all_cases())
+  for (const FieldCase& c : all_cases())
   {
     for (const double tolerance : { 1e-2, 1e-3, 1e-4, 1e-5, 1e-6 })
     {
-      const DipoleField field = make(c, tolerance);
+      const DipoleField field = field_of(c, tolerance);
       EXPECT_LE(field.measured_error(), 0.5 * tolerance) << c.name << ", " << tolerance;
       test::Random random(31);
       double worst = 0.0;
@@ -208,8 +208,8 @@ TEST(DipoleField, TouchingTrianglesCountNothing)
 {
   for (const double tolerance : { 1e-3, 1e-6 })
   {
-    const Case cube = once("cube", test::cube());
-    const DipoleField field = make(cube, tolerance);
+    const FieldCase cube = once("cube", test::cube());
+    const DipoleField field = field_of(cube, tolerance);
     bool on_surface = false;
     EXPECT_NEAR(field.evaluate(Vec3(1, 0, 0), &on_surface), 0.5, tolerance);
     EXPECT_TRUE(on_surface);
@@ -225,9 +225,9 @@ TEST(DipoleField, TouchingTrianglesCountNothing)
     EXPECT_FALSE(on_surface);
 
     // The vertices have many triangles, some of which were subdivided.
-    for (const Case& c : { once("bumpy", bumpy(3)), once("slivers", test::grid(1, 300)) })
+    for (const FieldCase& c : { once("bumpy", bumpy(3)), once("slivers", test::grid(1, 300)) })
     {
-      const DipoleField other = make(c, tolerance);
+      const DipoleField other = field_of(c, tolerance);
       for (Index v = 0; v < c.mesh.points.rows(); v += 7)
       {
         const Vec3 p = c.mesh.points.row(v);
@@ -240,11 +240,11 @@ TEST(DipoleField, TouchingTrianglesCountNothing)
 
 TEST(DipoleField, RowsGiveTheBitsOfTheirPoints)
 {
-  for (const Case& c : all_cases())
+  for (const FieldCase& c : all_cases())
   {
     for (const double tolerance : { 1e-3, 1e-6 })
     {
-      const DipoleField field = make(c, tolerance);
+      const DipoleField field = field_of(c, tolerance);
       const Index count = 300;
       std::vector<double> values(static_cast<std::size_t>(count));
       std::vector<unsigned char> touched(static_cast<std::size_t>(count));
@@ -266,11 +266,11 @@ TEST(DipoleField, RowsGiveTheBitsOfTheirPoints)
 
 TEST(DipoleField, ManyPointsAtOnceGiveTheBitsOfEach)
 {
-  for (const Case& c : all_cases())
+  for (const FieldCase& c : all_cases())
   {
     for (const double tolerance : { 1e-3, 1e-6 })
     {
-      const DipoleField field = make(c, tolerance);
+      const DipoleField field = field_of(c, tolerance);
       test::Random random(6);
       const std::vector<Vec3> points = points_for(c.mesh, 25, random);
       const auto count = static_cast<Index>(points.size());
@@ -289,12 +289,12 @@ TEST(DipoleField, ManyPointsAtOnceGiveTheBitsOfEach)
 
 TEST(DipoleField, SameBitsForAnyNumberOfThreads)
 {
-  for (const Case& c : all_cases())
+  for (const FieldCase& c : all_cases())
   {
-    const DipoleField one = make(c, 1e-4, 1);
+    const DipoleField one = field_of(c, 1e-4, 1);
     for (const int threads : { 0, 2 })
     {
-      const DipoleField many = make(c, 1e-4, threads);
+      const DipoleField many = field_of(c, 1e-4, threads);
       EXPECT_EQ(one.measured_error(), many.measured_error());
       EXPECT_EQ(one.memory(), many.memory());
       test::Random random(3);
@@ -308,9 +308,9 @@ TEST(DipoleField, SameBitsForAnyNumberOfThreads)
 
 TEST(DipoleField, GradientIsTheSlope)
 {
-  for (const Case& c : all_cases())
+  for (const FieldCase& c : all_cases())
   {
-    const DipoleField field = make(c, 1e-6);
+    const DipoleField field = field_of(c, 1e-6);
     test::Random random(8);
     for (int i = 0; i < 200; ++i)
     {
@@ -339,16 +339,16 @@ TEST(DipoleField, GradientIsTheSlope)
 
 TEST(DipoleField, NothingGivesNothing)
 {
-  Case empty;
-  EXPECT_EQ(make(empty, 1e-3).evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
-  EXPECT_EQ(make(empty, 1e-3).gradient(Vec3(0.1, 0.2, 0.3)), Vec3::Zero());
-  Case uncounted = once("uncounted", test::cube());
+  FieldCase empty;
+  EXPECT_EQ(field_of(empty, 1e-3).evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
+  EXPECT_EQ(field_of(empty, 1e-3).gradient(Vec3(0.1, 0.2, 0.3)), Vec3::Zero());
+  FieldCase uncounted = once("uncounted", test::cube());
   std::fill(uncounted.multiplicities.begin(), uncounted.multiplicities.end(), 0);
-  EXPECT_EQ(make(uncounted, 1e-3).evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
+  EXPECT_EQ(field_of(uncounted, 1e-3).evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
   // All triangles have no area and are at one position.
-  Case flat = once("flat", soup(50));
+  FieldCase flat = once("flat", random_soup(50));
   flat.mesh.points.setConstant(0.25);
-  const DipoleField field = make(flat, 1e-3);
+  const DipoleField field = field_of(flat, 1e-3);
   EXPECT_EQ(field.evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
   EXPECT_EQ(field.evaluate(Vec3::Constant(0.25)), 0.0);
 }
@@ -361,7 +361,7 @@ TEST(DipoleField, ManyTrianglesAtOnePlace)
   {
     for (const double apart : { 0.0, 1e-3 })
     {
-      Case pile = once("pile", soup(1));
+      FieldCase pile = once("pile", random_soup(1));
       pile.mesh.points << 0.1, 0.2, 0.3, 0.9, 0.1, -0.2, -0.3, 0.8, 0.4;
       const Points one = pile.mesh.points;
       pile.mesh.points = one.replicate(count, 1);
@@ -376,7 +376,7 @@ TEST(DipoleField, ManyTrianglesAtOnePlace)
       pile.multiplicities.assign(static_cast<std::size_t>(count), 1);
       for (const double tolerance : { 1e-2, 1e-3, 1e-4 })
       {
-        const DipoleField field = make(pile, tolerance);
+        const DipoleField field = field_of(pile, tolerance);
         for (int i = 0; i < 300; ++i)
         {
           const Vec3 p = (i % 2 ? 1.0 : 2.0) * random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
@@ -389,7 +389,7 @@ TEST(DipoleField, ManyTrianglesAtOnePlace)
 
 TEST(DipoleField, CanBeCanceledAnywhere)
 {
-  const Case c = once("bumpy", bumpy(4));
+  const FieldCase c = once("bumpy", bumpy(4));
   DipoleField::Options options;
   int asked_in_all = 0;
   {

@@ -2,6 +2,8 @@
 // are known.
 #include "winding/point_areas.h"
 
+#include "base/constants.h"
+
 #include "support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +14,6 @@ using namespace bindpose;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 Eigen::VectorXd areas_of(const Points& points, const Points& normals, Index neighbors = 12)
 {
   ExecutionContext context;

@@ -2,6 +2,9 @@
 // solid angles, and comparisons with the plain sum.
 #include "winding/point_cloud_winding_number.h"
 
+#include "base/constants.h"
+
+#include "support/clouds.h"
 #include "support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -11,21 +14,15 @@
 #include <limits>
 
 using namespace bindpose;
+using test::Cloud;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 const Eigen::VectorXd no_areas(0);
-
-struct Cloud
-{
-  Points points, normals;
-  Eigen::VectorXd areas;
-};
 
 /// Return points on the unit sphere, evenly spaced on a spiral or at random. Each point has an
 /// equal fraction of the area.
-Cloud sphere(Index count, bool even = true, std::uint64_t seed = 5)
+Cloud sphere_cloud(Index count, bool even = true, std::uint64_t seed = 5)
 {
   test::Random random(seed);
   Cloud cloud{ Points(count, 3), Points(count, 3),
@@ -45,7 +42,7 @@ Cloud sphere(Index count, bool even = true, std::uint64_t seed = 5)
 
 /// Return scattered points with random normals and areas, so that contributions do not cancel
 /// systematically.
-Cloud heap(Index count, std::uint64_t seed)
+Cloud scattered_cloud(Index count, std::uint64_t seed)
 {
   test::Random random(seed);
   Cloud cloud{ Points(count, 3), Points(count, 3), Eigen::VectorXd(count) };
@@ -144,7 +141,7 @@ TEST(PointCloudWindingNumber, SpheresWindOnceInsideAndTheErrorShrinks)
   double last = 1.0;
   for (const Index count : { 300, 3000, 30000 })
   {
-    const Cloud cloud = sphere(count);
+    const Cloud cloud = sphere_cloud(count);
     const double spacing = std::sqrt(4.0 * pi / static_cast<double>(count));
     const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-7);
     test::Random random(1);
@@ -171,7 +168,7 @@ TEST(PointCloudWindingNumber, SpheresWindOnceInsideAndTheErrorShrinks)
 
 TEST(PointCloudWindingNumber, HalfASphereIsItsSolidAngle)
 {
-  Cloud cloud = sphere(40000);
+  Cloud cloud = sphere_cloud(40000);
   const Index half = 20000; // these are the points with z > 0
   cloud = { cloud.points.topRows(half), cloud.normals.topRows(half), cloud.areas.head(half) };
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-6);
@@ -191,15 +188,16 @@ TEST(PointCloudWindingNumber, HalfASphereIsItsSolidAngle)
 
 TEST(PointCloudWindingNumber, FastKeepsItsTolerance)
 {
-  std::vector<Cloud> clouds{ sphere(20000), sphere(6000, false), heap(8000, 3) };
+  std::vector<Cloud> clouds{ sphere_cloud(20000), sphere_cloud(6000, false),
+    scattered_cloud(8000, 3) };
   // The clouds are a flat square, whose boxes have no thickness, and a line.
-  Cloud flat = heap(5000, 4);
+  Cloud flat = scattered_cloud(5000, 4);
   flat.points.col(2).setZero();
   clouds.push_back(flat);
   flat.points.col(1).setZero();
   clouds.push_back(flat);
   // Many samples are at a few positions.
-  Cloud stacked = heap(4000, 5);
+  Cloud stacked = scattered_cloud(4000, 5);
   stacked.points = (2.0 * stacked.points.array()).round() * 0.5;
   clouds.push_back(stacked);
   for (const Cloud& cloud : clouds)
@@ -229,7 +227,7 @@ TEST(PointCloudWindingNumber, FastKeepsItsTolerance)
 TEST(PointCloudWindingNumber, FastKeepsItsToleranceWhereErrorsAddUp)
 {
   // At the center of a sphere all boxes have the same distance, so their errors have the same sign.
-  const Cloud cloud = sphere(100000);
+  const Cloud cloud = sphere_cloud(100000);
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-4);
   test::Random random(3);
   for (int i = 0; i < 300; ++i)
@@ -241,7 +239,7 @@ TEST(PointCloudWindingNumber, FastKeepsItsToleranceWhereErrorsAddUp)
 
 TEST(PointCloudWindingNumber, PlainSumIsTheDefinition)
 {
-  const Cloud cloud = heap(3001, 9); // 3001 is not a multiple of eight
+  const Cloud cloud = scattered_cloud(3001, 9); // 3001 is not a multiple of eight
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::direct);
   EXPECT_EQ(winding.method(), WindingMethod::direct);
   const Points queries = queries_around(cloud, 500, 11);
@@ -254,7 +252,7 @@ TEST(PointCloudWindingNumber, PlainSumIsTheDefinition)
 
 TEST(PointCloudWindingNumber, PointsOnSamplesCountTheOthers)
 {
-  const Cloud cloud = sphere(5000);
+  const Cloud cloud = sphere_cloud(5000);
   for (const WindingMethod method : { WindingMethod::direct, WindingMethod::fast })
   {
     const PointCloudWindingNumber winding = built(cloud, method);
@@ -279,7 +277,7 @@ TEST(PointCloudWindingNumber, PointsOnSamplesCountTheOthers)
 TEST(PointCloudWindingNumber, ShiftsAndScalesDoNotMatter)
 {
   const auto snap = [](double x) { return std::round(x * 0x1p20) * 0x1p-20; };
-  Cloud cloud = heap(3000, 13);
+  Cloud cloud = scattered_cloud(3000, 13);
   cloud.points = Points(cloud.points.unaryExpr(snap));
   const Points queries = queries_around(cloud, 400, 15).unaryExpr(snap);
   const auto values = [](const Cloud& c, const Points& at, WindingMethod method)
@@ -317,7 +315,7 @@ TEST(PointCloudWindingNumber, ShiftsAndScalesDoNotMatter)
 
 TEST(PointCloudWindingNumber, EstimatedAreasDoForEvenSamples)
 {
-  const Cloud cloud = sphere(10000);
+  const Cloud cloud = sphere_cloud(10000);
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::automatic, 1e-4, &no_areas);
   ASSERT_EQ(winding.areas().size(), 10000);
   EXPECT_NEAR(winding.areas().sum(), 4.0 * pi, 1e-3 * 4.0 * pi);
@@ -339,11 +337,11 @@ TEST(PointCloudWindingNumber, EstimatedAreasDoForEvenSamples)
 
 TEST(PointCloudWindingNumber, MethodsAndReport)
 {
-  const Cloud few = sphere(100);
+  const Cloud few = sphere_cloud(100);
   const PointCloudWindingNumber small = built(few, WindingMethod::automatic);
   EXPECT_EQ(small.method(), WindingMethod::direct);
   EXPECT_EQ(small.status().report.find("error_bound"), nullptr);
-  const Cloud many = sphere(20000);
+  const Cloud many = sphere_cloud(20000);
   const PointCloudWindingNumber large = built(many, WindingMethod::automatic);
   EXPECT_EQ(large.method(), WindingMethod::fast);
   EXPECT_EQ(large.status().report.text("method"), "fast");
@@ -354,7 +352,7 @@ TEST(PointCloudWindingNumber, MethodsAndReport)
 
 TEST(PointCloudWindingNumber, NormalsAndAreasOfZeroCountNothing)
 {
-  Cloud cloud = sphere(3000);
+  Cloud cloud = sphere_cloud(3000);
   cloud.normals.row(7).setZero();
   cloud.normals.row(9).setZero();
   cloud.areas[11] = 0.0;
@@ -394,7 +392,7 @@ TEST(PointCloudWindingNumber, BadInputIsNamed)
     Eigen::VectorXd w;
     EXPECT_EQ(winding.evaluate(cloud.points, context, w).code, StatusCode::invalid_input);
   };
-  const Cloud good = sphere(50);
+  const Cloud good = sphere_cloud(50);
   Cloud cloud = good;
   cloud.points(4, 1) = nan;
   expect_refused(cloud, "point 4 has a coordinate");
@@ -432,18 +430,18 @@ TEST(PointCloudWindingNumber, BadInputIsNamed)
 
 TEST(PointCloudWindingNumber, OddCloudsAreFiniteEverywhere)
 {
-  Cloud one_place = heap(2000, 3);
+  Cloud one_place = scattered_cloud(2000, 3);
   one_place.points.setConstant(0.25);
-  Cloud huge = sphere(2000);
+  Cloud huge = sphere_cloud(2000);
   huge.points *= 1e150;
   huge.areas *= 1e300;
-  Cloud tiny = sphere(2000);
+  Cloud tiny = sphere_cloud(2000);
   tiny.points *= 1e-150;
   tiny.areas *= 1e-300;
-  Cloud clusters = heap(2000, 4);
+  Cloud clusters = scattered_cloud(2000, 4);
   clusters.points *= 1e-12;
   clusters.points.topRows(1000).array() += 1.0;
-  Cloud heavy = sphere(2000);
+  Cloud heavy = sphere_cloud(2000);
   heavy.areas *= 1e30;
   for (const Cloud& cloud : { one_place, huge, tiny, clusters, heavy })
   {
@@ -465,7 +463,7 @@ TEST(PointCloudWindingNumber, OddCloudsAreFiniteEverywhere)
 
 TEST(PointCloudWindingNumber, PointsThatAreNoneGiveNaN)
 {
-  const PointCloudWindingNumber winding = built(sphere(2000));
+  const PointCloudWindingNumber winding = built(sphere_cloud(2000));
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Points queries(4, 3);
   queries << 0, 0, 0, nan, 0, 0, 0, std::numeric_limits<double>::infinity(), 0, 1e300, 0, 0;
@@ -484,7 +482,7 @@ TEST(PointCloudWindingNumber, PointsThatAreNoneGiveNaN)
 
 TEST(PointCloudWindingNumber, GridsAndPointsAgreeOnAnyNumberOfThreads)
 {
-  const Cloud cloud = sphere(30000, false);
+  const Cloud cloud = sphere_cloud(30000, false);
   SampleGrid grid;
   grid.origin = Vec3(-1.2, -1.1, -1.3);
   grid.spacing = Vec3(0.1, 0.11, 0.13);
@@ -524,7 +522,7 @@ TEST(PointCloudWindingNumber, GridsAndPointsAgreeOnAnyNumberOfThreads)
 
 TEST(PointCloudWindingNumber, GradientIsTheDefinitions)
 {
-  for (const Cloud& cloud : { sphere(4000, false), heap(5000, 8) })
+  for (const Cloud& cloud : { sphere_cloud(4000, false), scattered_cloud(5000, 8) })
   {
     const PointCloudWindingNumber winding = built(cloud, WindingMethod::direct);
     const Points queries = queries_around(cloud, 200, 12);
@@ -556,7 +554,7 @@ TEST(PointCloudWindingNumber, GradientIsTheDefinitions)
 
 TEST(PointCloudWindingNumber, GradientIsTheSlope)
 {
-  const Cloud cloud = heap(5000, 9);
+  const Cloud cloud = scattered_cloud(5000, 9);
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-6);
   const Points queries = queries_around(cloud, 300, 13);
   Points gradients(queries.rows(), 3);
@@ -590,7 +588,8 @@ TEST(PointCloudWindingNumber, GradientIsTheSlope)
 
 TEST(PointCloudWindingNumber, FastGradientsAreWithinTheirTolerance)
 {
-  for (const Cloud& cloud : { sphere(20000), sphere(20000, false), heap(20000, 10) })
+  for (const Cloud& cloud :
+    { sphere_cloud(20000), sphere_cloud(20000, false), scattered_cloud(20000, 10) })
   {
     const PointCloudWindingNumber plain = built(cloud, WindingMethod::direct);
     Points queries = queries_around(cloud, 300, 14);
@@ -617,7 +616,7 @@ TEST(PointCloudWindingNumber, FastGradientsAreWithinTheirTolerance)
 
 TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
 {
-  const Cloud cloud = sphere(10000);
+  const Cloud cloud = sphere_cloud(10000);
   SampleGrid grid;
   grid.origin = Vec3(-1.2, -1.1, -1.3);
   grid.spacing = Vec3(0.3, 0.31, 0.33);
@@ -663,7 +662,7 @@ TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
 
 TEST(PointCloudWindingNumber, CancelsMidwayAndRunsAgain)
 {
-  const Cloud cloud = sphere(20000);
+  const Cloud cloud = sphere_cloud(20000);
   PointCloudWindingNumber winding;
   int asked = 0;
   ExecutionContext probe({},

@@ -12,20 +12,11 @@ using namespace bindpose;
 
 namespace
 {
-Points random_points(Index count, std::uint64_t seed, bool on_lattice)
+/// Return random points. On a lattice there are many equal points and equal distances.
+Points tree_points(Index count, std::uint64_t seed, bool on_lattice)
 {
-  test::Random random(seed);
-  Points points(count, 3);
-  for (Index i = 0; i < count; ++i)
-  {
-    Vec3 p = random.in_box(Vec3::Constant(-1.0), Vec3::Constant(1.0));
-    if (on_lattice)
-    {
-      p = (4.0 * p).array().round(); // creates many equal points and equal distances
-    }
-    points.row(i) = p.transpose();
-  }
-  return points;
+  const Points points = test::random_points(count, 1.0, seed);
+  return on_lattice ? Points((4.0 * points).array().round()) : points;
 }
 } // namespace
 
@@ -33,7 +24,7 @@ TEST(PointTree, HoldsEveryPointOnceInBoxesThatHoldThem)
 {
   for (const Index count : { 1, 7, 8, 9, 16, 17, 255, 256, 257, 5000 })
   {
-    const Points points = random_points(count, 3, false);
+    const Points points = tree_points(count, 3, false);
     ExecutionContext context;
     PointTree tree;
     ASSERT_TRUE(tree.build(points, 16, context));
@@ -66,7 +57,7 @@ TEST(PointTree, NearestAreThoseOfASearchOfAll)
 {
   for (const bool on_lattice : { false, true })
   {
-    const Points points = random_points(700, 5, on_lattice);
+    const Points points = tree_points(700, 5, on_lattice);
     ExecutionContext context;
     PointTree tree;
     ASSERT_TRUE(tree.build(points, 16, context));
@@ -104,5 +95,5 @@ TEST(PointTree, NoPointsAndCancel)
   EXPECT_TRUE(tree.groups().empty());
   ExecutionContext stopped;
   stopped.request_cancel();
-  EXPECT_FALSE(tree.build(random_points(50000, 1, false), 16, stopped));
+  EXPECT_FALSE(tree.build(tree_points(50000, 1, false), 16, stopped));
 }

@@ -15,6 +15,7 @@
 #include <set>
 
 using namespace bindpose;
+using test::random_points;
 
 namespace
 {
@@ -65,7 +66,7 @@ TriangleMesh with_holes(int levels, Index n)
   return mesh;
 }
 
-WindingNumber make(const TriangleMesh& mesh, WindingMethod method, Index expected)
+WindingNumber winding_for_queries(const TriangleMesh& mesh, WindingMethod method, Index expected)
 {
   ExecutionContext context;
   WindingNumber::Options options;
@@ -74,17 +75,6 @@ WindingNumber make(const TriangleMesh& mesh, WindingMethod method, Index expecte
   WindingNumber winding;
   EXPECT_TRUE(winding.build(mesh.points, mesh.triangles, context, options).ok());
   return winding;
-}
-
-Points random_points(Index count, double reach, std::uint64_t seed)
-{
-  test::Random random(seed);
-  Points points(count, 3);
-  for (Index i = 0; i < count; ++i)
-  {
-    points.row(i) = random.in_box(Vec3::Constant(-reach), Vec3::Constant(reach)).transpose();
-  }
-  return points;
 }
 } // namespace
 
@@ -250,13 +240,13 @@ TEST(WindingExpectedQueries, ExactValuesDoNotDependOnThem)
   for (const TriangleMesh& mesh : { test::sphere(4), with_holes(4, 50), test::cube() })
   {
     ExecutionContext context;
-    const WindingNumber many = make(mesh, WindingMethod::exact, 0);
+    const WindingNumber many = winding_for_queries(mesh, WindingMethod::exact, 0);
     Eigen::VectorXd on_grid, at_points;
     ASSERT_TRUE(many.evaluate(grid, context, on_grid).ok());
     ASSERT_TRUE(many.evaluate(points, context, at_points).ok());
     for (const Index expected : { 1, 1000, 100000, 100000000 })
     {
-      const WindingNumber few = make(mesh, WindingMethod::exact, expected);
+      const WindingNumber few = winding_for_queries(mesh, WindingMethod::exact, expected);
       Eigen::VectorXd values;
       ASSERT_TRUE(few.evaluate(points, context, values).ok());
       EXPECT_EQ(values, at_points);
@@ -314,8 +304,8 @@ TEST(WindingExpectedQueries, FewPointsPayForNoLargeStructure)
   const TriangleMesh open = with_holes(5, 20);
   for (const TriangleMesh* mesh : { &closed, &open })
   {
-    const WindingNumber few = make(*mesh, WindingMethod::automatic, 100);
-    const WindingNumber many = make(*mesh, WindingMethod::automatic, 0);
+    const WindingNumber few = winding_for_queries(*mesh, WindingMethod::automatic, 100);
+    const WindingNumber many = winding_for_queries(*mesh, WindingMethod::automatic, 0);
     EXPECT_LT(3 * few.memory(), many.memory());
   }
 }
@@ -323,7 +313,7 @@ TEST(WindingExpectedQueries, FewPointsPayForNoLargeStructure)
 TEST(WindingExpectedQueries, ManySmallEvaluationsBuildCellsInTheEnd)
 {
   const TriangleMesh mesh = test::sphere(4);
-  const WindingNumber winding = make(mesh, WindingMethod::exact, 10);
+  const WindingNumber winding = winding_for_queries(mesh, WindingMethod::exact, 10);
   const Index before = winding.memory();
   const Points points = random_points(10, 1.2, 11);
   ExecutionContext context;

@@ -2,6 +2,8 @@
 // identities.
 #include "winding/winding_number.h"
 
+#include "base/constants.h"
+
 #include "support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +15,6 @@ using namespace bindpose;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr WindingMethod methods[] = { WindingMethod::exact, WindingMethod::direct,
   WindingMethod::hierarchical, WindingMethod::crossings };
 

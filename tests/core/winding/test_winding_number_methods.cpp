@@ -21,7 +21,7 @@ namespace
 constexpr WindingMethod ways[] = { WindingMethod::direct, WindingMethod::hierarchical,
   WindingMethod::crossings };
 
-WindingNumber make(const TriangleMesh& mesh, WindingMethod method, Index leaf = 64)
+WindingNumber winding_by_method(const TriangleMesh& mesh, WindingMethod method, Index leaf = 64)
 {
   ExecutionContext context;
   WindingNumber::Options options;
@@ -33,7 +33,7 @@ WindingNumber make(const TriangleMesh& mesh, WindingMethod method, Index leaf = 
   return winding;
 }
 
-using Lattice = Eigen::Matrix<std::int64_t, 3, 1>;
+using LatticeVector = Eigen::Matrix<std::int64_t, 3, 1>;
 
 /// Evaluate the winding number at a point on the lattice of spacing 1/8. Exact integers decide on
 /// which side of a triangle's plane the point is. The sum in long double contains the triangles
@@ -44,7 +44,7 @@ double lattice_twin(const TriangleMesh& mesh, const Vec3& p)
   long double sum = 0.0L;
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
   {
-    std::array<Lattice, 3> v;
+    std::array<LatticeVector, 3> v;
     std::array<Long3, 3> x;
     for (int k = 0; k < 3; ++k)
     {
@@ -156,7 +156,7 @@ TEST(WindingMethods, AgreeWithWholeNumbersOnLatticeSoups)
     std::vector<WindingNumber> windings;
     for (const WindingMethod method : ways)
     {
-      windings.push_back(make(mesh, method, 1 + random.below(6)));
+      windings.push_back(winding_by_method(mesh, method, 1 + random.below(6)));
     }
     for (int q = 0; q < 60; ++q)
     {
@@ -201,7 +201,7 @@ TEST(WindingMethods, AgreeOnRandomSoups)
     }
     for (const WindingMethod method : ways)
     {
-      EXPECT_LE(worst_difference(mesh, make(mesh, method, 8), points), 1e-12)
+      EXPECT_LE(worst_difference(mesh, winding_by_method(mesh, method, 8), points), 1e-12)
         << to_string(method) << ", " << triangles;
     }
   }
@@ -228,7 +228,7 @@ TEST(WindingMethods, AgreeOnUncleanSurfaces)
     }
     for (const WindingMethod method : ways)
     {
-      EXPECT_LE(worst_difference(mesh, make(mesh, method), points), 1e-12)
+      EXPECT_LE(worst_difference(mesh, winding_by_method(mesh, method), points), 1e-12)
         << to_string(method) << ", hole " << hole;
     }
   }
@@ -241,7 +241,7 @@ TEST(WindingMethods, RaysThroughVerticesAndEdgesOfClosedSurfaces)
   for (int turn = 0; turn < 3; ++turn)
   {
     mesh.points.col(turn) *= 0.5; // flatten the sphere along one more axis
-    const WindingNumber winding = make(mesh, WindingMethod::crossings);
+    const WindingNumber winding = winding_by_method(mesh, WindingMethod::crossings);
     for (Index t = 0; t < mesh.triangles.rows(); ++t)
     {
       for (int axis = 0; axis < 3; ++axis)
@@ -272,7 +272,7 @@ TEST(WindingMethods, ThinTrianglesDoNotFlip)
   mesh.points.col(1) *= 1e-4;
   for (const WindingMethod method : ways)
   {
-    const WindingNumber winding = make(mesh, method, 2);
+    const WindingNumber winding = winding_by_method(mesh, method, 2);
     for (const double z : { -1.0 + 1e-12, -0.4, 0.3, 1.0 - 1e-12 })
     {
       for (const double x : { -0.99999, 0.0, 0.5 })
@@ -313,7 +313,7 @@ TEST(WindingMethods, SliversAreSeenUnderTheAngleOfTheirRectangle)
       expected /= 12.56637061435917295;
       for (const WindingMethod method : ways)
       {
-        EXPECT_NEAR(make(mesh, method, 1).evaluate_at(Vec3(0, 0, h)), expected, 1e-15)
+        EXPECT_NEAR(winding_by_method(mesh, method, 1).evaluate_at(Vec3(0, 0, h)), expected, 1e-15)
           << to_string(method) << ", " << width << ", " << h;
       }
     }
@@ -328,7 +328,7 @@ TEST(WindingMethods, WhatIsNoTriangleCannotBeTouched)
   for (const WindingMethod method : ways)
   {
     bool touches = true;
-    EXPECT_NEAR(make(mesh, method).evaluate_at(Vec3::Zero(), &touches), 1.0, 1e-15);
+    EXPECT_NEAR(winding_by_method(mesh, method).evaluate_at(Vec3::Zero(), &touches), 1.0, 1e-15);
     EXPECT_FALSE(touches) << to_string(method);
   }
   bool touches = true;
@@ -361,7 +361,7 @@ TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
     {
       const TriangleMesh mesh = test::translated(closed ? sphere : loose, Vec3(place, 0, 0));
       const WindingNumber winding =
-        make(mesh, closed ? WindingMethod::crossings : WindingMethod::fast);
+        winding_by_method(mesh, closed ? WindingMethod::crossings : WindingMethod::fast);
       for (Index t = 0; t < mesh.triangles.rows(); ++t)
       {
         const auto corner = [&](int k) { return Vec3(mesh.points.row(mesh.triangles(t, k))); };
@@ -392,7 +392,8 @@ TEST(WindingMethods, AsSmallAsDoublesGet)
     tiny.points = unit * mesh.points;
     for (const WindingMethod method : ways)
     {
-      const WindingNumber winding = make(mesh, method, 4), of_tiny = make(tiny, method, 4);
+      const WindingNumber winding = winding_by_method(mesh, method, 4),
+                          of_tiny = winding_by_method(tiny, method, 4);
       test::Random random(4);
       for (int i = 0; i < 3000; ++i)
       {
@@ -452,10 +453,14 @@ TEST(WindingMethods, FastNextToALongTriangleThatIsCut)
 
 TEST(WindingMethods, AutomaticChoosesByCounts)
 {
-  EXPECT_EQ(make(test::cube(), WindingMethod::automatic).method(), WindingMethod::crossings);
-  EXPECT_EQ(make(test::open_cube(), WindingMethod::automatic).method(), WindingMethod::direct);
-  EXPECT_EQ(make(test::sphere(3), WindingMethod::automatic).method(), WindingMethod::crossings);
-  EXPECT_EQ(make(test::sphere(3), WindingMethod::fast).method(), WindingMethod::crossings);
+  EXPECT_EQ(
+    winding_by_method(test::cube(), WindingMethod::automatic).method(), WindingMethod::crossings);
+  EXPECT_EQ(
+    winding_by_method(test::open_cube(), WindingMethod::automatic).method(), WindingMethod::direct);
+  EXPECT_EQ(winding_by_method(test::sphere(3), WindingMethod::automatic).method(),
+    WindingMethod::crossings);
+  EXPECT_EQ(
+    winding_by_method(test::sphere(3), WindingMethod::fast).method(), WindingMethod::crossings);
   // Groups of triangles get separate corners and are moved apart. With one triangle per group the
   // result is a soup, with 256 a set of patches.
   for (const Index group : { 1, 256 })
@@ -476,9 +481,9 @@ TEST(WindingMethods, AutomaticChoosesByCounts)
       }
     }
     apart.points.conservativeResize(static_cast<Index>(ids.size()), 3);
-    const WindingNumber winding = make(apart, WindingMethod::exact);
+    const WindingNumber winding = winding_by_method(apart, WindingMethod::exact);
     EXPECT_EQ(winding.method(), group == 1 ? WindingMethod::direct : WindingMethod::hierarchical);
-    EXPECT_EQ(make(apart, WindingMethod::automatic).method(), WindingMethod::fast);
+    EXPECT_EQ(winding_by_method(apart, WindingMethod::automatic).method(), WindingMethod::fast);
     EXPECT_NEAR(winding.evaluate_at(Vec3(0.1, 0.2, 0.3)), 1.0, 1e-4);
   }
 }
@@ -501,7 +506,7 @@ TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
     heap.triangles.row(v + 2) << v + 1, v + 2, v + 3;
     heap.triangles.row(v + 3) << v + 2, v, v + 3;
   }
-  const WindingNumber winding = make(heap, WindingMethod::automatic);
+  const WindingNumber winding = winding_by_method(heap, WindingMethod::automatic);
   EXPECT_EQ(winding.method(), WindingMethod::crossings);
   // The memory contains at most 16 entries per triangle and 100,000 additional ones, of 30 bytes
   // each. They are in blocks that may be half empty.
@@ -581,7 +586,7 @@ TEST(WindingMethods, SameBitsForAnyThreadsAndExtent)
   for (const WindingMethod method : { WindingMethod::direct, WindingMethod::hierarchical,
          WindingMethod::crossings, WindingMethod::fast })
   {
-    const WindingNumber winding = make(mesh, method);
+    const WindingNumber winding = winding_by_method(mesh, method);
     ExecutionContext one;
     one.set_threads(1);
     Eigen::VectorXd expected;
@@ -640,7 +645,7 @@ TEST(WindingMethods, FineSurfacesOnRowsAndAtPoints)
   }
   const TriangleMesh ball = test::sphere(6, 0.02, Vec3(1.0, 0.0, 0.2));
   const TriangleMesh mesh = test::join(ring, test::flipped(ball));
-  const WindingNumber winding = make(mesh, WindingMethod::crossings);
+  const WindingNumber winding = winding_by_method(mesh, WindingMethod::crossings);
 
   // Inside of the small sphere, the torus contributes 1 and the sphere -1.
   EXPECT_EQ(winding.evaluate_at(Vec3(1.0, 0.0, 0.2)), 0.0);
@@ -679,7 +684,7 @@ TEST(WindingMethods, FineSurfacesOnRowsAndAtPoints)
 TEST(WindingMethods, OnePointMayBeAskedFromManyThreads)
 {
   const TriangleMesh mesh = unclean_surface(3, 0.3);
-  const WindingNumber winding = make(mesh, WindingMethod::automatic);
+  const WindingNumber winding = winding_by_method(mesh, WindingMethod::automatic);
   const Vec3 p(0.1, 0.2, 0.3);
   const double expected = winding.evaluate_at(p);
   std::vector<std::thread> threads;

@@ -34,16 +34,12 @@
 
 using namespace bindpose;
 using test::OpenedFolders;
+using test::to_qt;
 using test::two_points;
 using test::wait_for;
 
 namespace
 {
-QString text(const std::string& path)
-{
-  return QString::fromStdString(path);
-}
-
 class ExportWindow : public test::WindowTest
 {
 protected:
@@ -94,7 +90,7 @@ protected:
         QWidget* dialog = QApplication::activeModalWidget();
         if (auto* files = qobject_cast<QFileDialog*>(dialog))
         {
-          files->findChild<QLineEdit*>("fileNameEdit")->setText(text(path));
+          files->findChild<QLineEdit*>("fileNameEdit")->setText(to_qt(path));
           static_cast<QDialog*>(files)->accept();
           ++answered;
         }
@@ -184,7 +180,7 @@ TEST_F(ExportWindow, TheRigHasTheSkinAndStandsAsTheHandlesDo)
   const std::string path = this->folder / "ball.glb";
   this->export_by_menu("file.export_rig_glb", path);
   MainWindow other;
-  ASSERT_TRUE(other.open(text(path))) << other.error().toStdString();
+  ASSERT_TRUE(other.open(to_qt(path))) << other.error().toStdString();
   EXPECT_TRUE(other.is_bound());
   ASSERT_EQ(other.document()->handles().size(), 2U);
   const Pose pose = other.document()->pose();
@@ -198,7 +194,7 @@ TEST_F(ExportWindow, TheRigHasTheSkinAndStandsAsTheHandlesDo)
   EXPECT_TRUE(this->said().contains("ball.glb"));
   // A method that glTF does not support is reported.
   this->window.set_method(1);
-  ASSERT_TRUE(this->window.exports()->save_rig(text(path)));
+  ASSERT_TRUE(this->window.exports()->save_rig(to_qt(path)));
   EXPECT_TRUE(this->said().contains("linear blend skinning")) << this->said().toStdString();
 }
 
@@ -210,7 +206,7 @@ TEST_F(ExportWindow, PoseAndPictureAreExportedByTheMenu)
   EXPECT_TRUE(std::filesystem::exists(this->folder / "bent.json"));
   EXPECT_TRUE(this->said().contains("bent.json"));
   this->export_by_menu("file.export_picture", this->folder / "bent.png");
-  EXPECT_FALSE(QImage(text(this->folder / "bent.png")).isNull());
+  EXPECT_FALSE(QImage(to_qt(this->folder / "bent.png")).isNull());
   EXPECT_TRUE(this->said().contains("bent.png"));
 }
 
@@ -241,7 +237,7 @@ TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
 TEST_F(ExportWindow, TheFolderOfWhatWasWrittenIsOpened)
 {
   this->open_mesh();
-  ASSERT_TRUE(this->window.exports()->save_shape(text(this->folder / "ball.obj")));
+  ASSERT_TRUE(this->window.exports()->save_shape(to_qt(this->folder / "ball.obj")));
   EXPECT_TRUE(this->said().contains("ball.obj"));
   OpenedFolders folders;
   this->press("Show in folder");
@@ -257,13 +253,13 @@ TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
   EXPECT_FALSE(this->window.exports()->save_shape("/no/such/folder/ball.ply"));
   EXPECT_TRUE(this->window.error().contains("Cannot export")) << this->window.error().toStdString();
   EXPECT_EQ(this->said(), QString());
-  ASSERT_TRUE(this->window.exports()->save_shape(text(this->folder / "ball.ply")));
+  ASSERT_TRUE(this->window.exports()->save_shape(to_qt(this->folder / "ball.ply")));
   EXPECT_EQ(this->window.error(), QString());
   // If an action of another kind succeeds, the error message stays.
   EXPECT_FALSE(this->window.editing()->commands()->rename(0, "top"));
   const QString refused = this->window.error();
   EXPECT_FALSE(refused.isEmpty());
-  ASSERT_TRUE(this->window.exports()->save_shape(text(this->folder / "ball.ply")));
+  ASSERT_TRUE(this->window.exports()->save_shape(to_qt(this->folder / "ball.ply")));
   this->bend();
   EXPECT_EQ(this->window.error(), refused);
   EXPECT_TRUE(this->window.editing()->commands()->rename(0, "foot"));
@@ -272,7 +268,7 @@ TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
   EXPECT_EQ(this->hand.press_key("K"), QString());
   this->window.posing()->export_to("/no/such/folder/ball.json");
   ASSERT_TRUE(wait_for([this] { return !this->window.error().isEmpty(); }));
-  this->window.posing()->export_to(text(this->folder / "ball.json"));
+  this->window.posing()->export_to(to_qt(this->folder / "ball.json"));
   ASSERT_TRUE(
     wait_for([this] { return !this->said().isEmpty() && this->said().contains("Wrote"); }));
   EXPECT_EQ(this->window.error(), QString());

@@ -1,6 +1,7 @@
 // The main window as a user operates it: open, bind, drag, undo, cancel. Drags are synthetic events
 // on VTK's interactor. The tests assert the positions of vertices.
 #include "binding.h"
+#include "columns.h"
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -48,36 +49,13 @@
 #include <fstream>
 
 using namespace bindpose;
+using test::column;
 using test::two_points;
 using test::wait_for;
+using test::with_linear_weights;
 
 namespace
 {
-/// Return a column from z = -1 to 1. The tests put a point handle at each end.
-TriangleMesh column()
-{
-  TriangleMesh mesh = test::sphere(3);
-  mesh.points.col(0) *= 0.4;
-  mesh.points.col(1) *= 0.4;
-  return mesh;
-}
-
-vtkSmartPointer<vtkPolyData> with_weights(const TriangleMesh& mesh)
-{
-  const auto data = to_polydata(mesh.points, mesh.triangles);
-  vtkNew<vtkDoubleArray> weights;
-  weights->SetName("Weights");
-  weights->SetNumberOfComponents(2);
-  for (Index v = 0; v < mesh.points.rows(); ++v)
-  {
-    const double t = 0.5 * (1.0 + mesh.points(v, 2));
-    const double row[2] = { 1.0 - t, t };
-    weights->InsertNextTuple(row);
-  }
-  data->GetPointData()->AddArray(weights);
-  return data;
-}
-
 Vec3 top_of(vtkPolyData* data)
 {
   Vec3 top(0, 0, -1e300);
@@ -120,7 +98,7 @@ protected:
 
   void open_bound()
   {
-    ASSERT_TRUE(this->window.set_mesh(with_weights(column()), "column"));
+    ASSERT_TRUE(this->window.set_mesh(with_linear_weights(column(3)), "column"));
     ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
     ASSERT_TRUE(this->window.is_bound());
     this->window.history()->clear(); // discard the undo steps of opening the files
@@ -197,7 +175,7 @@ TEST_F(Window, FilesThatCannotBeReadAreNamedInTheErrorBar)
   const test::Folder folder;
   const std::string noise = folder.write("noise.png", "no picture");
   const std::string session = folder.write("old.bindpose", "{");
-  const TriangleMesh mesh = column();
+  const TriangleMesh mesh = column(3);
   const auto surface = to_polydata(mesh.points, mesh.triangles);
   ASSERT_TRUE(write_shape(surface, folder / "good.vtp").ok());
   std::vector<FirstFile> files(4);
@@ -221,7 +199,7 @@ TEST_F(Window, ARigIsReadyToBePosed)
 {
   const std::string path = testing::TempDir() + "bindpose_rig.glb";
   vtkNew<vtkGLTFSkinWriter> writer;
-  writer->SetInputData(0, with_weights(column()));
+  writer->SetInputData(0, with_linear_weights(column(3)));
   writer->SetHandlesData(two_points());
   writer->SetFileName(path.c_str());
   writer->OverwriteOn();
@@ -287,7 +265,7 @@ TEST_F(Window, ModesAreRememberedAndUndone)
 
 TEST_F(Window, BindsOffTheUiThreadWithProgress)
 {
-  const TriangleMesh mesh = column();
+  const TriangleMesh mesh = column(3);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "column"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   EXPECT_FALSE(this->window.is_bound());
@@ -405,7 +383,7 @@ TEST_F(Window, AColumnOfTheWeightsColorsTheSurface)
 
 TEST_F(Window, WeightsOfHandlesWithOtherNamesAreNotUsed)
 {
-  const auto mesh = with_weights(column());
+  const auto mesh = with_linear_weights(column(3));
   mesh->GetPointData()->GetArray("Weights")->SetComponentName(0, "left");
   mesh->GetPointData()->GetArray("Weights")->SetComponentName(1, "right");
   ASSERT_TRUE(this->window.set_mesh(mesh, "column"));
@@ -417,7 +395,7 @@ TEST_F(Window, WeightsOfHandlesWithOtherNamesAreNotUsed)
 TEST_F(Window, AnotherMeshTakesTheColorsAndTheLegendAway)
 {
   this->open_bound();
-  const TriangleMesh mesh = column();
+  const TriangleMesh mesh = column(3);
   this->window.panel()->show_column(1);
   this->render();
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "plain"));
@@ -439,7 +417,7 @@ TEST_F(Window, AClickOnAHandleSelectsItInTheListEvenIfItIsFree)
 
 TEST_F(Window, ABindKeepsTheSelectedHandle)
 {
-  const TriangleMesh mesh = column();
+  const TriangleMesh mesh = column(3);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "column"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   this->window.panel()->select_handle(1);
@@ -541,7 +519,7 @@ TEST_F(Window, NoTextOfThePanelIsClipped)
   handles[0].head = handles[0].tail = Vec3(0, 0, 0.9);
   handles[1].name = "the_handle_of_the_left_hind_leg_as_an_exporter_would_name_it";
   handles[1].head = handles[1].tail = Vec3(0, 0, -0.9);
-  ASSERT_TRUE(this->window.set_mesh(with_weights(column()), "column"));
+  ASSERT_TRUE(this->window.set_mesh(with_linear_weights(column(3)), "column"));
   ASSERT_TRUE(this->window.set_handles(to_polydata(handles), "points"));
   for (const QSize& size : { QSize(900, 600), QSize(1280, 800), QSize(1920, 1080) })
   {

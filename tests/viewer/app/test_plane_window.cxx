@@ -1,5 +1,6 @@
 // The three planes that the mouse can drag: the slice of a volume, the cut through tets, and the
 // slice of weights. A drag is one undo step, Esc cancels it, and sessions store the plane.
+#include "columns.h"
 #include "window_test.h"
 
 #include "document/document.h"
@@ -54,19 +55,11 @@ std::ostream& operator<<(std::ostream& stream, const PlaneCase& plane)
 }
 
 /// Return a box of tets from -1 to 1, with weights linear along z.
-vtkSmartPointer<vtkUnstructuredGrid> box()
+vtkSmartPointer<vtkUnstructuredGrid> box_with_weights()
 {
   const TetMesh mesh = test::tet_box(4, 4, 4, Vec3(-1, -1, -1), Vec3(1, 1, 1));
   auto grid = to_unstructured_grid(mesh.points, mesh.tets);
-  vtkNew<vtkDoubleArray> weights;
-  weights->SetName("Weights");
-  weights->SetNumberOfComponents(2);
-  for (vtkIdType v = 0; v < grid->GetNumberOfPoints(); ++v)
-  {
-    const double up = 0.5 * (1.0 + grid->GetPoint(v)[2]);
-    weights->InsertNextTuple2(1.0 - up, up);
-  }
-  grid->GetPointData()->AddArray(weights);
+  test::add_linear_weights(grid);
   return grid;
 }
 
@@ -106,7 +99,7 @@ protected:
     }
     else
     {
-      test::write_with<vtkXMLUnstructuredGridWriter>(box(), this->folder / "box.vtu");
+      test::write_with<vtkXMLUnstructuredGridWriter>(box_with_weights(), this->folder / "box.vtu");
       this->open("box.vtu");
     }
     this->window.panels()->show_panel(GetParam().panel);

@@ -11,6 +11,7 @@
 #include "pose_list.h"
 #include "pose_panel.h"
 #include "posing.h"
+#include "posing/make_poser.h"
 #include "posing/pose_blend.h"
 #include "rotation_view.h"
 #include "sequence_export.h"

@@ -39,7 +39,7 @@ using test::wait_for;
 
 namespace
 {
-vtkSmartPointer<vtkPolyData> ball(int level, int columns)
+vtkSmartPointer<vtkPolyData> ball_with_equal_weights(int level, int columns)
 {
   const TriangleMesh mesh = test::sphere(level);
   const auto data = to_polydata(mesh.points, mesh.triangles);
@@ -123,7 +123,7 @@ TEST_F(Screens, AnOpeningIsOnePictureHoweverOftenThePictureIsResized)
 {
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
   this->frames = 0;
-  ASSERT_TRUE(this->window.set_mesh(ball(3, 2), "ball"));
+  ASSERT_TRUE(this->window.set_mesh(ball_with_equal_weights(3, 2), "ball"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   EXPECT_EQ(this->frames, 0) << "drawn before the window is";
   QApplication::processEvents();
@@ -143,7 +143,7 @@ TEST_F(Screens, AnOpeningIsOnePictureHoweverOftenThePictureIsResized)
 
 TEST_F(Screens, WhatIsSeenAtRestHasSmoothEdges)
 {
-  ASSERT_TRUE(this->window.set_mesh(ball(3, 2), "ball"));
+  ASSERT_TRUE(this->window.set_mesh(ball_with_equal_weights(3, 2), "ball"));
   QElapsedTimer clock;
   clock.start();
   wait_for([&clock] { return clock.elapsed() > 1000; });
@@ -155,7 +155,7 @@ TEST_F(Screens, AFileThatIsReadIsNotReadAgain)
 {
   const std::string path = this->folder / "ball.off";
   vtkNew<vtkMeshFileWriter> writer;
-  writer->SetInputData(ball(2, 2));
+  writer->SetInputData(ball_with_equal_weights(2, 2));
   writer->SetFileName(path.c_str());
   writer->Update();
   OpenedFile file;
@@ -177,7 +177,7 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
     handles[k].name = "p" + std::to_string(k);
     handles[k].head = handles[k].tail = Vec3(0.4 * std::cos(k), 0.4 * std::sin(k), 0.01 * k);
   }
-  const auto surface = ball(6, 20);
+  const auto surface = ball_with_equal_weights(6, 20);
   surface->GetPointData()->RemoveArray("Weights");
   ASSERT_TRUE(this->window.set_mesh(surface, "ball"));
   ASSERT_TRUE(this->window.set_handles(to_polydata(handles), "points"));
@@ -186,7 +186,8 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
   // This is the same mesh, with arrays as a bind returns them.
   const auto bound = vtkSmartPointer<vtkPolyData>::New();
   bound->ShallowCopy(surface);
-  bound->GetPointData()->AddArray(ball(6, 20)->GetPointData()->GetArray("Weights"));
+  bound->GetPointData()->AddArray(
+    ball_with_equal_weights(6, 20)->GetPointData()->GetArray("Weights"));
   QElapsedTimer clock;
   clock.start();
   const double cpu = own_cpu_seconds();

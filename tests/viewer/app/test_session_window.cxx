@@ -1,5 +1,6 @@
 // Tests that the window preserves work: sessions, recovery after a crash, recent files, undo.
 #include "binding.h"
+#include "columns.h"
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -17,7 +18,6 @@
 #include "support/meshes.h"
 
 #include "vtkCamera.h"
-#include "vtkDoubleArray.h"
 #include "vtkGLTFSkinWriter.h"
 #include "vtkImageData.h"
 #include "vtkMeshFileWriter.h"
@@ -43,34 +43,15 @@
 #include <QUndoStack>
 
 using namespace bindpose;
+using test::to_qt;
 using test::two_points;
 
 namespace
 {
-QString text(const std::string& path)
+vtkSmartPointer<vtkPolyData> column_data(bool weights)
 {
-  return QString::fromStdString(path);
-}
-
-vtkSmartPointer<vtkPolyData> column(bool weights)
-{
-  TriangleMesh mesh = test::sphere(2);
-  mesh.points.col(0) *= 0.4;
-  mesh.points.col(1) *= 0.4;
-  const auto data = to_polydata(mesh.points, mesh.triangles);
-  if (weights)
-  {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName("Weights");
-    array->SetNumberOfComponents(2);
-    for (Index v = 0; v < mesh.points.rows(); ++v)
-    {
-      const double t = 0.5 * (1.0 + mesh.points(v, 2));
-      array->InsertNextTuple2(1.0 - t, t);
-    }
-    data->GetPointData()->AddArray(array);
-  }
-  return data;
+  const TriangleMesh mesh = test::column(2);
+  return weights ? test::with_linear_weights(mesh) : to_polydata(mesh.points, mesh.triangles);
 }
 
 void write_mesh(vtkPolyData* mesh, const std::string& path)
@@ -90,17 +71,17 @@ protected:
   {
     qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString(this->folder / "config"));
     qputenv("XDG_DATA_HOME", QByteArray::fromStdString(this->folder / "data"));
-    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, text(this->folder / "config"));
+    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, to_qt(this->folder / "config"));
     RecentFiles::clear();
   }
 
   /// Open a mesh with weights and handles from files.
   void open_files()
   {
-    test::write_with<vtkXMLPolyDataWriter>(column(true), this->folder / "column.vtp");
+    test::write_with<vtkXMLPolyDataWriter>(column_data(true), this->folder / "column.vtp");
     test::write_with<vtkXMLPolyDataWriter>(two_points(), this->folder / "points.vtp");
-    ASSERT_TRUE(this->window.open(text(this->folder / "column.vtp")));
-    ASSERT_TRUE(this->window.open(text(this->folder / "points.vtp")));
+    ASSERT_TRUE(this->window.open(to_qt(this->folder / "column.vtp")));
+    ASSERT_TRUE(this->window.open(to_qt(this->folder / "points.vtp")));
     ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
     this->render();
   }
@@ -149,7 +130,7 @@ protected:
   void drop(const std::string& path)
   {
     QMimeData data;
-    data.setUrls({ QUrl::fromLocalFile(text(path)) });
+    data.setUrls({ QUrl::fromLocalFile(to_qt(path)) });
     QDragEnterEvent enter({ 10, 10 }, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
     QApplication::sendEvent(&this->window, &enter);
     EXPECT_TRUE(enter.isAccepted());
@@ -187,11 +168,11 @@ TEST_F(SessionWindow, ASessionOpensAsItWasSaved)
   const double top = top_of(this->window.shown());
   double camera[3];
   this->window.viewport()->renderer()->GetActiveCamera()->GetPosition(camera);
-  ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "work.bindpose")));
+  ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "work.bindpose")));
 
   MainWindow other;
   other.show();
-  ASSERT_TRUE(other.open(text(this->folder / "work.bindpose"))) << other.error().toStdString();
+  ASSERT_TRUE(other.open(to_qt(this->folder / "work.bindpose"))) << other.error().toStdString();
   EXPECT_TRUE(other.is_bound());
   EXPECT_EQ(top_of(other.shown()), top);
   EXPECT_EQ(other.document()->number("pose.method"), 1);
@@ -211,7 +192,7 @@ TEST_F(SessionWindow, TheTitleMarksWhatIsNotSaved)
   EXPECT_FALSE(this->window.isWindowModified()); // nothing has been changed yet
   this->pose();
   EXPECT_TRUE(this->window.isWindowModified());
-  ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "work.bindpose")));
+  ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "work.bindpose")));
   EXPECT_FALSE(this->window.isWindowModified());
   EXPECT_TRUE(this->window.windowTitle().startsWith("work"));
   this->window.history()->undo();
@@ -227,12 +208,12 @@ TEST_F(SessionWindow, ClosingAsksWhenSomethingWouldBeLost)
   this->pose();
   EXPECT_TRUE(this->close_and_answer(QMessageBox::Cancel, &closed));
   EXPECT_FALSE(closed);
-  ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "work.bindpose")));
+  ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "work.bindpose")));
   this->window.set_mode(0, 1);
   EXPECT_TRUE(this->close_and_answer(QMessageBox::Save, &closed));
   EXPECT_TRUE(closed);
   Session saved;
-  ASSERT_TRUE(read_session(text(this->folder / "work.bindpose"), saved).ok());
+  ASSERT_TRUE(read_session(to_qt(this->folder / "work.bindpose"), saved).ok());
   EXPECT_EQ(saved.work.pose[0].mode, HandleMode::position);
   this->window.show();
   // There are no unsaved changes.
@@ -260,7 +241,7 @@ TEST_F(SessionWindow, ABrokenSessionLeavesTheWork)
   vtkPolyData* before = this->window.shown();
   const int steps = this->window.history()->count();
   const std::string path = this->folder.write("bad.bindpose", R"({"bindpose": {"schema": 1}})");
-  EXPECT_FALSE(this->window.open(text(path)));
+  EXPECT_FALSE(this->window.open(to_qt(path)));
   EXPECT_NE(this->window.error().indexOf("bad.bindpose cannot be opened"), -1)
     << this->window.error().toStdString();
   EXPECT_EQ(this->window.shown(), before);
@@ -270,12 +251,12 @@ TEST_F(SessionWindow, ABrokenSessionLeavesTheWork)
 
 TEST_F(SessionWindow, AMissingInputIsSaidAndCanBeLocated)
 {
-  write_mesh(column(false), this->folder / "column.off");
-  ASSERT_TRUE(this->window.open(text(this->folder / "column.off")));
+  write_mesh(column_data(false), this->folder / "column.off");
+  ASSERT_TRUE(this->window.open(to_qt(this->folder / "column.off")));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "work.bindpose")));
+  ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "work.bindpose")));
   std::filesystem::rename(this->folder / "column.off", this->folder / "moved.off");
-  ASSERT_TRUE(this->window.open(text(this->folder / "work.bindpose")));
+  ASSERT_TRUE(this->window.open(to_qt(this->folder / "work.bindpose")));
   EXPECT_EQ(this->window.note_bar()->sentence(),
     "column.off is missing; the session was opened without it.");
   EXPECT_NE(button_of(this->window.note_bar(), "Locate…"), nullptr);
@@ -304,7 +285,7 @@ TEST_F(SessionWindow, PanelsFollowUndo)
 
 TEST_F(SessionWindow, ABindIsOneStepAndIsBackedUpAtOnce)
 {
-  ASSERT_TRUE(this->window.set_mesh(column(false), "column"));
+  ASSERT_TRUE(this->window.set_mesh(column_data(false), "column"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   EXPECT_EQ(this->window.sessions()->autosave()->path(), "");
   this->window.binding()->start();
@@ -356,7 +337,7 @@ TEST_F(SessionWindow, ARebindIsOfferedAndPosingGoesOn)
 
 TEST_F(SessionWindow, AKilledProgramsWorkIsOfferedAndRestored)
 {
-  test::write_with<vtkXMLPolyDataWriter>(column(true), this->folder / "column.vtp");
+  test::write_with<vtkXMLPolyDataWriter>(column_data(true), this->folder / "column.vtp");
   test::write_with<vtkXMLPolyDataWriter>(two_points(), this->folder / "points.vtp");
   QProcess program;
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
@@ -364,9 +345,9 @@ TEST_F(SessionWindow, AKilledProgramsWorkIsOfferedAndRestored)
   program.setProcessEnvironment(environment);
   program.setProcessChannelMode(QProcess::ForwardedErrorChannel);
   program.start(BINDPOSE_PROGRAM,
-    { "view", text(this->folder / "column.vtp"), text(this->folder / "points.vtp") });
+    { "view", to_qt(this->folder / "column.vtp"), to_qt(this->folder / "points.vtp") });
   ASSERT_TRUE(program.waitForStarted());
-  const QString root = text(this->folder / "data/bindpose/recovery");
+  const QString root = to_qt(this->folder / "data/bindpose/recovery");
   const auto is_saved = [&root]
   {
     for (const QString& name : QDir(root).entryList(QDir::Dirs | QDir::NoDotAndDotDot))
@@ -404,7 +385,7 @@ TEST_F(SessionWindow, AKilledProgramsWorkIsOfferedAndRestored)
 
 TEST_F(SessionWindow, DiscardedWorkIsGoneAndTheNextIsOffered)
 {
-  const QString root = text(this->folder / "recovery");
+  const QString root = to_qt(this->folder / "recovery");
   for (const char* name : { "one", "two" })
   {
     QDir().mkpath(root + '/' + name);
@@ -425,7 +406,7 @@ TEST_F(SessionWindow, DiscardedWorkIsGoneAndTheNextIsOffered)
 
 TEST_F(SessionWindow, EveryKindOfMeshCanBeDropped)
 {
-  const auto mesh = column(false);
+  const auto mesh = column_data(false);
   for (const char* ending : { "obj", "off", "ply", "stl", "vtp" })
   {
     SCOPED_TRACE(ending);
@@ -435,7 +416,7 @@ TEST_F(SessionWindow, EveryKindOfMeshCanBeDropped)
     EXPECT_EQ(this->window.error(), "");
     ASSERT_NE(this->window.document()->surface(), nullptr);
     EXPECT_EQ(this->window.document()->surface()->GetNumberOfPolys(), mesh->GetNumberOfPolys());
-    EXPECT_EQ(this->window.document()->work().mesh_source.path, text(path));
+    EXPECT_EQ(this->window.document()->work().mesh_source.path, to_qt(path));
     this->window.history()->undo();
     EXPECT_EQ(this->window.document()->surface(), nullptr);
   }
@@ -445,7 +426,7 @@ TEST_F(SessionWindow, TetsRigsHandlesWeightsVolumesAndSessionsCanBeDropped)
 {
   // This file is a rig, which contains mesh, weights and handles.
   vtkNew<vtkGLTFSkinWriter> rig;
-  rig->SetInputData(0, column(true));
+  rig->SetInputData(0, column_data(true));
   rig->SetHandlesData(two_points());
   rig->SetFileName((this->folder / "rig.glb").c_str());
   ASSERT_EQ(rig->Write(), 1);
@@ -477,7 +458,7 @@ TEST_F(SessionWindow, TetsRigsHandlesWeightsVolumesAndSessionsCanBeDropped)
   EXPECT_EQ(this->window.error(), "");
   EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
   // This file is a session.
-  ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "s.bindpose")));
+  ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "s.bindpose")));
   this->drop(this->folder / "s.bindpose");
   EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
   // This file has an unknown type.
@@ -500,7 +481,7 @@ std::string write_picture(const test::Folder& folder)
       image.setPixelColor(x, y, x < 32 ? QColor(220, 20, 20) : QColor(20, 20, 220));
     }
   }
-  EXPECT_TRUE(image.save(text(folder / "flag.png")));
+  EXPECT_TRUE(image.save(to_qt(folder / "flag.png")));
   return folder / "flag.png";
 }
 
@@ -559,8 +540,8 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
     this->window.viewport()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
   // A session also restores the texture.
   this->window.history()->redo();
-  ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "flag.bindpose")));
-  ASSERT_TRUE(this->window.open(text(this->folder / "flag.bindpose")));
+  ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "flag.bindpose")));
+  ASSERT_TRUE(this->window.open(to_qt(this->folder / "flag.bindpose")));
   EXPECT_GT(this->count(this->picture(), red), 5000);
 }
 
@@ -592,7 +573,7 @@ TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
   std::string file = this->folder.read("character.gltf");
   file.insert(file.find('{') + 1, R"("materials": [{"name": "skin"}, {"name": "cloth"}],)");
   this->folder.write("character.gltf", file);
-  ASSERT_TRUE(this->window.open(text(path))) << this->window.error().toStdString();
+  ASSERT_TRUE(this->window.open(to_qt(path))) << this->window.error().toStdString();
   const QString lost = "character.gltf: Bindpose does not keep 2 materials.";
   EXPECT_TRUE(this->window.note_bar()->sentence().startsWith(lost))
     << this->window.note_bar()->sentence().toStdString();
@@ -604,14 +585,14 @@ TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
   const TriangleMesh other = test::open_cube();
   test::write_with<vtkXMLPolyDataWriter>(
     to_polydata(other.points, other.triangles), this->folder / "other.vtp");
-  ASSERT_TRUE(this->window.open(text(this->folder / "other.vtp")));
+  ASSERT_TRUE(this->window.open(to_qt(this->folder / "other.vtp")));
   EXPECT_FALSE(this->window.note_bar()->sentence().contains("does not keep"));
 }
 
 TEST_F(SessionWindow, WeightsWithoutAMeshAreOneSentence)
 {
   ASSERT_TRUE(write_dmat(this->folder / "w.dmat", Weights(Weights::Constant(3, 2, 0.5))).ok());
-  EXPECT_FALSE(this->window.open(text(this->folder / "w.dmat")));
+  EXPECT_FALSE(this->window.open(to_qt(this->folder / "w.dmat")));
   EXPECT_EQ(this->window.error(), "w.dmat contains weights; open the mesh and the handles first");
 }
 
@@ -630,7 +611,7 @@ TEST_F(SessionWindow, RecentFilesAreListedAndMissingOnesGrayed)
   recent->actions()[1]->trigger();
   EXPECT_EQ(this->window.history()->count(), steps + 1);
   EXPECT_EQ(RecentFiles::list().size(), 2);
-  EXPECT_EQ(RecentFiles::list().front(), text(this->folder / "column.vtp"));
+  EXPECT_EQ(RecentFiles::list().front(), to_qt(this->folder / "column.vtp"));
   for (int k = 0; k < 20; ++k)
   {
     RecentFiles::add(QString("/file %1").arg(k));

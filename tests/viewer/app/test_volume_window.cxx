@@ -12,6 +12,7 @@
 #include "volume_panel.h"
 #include "volume_view.h"
 
+#include "base/constants.h"
 #include "conversion.h"
 #include "scene/colors.h"
 #include "scene/volume.h"
@@ -53,8 +54,6 @@ using namespace bindpose;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 /// The isosurface of level w is a sphere of radius 1.5 - w.
 double cone(const Vec3& p)
 {

@@ -81,7 +81,7 @@ void add_array(vtkDataSet* data, const char* name, const std::vector<Column>& co
   data->GetPointData()->AddArray(array);
 }
 
-vtkSmartPointer<vtkPolyData> ball()
+vtkSmartPointer<vtkPolyData> ball_with_named_weights()
 {
   const TriangleMesh mesh = test::sphere(4);
   auto data = to_polydata(mesh.points, mesh.triangles);
@@ -90,7 +90,7 @@ vtkSmartPointer<vtkPolyData> ball()
 }
 
 /// Return a box of tets around the origin, with weights linear along z.
-vtkSmartPointer<vtkUnstructuredGrid> box()
+vtkSmartPointer<vtkUnstructuredGrid> box_with_named_weights()
 {
   const TetMesh mesh = test::tet_box(8, 8, 8, Vec3(-1, -1, -1), Vec3(1, 1, 1));
   auto grid = to_unstructured_grid(mesh.points, mesh.tets);
@@ -175,7 +175,7 @@ protected:
 
 TEST_F(WeightWindow, AColumnHasBandsAndIsolinesAtEveryTenth)
 {
-  this->open(ball());
+  this->open(ball_with_named_weights());
   this->choose("top");
   // The weights are linear on every triangle. The isolines are at 0.1, …, 0.9 of the height.
   vtkPolyData* lines = this->view()->isolines();
@@ -205,7 +205,7 @@ TEST_F(WeightWindow, AColumnHasBandsAndIsolinesAtEveryTenth)
 
 TEST_F(WeightWindow, AllShowsTheStrongestHandle)
 {
-  this->open(ball());
+  this->open(ball_with_named_weights());
   this->choose("All: strongest handle");
   const std::vector<Category> handles = handle_categories({ "bottom", "top" });
   // Viewed from the side, each handle has one half of the view.
@@ -230,11 +230,11 @@ TEST_F(WeightWindow, AllShowsTheStrongestHandle)
 
 TEST_F(WeightWindow, RowSumsNeedRawColumns)
 {
-  this->open(ball());
+  this->open(ball_with_named_weights());
   EXPECT_FALSE(this->button("Row sums")->isEnabled());
   EXPECT_TRUE(this->button("Row sums")->toolTip().contains("--keep-raw"));
   EXPECT_FALSE(this->button("Raw")->isEnabled());
-  const auto raw = ball();
+  const auto raw = ball_with_named_weights();
   add_array(raw, "RawWeights",
     { bottom_weight, [](const Vec3& p) { return top_weight(p) + 0.25 * p.z(); } });
   this->open(raw);
@@ -244,7 +244,7 @@ TEST_F(WeightWindow, RowSumsNeedRawColumns)
   EXPECT_FALSE(this->list("top")->isEnabled());
   EXPECT_FALSE(this->button("Normalized")->isEnabled());
   // If a mesh has no raw columns, the processed weights are shown again.
-  this->open(ball());
+  this->open(ball_with_named_weights());
   EXPECT_TRUE(this->button("Weights")->isChecked());
   EXPECT_TRUE(this->view()->is_shown());
 }
@@ -254,7 +254,7 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
   // Only the raw column has a bump, which is in the middle of the visible side.
   const Vec3 place = Vec3(0.3, -0.5, 0.1).normalized();
   Vec3 bump = place;
-  const auto mesh = ball();
+  const auto mesh = ball_with_named_weights();
   double nearest = 1e300;
   for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v)
   {
@@ -312,7 +312,7 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
 
 TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
 {
-  this->open(box());
+  this->open(box_with_named_weights());
   this->choose("top");
   EXPECT_EQ(this->surface()->GetProperty()->GetOpacity(), 1.0);
   this->find<QCheckBox>("Slice through the volume")->setChecked(true);
@@ -366,7 +366,7 @@ TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
 
 TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
 {
-  this->open(ball());
+  this->open(ball_with_named_weights());
   EXPECT_FALSE(this->button("Compare")->isEnabled());
   EXPECT_TRUE(this->button("Compare")->toolTip().contains("handles"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
@@ -426,7 +426,7 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   EXPECT_TRUE(this->button("Difference")->isEnabled());
   // Opening another mesh ends the comparison.
   this->button("Compare again")->click();
-  ASSERT_TRUE(this->window.set_mesh(box(), "box"));
+  ASSERT_TRUE(this->window.set_mesh(box_with_named_weights(), "box"));
   this->wait_while([this] { return this->weights()->is_busy(); });
   EXPECT_FALSE(this->button("Difference")->isEnabled());
 }
@@ -435,7 +435,7 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
 /// with itself.
 TEST_F(WeightWindow, CertificatesNameTheirMethod)
 {
-  const auto mesh = ball();
+  const auto mesh = ball_with_named_weights();
   vtkNew<vtkDoubleArray> proof;
   proof->SetName("WeightsRelativeGap");
   proof->InsertNextValue(1e-8);
@@ -475,7 +475,7 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
   EXPECT_FALSE(other->model()->flags(other->model()->index(0, 0)) & Qt::ItemIsEnabled);
   EXPECT_TRUE(other->model()->flags(other->model()->index(1, 0)) & Qt::ItemIsEnabled);
   // Weights without a report may come from any method.
-  this->open(ball());
+  this->open(ball_with_named_weights());
   EXPECT_TRUE(other->model()->flags(other->model()->index(0, 0)) & Qt::ItemIsEnabled);
 }
 
@@ -524,7 +524,7 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
 
 TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
 {
-  this->open(box());
+  this->open(box_with_named_weights());
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   ASSERT_TRUE(this->window.is_bound());
   this->choose("top");
@@ -585,19 +585,19 @@ TEST_F(WeightWindow, WhatCannotBeChosenSaysWhy)
   EXPECT_GT(check(), 12);
   EXPECT_TRUE(this->find<QCheckBox>("Isolines")->toolTip().contains("no weights"));
   EXPECT_FALSE(this->view()->is_shown());
-  this->open(ball());
+  this->open(ball_with_named_weights());
   EXPECT_GT(check(), 5);
   EXPECT_TRUE(this->says("These weights have no certificate."));
   const QCheckBox* slice = this->find<QCheckBox>("Slice through the volume");
   EXPECT_TRUE(slice->toolTip().contains(".vtu"));
-  this->open(box());
+  this->open(box_with_named_weights());
   check();
   EXPECT_TRUE(slice->isEnabled());
 }
 
 TEST_F(WeightWindow, NoTextOfTheWeightPanelIsClipped)
 {
-  auto grid = box();
+  auto grid = box_with_named_weights();
   add_array(grid, "RawWeights", { bottom_weight, top_weight });
   grid->GetPointData()->GetArray("Weights")->SetComponentName(
     0, "a handle whose name somebody has made much too long for any list");

@@ -35,6 +35,12 @@ bool wait_for(const Condition& condition, int seconds = 60)
   return wait_until(condition, seconds);
 }
 
+/// Return a text of the standard library as a text of Qt.
+inline QString to_qt(const std::string& text)
+{
+  return QString::fromStdString(text);
+}
+
 template <typename Writer>
 void write_with(vtkDataSet* data, const std::string& path)
 {

@@ -1,6 +1,6 @@
 // Posers of the window are compared with the filters, which call the same kernels in another way.
 // The results must have the same bits.
-#include "posing/poser.h"
+#include "posing/make_poser.h"
 #include "rigs.h"
 
 #include "pose/transform_parts.h"

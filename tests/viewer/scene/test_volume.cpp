@@ -5,6 +5,7 @@
 #include "scene/volume.h"
 #include "scene/volume_rendering.h"
 
+#include "base/constants.h"
 #include "conversion.h"
 #include "support/meshes.h"
 
@@ -29,7 +30,6 @@ using testing::HasSubstr;
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr const char* name = "WindingNumber";
 
 vtkSmartPointer<vtkImageData> field(

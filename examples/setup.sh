@@ -104,7 +104,8 @@ build()
     jobs=$(( gigabytes > 1 ? gigabytes : 1 ))
   fi
   if [ ! -f "$build_dir/build.ninja" ] || [ $# -gt 0 ]; then
-    cmake -S "$root" -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >"$log_dir/configure.log" 2>&1 ||
+    cmake -S "$root" -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON "$@" \
+      >"$log_dir/configure.log" 2>&1 ||
       { tail -20 "$log_dir/configure.log" >&2; die "configuring failed; the log is $log_dir/configure.log" 5; }
     sed -n '/-- Bindpose /,/License of bindpose-mesher/p' "$log_dir/configure.log"
   fi

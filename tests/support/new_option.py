@@ -93,8 +93,8 @@ def main():
     copy, build = folder / "copy", folder / "build"
     run("git", "clone", "--quiet", ROOT, copy)
     add_the_option(copy)
-    run("cmake", "-S", copy, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBINDPOSE_WITH_QT=OFF",
-        "-DBINDPOSE_BUILD_BENCHMARKS=OFF", *sys.argv[2:])
+    run("cmake", "-S", copy, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
+        "-DBINDPOSE_WITH_QT=OFF", "-DBINDPOSE_BUILD_BENCHMARKS=OFF", *sys.argv[2:])
     run("ninja", "-C", build)
     (folder / "cube.off").write_text(CUBE, encoding="ascii")
     program = build / "bin" / "bindpose"

@@ -1,9 +1,10 @@
-# Unity builds, with -DCMAKE_UNITY_BUILD=ON: several sources are compiled as one file, which halves the time of a clean build.
+# Unity builds, with -DCMAKE_UNITY_BUILD=ON: several sources are compiled as one file, which shortens a clean build.
 # Only files of one folder are compiled together. So a name in an anonymous namespace must be unique in its folder.
 set(bindpose_largest_group 8)
 
-# bindpose_unity_groups(TARGET): divide the sources of each folder into equal groups.
+# bindpose_unity_groups(TARGET [EXCEPT FOLDER…]): divide the sources of each other folder into equal groups.
 function(bindpose_unity_groups target)
+  cmake_parse_arguments(PARSE_ARGV 1 option "" "" "EXCEPT")
   get_target_property(sources ${target} SOURCES)
   get_target_property(target_folder ${target} SOURCE_DIR)
   list(FILTER sources INCLUDE REGEX "\\.(cpp|cxx)$")
@@ -16,6 +17,7 @@ function(bindpose_unity_groups target)
     list(APPEND sources_of_${folder} "${source}")
   endforeach()
   list(REMOVE_DUPLICATES folders)
+  list(REMOVE_ITEM folders ${option_EXCEPT})
   foreach(folder IN LISTS folders)
     list(LENGTH sources_of_${folder} count)
     math(EXPR groups "(${count} + ${bindpose_largest_group} - 1) / ${bindpose_largest_group}")
@@ -31,7 +33,10 @@ function(bindpose_unity_groups target)
   target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
 endfunction()
 
-foreach(target IN ITEMS bindpose_core Filters Widgets bindpose_scene bindpose_document bindpose_posing bindpose_app bindpose
+# The linker takes whole objects from an archive. The helper bindpose-mesher uses few files of base; with a group of them, it
+# would be linked with CHOLMOD and OpenBLAS.
+bindpose_unity_groups(bindpose_core EXCEPT base)
+foreach(target IN ITEMS Filters Widgets bindpose_scene bindpose_document bindpose_posing bindpose_app bindpose
     bindpose_benchmarks bindpose_test_support bindpose_core_tests bindpose_filter_tests bindpose_render_tests
     bindpose_scene_tests bindpose_widget_tests bindpose_posing_tests bindpose_document_tests bindpose_app_tests)
   if(TARGET ${target})

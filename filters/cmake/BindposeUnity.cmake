@@ -2,9 +2,8 @@
 # Only files of one folder are compiled together. So a name in an anonymous namespace must be unique in its folder.
 set(bindpose_largest_group 8)
 
-# bindpose_unity_groups(TARGET [EXCEPT FOLDER…]): divide the sources of each other folder into equal groups.
+# bindpose_unity_groups(TARGET): divide the sources of each folder into equal groups.
 function(bindpose_unity_groups target)
-  cmake_parse_arguments(PARSE_ARGV 1 option "" "" "EXCEPT")
   get_target_property(sources ${target} SOURCES)
   get_target_property(target_folder ${target} SOURCE_DIR)
   list(FILTER sources INCLUDE REGEX "\\.(cpp|cxx)$")
@@ -17,7 +16,6 @@ function(bindpose_unity_groups target)
     list(APPEND sources_of_${folder} "${source}")
   endforeach()
   list(REMOVE_DUPLICATES folders)
-  list(REMOVE_ITEM folders ${option_EXCEPT})
   foreach(folder IN LISTS folders)
     list(LENGTH sources_of_${folder} count)
     math(EXPR groups "(${count} + ${bindpose_largest_group} - 1) / ${bindpose_largest_group}")
@@ -33,9 +31,6 @@ function(bindpose_unity_groups target)
   target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
 endfunction()
 
-# The linker takes whole objects from an archive. The helper bindpose-mesher uses few files of base; with a group of them, it
-# would be linked with CHOLMOD and OpenBLAS.
-bindpose_unity_groups(bindpose_core EXCEPT base)
 foreach(target IN ITEMS Filters Widgets bindpose_scene bindpose_document bindpose_posing bindpose_app bindpose
     bindpose_benchmarks bindpose_test_support bindpose_core_tests bindpose_filter_tests bindpose_render_tests
     bindpose_scene_tests bindpose_widget_tests bindpose_posing_tests bindpose_document_tests bindpose_app_tests)
@@ -43,7 +38,10 @@ foreach(target IN ITEMS Filters Widgets bindpose_scene bindpose_document bindpos
     bindpose_unity_groups(${target})
   endif()
 endforeach()
-# CGAL: a group would be compiled on one core only, and needs too much memory.
-if(TARGET bindpose-mesher)
-  set_target_properties(bindpose-mesher PROPERTIES UNITY_BUILD OFF)
-endif()
+# Kernels are compiled one by one: a change of a kernel is tested in seconds, and the linker takes from the archive only what
+# the helper bindpose-mesher calls (not CHOLMOD and OpenBLAS). A group of the sources with CGAL would need too much memory.
+foreach(target IN ITEMS bindpose_core bindpose-mesher)
+  if(TARGET ${target})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
+  endif()
+endforeach()

@@ -28,15 +28,6 @@ def changed_files():
     return names
 
 
-def folder_of_commands(build):
-    """Configure the kernels without a unity build, so that each source has its compiler command. Return the folder."""
-    folder = build / "tidy"
-    subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=OFF",
-                    "-DBINDPOSE_WITH_QT=OFF", "-DBINDPOSE_WRAP_PYTHON=OFF", "-DBINDPOSE_BUILD_BENCHMARKS=OFF"],
-                   stdout=subprocess.DEVNULL, check=True)
-    return folder
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", type=pathlib.Path, required=True)
@@ -54,10 +45,8 @@ def main():
     elif options.tidy == "changed":
         core &= changed_files()
 
-    commands = folder_of_commands(options.build) if core else None
-
     def tidy(path):
-        return subprocess.run(["clang-tidy-14", "--quiet", "-p", commands, path], cwd=ROOT,
+        return subprocess.run(["clang-tidy-14", "--quiet", "-p", options.build, path], cwd=ROOT,
                               capture_output=True, text=True, check=False)
 
     wrong = 0

@@ -5,6 +5,7 @@ bytes.
 import json
 import math
 import pathlib
+import subprocess
 
 import bindpose
 import numpy as np
@@ -14,8 +15,8 @@ from bindpose.meshes import add_point_array, points_of, to_dataset
 from driver import PROGRAM
 from test_smooth import square, waves
 
-needs_helper = pytest.mark.skipif(not (pathlib.Path(PROGRAM).parent / "bindpose-mesher").exists(),
-                                  reason="built without bindpose-mesher")
+HELPER = pathlib.Path(PROGRAM).parent / "bindpose-mesher"
+needs_helper = pytest.mark.skipif(not HELPER.exists(), reason="built without bindpose-mesher")
 BEND = {"frames": [{"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 20 * k}, "stretch": 1 + 0.1 * k}}}
                    for k in range(3)], "fps": 8}
 
@@ -118,3 +119,11 @@ def test_dynamics(bar):
 
 def test_render(bar):
     expect_same_bytes(bar, "render", "bar.vtp", "--component", "b1", "--size", "200x150", outputs=["r.png"])
+
+
+@needs_helper
+def test_the_helper_is_not_linked_with_fast_algebra():
+    """If CHOLMOD, OpenBLAS and METIS are in the process of the helper, skeletons have other last bits."""
+    libraries = subprocess.run(["ldd", HELPER], capture_output=True, text=True, check=True).stdout
+    assert "libgmp" in libraries
+    assert not [name for name in ("cholmod", "blas", "metis") if name in libraries], libraries

@@ -21,12 +21,12 @@ class vtkUnstructuredGrid;
 namespace bindpose
 {
 
+// Conversion between VTK datasets and the types of the kernels (points, triangles, tets, handles
+// and poses). Memory is shared instead of copied if the layout of the arrays allows it.
+
 /// The HandleKind of a pseudo-edge's cell, a line between two point handles. A pseudo-edge is not a
 /// handle; it only determines how its points rotate in a pose.
 constexpr int pseudo_edge_kind = -2;
-
-// Conversion between VTK datasets and the types of the kernels (points, triangles, tets, handles
-// and poses). Memory is shared instead of copied if the layout of the arrays allows it.
 
 /// A matrix that refers to VTK's memory if the layout allows it, and otherwise owns a copy.
 template <typename Matrix>

@@ -21,6 +21,15 @@
 
 using bindpose::Vec3;
 
+namespace
+{
+void set_look(vtkProperty* property, const bindpose::Rgb& color, double opacity = 1.0)
+{
+  bindpose::set_color(property, color);
+  property->SetOpacity(opacity);
+}
+} // namespace
+
 PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent), viewport_(viewport)
 {
   vtkRenderer* renderer = viewport->renderer();
@@ -31,11 +40,11 @@ PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent),
   this->plane_->CropPlaneToBoundingBoxOn();
   this->plane_->SetEdgeColor(
     bindpose::palette::line[0], bindpose::palette::line[1], bindpose::palette::line[2]);
-  bindpose::set_color(this->plane_->GetOutlineProperty(), bindpose::palette::edges, 1.0);
-  bindpose::set_color(this->plane_->GetSelectedOutlineProperty(), bindpose::palette::edges, 1.0);
+  set_look(this->plane_->GetOutlineProperty(), bindpose::palette::edges);
+  set_look(this->plane_->GetSelectedOutlineProperty(), bindpose::palette::edges);
   // Not fully transparent, because the mouse cannot grab a transparent plane.
-  bindpose::set_color(this->plane_->GetPlaneProperty(), bindpose::palette::white, 0.005);
-  bindpose::set_color(this->plane_->GetSelectedPlaneProperty(), bindpose::palette::white, 0.005);
+  set_look(this->plane_->GetPlaneProperty(), bindpose::palette::white, 0.005);
+  set_look(this->plane_->GetSelectedPlaneProperty(), bindpose::palette::white, 0.005);
   this->widget_->SetInteractor(viewport->interactor());
   this->widget_->SetRepresentation(this->plane_);
   this->widget_->SetCurrentRenderer(renderer);
@@ -192,9 +201,8 @@ void PlaneHandle::place_widget()
   this->plane_->SetNormal(this->normal().data());
   this->plane_->SetOrigin(this->state_.origin.data());
   const bindpose::Rgb arrow{ 0.17, 0.42, 0.66 }; // the accent color of the window
-  bindpose::set_color(this->plane_->GetNormalProperty(), arrow, turns ? 1.0 : 0.0);
-  bindpose::set_color(
-    this->plane_->GetSelectedNormalProperty(), bindpose::palette::line, turns ? 1.0 : 0.0);
+  set_look(this->plane_->GetNormalProperty(), arrow, turns ? 1.0 : 0.0);
+  set_look(this->plane_->GetSelectedNormalProperty(), bindpose::palette::line, turns ? 1.0 : 0.0);
   this->widget_->SetEnabled(this->shown_ && !this->box_.empty());
 }
 

@@ -146,7 +146,7 @@ void PoseGhost::look_as_beside()
   vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();
   const bindpose::Rgb& color = picture ? bindpose::palette::white : bindpose::palette::surface;
   vtkProperty* property = this->actor_->GetProperty();
-  property->SetColor(color[0], color[1], color[2]);
+  bindpose::set_color(property, color);
   property->SetLighting(!picture);
   this->actor_->SetTexture(picture);
   this->actor_->SetForceOpaque(picture != nullptr);
@@ -164,7 +164,7 @@ void PoseGhost::update()
   vtkProperty* property = this->actor_->GetProperty();
   if (place == over)
   {
-    property->SetColor(ghost_color[0], ghost_color[1], ghost_color[2]);
+    bindpose::set_color(property, ghost_color);
     property->SetOpacity(ghost_opacity);
     property->LightingOn();
     this->actor_->SetTexture(nullptr);

@@ -39,7 +39,7 @@ TetView::TetView(Viewport* viewport)
     property->SetDiffuse(0.74);
     property->SetSpecular(0.04);
     const Rgb& color = part == 0 ? palette::surface : palette::cut;
-    property->SetColor(color[0], color[1], color[2]);
+    set_color(property, color);
     const Rgb& edges = part == 0 ? palette::edges : palette::cut_edges;
     property->SetEdgeColor(edges[0], edges[1], edges[2]);
     property->EdgeVisibilityOn();

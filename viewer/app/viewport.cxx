@@ -188,7 +188,7 @@ void Viewport::set_surface_look(int look)
   const bindpose::Rgb& color = look == edges_only ? bindpose::palette::edges
     : this->picture_                              ? white
                                                   : bindpose::palette::surface;
-  property->SetColor(color[0], color[1], color[2]);
+  bindpose::set_color(property, color);
   this->outline_->show(this->outlines_ && !this->picture_ && (look == solid || look == see_through),
     bindpose::outline_width * this->devicePixelRatioF());
   this->show_tint();

@@ -43,7 +43,7 @@ WeightView::WeightView(Viewport* viewport)
     this->isoline_actors_[part]->SetMapper(this->isoline_mappers_[part]);
     vtkProperty* property = this->isoline_actors_[part]->GetProperty();
     property->LightingOff();
-    property->SetColor(palette::line[0], palette::line[1], palette::line[2]);
+    set_color(property, palette::line);
   }
   for (vtkActor* actor :
     { this->slice_actor_.Get(), this->isoline_actors_[0].Get(), this->isoline_actors_[1].Get() })

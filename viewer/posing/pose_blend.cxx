@@ -1,5 +1,6 @@
 #include "posing/pose_blend.h"
 
+#include "base/constants.h"
 #include "pose/handle_hierarchy.h"
 #include "pose/transform_parts.h"
 
@@ -10,8 +11,6 @@ namespace bindpose
 
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 Eigen::Matrix3d turn(double degrees, const Vec3& axis)
 {
   return Eigen::AngleAxisd(degrees * pi / 180.0, axis).toRotationMatrix();

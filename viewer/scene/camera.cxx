@@ -9,6 +9,8 @@
 // gives the `c·r` that centers the shape.
 #include "scene/camera.h"
 
+#include "base/constants.h"
+
 #include "vtkCamera.h"
 
 #include <Eigen/Eigenvalues>
@@ -23,7 +25,6 @@ namespace
 constexpr double default_azimuth = 28.0;
 constexpr double default_elevation = 16.0;
 constexpr double view_angle = 30.0;
-constexpr double pi = 3.14159265358979323846;
 } // namespace
 
 Frame choose_frame(const Box& box, const std::string& up)

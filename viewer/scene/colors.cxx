@@ -70,10 +70,9 @@ std::vector<double> round_ticks(double lower, double upper)
 }
 } // namespace
 
-void set_color(vtkProperty* property, const Rgb& color, double opacity)
+void set_color(vtkProperty* property, const Rgb& color)
 {
   property->SetColor(color[0], color[1], color[2]);
-  property->SetOpacity(opacity);
 }
 
 Rgb sequential_color(double t)

@@ -18,8 +18,8 @@ namespace bindpose
 /// Red, green, blue in [0, 1].
 using Rgb = std::array<double, 3>;
 
-/// Set the color and the opacity, 0 … 1, of a surface or a line.
-void set_color(vtkProperty* property, const Rgb& color, double opacity = 1.0);
+/// Set the color of a surface or a line.
+void set_color(vtkProperty* property, const Rgb& color);
 
 /// The colors of Bindpose, used in pictures and in the window.
 namespace palette

@@ -55,7 +55,7 @@ vtkSmartPointer<vtkActor> make_actor(vtkPolyData* data)
   mapper->ScalarVisibilityOff();
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(palette::curve[0], palette::curve[1], palette::curve[2]);
+  set_color(actor->GetProperty(), palette::curve);
   actor->PickableOff();
   return actor;
 }

@@ -131,14 +131,14 @@ ExtremumBalls::ExtremumBalls()
       vtkProperty* look = actor->GetProperty();
       if (rim)
       {
-        look->SetColor(palette::line[0], palette::line[1], palette::line[2]);
+        set_color(look, palette::line);
         look->LightingOff();
         look->FrontfaceCullingOn();
       }
       else
       {
         const Rgb& color = extremum_categories()[maximum].color;
-        look->SetColor(color[0], color[1], color[2]);
+        set_color(look, color);
         look->SetAmbient(0.45);
         look->SetDiffuse(0.65);
       }

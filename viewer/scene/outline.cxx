@@ -33,7 +33,7 @@ Outline::Outline(vtkRenderer* renderer) : renderer_(renderer)
   this->actor_->VisibilityOff();
   vtkProperty* property = this->actor_->GetProperty();
   property->LightingOff();
-  property->SetColor(palette::outline[0], palette::outline[1], palette::outline[2]);
+  set_color(property, palette::outline);
   renderer->AddActor(this->actor_);
   this->observer_ = renderer->AddObserver(vtkCommand::StartEvent, this, &Outline::before_drawing);
 }

@@ -239,7 +239,7 @@ void use_surface_material(vtkActor* actor)
 {
   vtkProperty* property = actor->GetProperty();
   property->SetInterpolationToPhong();
-  property->SetColor(palette::surface[0], palette::surface[1], palette::surface[2]);
+  set_color(property, palette::surface);
   property->SetAmbient(0.17);
   property->SetDiffuse(0.88);
   property->SetSpecular(0.10);

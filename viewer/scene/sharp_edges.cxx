@@ -3,6 +3,7 @@
 // not sharp, the corners of both triangles join one group.
 #include "scene/sharp_edges.h"
 
+#include "base/constants.h"
 #include "base/disjoint_sets.h"
 #include "base/execution.h"
 #include "base/parallel.h"
@@ -122,8 +123,7 @@ std::vector<Index> split_sharp_edges(PointsView points, double feature_angle, Tr
   }
   std::vector<Id> groups(corners.size());
   std::vector<Id>& group_counts = next; // reuses the memory of `next`, which is no longer needed
-  constexpr double degree = 3.14159265358979323846 / 180.0;
-  const double cosine = std::cos(feature_angle * degree);
+  const double cosine = std::cos(feature_angle * pi / 180.0);
   parallel_for(context, static_cast<Index>(vertices), 2048,
     [&](Index begin, Index end)
     {

@@ -127,7 +127,7 @@ void add_lines(vtkRenderer* renderer, vtkPolyData* data, const Rgb& color, doubl
   mapper->ScalarVisibilityOff();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(color[0], color[1], color[2]);
+  set_color(actor->GetProperty(), color);
   actor->GetProperty()->LightingOff();
   actor->GetProperty()->SetLineWidth(static_cast<float>(width));
   renderer->AddActor(actor);
@@ -178,7 +178,7 @@ void add_flat(vtkRenderer* renderer, vtkPolyData* faces, const Coloring& colorin
   }
   const ShadedSurface facets(faces, 0.01);
   const auto actor = add_actor(renderer, facets.polydata(), coloring);
-  actor->GetProperty()->SetColor(palette::cut[0], palette::cut[1], palette::cut[2]);
+  set_color(actor->GetProperty(), palette::cut);
   actor->GetProperty()->SetAmbient(0.3);
   use_edges(actor, palette::cut_edges, 0.7 * scale);
 }
@@ -255,7 +255,7 @@ Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const Tet
   }
   shown += static_cast<Index>(met.size());
   const auto actor = add_actor(renderer, cut, coloring);
-  actor->GetProperty()->SetColor(palette::cut[0], palette::cut[1], palette::cut[2]);
+  set_color(actor->GetProperty(), palette::cut);
   switch_off_light(actor);
   push_back(actor);
   if (options.isolines)
@@ -401,7 +401,7 @@ void add_isosurfaces(vtkRenderer* renderer, vtkImageData* image, const PictureOp
     const auto surface = isosurface(image, color_array_name, level);
     const auto actor = add_actor(renderer, surface, Coloring());
     const Rgb color = color_of(coloring.map, level);
-    actor->GetProperty()->SetColor(color[0], color[1], color[2]);
+    set_color(actor->GetProperty(), color);
     // Draw slightly darker than the map, so that the map's white at 0.5 stands out from a white
     // background.
     actor->GetProperty()->SetAmbient(0.14);
@@ -462,7 +462,7 @@ void add_lines_and_points(
   switch_off_light(actor);
   if (!copy->GetPointData()->HasArray(color_array_name))
   {
-    actor->GetProperty()->SetColor(palette::line[0], palette::line[1], palette::line[2]);
+    set_color(actor->GetProperty(), palette::line);
   }
 }
 } // namespace

@@ -4,8 +4,8 @@
 // some thousand points and a few dozen branches.
 #include "automatic/skeleton_bones.h"
 
-#include "base/number_text.h"
 #include "base/constants.h"
+#include "base/number_text.h"
 #include "weights/bone_projection.h"
 
 #include <algorithm>

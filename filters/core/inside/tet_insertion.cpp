@@ -26,8 +26,8 @@ namespace
 {
 using Tet = TetComplex::Tet;
 
-constexpr Index insertions_per_check =
-  256; // number of insertions between two checks for a cancel request
+/// Number of insertions between two checks for a cancel request.
+constexpr Index insertions_per_check = 256;
 
 struct LongEdge
 {

@@ -34,6 +34,10 @@ enum class ArapEnergy : int
   spokes = 3 ///< one rotation per vertex, for the edges at the vertex (Sorkine and Alexa 2007)
 };
 
+/// If the energy is below this fraction of the rest energy, it counts as zero in the convergence
+/// test.
+constexpr double negligible_energy = 1e-6;
+
 /// Return "spokes_and_rims", "triangles", "tetrahedra" or "spokes". `automatic` is first replaced
 /// by the energy that it selects.
 const char* to_string(ArapEnergy energy, bool tets);

@@ -62,8 +62,8 @@ struct alignas(64) BatchValues
 };
 
 /// Rotate columns p and q of each lane until they are orthogonal. Return the largest value of
-/// c^2 - right_angle * a * b over the elements_per_tile before the rotation, where a and b are the
-/// squared lengths and c is the dot product. It is positive if another sweep is needed.
+/// c^2 - right_angle * a * b over the lanes before the rotation, where a and b are the squared
+/// lengths and c is the dot product. It is positive if another sweep is needed.
 BINDPOSE_ALWAYS_INLINE double turn(double (*p)[elements_per_tile], double (*q)[elements_per_tile])
 {
   double open[elements_per_tile];

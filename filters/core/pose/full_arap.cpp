@@ -34,9 +34,6 @@ namespace bindpose
 
 namespace
 {
-/// If the energy is below this fraction of the rest energy, it counts as zero in the convergence
-/// test.
-constexpr double negligible_energy = 1e-6;
 /// A rise of the energy is round-off if it is at most this fraction of the sum of the absolute
 /// values of the energy's terms.
 constexpr double rounding = 1e-12;

@@ -21,9 +21,6 @@ constexpr double on_mesh = 1e-6;
 constexpr double whole = 1.0 - 1e-9;
 /// Maximum number of intervals between the constrained points of a bone that has no vertices.
 constexpr double most_places = 16.0;
-/// Constraints violated by more than this fraction of the bounding-box diagonal are reported as
-/// contradictory.
-constexpr double contradictory_miss = 1e-9;
 
 MeshPoint vertex_point(Index v)
 {

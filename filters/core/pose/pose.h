@@ -39,6 +39,10 @@ inline Affine identity_affine()
   return t;
 }
 
+/// Constraints violated by more than this fraction of the bounding-box diagonal are reported as
+/// contradictory.
+constexpr double contradictory_miss = 1e-9;
+
 /// Pose of one handle.
 struct HandlePose
 {

@@ -46,13 +46,6 @@ namespace
 {
 using Rows = ReducedSpace::Rows;
 
-/// Positions whose violation exceeds this fraction of the bounding-box diagonal are reported as
-/// contradictory.
-constexpr double contradiction = 1e-9;
-/// If the energy is below this fraction of the rest energy, it counts as zero in the convergence
-/// test.
-constexpr double negligible_reduced_energy = 1e-6;
-
 /// Energies whose difference is at most this fraction of the rest energy are equal up to round-off.
 constexpr double same_energy = 1e-15;
 } // namespace
@@ -210,7 +203,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   }
 
   const auto start = std::chrono::steady_clock::now();
-  const double floor = negligible_reduced_energy * space.rest_energy;
+  const double floor = negligible_energy * space.rest_energy;
   this->energies_.clear();
   ReducedProgress progress{ this->energies_ };
   ReducedLimits limits{ options.tolerance, floor, same_energy * space.rest_energy };
@@ -264,7 +257,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
     {
       const double miss = missed.row(r).norm() / std::max(space.diagonal, 1e-300);
       residual = std::max(residual, miss);
-      if (miss > contradiction)
+      if (miss > contradictory_miss)
       {
         contradicting.push_back(
           this->positions_[static_cast<std::size_t>(r)] % static_cast<Index>(pose.size()));

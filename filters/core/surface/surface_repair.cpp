@@ -10,6 +10,7 @@
 // cavity (an inner shell oriented opposite to the outer one) therefore remains a cavity.
 #include "surface/surface_repair.h"
 
+#include "base/constants.h"
 #include "base/disjoint_sets.h"
 #include "base/triangle_sides.h"
 #include "surface/oriented_patches.h"
@@ -248,7 +249,6 @@ double winding_of_shell(
     half_angles +=
       std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   }
-  constexpr double two_pi = 6.283185307179586477;
   return half_angles / two_pi;
 }
 

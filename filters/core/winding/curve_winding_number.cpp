@@ -45,7 +45,6 @@ using Id = std::int32_t;
 /// Pieces with at most this many segments are not split further. (Measured: limits from 4 to 12
 /// have nearly the same speed.)
 constexpr Id most_in_leaf = 6;
-constexpr double two_pi = 2.0 * pi;
 
 /// Report whether a vertex is above the ray from p. A vertex at the height of the ray counts as
 /// above.

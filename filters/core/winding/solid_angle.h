@@ -3,6 +3,7 @@
 
 // Solid angles of triangles, accurate at every distance, and their sums: the winding number.
 
+#include "base/constants.h"
 #include "base/mesh.h"
 
 namespace bindpose
@@ -84,7 +85,6 @@ inline void SolidAngleSum::add(const Vec3& a0, const Vec3& b0, const Vec3& c0, i
 
 inline double SolidAngleSum::winding_number() const
 {
-  constexpr double two_pi = 6.283185307179586477;
   return (this->half_angles_ + std::atan2(this->imaginary_, this->real_)) / two_pi;
 }
 

@@ -7,6 +7,7 @@
 // contribute 0 and are passed to the CarefulSum.
 #include "winding/triangle_block.h"
 
+#include "base/constants.h"
 #include "base/simd.h"
 
 #include <algorithm>
@@ -268,7 +269,6 @@ BINDPOSE_ALWAYS_INLINE double sum(const TriangleBlock<Real>* blocks, const Block
     }
   }
   add_all();
-  constexpr double two_pi = 6.283185307179586477;
   double total = 0.0;
   for (int i = 0; i < triangle_lanes; ++i)
   {

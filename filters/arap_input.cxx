@@ -1,7 +1,7 @@
 // Input conversion and binding shared by the filters of as-rigid-as-possible (ARAP) deformation.
 #include "arap_input.h"
 
-#include "vtkReducedARAP.h"
+#include "vtkArapEnergy.h"
 
 #include "vtkCell.h"
 #include "vtkUnstructuredGrid.h"
@@ -34,20 +34,20 @@ Status to_arap(vtkPointSet* mesh, int energy, ArapElements& elements, ArapEnergy
   {
     return status;
   }
-  if (elements.volume && energy == vtkReducedARAP::TRIANGLES)
+  if (elements.volume && energy == vtkArapEnergy::TRIANGLES)
   {
     return Status::invalid_input(
       "energy triangles needs a surface mesh, but the input is a tet mesh");
   }
-  if (!elements.volume && energy == vtkReducedARAP::TETRAHEDRA)
+  if (!elements.volume && energy == vtkArapEnergy::TETRAHEDRA)
   {
     return Status::invalid_input(
       "energy tetrahedra needs a tet mesh, but the input is a surface mesh");
   }
-  result = energy == vtkReducedARAP::AUTO       ? ArapEnergy::automatic
-    : energy == vtkReducedARAP::SPOKES_AND_RIMS ? ArapEnergy::spokes_and_rims
-    : energy == vtkReducedARAP::SPOKES          ? ArapEnergy::spokes
-                                                : ArapEnergy::elements;
+  result = energy == vtkArapEnergy::AUTO       ? ArapEnergy::automatic
+    : energy == vtkArapEnergy::SPOKES_AND_RIMS ? ArapEnergy::spokes_and_rims
+    : energy == vtkArapEnergy::SPOKES          ? ArapEnergy::spokes
+                                               : ArapEnergy::elements;
   return {};
 }
 
@@ -55,13 +55,13 @@ const char* arap_energy_name(int energy)
 {
   switch (energy)
   {
-    case vtkReducedARAP::SPOKES_AND_RIMS:
+    case vtkArapEnergy::SPOKES_AND_RIMS:
       return "spokes and rims";
-    case vtkReducedARAP::TETRAHEDRA:
+    case vtkArapEnergy::TETRAHEDRA:
       return "tetrahedra";
-    case vtkReducedARAP::TRIANGLES:
+    case vtkArapEnergy::TRIANGLES:
       return "triangles";
-    case vtkReducedARAP::SPOKES:
+    case vtkArapEnergy::SPOKES:
       return "spokes";
     default:
       return "auto";

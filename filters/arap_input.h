@@ -20,12 +20,12 @@ struct ArapElements
 /// Convert a mesh and an energy type to the kernel's types. Return invalid_input if the cells are
 /// neither tets nor triangles, if a surface has an energy of tets, or if tets have an energy of
 /// triangles.
-/// @param energy  a value of vtkReducedARAP::EnergyType
+/// @param energy  a value of vtkArapEnergy::EnergyType
 Status to_arap(vtkPointSet* mesh, int energy, ArapElements& elements, ArapEnergy& result);
 
 /// Run the bind of a kernel of reduced as-rigid-as-possible deformation with the filter's energy,
 /// clusters and extra weights.
-/// @param input  the filter's PoseInput, from pose_input.h
+/// @param input  the input of vtkBindAlgorithm::Bind()
 /// @param options  all other options of the filter
 template <typename Filter, typename Kernel, typename Input>
 Status bind_reduced(Filter& filter, Kernel& kernel, const Input& input, ExecutionContext& context,

@@ -3,32 +3,42 @@
 
 #include "conversion.h"
 #include "pose/arap_energy.h"
-#include "vtkPoseAlgorithm.h"
 
-/// Input of the subclasses of vtkBindAlgorithm.
-struct vtkBindAlgorithm::PoseInput
+#include <vector>
+
+class vtkPointSet;
+class vtkPolyData;
+
+namespace bindpose
+{
+
+/// Mesh, weights, handles and pose in the types of the kernels: input of the subclasses of
+/// vtkBindAlgorithm, valid during a call.
+struct PoseInput
 {
   vtkPointSet* mesh;
-  bindpose::PointsView points; ///< #V x 3, at rest
-  bindpose::WeightsView weights; ///< #V x #handles
-  const bindpose::Handles& handles;
-  const bindpose::Pose& pose;
+  PointsView points; ///< #V x 3, at rest
+  WeightsView weights; ///< #V x #handles
+  const Handles& handles;
+  const Pose& pose;
   /// Handle dataset; it may also have cells that are not handles (pseudo-edges).
   vtkPolyData* handle_data;
-  const std::vector<bindpose::Index>& cells; ///< the cell of each handle in handle_data
+  const std::vector<Index>& cells; ///< the cell of each handle in handle_data
 };
 
 /// Output of the subclasses of vtkPoseAlgorithm.
-struct vtkPoseAlgorithm::PosedPoints
+struct PosedPoints
 {
-  bindpose::Points points;
+  Points points; ///< #V x 3
   /// The transforms that were used, one per handle. If empty, the output gets no array of
   /// transforms.
-  std::vector<bindpose::Affine> transforms;
+  std::vector<Affine> transforms;
   /// The groups of vertices that share a rotation, and these rotations, if the filter adds them to
   /// the output; otherwise null and empty.
-  const bindpose::RotationGroups* groups = nullptr;
+  const RotationGroups* groups = nullptr;
   std::vector<Eigen::Matrix3d> rotations;
 };
+
+} // namespace bindpose
 
 #endif

@@ -231,7 +231,7 @@ Status vtkBindAlgorithm::Prepare(vtkInformationVector** input, ExecutionContext&
   return {};
 }
 
-const vtkBindAlgorithm::PoseInput& vtkBindAlgorithm::GetPoseInput() const
+const PoseInput& vtkBindAlgorithm::GetPoseInput() const
 {
   return *this->Bound->input;
 }

@@ -27,6 +27,11 @@
 #include <string> // for std::string
 #include <vector> // for std::vector
 
+namespace bindpose
+{
+struct PoseInput;
+} // namespace bindpose
+
 class BINDPOSEFILTERS_EXPORT vtkBindAlgorithm : public vtkMeshAndHandlesAlgorithm
 {
 public:
@@ -58,15 +63,13 @@ protected:
   /// weights if they are needed.
   virtual std::vector<std::string> BindArrays();
 
-  /// Mesh, weights, handles and pose in the types of the kernels; valid during a call.
-  struct PoseInput;
-
   /**
    * Compute everything that does not depend on the pose. A subclass stores what it needs later,
    * because views of the input are valid only during the call. The report is attached to every
    * output until the next bind.
    */
-  virtual bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) = 0;
+  virtual bindpose::Status Bind(
+    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) = 0;
 
   /// Report whether the method computes the rotations that a pose does not prescribe. If true,
   /// handles in mode automatic that are only translated get mode position.
@@ -96,7 +99,7 @@ protected:
    * Execute(). If the status is usable, GetPoseInput() is valid until Execute() returns.
    */
   bindpose::Status Prepare(vtkInformationVector** input, bindpose::ExecutionContext& context);
-  const PoseInput& GetPoseInput() const;
+  const bindpose::PoseInput& GetPoseInput() const;
   ///@}
 
   /// Return the status of a pose with the entries of the bind's report inserted before its own. The

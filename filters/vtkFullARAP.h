@@ -42,8 +42,8 @@
 #define vtkFullARAP_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "vtkArapEnergy.h"
 #include "vtkPoseAlgorithm.h"
-#include "vtkReducedARAP.h" // for EnergyType
 
 class BINDPOSEFILTERS_EXPORT vtkFullARAP : public vtkPoseAlgorithm
 {
@@ -54,11 +54,11 @@ public:
 
   enum EnergyType
   {
-    AUTO = vtkReducedARAP::AUTO,
-    SPOKES_AND_RIMS = vtkReducedARAP::SPOKES_AND_RIMS,
-    TETRAHEDRA = vtkReducedARAP::TETRAHEDRA,
-    TRIANGLES = vtkReducedARAP::TRIANGLES,
-    SPOKES = vtkReducedARAP::SPOKES
+    AUTO = vtkArapEnergy::AUTO,
+    SPOKES_AND_RIMS = vtkArapEnergy::SPOKES_AND_RIMS,
+    TETRAHEDRA = vtkArapEnergy::TETRAHEDRA,
+    TRIANGLES = vtkArapEnergy::TRIANGLES,
+    SPOKES = vtkArapEnergy::SPOKES
   };
 
   ///@{
@@ -130,10 +130,11 @@ protected:
 
   bool NeedsWeights() const override { return false; }
   std::vector<std::string> BindArrays() override;
-  bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
+  bindpose::Status Bind(
+    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
   bool FindsRotations() override { return true; }
-  bindpose::Status Deform(
-    const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
+  bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
+    bindpose::PosedPoints& posed) override;
 
 private:
   vtkFullARAP(const vtkFullARAP&) = delete;

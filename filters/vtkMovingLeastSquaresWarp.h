@@ -50,10 +50,11 @@ protected:
   ~vtkMovingLeastSquaresWarp() override;
 
   bool NeedsWeights() const override { return false; }
-  bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
+  bindpose::Status Bind(
+    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
   bindpose::StretchUse GetStretchUse() override;
-  bindpose::Status Deform(
-    const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
+  bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
+    bindpose::PosedPoints& posed) override;
 
 private:
   vtkMovingLeastSquaresWarp(const vtkMovingLeastSquaresWarp&) = delete;

@@ -28,6 +28,7 @@
 namespace bindpose
 {
 enum class StretchUse : int;
+struct PosedPoints;
 } // namespace bindpose
 
 class BINDPOSEFILTERS_EXPORT vtkPoseAlgorithm : public vtkBindAlgorithm
@@ -61,17 +62,15 @@ protected:
   vtkPoseAlgorithm();
   ~vtkPoseAlgorithm() override;
 
-  /// The posed points (bindpose::Points, #V x 3) and the transforms that moved them.
-  struct PosedPoints;
-
   /// Compute the posed points.
-  virtual bindpose::Status Deform(
-    const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) = 0;
+  virtual bindpose::Status Deform(const bindpose::PoseInput& input,
+    bindpose::ExecutionContext& context, bindpose::PosedPoints& posed) = 0;
 
   /// Compute the posed normals of a vtkPolyData with normals, after Deform(). The default
   /// implementation computes area-weighted normals of the posed polygons.
-  virtual bindpose::Status DeformNormals(const PoseInput& input,
-    bindpose::ExecutionContext& context, const PosedPoints& posed, PosedPoints& normals);
+  virtual bindpose::Status DeformNormals(const bindpose::PoseInput& input,
+    bindpose::ExecutionContext& context, const bindpose::PosedPoints& posed,
+    bindpose::PosedPoints& normals);
 
   /// Return how the method uses the `Stretch` and `Twist` of bones. A warning is issued if the pose
   /// has values that the method ignores. The default implementation returns StretchUse::ends, the

@@ -44,6 +44,7 @@
 #define vtkReducedARAP_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "vtkArapEnergy.h"
 #include "vtkPoseAlgorithm.h"
 
 class BINDPOSEFILTERS_EXPORT vtkReducedARAP : public vtkPoseAlgorithm
@@ -55,11 +56,11 @@ public:
 
   enum EnergyType
   {
-    AUTO = 0,
-    SPOKES_AND_RIMS = 1,
-    TETRAHEDRA = 2,
-    TRIANGLES = 3,
-    SPOKES = 4
+    AUTO = vtkArapEnergy::AUTO,
+    SPOKES_AND_RIMS = vtkArapEnergy::SPOKES_AND_RIMS,
+    TETRAHEDRA = vtkArapEnergy::TETRAHEDRA,
+    TRIANGLES = vtkArapEnergy::TRIANGLES,
+    SPOKES = vtkArapEnergy::SPOKES
   };
 
   ///@{
@@ -177,12 +178,14 @@ protected:
   vtkReducedARAP();
   ~vtkReducedARAP() override;
 
-  bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
+  bindpose::Status Bind(
+    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
   bool FindsRotations() override { return true; }
-  bindpose::Status Deform(
-    const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
-  bindpose::Status DeformNormals(const PoseInput& input, bindpose::ExecutionContext& context,
-    const PosedPoints& posed, PosedPoints& normals) override;
+  bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
+    bindpose::PosedPoints& posed) override;
+  bindpose::Status DeformNormals(const bindpose::PoseInput& input,
+    bindpose::ExecutionContext& context, const bindpose::PosedPoints& posed,
+    bindpose::PosedPoints& normals) override;
 
 private:
   vtkReducedARAP(const vtkReducedARAP&) = delete;

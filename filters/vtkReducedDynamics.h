@@ -155,12 +155,14 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
-  bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
+  bindpose::Status Bind(
+    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
   bool FindsRotations() override { return true; }
-  bindpose::Status Deform(
-    const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
-  bindpose::Status DeformNormals(const PoseInput& input, bindpose::ExecutionContext& context,
-    const PosedPoints& posed, PosedPoints& normals) override;
+  bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
+    bindpose::PosedPoints& posed) override;
+  bindpose::Status DeformNormals(const bindpose::PoseInput& input,
+    bindpose::ExecutionContext& context, const bindpose::PosedPoints& posed,
+    bindpose::PosedPoints& normals) override;
 
 private:
   vtkReducedDynamics(const vtkReducedDynamics&) = delete;

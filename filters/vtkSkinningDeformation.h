@@ -130,20 +130,23 @@ protected:
   ~vtkSkinningDeformation() override;
 
   std::vector<std::string> BindArrays() override;
-  bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
+  bindpose::Status Bind(
+    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
   bindpose::StretchUse GetStretchUse() override;
-  bindpose::Status Deform(
-    const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
-  bindpose::Status DeformNormals(const PoseInput& input, bindpose::ExecutionContext& context,
-    const PosedPoints& posed, PosedPoints& normals) override;
+  bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
+    bindpose::PosedPoints& posed) override;
+  bindpose::Status DeformNormals(const bindpose::PoseInput& input,
+    bindpose::ExecutionContext& context, const bindpose::PosedPoints& posed,
+    bindpose::PosedPoints& normals) override;
 
 private:
   vtkSkinningDeformation(const vtkSkinningDeformation&) = delete;
   void operator=(const vtkSkinningDeformation&) = delete;
 
-  bindpose::Status FindCenters(
-    const PoseInput& input, bindpose::ExecutionContext& context, double begin, double end);
-  bindpose::Status FindTransforms(const PoseInput& input, bindpose::ExecutionContext& context);
+  bindpose::Status FindCenters(const bindpose::PoseInput& input,
+    bindpose::ExecutionContext& context, double begin, double end);
+  bindpose::Status FindTransforms(
+    const bindpose::PoseInput& input, bindpose::ExecutionContext& context);
 
   int Method = LINEAR_BLEND;
   int PseudoEdges = GIVEN_PSEUDO_EDGES;

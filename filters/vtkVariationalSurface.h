@@ -154,9 +154,10 @@ protected:
   bool NeedsWeights() const override { return false; }
   bool NeedsHandles() const override { return false; }
   std::vector<std::string> BindArrays() override;
-  bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
-  bindpose::Status Deform(
-    const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
+  bindpose::Status Bind(
+    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
+  bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
+    bindpose::PosedPoints& posed) override;
 
 private:
   vtkVariationalSurface(const vtkVariationalSurface&) = delete;

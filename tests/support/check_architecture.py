@@ -5,7 +5,7 @@ The library core includes no VTK header. Inside of core the layers are base <- w
 planar) <- inside <- weights <- (automatic, pose); io includes base only (inside may include io). Filters include
 nothing from the viewer. Nothing outside of the tests includes a header of the tests. The ParaView plugin has no
 sources, and has a proxy for every filter that can be instantiated. No two units (a header and its source) include each
-other, except the pairs in KNOTS.
+other.
 """
 
 import pathlib
@@ -30,19 +30,6 @@ CORE_ARROWS = {
     "automatic": {"base", "winding", "surface", "helper", "inside", "weights", "automatic"},
     "pose": {"base", "winding", "inside", "weights", "pose"},
     "mesher": {"base", "winding", "surface", "helper", "planar", "inside", "mesher"},
-}
-
-
-# Pairs of units that include each other. Remove a pair from this list when it is untied; add none.
-KNOTS = {
-    ("filters/arap_input", "filters/vtkReducedARAP"),
-    ("filters/pose_input", "filters/vtkPoseAlgorithm"),
-    ("viewer/app/exports", "viewer/app/main_window"),
-    ("viewer/app/handle_commands", "viewer/app/handle_editing"),
-    ("viewer/app/main_window", "viewer/app/window_menus"),
-    ("viewer/app/main_window", "viewer/app/window_sessions"),
-    ("viewer/document/document", "viewer/document/edit"),
-    ("viewer/widgets/handle_set_internals", "viewer/widgets/vtkHandleSetRepresentation"),
 }
 
 PLUGIN = "filters/paraview"
@@ -102,9 +89,7 @@ def main():
                     wrong.append(f"{path.relative_to(ROOT)} includes {include}")
     wrong += [f"{path.relative_to(ROOT)} is a source of the plugin's own" for path, _ in sources(PLUGIN)]
     wrong += without_proxy()
-    mutual = mutual_includes()
-    wrong += [f"{one} and {other} include each other" for one, other in sorted(mutual - KNOTS)]
-    wrong += [f"{one} and {other} are listed in KNOTS but do not include each other" for one, other in sorted(KNOTS - mutual)]
+    wrong += [f"{one} and {other} include each other" for one, other in sorted(mutual_includes())]
     for line in wrong:
         print(line)
     count = len(core)

@@ -3,7 +3,6 @@
 #include "document/document.h"
 #include "document/opened_file.h"
 #include "error_bar.h"
-#include "main_window.h"
 #include "notice_bar.h"
 #include "panel_parts.h"
 #include "picture_dialog.h"
@@ -55,12 +54,12 @@ Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path
 }
 } // namespace
 
-Exports::Exports(MainWindow* window, NoticeBar* bar) : QObject(window), window_(window), bar_(bar)
+Exports::Exports(const ExportParts& parts) : QObject(parts.window), parts_(parts)
 {
-  SequenceExport* film = window->posing()->sequence_export();
+  SequenceExport* film = parts.posing->sequence_export();
   QObject::connect(film, &SequenceExport::progress, this, &Exports::show_progress);
   QObject::connect(film, &SequenceExport::finished, this, &Exports::film_finished);
-  QObject::connect(bar, &NoticeBar::closed, film, &SequenceExport::cancel);
+  QObject::connect(parts.bar, &NoticeBar::closed, film, &SequenceExport::cancel);
 }
 
 // ---- Ask for a path ----------------------------------------------------------------------------
@@ -68,10 +67,10 @@ Exports::Exports(MainWindow* window, NoticeBar* bar) : QObject(window), window_(
 /// Show a file dialog and return the chosen path; empty if the user cancels.
 QString Exports::ask(const QString& title, const QString& kinds, const QString& ending)
 {
-  QFileDialog dialog(this->window_, title, this->folder_, kinds);
+  QFileDialog dialog(this->parts_.window, title, this->folder_, kinds);
   dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setDefaultSuffix(ending);
-  const QString name = QFileInfo(this->window_->sessions()->name()).completeBaseName();
+  const QString name = QFileInfo(this->parts_.sessions->name()).completeBaseName();
   dialog.selectFile((name.isEmpty() ? tr("export") : name) + '.' + ending);
   return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().front() : QString();
 }
@@ -106,7 +105,7 @@ void Exports::ask_for_pose()
 
 void Exports::ask_for_picture()
 {
-  PictureDialog picture(this->window_->viewport(), this->window_);
+  PictureDialog picture(this->parts_.viewport, this->parts_.window);
   if (picture.exec() != QDialog::Accepted)
   {
     return;
@@ -120,18 +119,19 @@ void Exports::ask_for_picture()
 
 void Exports::ask_for_film()
 {
-  if (!this->window_->posing()->has_animation())
+  if (!this->parts_.posing->has_animation())
   {
-    this->bar_->offer(tr("A film requires key frames: pose the shape and set a key (K), move to "
-                         "another time, pose it again and set another key."),
-      { { tr("Show the timeline"), [this] { this->window_->show_timeline(true); } } }, tr("Close"));
+    this->parts_.bar->offer(
+      tr("A film requires key frames: pose the shape and set a key (K), move to "
+         "another time, pose it again and set another key."),
+      { { tr("Show the timeline"), [this] { Q_EMIT this->timeline_wanted(); } } }, tr("Close"));
     return;
   }
   const QString path =
     this->ask(tr("Export the film"), tr("Animations (%1)").arg(SequenceExport::patterns()), "gif");
   if (!path.isEmpty())
   {
-    this->window_->posing()->export_to(path);
+    this->parts_.posing->export_to(path);
   }
 }
 
@@ -139,17 +139,17 @@ void Exports::ask_for_film()
 
 bool Exports::save_shape(const QString& path)
 {
-  return this->finish(path, write_shape(this->window_->shown(), path.toStdString()));
+  return this->finish(path, write_shape(this->parts_.posing->shape(), path.toStdString()));
 }
 
 bool Exports::save_rig(const QString& path)
 {
-  const Document* document = this->window_->document();
+  const Document* document = this->parts_.document;
   QApplication::setOverrideCursor(Qt::WaitCursor); // a large mesh takes seconds
   const Status status = write_rig(document->surface(), document->handle_data(), path);
   QApplication::restoreOverrideCursor();
   const auto method = static_cast<PoseMethod>(document->number("pose.method"));
-  const bool other = method != PoseMethod::linear_blend && this->window_->posing()->is_posed();
+  const bool other = method != PoseMethod::linear_blend && this->parts_.posing->is_posed();
   return this->finish(path, status,
     other ? tr("Other programs pose the rig by linear blend skinning, not by %1.")
               .arg(method_name(method))
@@ -158,7 +158,7 @@ bool Exports::save_rig(const QString& path)
 
 bool Exports::save_pose(const QString& path)
 {
-  const Document* document = this->window_->document();
+  const Document* document = this->parts_.document;
   return this->finish(
     path, write_poses({ document->pose() }, document->handles(), path.toStdString()));
 }
@@ -167,7 +167,7 @@ bool Exports::save_picture(const QString& path, int scale, bool transparent)
 {
   QApplication::setOverrideCursor(Qt::WaitCursor); // a large image takes seconds
   vtkSmartPointer<vtkImageData> picture;
-  Status status = this->window_->viewport()->take_picture(scale, transparent, picture);
+  Status status = this->parts_.viewport->take_picture(scale, transparent, picture);
   if (status.ok())
   {
     status = write_png(picture, path.toStdString(), true);
@@ -181,22 +181,23 @@ void Exports::show_progress(double fraction)
   if (!this->tells_progress_)
   {
     this->tells_progress_ = true;
-    this->bar_->offer(QString(), {}, tr("Stop"));
+    this->parts_.bar->offer(QString(), {}, tr("Stop"));
   }
-  this->bar_->set_sentence(
+  this->parts_.bar->set_sentence(
     tr("Writing %1 … %2 %")
-      .arg(QFileInfo(this->window_->posing()->sequence_export()->path()).fileName())
+      .arg(QFileInfo(this->parts_.posing->sequence_export()->path()).fileName())
       .arg(static_cast<int>(100.0 * fraction)));
 }
 
 void Exports::film_finished()
 {
-  const SequenceExport* film = this->window_->posing()->sequence_export();
+  const SequenceExport* film = this->parts_.posing->sequence_export();
   this->tells_progress_ = false;
-  this->bar_->hide();
+  this->parts_.bar->hide();
   if (!film->error().isEmpty())
   {
-    this->window_->show_error(tr("Cannot export: %1.").arg(film->error()), ErrorKind::export_file);
+    this->parts_.errors->show_sentence(
+      tr("Cannot export: %1.").arg(film->error()), ErrorKind::export_file);
   }
   else if (!film->said().isEmpty()) // the description is empty after a cancel
   {
@@ -210,7 +211,7 @@ bool Exports::finish(const QString& path, const Status& status, const QString& r
 {
   if (!status.ok())
   {
-    this->window_->show_error(
+    this->parts_.errors->show_sentence(
       tr("Cannot export: %1.").arg(QString::fromStdString(status.message)), ErrorKind::export_file);
     return false;
   }
@@ -225,12 +226,12 @@ void Exports::tell(const QString& path, const QString& remark)
 {
   const QString absolute = QFileInfo(path).absoluteFilePath();
   this->folder_ = QFileInfo(absolute).absolutePath();
-  this->window_->error_bar()->succeeded(ErrorKind::export_file);
-  this->bar_->offer(QString(),
+  this->parts_.errors->succeeded(ErrorKind::export_file);
+  this->parts_.bar->offer(QString(),
     { { tr("Show in folder"), [this, absolute] { this->show_in_folder(absolute); } } },
     tr("Close"));
   const QString written = tr("Wrote %1.").arg(short_path(absolute));
-  this->bar_->set_sentence(
+  this->parts_.bar->set_sentence(
     remark.isEmpty() ? written : written + ' ' + remark, QDir::toNativeSeparators(absolute));
 }
 
@@ -239,8 +240,9 @@ void Exports::show_in_folder(const QString& path)
   const QString folder = QFileInfo(path).absolutePath();
   if (!QDesktopServices::openUrl(QUrl::fromLocalFile(folder)))
   {
-    this->window_->show_error(tr("Cannot open the folder %1: no suitable program was found.")
-                                .arg(QDir::toNativeSeparators(folder)),
+    this->parts_.errors->show_sentence(
+      tr("Cannot open the folder %1: no suitable program was found.")
+        .arg(QDir::toNativeSeparators(folder)),
       ErrorKind::export_file);
   }
 }

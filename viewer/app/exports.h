@@ -5,9 +5,24 @@
 
 #include <QObject>
 
-class MainWindow;
+class Document;
+class ErrorBar;
 class NoticeBar;
-class QFileDialog;
+class Posing;
+class Viewport;
+class WindowSessions;
+
+/// The parts of the window that Exports uses.
+struct ExportParts
+{
+  QWidget* window; ///< parent of the dialogs
+  Document* document;
+  Viewport* viewport;
+  Posing* posing;
+  const WindowSessions* sessions; ///< name of the open data
+  ErrorBar* errors;
+  NoticeBar* bar; ///< shows what was written
+};
 
 /// The exports of the menu File, except sessions: the visible shape, the rig (mesh, weights and
 /// handles), the pose, an image of the 3D view, and key frames as a film or another animation. A
@@ -17,7 +32,7 @@ class Exports : public QObject
   Q_OBJECT
 
 public:
-  Exports(MainWindow* window, NoticeBar* bar);
+  explicit Exports(const ExportParts& parts);
 
   // ---- Ask for a path and write ----
   void ask_for_shape();
@@ -37,6 +52,10 @@ public:
   /// Write the image that Viewport::take_picture() returns to a .png file.
   bool save_picture(const QString& path, int scale, bool transparent);
 
+Q_SIGNALS:
+  /// Emitted when the user wants to see the key frames.
+  void timeline_wanted();
+
 private:
   QString ask(const QString& title, const QString& kinds, const QString& ending);
   bool finish(const QString& path, const bindpose::Status& status, const QString& remark = {});
@@ -45,8 +64,7 @@ private:
   void film_finished();
   void show_in_folder(const QString& path);
 
-  MainWindow* window_;
-  NoticeBar* bar_;
+  ExportParts parts_;
   QString folder_; // folder of the last export
   bool tells_progress_ = false;
 };

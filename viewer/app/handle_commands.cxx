@@ -1,7 +1,7 @@
 #include "handle_commands.h"
 
 #include "document/document.h"
-#include "handle_editing.h"
+#include "handle_selection.h"
 #include "window_keys.h"
 
 #include "handle_edit_cells.h"
@@ -42,8 +42,8 @@ std::vector<Index> to_list(const std::vector<int>& handles)
 } // namespace
 
 HandleCommands::HandleCommands(
-  HandleEditing* editing, Document* document, QWidget* picture, QWidget* list)
-  : QObject(editing), editing_(editing), document_(document), picture_(picture),
+  HandleSelection* selection, Document* document, QWidget* picture, QWidget* list)
+  : QObject(selection), selection_(selection), document_(document), picture_(picture),
     menu_(new QMenu(picture)), fixes_(new QMenu(tr("&Fixes"), picture)),
     mirror_(new QMenu(tr("&Mirror"), picture)), parents_(new QMenu(tr("&Parent"), picture))
 {
@@ -132,7 +132,7 @@ void HandleCommands::fill(QMenu* menu)
 void HandleCommands::update()
 {
   const Handles& handles = this->document_->handles();
-  const std::vector<int> selected = this->editing_->selected();
+  const std::vector<int> selected = this->selection_->selected();
   const bool some = !selected.empty();
   const auto all = [&](HandleKind kind)
   {
@@ -168,7 +168,7 @@ void HandleCommands::fill_parents()
 {
   this->parents_->clear();
   const Handles& handles = this->document_->handles();
-  const std::vector<int> selected = this->editing_->selected();
+  const std::vector<int> selected = this->selection_->selected();
   const auto has_parent = [&](int parent)
   {
     return std::all_of(
@@ -194,7 +194,7 @@ void HandleCommands::fill_parents()
 
 void HandleCommands::ask_for_name()
 {
-  const std::vector<int> selected = this->editing_->selected();
+  const std::vector<int> selected = this->selection_->selected();
   if (selected.size() != 1)
   {
     return;
@@ -216,7 +216,7 @@ bool HandleCommands::rename(int handle, const QString& name)
   {
     return false;
   }
-  return this->editing_->rename(handle, name.trimmed());
+  return this->selection_->rename(handle, name.trimmed());
 }
 
 void HandleCommands::ask_for_color()
@@ -231,13 +231,13 @@ void HandleCommands::ask_for_color()
 
 void HandleCommands::set_color(const std::optional<QColor>& color)
 {
-  const std::vector<int> selected = this->editing_->selected();
+  const std::vector<int> selected = this->selection_->selected();
   std::optional<std::array<double, 3>> rgb;
   if (color)
   {
     rgb = { color->redF(), color->greenF(), color->blueF() };
   }
-  this->editing_->stop();
+  Q_EMIT this->selection_->about_to_edit();
   if (!rgb && !this->document_->editable_handles()->GetCellData()->GetArray("Color"))
   {
     return; // no handle has a color of its own
@@ -249,7 +249,7 @@ void HandleCommands::set_color(const std::optional<QColor>& color)
   }
   if (!selected.empty())
   {
-    this->editing_->commit(this->editing_->named(tr("color"), selected));
+    this->selection_->commit(this->selection_->named(tr("color"), selected));
   }
 }
 
@@ -262,8 +262,8 @@ bool HandleCommands::is_locked(int handle) const
 
 void HandleCommands::set_locked(bool locked)
 {
-  const std::vector<int> selected = this->editing_->selected();
-  this->editing_->stop();
+  const std::vector<int> selected = this->selection_->selected();
+  Q_EMIT this->selection_->about_to_edit();
   for (const int handle : selected)
   {
     set_handle_locked(
@@ -271,14 +271,14 @@ void HandleCommands::set_locked(bool locked)
   }
   if (!selected.empty())
   {
-    this->editing_->commit(this->editing_->named(locked ? tr("lock") : tr("unlock"), selected));
+    this->selection_->commit(this->selection_->named(locked ? tr("lock") : tr("unlock"), selected));
   }
 }
 
 /// Remove the selected handles. For regions, remove their labels from the surface, too.
 void HandleCommands::remove()
 {
-  const std::vector<int> selected = this->editing_->selected();
+  const std::vector<int> selected = this->selection_->selected();
   if (selected.empty())
   {
     return;
@@ -306,8 +306,8 @@ void HandleCommands::remove()
       }
     }
   }
-  this->editing_->edit(
-    this->editing_->named(tr("delete"), selected),
+  this->selection_->edit(
+    this->selection_->named(tr("delete"), selected),
     [&](const Handles& before, EditedHandles& after)
     { return remove_handles(before, to_list(selected), after); },
     left);
@@ -327,40 +327,40 @@ double HandleCommands::middle(int axis) const
 
 void HandleCommands::mirror(int axis)
 {
-  const std::vector<int> selected = this->editing_->selected();
+  const std::vector<int> selected = this->selection_->selected();
   if (selected.empty())
   {
     return;
   }
   const Vec3 normal = Vec3::Unit(axis);
   const Vec3 place = this->middle(axis) * normal;
-  this->editing_->edit(this->editing_->named(tr("mirror"), selected),
+  this->selection_->edit(this->selection_->named(tr("mirror"), selected),
     [&](const Handles& before, EditedHandles& after)
     { return mirror_handles(before, to_list(selected), place, normal, after); });
 }
 
 void HandleCommands::snap()
 {
-  const std::vector<int> selected = this->editing_->selected();
+  const std::vector<int> selected = this->selection_->selected();
   SurfaceInput surface;
   if (selected.empty() || !to_surface(this->document_->work().surface, surface).ok())
   {
     return;
   }
   const SurfaceProbe probe(surface.points.view(), surface.triangles.view());
-  this->editing_->edit(this->editing_->named(tr("snap to the surface:"), selected),
+  this->selection_->edit(this->selection_->named(tr("snap to the surface:"), selected),
     [&](const Handles& before, EditedHandles& after)
     { return snap_to_surface(before, to_list(selected), probe, after); });
 }
 
 void HandleCommands::set_parent(int parent)
 {
-  const std::vector<int> selected = this->editing_->selected();
+  const std::vector<int> selected = this->selection_->selected();
   if (selected.empty())
   {
     return;
   }
-  this->editing_->edit(this->editing_->named(tr("parent of"), selected),
+  this->selection_->edit(this->selection_->named(tr("parent of"), selected),
     [&](const Handles& before, EditedHandles& after)
     {
       Status status;
@@ -381,19 +381,19 @@ void HandleCommands::set_parent(int parent)
 
 void HandleCommands::toggle_cage_edge()
 {
-  const std::vector<int> selected = this->editing_->selected();
+  const std::vector<int> selected = this->selection_->selected();
   if (selected.size() != 2)
   {
     return;
   }
-  this->editing_->edit(tr("cage edge"),
+  this->selection_->edit(tr("cage edge"),
     [&](const Handles& before, EditedHandles& after)
     { return bindpose::toggle_cage_edge(before, selected[0], selected[1], after); });
 }
 
 void HandleCommands::fix(HandleMode mode)
 {
-  const std::vector<int> selected = this->editing_->selected();
+  const std::vector<int> selected = this->selection_->selected();
   Pose pose = this->document_->pose();
   for (const int handle : selected)
   {
@@ -401,15 +401,15 @@ void HandleCommands::fix(HandleMode mode)
   }
   if (!selected.empty())
   {
-    this->document_->set_pose(pose, this->editing_->named(tr("mode of"), selected));
+    this->document_->set_pose(pose, this->selection_->named(tr("mode of"), selected));
   }
   this->update(); // show the state again: a click on a checked entry has unchecked it
 }
 
 void HandleCommands::reset()
 {
-  const std::vector<int> selected = this->editing_->selected();
-  this->editing_->stop();
+  const std::vector<int> selected = this->selection_->selected();
+  Q_EMIT this->selection_->about_to_edit();
   Pose pose = this->document_->pose();
   for (const int handle : selected)
   {
@@ -420,7 +420,7 @@ void HandleCommands::reset()
   }
   if (!selected.empty())
   {
-    this->document_->set_pose(pose, this->editing_->named(tr("reset"), selected));
+    this->document_->set_pose(pose, this->selection_->named(tr("reset"), selected));
   }
 }
 
@@ -431,5 +431,5 @@ void HandleCommands::select_all()
   {
     all.push_back(static_cast<int>(k));
   }
-  this->editing_->select(all);
+  this->selection_->select(all);
 }

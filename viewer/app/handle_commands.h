@@ -13,7 +13,7 @@
 #include <vector>
 
 class Document;
-class HandleEditing;
+class HandleSelection;
 class QAction;
 class QMenu;
 class QString;
@@ -21,14 +21,14 @@ class QWidget;
 
 /// Commands for the selected handles, as menu entries, keys and functions; drags are handled
 /// elsewhere. Each command makes one undo step of the document. If it cannot be applied, it makes
-/// no step, and HandleEditing::refused() is emitted with one sentence.
+/// no step, and HandleSelection::refused() is emitted with one sentence.
 class HandleCommands : public QObject
 {
   Q_OBJECT
 
 public:
   /// The keys work in the 3D view `picture` and in `list`, the list of handles.
-  HandleCommands(HandleEditing* editing, Document* document, QWidget* picture, QWidget* list);
+  HandleCommands(HandleSelection* selection, Document* document, QWidget* picture, QWidget* list);
   ~HandleCommands() override;
 
   /// Return the context menu of handles.
@@ -66,7 +66,7 @@ private:
   bool is_locked(int handle) const;
   double middle(int axis) const;
 
-  HandleEditing* editing_;
+  HandleSelection* selection_;
   Document* document_;
   QWidget* picture_;
   QMenu* menu_;

@@ -1,12 +1,12 @@
 // Connects the handle widget to the document. The widget edits the document's handles in place and
 // reports its actions by events. At the end of every drag and for every placed handle, the changes
-// are committed as an undo step with the name of the action. Edits change the indices of handles,
-// so between edits the selection is stored as a list of names.
+// are committed as an undo step with the name of the action.
 #include "handle_editing.h"
 
 #include "document/document.h"
 #include "edit_tools.h"
 #include "handle_commands.h"
+#include "handle_selection.h"
 #include "panel_parts.h"
 #include "posing.h"
 #include "region_painting.h"
@@ -44,10 +44,12 @@ using Drawn = vtkHandleSetRepresentation;
 HandleEditing::HandleEditing(
   Document* document, Viewport* viewport, Posing* posing, SidePanel* panel, QAction* auto_rig)
   : QObject(viewport), document_(document), viewport_(viewport), posing_(posing), panel_(panel),
+    selection_(new HandleSelection(document, viewport)),
     painting_(new RegionPainting(document, viewport))
 {
   this->make_actions();
-  this->commands_ = new HandleCommands(this, document, viewport, panel->handle_list()->tree());
+  this->commands_ =
+    new HandleCommands(this->selection_, document, viewport, panel->handle_list()->tree());
   this->tools_ = new EditTools({ { auto_rig }, this->modes_->actions(),
                                  this->gizmos_->actions() + QList<QAction*>{ this->local_ } },
     viewport->parentWidget());
@@ -70,15 +72,20 @@ HandleEditing::HandleEditing(
     });
   QObject::connect(
     this->bar_, &ModeBar::radius_chosen, this->painting_, &RegionPainting::set_radius);
-  QObject::connect(this->bar_, &ModeBar::new_region_wanted, this, [this] { this->select({}); });
+  QObject::connect(
+    this->bar_, &ModeBar::new_region_wanted, this, [this] { this->selection_->select({}); });
   QObject::connect(this->painting_, &RegionPainting::changed, this, &HandleEditing::show_state);
   QObject::connect(this->painting_, &RegionPainting::refused, this, &HandleEditing::refused);
+  QObject::connect(this->selection_, &HandleSelection::refused, this, &HandleEditing::refused);
+  QObject::connect(this->selection_, &HandleSelection::about_to_edit, this, &HandleEditing::stop);
+  QObject::connect(
+    this->selection_, &HandleSelection::changed, this, &HandleEditing::selection_changed);
   QObject::connect(this->painting_, &RegionPainting::painted, this,
     [this](const QString& region)
     {
-      this->names_ = region.isEmpty() ? std::vector<std::string>()
-                                      : std::vector<std::string>{ region.toStdString() };
-      this->show_selection();
+      this->selection_->select_names(region.isEmpty()
+          ? std::vector<std::string>()
+          : std::vector<std::string>{ region.toStdString() });
     });
   QObject::connect(panel, &SidePanel::handles_chosen, this, &HandleEditing::list_chosen);
   QTreeWidget* list = panel->handle_list()->tree();
@@ -233,7 +240,7 @@ void HandleEditing::set_mode(int mode)
   this->painting_->set_active(mode == paint_regions);
   if (mode == paint_regions)
   {
-    const std::vector<int> selected = this->selected();
+    const std::vector<int> selected = this->selection_->selected();
     this->painting_->choose(selected.empty() ? -1 : selected.back());
   }
   if (mode != pose)
@@ -327,7 +334,8 @@ vtkHandleSetRepresentation* HandleEditing::drawn() const
 void HandleEditing::connect_widget()
 {
   vtkHandleSetWidget* widget = this->widget();
-  widget->AddObserver(vtkCommand::SelectionChangedEvent, this, &HandleEditing::selection_changed);
+  widget->AddObserver(
+    vtkCommand::SelectionChangedEvent, this->selection_, &HandleSelection::read_view);
   widget->AddObserver(vtkCommand::StartInteractionEvent, this, &HandleEditing::drag_began);
   widget->AddObserver(vtkCommand::InteractionEvent, this, &HandleEditing::drag_went_on);
   widget->AddObserver(vtkCommand::EndInteractionEvent, this, &HandleEditing::drag_ended);
@@ -358,7 +366,7 @@ void HandleEditing::placed()
   const QString what = QString::fromStdString(this->widget()->GetInteractionName());
   const bool adds = what == "add point" || what == "add bone" || what == "add cage vertex";
   const std::string name = this->drawn()->GetHandleName(this->drawn()->GetSelectedHandle());
-  this->commit(adds ? what + " " + QString::fromStdString(name) : what);
+  this->selection_->commit(adds ? what + " " + QString::fromStdString(name) : what);
 }
 
 void HandleEditing::drag_ended()
@@ -368,11 +376,12 @@ void HandleEditing::drag_ended()
     const QString what = QString::fromStdString(this->widget()->GetInteractionName());
     if (this->mode_ == pose)
     {
-      this->document_->commit_pose(this->named(what, this->selected()));
+      this->document_->commit_pose(this->selection_->named(what, this->selection_->selected()));
     }
     else if (this->mode_ == move_rest)
     {
-      this->commit(this->named(tr("move at rest"), this->selected()));
+      this->selection_->commit(
+        this->selection_->named(tr("move at rest"), this->selection_->selected()));
     }
   }
   this->show_state();
@@ -391,70 +400,9 @@ void HandleEditing::mode_left()
 
 // ---- The selection -----------------------------------------------------------------------------
 
-std::vector<int> HandleEditing::selected() const
-{
-  std::vector<int> result;
-  for (int k = 0; k < this->drawn()->GetNumberOfSelectedHandles(); ++k)
-  {
-    const int handle = this->document_->handle_of_cell(this->drawn()->GetSelectedHandle(k));
-    if (handle >= 0)
-    {
-      result.push_back(handle);
-    }
-  }
-  return result;
-}
-
-void HandleEditing::select(const std::vector<int>& handles)
-{
-  this->names_.clear();
-  for (const int handle : handles)
-  {
-    this->names_.push_back(this->document_->handles()[handle].name);
-  }
-  this->show_selection();
-}
-
-/// Select the handles in names_ in the 3D view. Names of handles that do not exist now are kept
-/// until the next selection, because a redo may restore these handles.
-void HandleEditing::show_selection()
-{
-  const Handles& handles = this->document_->handles();
-  this->drawn()->SetSelectedHandle(-1);
-  for (const std::string& name : this->names_)
-  {
-    for (std::size_t k = 0; k < handles.size(); ++k)
-    {
-      const Index cell = this->document_->handle_cells()[k];
-      if (handles[k].name == name && !this->drawn()->IsSelected(cell))
-      {
-        this->drawn()->ToggleSelected(cell);
-      }
-    }
-  }
-  this->tell_selection();
-  this->viewport_->refresh();
-}
-
-void HandleEditing::remember_selection()
-{
-  this->names_.clear();
-  for (int k = 0; k < this->drawn()->GetNumberOfSelectedHandles(); ++k)
-  {
-    this->names_.push_back(this->drawn()->GetHandleName(this->drawn()->GetSelectedHandle(k)));
-  }
-}
-
-/// The user has changed the selection in the 3D view: update the list.
 void HandleEditing::selection_changed()
 {
-  this->remember_selection();
-  this->tell_selection();
-}
-
-void HandleEditing::tell_selection()
-{
-  const std::vector<int> selected = this->selected();
+  const std::vector<int> selected = this->selection_->selected();
   const int last = selected.empty() ? -1 : selected.back();
   this->follows_ = true;
   this->panel_->select_handles(selected);
@@ -472,7 +420,7 @@ void HandleEditing::list_chosen()
 {
   if (!this->follows_)
   {
-    this->select(this->panel_->selected_handles());
+    this->selection_->select(this->panel_->selected_handles());
   }
 }
 
@@ -487,88 +435,10 @@ bool HandleEditing::show_menu(const QPoint& at)
   }
   if (!this->drawn()->IsSelected(this->drawn()->GetHoveredHandle()))
   {
-    this->select({ handle });
+    this->selection_->select({ handle });
   }
   this->commands_->menu()->popup(this->viewport_->mapToGlobal(at));
   return true;
-}
-
-// ---- Edits -------------------------------------------------------------------------------------
-
-bool HandleEditing::edit(const QString& step, const HandleListEdit& edit, vtkDataArray* labels)
-{
-  this->stop();
-  this->drawn()->FinishCage(); // the edit may change the vertices of an unfinished cage
-  std::vector<Index> cell_of;
-  std::vector<Index> added;
-  const Status status = edit_handles(this->document_->editable_handles(), edit, &cell_of, &added);
-  if (!status.ok())
-  {
-    this->refuse(status);
-    return false;
-  }
-  std::vector<vtkIdType> selected(added.begin(), added.end());
-  for (int k = 0; added.empty() && k < this->drawn()->GetNumberOfSelectedHandles(); ++k)
-  {
-    const auto cell = static_cast<std::size_t>(this->drawn()->GetSelectedHandle(k));
-    if (cell < cell_of.size() && cell_of[cell] >= 0)
-    {
-      selected.push_back(cell_of[cell]);
-    }
-  }
-  this->drawn()->SetSelectedHandle(-1);
-  this->drawn()->LeaveHandles();
-  for (const vtkIdType cell : selected)
-  {
-    this->drawn()->ToggleSelected(cell);
-  }
-  return this->commit(step, labels);
-}
-
-void HandleEditing::refuse(const Status& status)
-{
-  Q_EMIT this->refused(capital(QString::fromStdString(status.message)) + ".");
-}
-
-bool HandleEditing::commit(const QString& step, vtkDataArray* labels)
-{
-  this->is_committing_ = true;
-  const Status status =
-    labels ? this->document_->commit_regions(labels, step) : this->document_->commit_handles(step);
-  this->is_committing_ = false;
-  if (!status.ok())
-  {
-    this->show_selection();
-    this->refuse(status);
-  }
-  return status.ok();
-}
-
-bool HandleEditing::rename(int handle, const QString& name)
-{
-  this->stop();
-  const std::string before = this->document_->handles()[handle].name;
-  this->is_committing_ = true;
-  const Status status = this->document_->rename_handle(handle, name);
-  this->is_committing_ = false;
-  if (status.ok() && this->drawn()->IsSelected(this->document_->handle_cells()[handle]))
-  {
-    // keep the old name, too: the handle stays selected after an undo
-    this->names_.push_back(before);
-  }
-  if (!status.ok())
-  {
-    this->refuse(status);
-  }
-  return status.ok();
-}
-
-QString HandleEditing::named(const QString& step, const std::vector<int>& handles) const
-{
-  const Handles& all = this->document_->handles();
-  return handles.size() == 1 && handles[0] < static_cast<int>(all.size())
-    ? QString("%1 %2").arg(step, QString::fromStdString(all[handles[0]].name))
-    : tr("%1 %2 handles").arg(step).arg(handles.size());
 }
 
 void HandleEditing::document_changed(int parts)
@@ -584,14 +454,7 @@ void HandleEditing::document_changed(int parts)
   }
   if (parts & handles_part)
   {
-    if (this->is_committing_)
-    {
-      this->selection_changed(); // the 3D view already shows the new selection
-    }
-    else
-    {
-      this->show_selection();
-    }
+    this->selection_->handles_changed();
   }
   if (parts & (mesh_part | weights_part | handles_part))
   {
@@ -749,7 +612,7 @@ bool HandleEditing::eventFilter(QObject* watched, QEvent* event)
     case QEvent::ContextMenu:
     {
       const auto* menu = static_cast<QContextMenuEvent*>(event);
-      if (menu->reason() == QContextMenuEvent::Keyboard && !this->selected().empty())
+      if (menu->reason() == QContextMenuEvent::Keyboard && !this->selection_->selected().empty())
       {
         this->commands_->menu()->popup(
           this->viewport_->mapToGlobal(this->viewport_->rect().center()));

@@ -1,19 +1,13 @@
 #ifndef handle_editing_h
 #define handle_editing_h
 
-#include "handle_edit_cells.h"
-
-#include "vtkSmartPointer.h"
-
 #include <QObject>
 #include <QPoint>
-
-#include <string>
-#include <vector>
 
 class Document;
 class EditTools;
 class HandleCommands;
+class HandleSelection;
 class ModeBar;
 class Posing;
 class QAction;
@@ -24,15 +18,12 @@ class QMenu;
 class RegionPainting;
 class SidePanel;
 class Viewport;
-class vtkDataArray;
 class vtkHandleSetRepresentation;
 class vtkHandleSetWidget;
 class vtkObject;
 
 /// Interactive editing of handles: the tools and edit modes of the handle widget and the region
-/// brush, and their messages. Each edit is one undo step of the document. Handles are selected in
-/// the 3D view or in the list. The selection is stored by name, so handles stay selected if an edit
-/// changes their indices.
+/// brush, and their messages. Each edit is one undo step of the document.
 ///
 /// While rest positions are edited or regions are painted, the shape is shown at rest.
 class HandleEditing : public QObject
@@ -59,6 +50,7 @@ public:
   /// Return the bar with the options of an edit mode, to be placed in the upper left corner of the
   /// 3D view.
   ModeBar* mode_bar() const { return this->bar_; }
+  HandleSelection* selection() const { return this->selection_; }
   HandleCommands* commands() const { return this->commands_; }
   void fill_menu(QMenu* menu);
   /// Return the action of a tool by its name in window_keys.h; null if there is none.
@@ -72,27 +64,9 @@ public:
   /// the last vertex of an unfinished cage, leave the edit mode.
   void step_back();
 
-  /// Return the indices of the selected handles, in the order of their selection.
-  std::vector<int> selected() const;
-  /// Select only these handles.
-  void select(const std::vector<int>& handles);
   /// Show the context menu of the handle at this position of the viewport. Return false if there is
   /// none.
   bool show_menu(const QPoint& at);
-
-  /// Edit the handles in one undo step and select the new handles. If that is impossible, emit
-  /// refused() and return false. `labels`, if not null, become the region labels of the surface in
-  /// the same step.
-  bool edit(
-    const QString& step, const bindpose::HandleListEdit& edit, vtkDataArray* labels = nullptr);
-  /// Commit, as one undo step, changes that are already in the cells of the document's handles.
-  bool commit(const QString& step, vtkDataArray* labels = nullptr);
-  /// Rename a handle. Return false, and emit refused(), if the name is empty or belongs to another
-  /// handle.
-  bool rename(int handle, const QString& name);
-  /// Return the name of an undo step for these handles: it contains the name of the only handle, or
-  /// the number of handles.
-  QString named(const QString& step, const std::vector<int>& handles) const;
 
   /// Update after changes of the document.
   void document_changed(int parts);
@@ -121,7 +95,6 @@ private:
   void connect_widget();
   vtkHandleSetWidget* widget() const;
   vtkHandleSetRepresentation* drawn() const;
-  void refuse(const bindpose::Status& status);
   void drag_began();
   void drag_went_on();
   void drag_ended();
@@ -130,9 +103,6 @@ private:
   void selection_changed();
   void mode_left();
   void list_chosen();
-  void show_selection();
-  void remember_selection();
-  void tell_selection();
   void show_state();
   QString drag_sentence() const;
   QString refusal() const;
@@ -143,6 +113,7 @@ private:
   Viewport* viewport_;
   Posing* posing_;
   SidePanel* panel_;
+  HandleSelection* selection_;
   RegionPainting* painting_;
   HandleCommands* commands_ = nullptr;
   QActionGroup* modes_ = nullptr;
@@ -153,8 +124,6 @@ private:
   ModeBar* bar_ = nullptr;
   QWidget* nothing_ = nullptr; ///< shown over the 3D view while a mesh has no handles
   int mode_ = pose;
-  std::vector<std::string> names_; ///< names of the selected handles
-  bool is_committing_ = false;
   bool follows_ = false; ///< true while the list is updated from the selection in the 3D view
   bool right_button_ = false; ///< true: the right button was pressed on a handle
   QString warning_;

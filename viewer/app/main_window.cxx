@@ -13,6 +13,7 @@
 #include "field_guard.h"
 #include "handle_commands.h"
 #include "handle_editing.h"
+#include "handle_selection.h"
 #include "inspection.h"
 #include "key_strip.h"
 #include "notice_bar.h"
@@ -111,8 +112,6 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
   this->resize(QSize(1280, 800).boundedTo(room - QSize(0, title)));
   this->make_layout();
   this->make_inspections();
-  this->exports_ = new Exports(this, this->export_bar_);
-  this->menus_ = new WindowMenus(this);
   this->links_ = new OptionLinks(this->document_, this->panels_);
   this->links_->tie(
     "show.outlines", [this] { return this->viewport_->has_outlines(); },
@@ -120,7 +119,14 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
   tie_plane(this->links_, this->document_, "volume", this->volume_view_->plane());
   tie_plane(this->links_, this->document_, "tets", this->inspection_->tet_view()->plane());
   tie_plane(this->links_, this->document_, "weights", this->weights_->view()->plane());
-  this->sessions_ = new WindowSessions(this, this->links_, this->recovery_bar_, this->note_bar_);
+  this->sessions_ = new WindowSessions({ this, this->document_, this->viewport_, this->panels_,
+    this->binding_, this->links_, this->error_bar_, this->recovery_bar_, this->note_bar_ });
+  this->exports_ = new Exports({ this, this->document_, this->viewport_, this->posing_,
+    this->sessions_, this->error_bar_, this->export_bar_ });
+  this->menus_ = new WindowMenus(
+    { this, this->document_, this->viewport_, this->panels_, this->editing_, this->shape_handles_,
+      this->binding_, this->posing_, this->strip_, this->sessions_, this->exports_ });
+  this->connect_menus();
   this->connect_panel();
   this->connect_volume();
   this->connect_handles();
@@ -269,7 +275,7 @@ void MainWindow::make_inspections()
   QObject::connect(this->panels_->weight(), &WeightPanel::column_chosen, this,
     [this](int column)
     {
-      const std::vector<int> selected = this->editing_->selected();
+      const std::vector<int> selected = this->editing_->selection()->selected();
       const bool shown = this->panels_->shown_panel() == PanelColumn::weights;
       const int count = static_cast<int>(this->document_->handles().size());
       if (shown && this->is_bound() && column >= 0 && column < count &&
@@ -279,6 +285,28 @@ void MainWindow::make_inspections()
       }
     });
   this->winding_volume_ = new WindingVolume(this->document_, this->panels_->volume(), this);
+}
+
+void MainWindow::connect_menus()
+{
+  QObject::connect(this->sessions_, &WindowSessions::open_wanted, this,
+    [this](const QString& path) { this->open(path); });
+  QObject::connect(this->sessions_, &WindowSessions::changed, this, &MainWindow::update_title);
+  QObject::connect(this->sessions_, &WindowSessions::perspective_wanted, this,
+    [this] { this->set_flat_view(false); });
+  QObject::connect(
+    this->exports_, &Exports::timeline_wanted, this, [this] { this->show_timeline(true); });
+  WindowMenus* menus = this->menus_;
+  QObject::connect(menus, &WindowMenus::open_wanted, this, &MainWindow::choose_and_open);
+  QObject::connect(menus, &WindowMenus::flat_view_wanted, this, &MainWindow::set_flat_view);
+  QObject::connect(menus, &WindowMenus::outlines_wanted, this, &MainWindow::show_outlines);
+  QObject::connect(menus, &WindowMenus::timeline_wanted, this, &MainWindow::show_timeline);
+  QObject::connect(menus, &WindowMenus::method_wanted, this, &MainWindow::set_method);
+}
+
+void MainWindow::update_menus()
+{
+  this->menus_->update({ this->is_empty(), this->plane_.has_value(), this->timeline_ });
 }
 
 void MainWindow::connect_panel()
@@ -360,7 +388,7 @@ void MainWindow::connect_handles()
   QObject::connect(this->editing_, &HandleEditing::handle_selected, this,
     [this]
     {
-      this->posing_->select_handles(this->editing_->selected());
+      this->posing_->select_handles(this->editing_->selection()->selected());
       this->show_selected_column();
     });
 }
@@ -368,7 +396,7 @@ void MainWindow::connect_handles()
 /// Show the weights of the handle that was selected last in the weight panel.
 void MainWindow::show_selected_column()
 {
-  const std::vector<int> selected = this->editing_->selected();
+  const std::vector<int> selected = this->editing_->selection()->selected();
   if (this->is_bound() && !selected.empty())
   {
     this->weights_->choose_column(selected.back());
@@ -472,7 +500,7 @@ void MainWindow::show_timeline(bool shown)
 {
   this->timeline_ = shown;
   this->strip_->setVisible(shown && this->document_->surface());
-  this->menus_->update();
+  this->update_menus();
 }
 
 void MainWindow::option_changed(const QString& key, const QVariant& value)
@@ -524,7 +552,7 @@ void MainWindow::set_flat_view(bool flat)
 {
   this->flat_wanted_ = flat;
   this->update_plane();
-  this->menus_->update();
+  this->update_menus();
 }
 
 void MainWindow::show_handles()
@@ -985,7 +1013,7 @@ void MainWindow::update_panel()
   this->update_surface_look();
   this->empty_->setVisible(this->is_empty());
   this->strip_->setVisible(surface && this->timeline_);
-  this->menus_->update();
+  this->update_menus();
 }
 
 QString MainWindow::bound_note() const
@@ -997,7 +1025,7 @@ void MainWindow::show_outlines(bool shown)
 {
   this->viewport_->show_outlines(shown);
   this->draw_pose(); // draw again, because the right half of a split view shows outlines too
-  this->menus_->update();
+  this->update_menus();
   this->links_->chosen("show.outlines");
 }
 

@@ -90,11 +90,6 @@ public:
   VolumeView* volume_view() const { return this->volume_view_; }
   Inspection* inspection() const { return this->inspection_; }
   Probe* probe() const { return this->probe_; }
-  /// Report whether the shape is planar, so that it can be shown in 2D.
-  bool is_planar() const { return this->plane_.has_value(); }
-  /// Switch the 2D mode on or off. Planar shapes are first shown in 2D. With the mode off the view
-  /// can be rotated. The camera is unchanged.
-  void set_flat_view(bool flat);
   /// Show or hide outlines, as an undo step.
   void show_outlines(bool shown);
   WeightInspection* weights() const { return this->weights_; }
@@ -104,9 +99,7 @@ public:
   ShapeHandles* shape_handles() const { return this->shape_handles_; }
   KeyStrip* strip() const { return this->strip_; }
   WindingVolume* winding_volume() const { return this->winding_volume_; }
-  /// Report whether the key frames are shown below the 3D view. They are shown after the first key
-  /// frame was set, or on request.
-  bool shows_timeline() const { return this->timeline_; }
+  /// Show or hide the key frames below the 3D view.
   void show_timeline(bool shown);
   /// Return the status line. It describes the current interaction, or the last pose.
   const ElidedLabel* hint() const { return this->hint_; }
@@ -116,8 +109,6 @@ public:
   QString error() const;
   void show_error(const QString& sentence, ErrorKind kind = ErrorKind::other);
   ErrorBar* error_bar() const { return this->error_bar_; }
-  void show_notice(const QString& sentence);
-  void update_title();
   NoticeBar* rebind_bar() const { return this->rebind_bar_; }
   NoticeBar* recovery_bar() const { return this->recovery_bar_; }
   /// Return the bar for notes about missing files of a session, the outline of an image, and
@@ -134,6 +125,8 @@ protected:
 private:
   void make_layout();
   void make_inspections();
+  void connect_menus();
+  void update_menus();
   void connect_panel();
   void connect_volume();
   void connect_handles();
@@ -145,6 +138,9 @@ private:
   void connect_weights();
   void connect_errors();
   void keys_changed();
+  /// Switch the 2D mode on or off. Planar shapes are first shown in 2D. With the mode off the view
+  /// can be rotated. The camera is unchanged.
+  void set_flat_view(bool flat);
   void update_plane();
   void update_surface_look();
   void offer_defects(const QString& counts);
@@ -162,6 +158,8 @@ private:
   bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
   bool say(const QString& name, const bindpose::Status& status);
   void update_hint();
+  void show_notice(const QString& sentence);
+  void update_title();
 
   Document* document_;
   Viewport* viewport_ = nullptr;
@@ -197,7 +195,7 @@ private:
   ElidedLabel* hint_ = nullptr;
   EmptyState* empty_ = nullptr; // in the middle of the 3D view while no file is open
   vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport shows
-  bool timeline_ = false;
+  bool timeline_ = false; // the timeline is shown after the first key frame was set, or on request
   bool has_keys_ = false;
   QString read_notice_; // warnings about data of the opened file that was not read
   QString hint_text_; // shown in the status line when there is no interaction

@@ -7,7 +7,6 @@
 #include "handle_tree.h"
 #include "help_boxes.h"
 #include "key_strip.h"
-#include "main_window.h"
 #include "panel_column.h"
 #include "pose_panel.h"
 #include "posing.h"
@@ -24,6 +23,7 @@
 #include <QApplication>
 #include <QKeySequence>
 #include <QLineEdit>
+#include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QRegularExpression>
@@ -69,14 +69,15 @@ void name_actions(const QList<QAction*>& entries, const QString& menu)
 }
 } // namespace
 
-WindowMenus::WindowMenus(MainWindow* window) : QObject(window), window_(window)
+WindowMenus::WindowMenus(const MenuParts& parts) : QObject(parts.window), parts_(parts)
 {
+  QMainWindow* window = parts.window;
   this->add_file_menu();
   this->add_edit_menu();
   QMenu* handles = window->menuBar()->addMenu(tr("H&andles"));
-  window->editing()->fill_menu(handles);
+  parts.editing->fill_menu(handles);
   handles->addSeparator();
-  window->shape_handles()->fill_menu(handles);
+  parts.shape_handles->fill_menu(handles);
   this->add_view_menu();
   QMenu* help = window->menuBar()->addMenu(tr("&Help"));
   this->add(help, tr("&Mouse and keys"), "keys", [window] { (new ShortcutSheet(window))->show(); });
@@ -89,26 +90,25 @@ QAction* WindowMenus::add(QMenu* menu, const QString& text, const char* name, Ac
 {
   QAction* entry = menu->addAction(text);
   entry->setShortcuts(shortcuts(name));
-  QObject::connect(entry, &QAction::triggered, this->window_, action);
+  QObject::connect(entry, &QAction::triggered, this, action);
   return entry;
 }
 
 void WindowMenus::add_file_menu()
 {
-  MainWindow* window = this->window_;
-  QMenu* file = window->menuBar()->addMenu(tr("&File"));
-  this->add(file, tr("&Open…"), "open", [window] { window->choose_and_open(); });
+  QMenu* file = this->parts_.window->menuBar()->addMenu(tr("&File"));
+  this->add(file, tr("&Open…"), "open", [this] { Q_EMIT this->open_wanted(); });
   QMenu* recent = file->addMenu(tr("Open &recent"));
   recent->setToolTipsVisible(true);
   QObject::connect(recent, &QMenu::aboutToShow, this,
-    [window, recent] { window->sessions()->fill_recent(recent); });
+    [this, recent] { this->parts_.sessions->fill_recent(recent); });
   file->addSeparator();
   this->save_ =
-    this->add(file, tr("&Save session"), "save", [window] { window->sessions()->save(); });
+    this->add(file, tr("&Save session"), "save", [this] { this->parts_.sessions->save(); });
   this->save_as_ = this->add(
-    file, tr("Save session &as…"), "save_as", [window] { window->sessions()->save_as(); });
+    file, tr("Save session &as…"), "save_as", [this] { this->parts_.sessions->save_as(); });
   file->addSeparator();
-  Exports* exports = window->exports();
+  Exports* exports = this->parts_.exports;
   this->export_shape_ =
     this->add(file, tr("Export s&hape…"), "", [exports] { exports->ask_for_shape(); });
   this->export_rig_ =
@@ -119,72 +119,70 @@ void WindowMenus::add_file_menu()
   this->export_film_ =
     this->add(file, tr("Export &film…"), "", [exports] { exports->ask_for_film(); });
   file->addSeparator();
-  this->add(file, tr("&Quit"), "quit", [window] { window->close(); });
+  this->add(file, tr("&Quit"), "quit", [this] { this->parts_.window->close(); });
 }
 
 void WindowMenus::add_edit_menu()
 {
-  MainWindow* window = this->window_;
-  QMenu* edit = window->menuBar()->addMenu(tr("&Edit"));
-  QAction* undo = window->history()->createUndoAction(this, tr("&Undo"));
+  QMenu* edit = this->parts_.window->menuBar()->addMenu(tr("&Edit"));
+  QAction* undo = this->parts_.document->history()->createUndoAction(this, tr("&Undo"));
   undo->setShortcuts(shortcuts("undo"));
-  QAction* redo = window->history()->createRedoAction(this, tr("&Redo"));
+  QAction* redo = this->parts_.document->history()->createRedoAction(this, tr("&Redo"));
   redo->setShortcuts(shortcuts("redo"));
   edit->addAction(undo);
   edit->addAction(redo);
   edit->addSeparator();
-  this->bind_ = this->add(edit, tr("&Bind"), "bind", [window] { window->binding()->start(); });
+  this->bind_ = this->add(edit, tr("&Bind"), "bind", [this] { this->parts_.binding->start(); });
   this->rest_pose_ = this->add(
-    edit, tr("Back to &rest"), "rest_pose", [window] { window->document()->back_to_rest(); });
+    edit, tr("Back to &rest"), "rest_pose", [this] { this->parts_.document->back_to_rest(); });
   edit->addSeparator();
   this->find_ = this->add(edit, tr("&Find a handle"), "find",
-    [window]
+    [this]
     {
-      window->panels()->show_panel(PanelColumn::bind_and_pose);
-      window->panels()->handles()->search()->setFocus(Qt::ShortcutFocusReason);
+      this->parts_.panels->show_panel(PanelColumn::bind_and_pose);
+      this->parts_.panels->handles()->search()->setFocus(Qt::ShortcutFocusReason);
     });
 }
 
 void WindowMenus::add_view_menu()
 {
-  MainWindow* window = this->window_;
-  QMenu* view = window->menuBar()->addMenu(tr("&View"));
+  QMenu* view = this->parts_.window->menuBar()->addMenu(tr("&View"));
   this->add(view, tr("&Whole shape"), "whole_shape",
-    [window]
+    [this]
     {
-      window->viewport()->reset_view();
-      window->viewport()->refresh();
+      this->parts_.viewport->reset_view();
+      this->parts_.viewport->refresh();
     });
   this->flat_view_ = this->add(view, tr("&2D view"), "",
-    [window]
+    [this]
     {
-      window->set_flat_view(!window->viewport()->is_flat());
-      window->viewport()->reset_view();
-      window->viewport()->refresh();
+      Q_EMIT this->flat_view_wanted(!this->parts_.viewport->is_flat());
+      this->parts_.viewport->reset_view();
+      this->parts_.viewport->refresh();
     });
   this->flat_view_->setCheckable(true);
   this->outlines_ = this->add(view, tr("&Outlines"), "",
-    [window] { window->show_outlines(!window->viewport()->has_outlines()); });
+    [this] { Q_EMIT this->outlines_wanted(!this->parts_.viewport->has_outlines()); });
   this->outlines_->setCheckable(true);
   this->outlines_->setToolTip(
     tr("Dark lines along the silhouette and the open edges of the shape"));
-  this->timeline_ = this->add(
-    view, tr("Ti&meline"), "", [window] { window->show_timeline(!window->shows_timeline()); });
+  this->timeline_ = this->add(view, tr("Ti&meline"), "",
+    [this] { Q_EMIT this->timeline_wanted(this->timeline_->isChecked()); });
   this->timeline_->setCheckable(true);
   view->addSeparator();
   this->add(view, tr("&Rest shape or pose"), "look_at_rest",
-    [window] { window->posing()->look_at_rest(!window->posing()->looks_at_rest()); });
+    [this] { this->parts_.posing->look_at_rest(!this->parts_.posing->looks_at_rest()); });
   this->add(view, tr("&Play or pause"), "play",
-    [window] { window->posing()->keeper()->play(!window->posing()->keeper()->is_playing()); });
-  this->add(view, tr("&Set a key"), "set_key", [window] { Q_EMIT window->strip()->key_wanted(); });
+    [this] { this->parts_.posing->keeper()->play(!this->parts_.posing->keeper()->is_playing()); });
+  this->add(view, tr("&Set a key"), "set_key", [this] { Q_EMIT this->parts_.strip->key_wanted(); });
   view->addSeparator();
   this->methods_ = new QActionGroup(this);
   int key = Qt::Key_1;
   for (const bindpose::PoseMethod each : method_order())
   {
     const auto number = static_cast<int>(each);
-    QAction* method =
-      this->add(view, method_name(each), "", [window, number] { window->set_method(number); });
+    QAction* method = this->add(
+      view, method_name(each), "", [this, number] { Q_EMIT this->method_wanted(number); });
     method->setData(number);
     method->setShortcut(QKeySequence(key++));
     method->setCheckable(true);
@@ -216,24 +214,24 @@ void WindowMenus::show_method(int method)
   }
 }
 
-void WindowMenus::update()
+void WindowMenus::update(const State& state)
 {
-  const Document* document = this->window_->document();
+  const Document* document = this->parts_.document;
   const bool ready = document->surface() && document->handle_data();
-  this->save_->setEnabled(!this->window_->is_empty());
-  this->save_as_->setEnabled(!this->window_->is_empty());
+  this->save_->setEnabled(!state.is_empty);
+  this->save_as_->setEnabled(!state.is_empty);
   this->export_shape_->setEnabled(document->surface());
-  this->export_rig_->setEnabled(this->window_->is_bound());
+  this->export_rig_->setEnabled(this->parts_.posing->has_weights());
   this->export_pose_->setEnabled(document->handle_data());
   this->find_->setEnabled(document->handle_data());
   this->export_film_->setEnabled(ready);
-  this->bind_->setEnabled(ready && !this->window_->binding()->is_running());
+  this->bind_->setEnabled(ready && !this->parts_.binding->is_running());
   this->rest_pose_->setEnabled(document->is_bound());
   this->methods_->setEnabled(ready);
-  this->flat_view_->setEnabled(this->window_->is_planar() && !document->work().volume);
-  this->flat_view_->setChecked(this->window_->viewport()->is_flat());
-  this->outlines_->setChecked(this->window_->viewport()->has_outlines());
+  this->flat_view_->setEnabled(state.is_planar && !document->work().volume);
+  this->flat_view_->setChecked(this->parts_.viewport->is_flat());
+  this->outlines_->setChecked(this->parts_.viewport->has_outlines());
   this->timeline_->setEnabled(document->surface());
-  this->timeline_->setChecked(this->window_->shows_timeline());
-  this->window_->shape_handles()->update();
+  this->timeline_->setChecked(state.shows_timeline);
+  this->parts_.shape_handles->update();
 }

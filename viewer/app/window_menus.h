@@ -3,10 +3,36 @@
 
 #include <QObject>
 
-class MainWindow;
+class Binding;
+class Document;
+class Exports;
+class HandleEditing;
+class KeyStrip;
+class PanelColumn;
+class Posing;
 class QAction;
 class QActionGroup;
+class QMainWindow;
 class QMenu;
+class ShapeHandles;
+class Viewport;
+class WindowSessions;
+
+/// The window and those of its parts that have entries in the menus.
+struct MenuParts
+{
+  QMainWindow* window;
+  Document* document;
+  Viewport* viewport;
+  PanelColumn* panels;
+  HandleEditing* editing;
+  ShapeHandles* shape_handles;
+  Binding* binding;
+  Posing* posing;
+  KeyStrip* strip;
+  WindowSessions* sessions;
+  Exports* exports;
+};
 
 /// The menus of the window. Entries that do not apply are disabled. window_keys.h defines the keys.
 class WindowMenus : public QObject
@@ -14,11 +40,26 @@ class WindowMenus : public QObject
   Q_OBJECT
 
 public:
-  explicit WindowMenus(MainWindow* window);
+  explicit WindowMenus(const MenuParts& parts);
 
-  /// Update which entries are enabled.
-  void update();
+  /// What the menus show of the window.
+  struct State
+  {
+    bool is_empty; ///< no file is open
+    bool is_planar; ///< the shape can be shown in 2D
+    bool shows_timeline;
+  };
+  /// Update which entries are enabled and checked.
+  void update(const State& state);
   void show_method(int method);
+
+Q_SIGNALS:
+  // What the user has chosen in a menu.
+  void open_wanted();
+  void flat_view_wanted(bool flat);
+  void outlines_wanted(bool shown);
+  void timeline_wanted(bool shown);
+  void method_wanted(int method);
 
 private:
   template <typename Action>
@@ -27,7 +68,7 @@ private:
   void add_edit_menu();
   void add_view_menu();
 
-  MainWindow* window_;
+  MenuParts parts_;
   QAction* save_ = nullptr;
   QAction* save_as_ = nullptr;
   QAction* export_shape_ = nullptr;

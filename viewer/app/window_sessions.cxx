@@ -3,7 +3,7 @@
 #include "binding.h"
 #include "document/document.h"
 #include "document/recent_files.h"
-#include "main_window.h"
+#include "error_bar.h"
 #include "notice_bar.h"
 #include "option_links.h"
 #include "panel_column.h"
@@ -23,21 +23,19 @@
 
 using namespace bindpose;
 
-WindowSessions::WindowSessions(
-  MainWindow* window, OptionLinks* links, NoticeBar* recovery, NoticeBar* missing)
-  : QObject(window), window_(window), links_(links), recovery_(recovery), missing_(missing),
-    autosave_(
-      [this]
-      {
-        Session session = this->session();
-        session.saved_as = this->path_;
-        return session;
-      })
+WindowSessions::WindowSessions(const SessionParts& parts)
+  : QObject(parts.window), parts_(parts), autosave_(
+                                            [this]
+                                            {
+                                              Session session = this->session();
+                                              session.saved_as = this->path_;
+                                              return session;
+                                            })
 {
-  QObject::connect(
-    window->document(), &Document::changed, &this->autosave_, &Autosave::note_change);
-  QObject::connect(&this->autosave_, &Autosave::failed, window,
-    [window](const QString& sentence) { window->show_error(sentence, ErrorKind::save_session); });
+  QObject::connect(parts.document, &Document::changed, &this->autosave_, &Autosave::note_change);
+  QObject::connect(&this->autosave_, &Autosave::failed, parts.errors,
+    [errors = parts.errors](const QString& sentence)
+    { errors->show_sentence(sentence, ErrorKind::save_session); });
 }
 
 WindowSessions::~WindowSessions() = default;
@@ -46,11 +44,11 @@ WindowSessions::~WindowSessions() = default;
 
 Session WindowSessions::session() const
 {
-  this->links_->note_all();
+  this->parts_.links->note_all();
   Session session;
-  session.work = this->window_->document()->work();
-  session.view.panel = this->window_->panels()->shown_panel();
-  vtkCamera* camera = this->window_->viewport()->renderer()->GetActiveCamera();
+  session.work = this->parts_.document->work();
+  session.view.panel = this->parts_.panels->shown_panel();
+  vtkCamera* camera = this->parts_.viewport->renderer()->GetActiveCamera();
   SessionView::Camera& kept = session.view.camera.emplace();
   std::copy_n(camera->GetPosition(), 3, kept.position.begin());
   std::copy_n(camera->GetFocalPoint(), 3, kept.focal_point.begin());
@@ -63,13 +61,13 @@ Session WindowSessions::session() const
 
 void WindowSessions::show(const Session& session)
 {
-  this->window_->binding()->cancel();
-  this->window_->document()->replace(session.work);
-  this->window_->panels()->show_panel(session.view.panel);
+  this->parts_.binding->cancel();
+  this->parts_.document->replace(session.work);
+  this->parts_.panels->show_panel(session.view.panel);
   if (session.view.camera)
   {
     const SessionView::Camera& kept = *session.view.camera;
-    vtkRenderer* renderer = this->window_->viewport()->renderer();
+    vtkRenderer* renderer = this->parts_.viewport->renderer();
     vtkCamera* camera = renderer->GetActiveCamera();
     camera->SetPosition(kept.position.data());
     camera->SetFocalPoint(kept.focal_point.data());
@@ -78,19 +76,19 @@ void WindowSessions::show(const Session& session)
     camera->SetParallelScale(kept.scale);
     if (!kept.parallel)
     {
-      this->window_->set_flat_view(false);
+      Q_EMIT this->perspective_wanted();
     }
     camera->SetParallelProjection(kept.parallel);
     renderer->ResetCameraClippingRange();
   }
   this->show_notes(session);
-  this->window_->viewport()->refresh();
+  this->parts_.viewport->refresh();
 }
 
 /// Show the messages of a session, with a button to locate a missing file.
 void WindowSessions::show_notes(const Session& session)
 {
-  this->missing_->hide();
+  this->parts_.missing->hide();
   if (session.notes.isEmpty())
   {
     return;
@@ -102,20 +100,20 @@ void WindowSessions::show_notes(const Session& session)
     choices << NoticeBar::Choice{ tr("Locate…"),
       [this, path]
       {
-        const QString found = QFileDialog::getOpenFileName(this->window_,
+        const QString found = QFileDialog::getOpenFileName(this->parts_.window,
           tr("Locate %1").arg(QFileInfo(path).fileName()), QFileInfo(path).absolutePath());
         if (!found.isEmpty())
         {
-          this->window_->open(found);
+          Q_EMIT this->open_wanted(found);
         }
       } };
   }
-  this->missing_->offer(session.notes.join(' '), choices, tr("Close"));
+  this->parts_.missing->offer(session.notes.join(' '), choices, tr("Close"));
 }
 
 QString WindowSessions::name() const
 {
-  const Work& work = this->window_->document()->work();
+  const Work& work = this->parts_.document->work();
   return !this->path_.isEmpty() ? QFileInfo(this->path_).completeBaseName()
     : work.surface              ? work.name
     : work.volume               ? work.volume_name
@@ -130,7 +128,7 @@ bool WindowSessions::open(const QString& path)
   const Status status = read_session(path, session);
   if (!status.ok())
   {
-    this->window_->show_error(QString::fromStdString(status.message));
+    this->parts_.errors->show_sentence(QString::fromStdString(status.message));
     return false;
   }
   if (!this->may_go())
@@ -148,15 +146,15 @@ bool WindowSessions::write(const QString& path)
   const Status status = this->file_.write(absolute, this->session());
   if (!status.ok())
   {
-    this->window_->show_error(
+    this->parts_.errors->show_sentence(
       tr("Cannot save the session: %1.").arg(QString::fromStdString(status.message)),
       ErrorKind::save_session);
     return false;
   }
   this->path_ = absolute;
-  this->window_->error_bar()->succeeded(ErrorKind::save_session);
-  this->window_->document()->set_saved();
-  this->window_->update_title();
+  this->parts_.errors->succeeded(ErrorKind::save_session);
+  this->parts_.document->set_saved();
+  Q_EMIT this->changed();
   RecentFiles::add(absolute);
   return true;
 }
@@ -168,8 +166,8 @@ bool WindowSessions::save()
 
 bool WindowSessions::save_as()
 {
-  QFileDialog dialog(this->window_, tr("Save the session"), QFileInfo(this->path_).absolutePath(),
-    tr("Sessions (*.%1)").arg(session_ending));
+  QFileDialog dialog(this->parts_.window, tr("Save the session"),
+    QFileInfo(this->path_).absolutePath(), tr("Sessions (*.%1)").arg(session_ending));
   dialog.setAcceptMode(QFileDialog::AcceptSave);
   dialog.setDefaultSuffix(session_ending);
   const QString name = this->name();
@@ -180,13 +178,13 @@ bool WindowSessions::save_as()
 
 bool WindowSessions::may_go()
 {
-  if (!this->window_->document()->is_changed(!this->path_.isEmpty()))
+  if (!this->parts_.document->is_changed(!this->path_.isEmpty()))
   {
     return true;
   }
   QMessageBox question(QMessageBox::Question, "Bindpose",
     tr("Save the changes to %1?").arg(this->name().isEmpty() ? tr("the work") : this->name()),
-    QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this->window_);
+    QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this->parts_.window);
   question.setInformativeText(tr("Unsaved changes are lost."));
   question.setDefaultButton(QMessageBox::Save);
   switch (question.exec())
@@ -225,7 +223,7 @@ void WindowSessions::fill_recent(QMenu* menu)
     entry->setToolTip(path);
     entry->setEnabled(file.exists());
     QObject::connect(
-      entry, &QAction::triggered, this->window_, [this, path] { this->window_->open(path); });
+      entry, &QAction::triggered, this, [this, path] { Q_EMIT this->open_wanted(path); });
   }
   if (paths.isEmpty())
   {
@@ -252,7 +250,7 @@ void WindowSessions::offer_recovery(const QString& root)
     this->recovered_->remove();
     this->offer_recovery(root); // offer the work of another crashed process, if there is any
   };
-  this->recovery_->offer(
+  this->parts_.recovery->offer(
     tr("Bindpose did not close properly. The work from %1 can be restored.").arg(when),
     { { tr("&Restore"), [this] { this->recover(); } }, { tr("Discard"), discard } }, tr("Later"));
 }
@@ -263,7 +261,7 @@ void WindowSessions::recover()
   const Status status = read_session(this->recovered_->path(), session);
   if (!status.ok())
   {
-    this->window_->show_error(QString::fromStdString(status.message));
+    this->parts_.errors->show_sentence(QString::fromStdString(status.message));
     return;
   }
   if (!this->may_go())
@@ -274,8 +272,8 @@ void WindowSessions::recover()
   }
   this->path_ = session.saved_as;
   this->show(session);
-  this->window_->document()->set_unsaved();
-  this->window_->update_title();
+  this->parts_.document->set_unsaved();
+  Q_EMIT this->changed();
   if (this->autosave_.save().ok())
   {
     this->recovered_->remove(); // the folder of this process now contains the recovered work

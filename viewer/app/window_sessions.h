@@ -8,10 +8,28 @@
 
 #include <memory>
 
-class MainWindow;
+class Binding;
+class Document;
+class ErrorBar;
 class NoticeBar;
-class QMenu;
 class OptionLinks;
+class PanelColumn;
+class QMenu;
+class Viewport;
+
+/// The parts of the window that WindowSessions uses.
+struct SessionParts
+{
+  QWidget* window; ///< parent of the dialogs
+  Document* document;
+  Viewport* viewport;
+  PanelColumn* panels;
+  Binding* binding;
+  OptionLinks* links;
+  ErrorBar* errors;
+  NoticeBar* recovery; ///< offers recovered work
+  NoticeBar* missing; ///< shows missing files
+};
 
 /// Manages the session files of the window. The class opens and saves sessions, and asks before
 /// changes are lost. It also manages the list of recent files, autosave, and recovery after a
@@ -21,8 +39,7 @@ class WindowSessions : public QObject
   Q_OBJECT
 
 public:
-  /// `recovery` offers recovered work, `missing` shows missing files; both are bars of the window.
-  WindowSessions(MainWindow* window, OptionLinks* links, NoticeBar* recovery, NoticeBar* missing);
+  explicit WindowSessions(const SessionParts& parts);
   ~WindowSessions() override;
 
   /// Open a session in place of the current work. Return false, and show a sentence, if it cannot
@@ -45,16 +62,21 @@ public:
   QString name() const;
   void fill_recent(QMenu* menu);
 
+Q_SIGNALS:
+  /// Emitted when the user chooses a recent file or locates a missing one.
+  void open_wanted(const QString& path);
+  /// Emitted when name(), path() or the unsaved changes may be different.
+  void changed();
+  /// Emitted if the opened session shows a planar shape with perspective.
+  void perspective_wanted();
+
 private:
   Session session() const;
   void show(const Session& session);
   void recover();
   void show_notes(const Session& session);
 
-  MainWindow* window_;
-  OptionLinks* links_;
-  NoticeBar* recovery_;
-  NoticeBar* missing_;
+  SessionParts parts_;
   QString path_;
   SessionFile file_;
   Autosave autosave_;

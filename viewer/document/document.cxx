@@ -160,7 +160,22 @@ void Document::push(const QString& step, const Work& after, const QString& merge
     return;
   }
   const QString key = merge.isEmpty() ? QString() : merge + '#' + QString::number(this->merges_);
-  this->history_->push(new Edit(this, step, after, key, live));
+  const auto apply = [this, live](const Work& from, const Work& to, bool in_history)
+  { this->apply(from, to, in_history ? Live::to_be_written : live, in_history); };
+  this->history_->push(new Edit(step, this->work_, after, key, apply));
+}
+
+void Document::apply(const Work& before, const Work& after, Live live, bool in_history)
+{
+  if (in_history)
+  {
+    Q_EMIT this->about_to_change();
+  }
+  Work work = this->work_;
+  apply_edit(before, after, work);
+  this->in_history_ = in_history;
+  this->become(work, live);
+  this->in_history_ = false;
 }
 
 void Document::become(const Work& work, Live live)

@@ -151,8 +151,6 @@ Q_SIGNALS:
   void option_changed(const QString& key, const QVariant& value);
 
 private:
-  friend class Edit;
-
   /// States whether handle_data() already contains the changes of a step.
   enum class Live
   {
@@ -161,6 +159,8 @@ private:
   };
   void push(const QString& step, const Work& after, const QString& merge = {},
     Live live = Live::to_be_written);
+  /// Apply an edit, its undo or its redo to the work.
+  void apply(const Work& before, const Work& after, Live live, bool in_history);
   void become(const Work& work, Live live);
   void arrange();
   bindpose::Status take_live(Work& work);

@@ -1,33 +1,19 @@
 #include "document/edit.h"
 
-Edit::Edit(
-  Document* document, const QString& name, Work after, const QString& merge, Document::Live live)
-  : QUndoCommand(name), document_(document), before_(document->work()), after_(std::move(after)),
-    merge_(merge), live_(live)
+Edit::Edit(const QString& name, Work before, Work after, const QString& merge, Apply apply)
+  : QUndoCommand(name), before_(std::move(before)), after_(std::move(after)), merge_(merge),
+    apply_(std::move(apply))
 {
 }
 
 void Edit::undo()
 {
-  Q_EMIT this->document_->about_to_change();
-  Work work = this->document_->work();
-  apply_edit(this->after_, this->before_, work);
-  this->document_->in_history_ = true;
-  this->document_->become(work, Document::Live::to_be_written);
-  this->document_->in_history_ = false;
+  this->apply_(this->after_, this->before_, true);
 }
 
 void Edit::redo()
 {
-  if (this->done_)
-  {
-    Q_EMIT this->document_->about_to_change();
-  }
-  Work work = this->document_->work();
-  apply_edit(this->before_, this->after_, work);
-  this->document_->in_history_ = this->done_;
-  this->document_->become(work, this->done_ ? Document::Live::to_be_written : this->live_);
-  this->document_->in_history_ = false;
+  this->apply_(this->before_, this->after_, this->done_);
   this->done_ = true;
 }
 

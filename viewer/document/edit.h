@@ -1,18 +1,22 @@
 #ifndef document_edit_h
 #define document_edit_h
 
-#include "document/document.h"
+#include "document/work.h"
 
 #include <QUndoCommand>
 
-/// One undo step: the work before and after an edit. Undo and redo change only the parts of the
-/// work that the edit changed. QUndoStack calls redo() on push; at that first call handle_data()
-/// may already contain the change.
+#include <functional>
+
+/// One undo step: the work before and after an edit. QUndoStack calls redo() on push.
 class Edit : public QUndoCommand
 {
 public:
-  Edit(
-    Document* document, const QString& name, Work after, const QString& merge, Document::Live live);
+  /// Changes the parts of the current work that differ between the two works. The last argument is
+  /// false at the first call, which is that of push.
+  using Apply = std::function<void(const Work& before, const Work& after, bool in_history)>;
+
+  /// @param merge  steps in a row with the same text are merged to one; empty: never merged
+  Edit(const QString& name, Work before, Work after, const QString& merge, Apply apply);
 
   void undo() override;
   void redo() override;
@@ -20,11 +24,10 @@ public:
   bool mergeWith(const QUndoCommand* next) override;
 
 private:
-  Document* document_;
   Work before_;
   Work after_;
   QString merge_;
-  Document::Live live_;
+  Apply apply_;
   bool done_ = false;
 };
 

@@ -5,8 +5,9 @@
 // pass after the depth buffer has been cleared. They therefore hide each other correctly, but
 // nothing else hides them. The gizmo is drawn in the same way afterward.
 #include "handle_drawing.h"
-#include "handle_set_internals.h"
+#include "handle_set_state.h"
 #include "screen_view.h"
+#include "vtkHandleSetRepresentation.h"
 
 #include "vtkCamera.h"
 #include "vtkMath.h"
@@ -20,6 +21,7 @@
 #include <algorithm>
 
 using bindpose::HandlePlace;
+using bindpose::HandleSetState;
 using bindpose::ShapeActors;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -48,7 +50,7 @@ vtkMTimeType vtkHandleSetRepresentation::GetMTime()
 
 void vtkHandleSetRepresentation::BuildRepresentation()
 {
-  Internals& self = *this->Internal;
+  HandleSetState& self = *this->Internal;
   if (!this->Renderer || !this->Renderer->GetRenderWindow())
   {
     return;

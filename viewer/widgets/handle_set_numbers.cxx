@@ -1,8 +1,9 @@
 // The member functions of vtkHandleSetRepresentation that read and set the translation, rotation,
 // scale, stretch and twist of a handle. Each setter splits the transform, replaces one part and
 // combines the parts again.
-#include "handle_set_internals.h"
+#include "handle_set_state.h"
 #include "pose/transform_parts.h"
+#include "vtkHandleSetRepresentation.h"
 
 #include "vtkMath.h"
 

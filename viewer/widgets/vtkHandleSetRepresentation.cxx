@@ -7,7 +7,7 @@
 #include "vtkHandleSetRepresentation.h"
 
 #include "handle_picking.h"
-#include "handle_set_internals.h"
+#include "handle_set_state.h"
 #include "screen_view.h"
 
 #include "vtkCamera.h"
@@ -24,6 +24,7 @@
 #include <vector>
 
 using bindpose::HandlePlace;
+using bindpose::HandleSetState;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
@@ -44,11 +45,11 @@ double round_length(double length)
 
 vtkStandardNewMacro(vtkHandleSetRepresentation);
 
-vtkHandleSetRepresentation::vtkHandleSetRepresentation() : Internal(new Internals)
+vtkHandleSetRepresentation::vtkHandleSetRepresentation() : Internal(new HandleSetState)
 {
   this->InteractionState = OUTSIDE;
   vtkMath::UninitializeBounds(this->Bounds);
-  Internals& self = *this->Internal;
+  HandleSetState& self = *this->Internal;
   self.Gizmo.SetFlat();
   vtkTextProperty* text = self.Labels.text();
   text->SetFontFamilyToArial();
@@ -240,7 +241,7 @@ bindpose::GizmoSetup vtkHandleSetRepresentation::MakeGizmo(const HandlePlace& pl
 
 int vtkHandleSetRepresentation::ComputeInteractionState(int x, int y, int vtkNotUsed(modify))
 {
-  Internals& self = *this->Internal;
+  HandleSetState& self = *this->Internal;
   bindpose::HandlePick pick;
   int part = bindpose::no_part;
   const double position[2] = { static_cast<double>(x), static_cast<double>(y) };
@@ -357,7 +358,7 @@ bindpose::DragSettings vtkHandleSetRepresentation::MakeSettings()
 
 void vtkHandleSetRepresentation::BeginDrag(int part, const double eventPos[2])
 {
-  Internals& self = *this->Internal;
+  HandleSetState& self = *this->Internal;
   std::vector<vtkIdType> grabbed{ this->ActiveHandle };
   if (this->IsSelected(this->ActiveHandle))
   {
@@ -401,7 +402,7 @@ void vtkHandleSetRepresentation::StartWidgetInteraction(double eventPos[2])
 
 bool vtkHandleSetRepresentation::StartDrag(int gizmo, double eventPos[2])
 {
-  Internals& self = *this->Internal;
+  HandleSetState& self = *this->Internal;
   const vtkIdType handle = this->GetSelectedHandle();
   const bool moves = gizmo == GIZMO_MOVE;
   if (this->ActiveHandle >= 0 || !this->Renderer || this->EditMode != POSE ||
@@ -422,7 +423,7 @@ bool vtkHandleSetRepresentation::StartDrag(int gizmo, double eventPos[2])
 
 void vtkHandleSetRepresentation::UpdateDrag()
 {
-  Internals& self = *this->Internal;
+  HandleSetState& self = *this->Internal;
   if (self.Dragged)
   {
     self.Dragged->drag().set_snapping(this->Snap != 0);
@@ -571,7 +572,7 @@ bindpose::Hand vtkHandleSetRepresentation::MakeHand(const double eventPos[2])
 /// Read the result of a finished edit, which may have renumbered cells.
 void vtkHandleSetRepresentation::TakeEdit()
 {
-  Internals& self = *this->Internal;
+  HandleSetState& self = *this->Internal;
   self.LastName = self.Editor.name();
   self.LastText.clear();
   if (self.Editor.busy())

@@ -97,6 +97,7 @@ struct EditSettings;
 struct GizmoSetup;
 struct Hand;
 struct HandlePlace;
+struct HandleSetState;
 } // namespace bindpose
 
 class BINDPOSEWIDGETS_EXPORT vtkHandleSetRepresentation : public vtkWidgetRepresentation
@@ -519,8 +520,7 @@ private:
   vtkIdType ActiveHandle = -1;
   double Bounds[6];
 
-  class Internals;
-  std::unique_ptr<Internals> Internal;
+  std::unique_ptr<bindpose::HandleSetState> Internal;
 };
 
 #endif

@@ -8,6 +8,7 @@
 #include "edit_tools.h"
 #include "handle_commands.h"
 #include "handle_editing.h"
+#include "handle_selection.h"
 #include "notice_bar.h"
 #include "posing.h"
 #include "shape_handles.h"
@@ -512,7 +513,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   EXPECT_EQ(this->state(), before);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::paint_regions);
   // Deleting a region also deletes its labels.
-  this->editing()->select({ this->number("r2") });
+  this->editing()->selection()->select({ this->number("r2") });
   this->check("delete r2", [&] { this->key(Qt::Key_Delete); });
   EXPECT_EQ(labeled(2), 0);
   // A key and a slider change the size of the brush.
@@ -548,7 +549,7 @@ TEST_F(HandleWindow, ANewPointMovesNumbersAndNothingElse)
 {
   this->open_bound();
   this->document()->set_mode(2, static_cast<int>(HandleMode::ends));
-  this->editing()->select({ 2 });
+  this->editing()->selection()->select({ 2 });
   this->window.panel()->show_column(2);
   Pose pose = this->document()->pose();
   pose[2].transform.col(3) = Vec3(0.1, 0, 0);
@@ -566,14 +567,14 @@ TEST_F(HandleWindow, ANewPointMovesNumbersAndNothingElse)
   EXPECT_LT((this->points() - posed).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_FALSE(this->window.rebind_bar()->isHidden()); // the window offers a new bind
   // After undo and redo, the handles with the same names are selected.
-  this->editing()->select({ 3 });
+  this->editing()->selection()->select({ 3 });
   this->history()->undo();
   ASSERT_EQ(this->names().size(), 3);
-  EXPECT_EQ(this->editing()->selected(), std::vector<int>{ 2 });
+  EXPECT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 2 });
   EXPECT_EQ(this->window.panel()->selected_handle(), 2);
   EXPECT_EQ(this->document()->pose()[2].mode, HandleMode::ends);
   this->history()->redo();
-  EXPECT_EQ(this->editing()->selected(), std::vector<int>{ 3 });
+  EXPECT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 3 });
   EXPECT_EQ(this->window.panel()->selected_handle(), 3);
 }
 
@@ -612,7 +613,7 @@ TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCanceledBitByBit)
 {
   this->open_bound();
   this->click(this->pixel(this->handle("right").head));
-  ASSERT_EQ(this->editing()->selected(), std::vector<int>{ 1 });
+  ASSERT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 1 });
   this->key(Qt::Key_W);
   EXPECT_EQ(this->drawn()->GetGizmo(), Drawn::GIZMO_MOVE);
   this->render();
@@ -703,7 +704,7 @@ TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
 TEST_F(HandleWindow, ARefusedDragSaysWhy)
 {
   this->open_bound();
-  this->editing()->select({ 0 });
+  this->editing()->selection()->select({ 0 });
   this->commands()->set_locked(true);
   this->render();
   const QPoint at = this->pixel(this->handle("left").head);
@@ -721,14 +722,14 @@ TEST_F(HandleWindow, ARefusedDragSaysWhy)
 TEST_F(HandleWindow, SeveralSelectedHandlesMoveAsOneStep)
 {
   this->open_bound();
-  this->editing()->select({ 0, 1 });
+  this->editing()->selection()->select({ 0, 1 });
   this->render();
   const QPoint at = this->pixel(this->handle("right").head);
   this->check("move 2 handles", [&] { this->drag(at, at + QPoint(0, -40)); });
   const Pose pose = this->document()->pose();
   EXPECT_LT((pose[0].transform.col(3) - pose[1].transform.col(3)).norm(), 1e-12);
   EXPECT_GT(pose[0].transform.col(3).norm(), 0.02);
-  EXPECT_EQ(this->editing()->selected().size(), 2U);
+  EXPECT_EQ(this->editing()->selection()->selected().size(), 2U);
 }
 
 // ---- Commands ----------------------------------------------------------------------------------
@@ -736,7 +737,7 @@ TEST_F(HandleWindow, SeveralSelectedHandlesMoveAsOneStep)
 TEST_F(HandleWindow, CommandsAreStepsWithNames)
 {
   this->open_bound();
-  this->editing()->select({ 0 });
+  this->editing()->selection()->select({ 0 });
   HandleCommands* commands = this->commands();
   this->check("color left", [&] { commands->set_color(QColor(255, 0, 0)); });
   this->check("lock left", [&] { commands->action("lock")->trigger(); });
@@ -756,10 +757,10 @@ TEST_F(HandleWindow, CommandsAreStepsWithNames)
   this->check("reset left", [&] { commands->action("reset")->trigger(); });
   EXPECT_EQ(this->document()->pose()[0].transform, identity_affine());
   EXPECT_EQ(this->document()->pose()[0].mode, HandleMode::position);
-  this->editing()->select({ this->number("spine") });
+  this->editing()->selection()->select({ this->number("spine") });
   this->check("mode of spine", [&] { commands->action("fixes.ends")->trigger(); });
   this->check("move spine's end", [&] { /* see below */
-    this->editing()->edit("move spine's end",
+    this->editing()->selection()->edit("move spine's end",
       [](const Handles& before, EditedHandles& after) {
         return move_ends(before, { { 2, true } }, { Vec3(0.2, 0, 0.1) }, after);
       });
@@ -768,13 +769,14 @@ TEST_F(HandleWindow, CommandsAreStepsWithNames)
   ASSERT_EQ(this->document()->handles().size(), 4U);
   const Handle& copy = this->document()->handles().back();
   EXPECT_LT((copy.tail - Vec3(-0.2, 0, 0.1)).norm(), 1e-12);
-  EXPECT_EQ(this->editing()->selected(), std::vector<int>{ 3 }); // the new handle is selected
+  EXPECT_EQ(
+    this->editing()->selection()->selected(), std::vector<int>{ 3 }); // the new handle is selected
   this->check(
     "delete " + QString::fromStdString(copy.name), [&] { commands->action("delete")->trigger(); });
-  EXPECT_TRUE(this->editing()->selected().empty());
+  EXPECT_TRUE(this->editing()->selection()->selected().empty());
   EXPECT_FALSE(commands->action("delete")->isEnabled());
   this->key(Qt::Key_A, Qt::ControlModifier);
-  EXPECT_EQ(this->editing()->selected().size(), 3U);
+  EXPECT_EQ(this->editing()->selection()->selected().size(), 3U);
   this->check("delete 3 handles", [&] { this->key(Qt::Key_Delete); });
   EXPECT_EQ(this->document()->handle_data(), nullptr);
   EXPECT_TRUE(this->window.findChild<QWidget*>("nothing")->isVisible());
@@ -790,10 +792,10 @@ TEST_F(HandleWindow, CageEdgesAreToggledBetweenTwoVertices)
   }
   this->key(Qt::Key_Return);
   this->key(Qt::Key_Escape);
-  this->editing()->select({ 0, 2 });
+  this->editing()->selection()->select({ 0, 2 });
   ASSERT_TRUE(this->commands()->action("cage_edge")->isEnabled());
   this->check("cage edge", [&] { this->commands()->action("cage_edge")->trigger(); });
-  this->editing()->select({ 0 });
+  this->editing()->selection()->select({ 0 });
   EXPECT_FALSE(this->commands()->action("cage_edge")->isEnabled());
 }
 
@@ -807,10 +809,10 @@ TEST_F(HandleWindow, NamesThatCannotBeAreOneSentence)
   shelf.library.store("wave", NamedPose(this->document()->handles(), kept));
   shelf.keys.set(0.5, NamedPose(this->document()->handles(), kept));
   this->document()->set_key_poses(shelf, "keep");
-  this->editing()->select({ 0 });
+  this->editing()->selection()->select({ 0 });
   this->check("rename left", [&] { EXPECT_TRUE(this->commands()->rename(0, " paw ")); });
   EXPECT_EQ(this->names()[0], "paw");
-  EXPECT_EQ(this->editing()->selected(), std::vector<int>{ 0 });
+  EXPECT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 0 });
   const PoseShelf& now = *this->document()->work().key_poses;
   EXPECT_EQ(now.library.entries()[0].pose.of(this->document()->handles(), Pose(3))[0].transform,
     kept[0].transform);
@@ -845,7 +847,7 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
   this->hover(at);
   this->mouse(QEvent::MouseButtonPress, at, Qt::RightButton, Qt::RightButton);
   EXPECT_TRUE(menu->isVisible());
-  EXPECT_EQ(this->editing()->selected(), std::vector<int>{ 1 });
+  EXPECT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 1 });
   menu->hide();
   this->mouse(QEvent::MouseButtonRelease, at, Qt::RightButton, Qt::NoButton);
   const QString texts = [menu]
@@ -881,7 +883,7 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
   QTreeWidget* list = handles->tree();
   Q_EMIT list->customContextMenuRequested(list->visualItemRect(handles->item(2)).center());
   EXPECT_TRUE(menu->isVisible());
-  EXPECT_EQ(this->editing()->selected(), std::vector<int>{ 2 });
+  EXPECT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 2 });
   menu->hide();
   // The menu of parents lists all other handles and an entry for no parent.
   for (QAction* action : menu->actions())
@@ -1089,7 +1091,7 @@ TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
   this->key(Qt::Key_P);
   this->render();
   this->drag(this->pixel(Vec3(-0.05, 0, 0.85)), this->pixel(Vec3(0.05, 0, 0.8)));
-  this->editing()->select({});
+  this->editing()->selection()->select({});
   this->drag(this->pixel(Vec3(-0.2, 0, -0.5)), this->pixel(Vec3(0.2, 0, -0.5)));
   save("regions");
   this->key(Qt::Key_Escape);
@@ -1099,7 +1101,7 @@ TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
   this->key(Qt::Key_Escape);
   this->window.binding()->start();
   ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
-  this->editing()->select({ this->number("b2") });
+  this->editing()->selection()->select({ this->number("b2") });
   const std::pair<Qt::Key, const char*> gizmos[] = { { Qt::Key_W, "move" }, { Qt::Key_E, "turn" },
     { Qt::Key_D, "scale" }, { Qt::Key_F, "all" } };
   for (const auto& [key, name] : gizmos)

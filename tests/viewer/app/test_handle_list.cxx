@@ -5,6 +5,7 @@
 #include "document/document.h"
 #include "handle_commands.h"
 #include "handle_editing.h"
+#include "handle_selection.h"
 #include "handle_fields.h"
 #include "side_panel.h"
 #include "weight_panel.h"
@@ -72,7 +73,7 @@ protected:
   /// Return the selected handles. Expect that the list, the panel and the view show this selection.
   std::vector<int> selected()
   {
-    const std::vector<int> result = this->window.editing()->selected();
+    const std::vector<int> result = this->window.editing()->selection()->selected();
     auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
     for (int k = 0; k < static_cast<int>(this->list()->rows().size()); ++k)
     {
@@ -354,7 +355,8 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
   EXPECT_EQ(this->window.editing()->mode(), HandleEditing::pose)
     << "letters are no shortcuts there";
   QTest::keyClick(search, Qt::Key_Return);
-  EXPECT_EQ(this->window.editing()->selected(), Numbers({ this->number("right_finger_0") }));
+  EXPECT_EQ(
+    this->window.editing()->selection()->selected(), Numbers({ this->number("right_finger_0") }));
   // If a handle is selected elsewhere, its row is visible for any search text.
   this->window.panel()->select_handle(this->number("nose"));
   EXPECT_TRUE(this->seen().contains("nose"));

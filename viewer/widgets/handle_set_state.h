@@ -1,8 +1,7 @@
-#ifndef handle_set_internals_h
-#define handle_set_internals_h
+#ifndef handle_set_state_h
+#define handle_set_state_h
 
-// Internal state of vtkHandleSetRepresentation, used by all files that implement its member
-// functions.
+// State of vtkHandleSetRepresentation, used by all files that implement its member functions.
 
 #include "gizmo.h"
 #include "handle_data.h"
@@ -11,7 +10,6 @@
 #include "pose_drag.h"
 #include "rest_editor.h"
 #include "screen_labels.h"
-#include "vtkHandleSetRepresentation.h"
 
 #include "vtkActor.h"
 #include "vtkNew.h"
@@ -58,7 +56,7 @@ public:
     this->Solid->GetProperty()->SetDiffuse(0.3);
     this->Solid->GetProperty()->SetSpecular(0.0);
   }
-  void Set(const bindpose::HandleShapes& solid, const bindpose::HandleShapes& outline)
+  void Set(const HandleShapes& solid, const HandleShapes& outline)
   {
     this->SolidMapper->SetInputData(solid.polydata());
     this->OutlineMapper->SetInputData(outline.polydata());
@@ -81,24 +79,24 @@ private:
   vtkNew<vtkActor> Solid;
 };
 
-} // namespace bindpose
-
-class vtkHandleSetRepresentation::Internals
+/// Handles, their actors and what the mouse does with them.
+struct HandleSetState
 {
-public:
-  bindpose::HandleData Data;
-  bindpose::ShapeActors Handles;
-  bindpose::ShapeActors Gizmo;
-  bindpose::ScreenLabels Labels;
+  HandleData Data;
+  ShapeActors Handles;
+  ShapeActors Gizmo;
+  ScreenLabels Labels;
   std::vector<vtkIdType> Selected;
-  int HoveredPart = bindpose::no_part; // part of the gizmo under the mouse
+  int HoveredPart = no_part; // part of the gizmo under the mouse
 
-  std::optional<bindpose::PoseDrag> Dragged;
-  bindpose::RestEditor Editor{ this->Data };
+  std::optional<PoseDrag> Dragged;
+  RestEditor Editor{ this->Data };
   std::string Message; // reason why the last edit was refused
 
   std::string LastName; // type of the last drag; see GetInteractionName()
   std::string LastText;
 };
+
+} // namespace bindpose
 
 #endif

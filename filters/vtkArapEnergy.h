@@ -1,0 +1,18 @@
+#ifndef vtkArapEnergy_h
+#define vtkArapEnergy_h
+
+/// Sets of edges that share a rotation in as-rigid-as-possible deformation: the values of Energy of
+/// vtkReducedARAP, vtkFullARAP, vtkReducedDynamics and vtkCrowdDeformation.
+struct vtkArapEnergy
+{
+  enum EnergyType
+  {
+    AUTO = 0, ///< TETRAHEDRA on tets, SPOKES_AND_RIMS on surfaces
+    SPOKES_AND_RIMS = 1, ///< the edges of the elements around a vertex
+    TETRAHEDRA = 2, ///< the edges of a tet
+    TRIANGLES = 3, ///< the edges of a triangle
+    SPOKES = 4 ///< the edges that end at a vertex, without edges of negative cotangent weight
+  };
+};
+
+#endif

@@ -1,9 +1,9 @@
 #ifndef arap_input_h
 #define arap_input_h
 
+#include "arap/arap_energy.h"
+#include "arap/reduced_space.h"
 #include "conversion.h"
-#include "pose/arap_energy.h"
-#include "pose/reduced_space.h"
 
 namespace bindpose
 {

@@ -2,10 +2,10 @@
 #define conversion_h
 
 #include "BindposeFiltersModule.h" // for export macro
-#include "base/mesh.h"
+#include "domain/domain.h"
+#include "geometry/mesh.h"
+#include "handles/handles.h"
 #include "pose/pose.h"
-#include "weights/domain.h"
-#include "weights/handles.h"
 
 #include "vtkSmartPointer.h"
 

@@ -2,7 +2,7 @@
 #define gltf_data_h
 
 #include "conversion.h"
-#include "io/gltf_skin.h"
+#include "gltf/gltf_skin.h"
 
 #include <cstdint>
 #include <filesystem>

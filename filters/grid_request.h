@@ -1,9 +1,9 @@
 #ifndef grid_request_h
 #define grid_request_h
 
-#include "base/mesh.h"
 #include "base/status.h"
-#include "base/sample_grid.h"
+#include "geometry/mesh.h"
+#include "geometry/sample_grid.h"
 
 namespace bindpose
 {

@@ -3,7 +3,7 @@
 
 #include "BindposeFiltersModule.h" // for export macro
 #include "conversion.h"
-#include "weights/handle_edits.h"
+#include "handles/handle_edits.h"
 
 #include <array>
 #include <functional>

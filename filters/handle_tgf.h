@@ -2,8 +2,8 @@
 #define handle_tgf_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "handles/handles.h"
 #include "io/tgf.h"
-#include "weights/handles.h"
 
 namespace bindpose
 {

@@ -1,8 +1,8 @@
 #ifndef pose_input_h
 #define pose_input_h
 
+#include "arap/arap_energy.h"
 #include "conversion.h"
-#include "pose/arap_energy.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #ifndef rotation_arrays_h
 #define rotation_arrays_h
 
-#include "pose/arap_energy.h"
+#include "arap/arap_energy.h"
 
 #include "vtkIntArray.h"
 #include "vtkSmartPointer.h"

@@ -6,7 +6,7 @@
 #include "bind_key.h"
 #include "conversion.h"
 #include "handle_geometry.h"
-#include "pose/endpoint_weights.h"
+#include "skinning/endpoint_weights.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/surface_weights.h"
 #include "weights_arrays.h"

@@ -3,11 +3,11 @@
 // call.
 #include "vtkCrowdDeformation.h"
 
+#include "arap/crowd.h"
 #include "arap_input.h"
 #include "base/execution.h"
 #include "instance_poses.h"
 #include "output_type.h"
-#include "pose/crowd.h"
 #include "pose/found_rotations.h"
 #include "pose_input.h"
 #include "vtkReducedARAP.h"

@@ -4,7 +4,7 @@
 
 #include "base/execution.h"
 #include "conversion.h"
-#include "weights/bone_cut.h"
+#include "domain/bone_cut.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

@@ -3,7 +3,7 @@
 #include "vtkDepthOrder.h"
 
 #include "base/execution.h"
-#include "weights/depth_order.h"
+#include "weight_uses/depth_order.h"
 #include "weights_input.h"
 
 #include "vtkCellData.h"

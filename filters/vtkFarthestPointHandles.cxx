@@ -3,8 +3,8 @@
 
 #include "base/execution.h"
 #include "conversion.h"
+#include "handles/farthest_points.h"
 #include "outer_surface.h"
-#include "weights/farthest_points.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

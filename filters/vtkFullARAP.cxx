@@ -2,8 +2,8 @@
 // the pose. The kernel caches the factorization until a mode changes.
 #include "vtkFullARAP.h"
 
+#include "arap/full_arap.h"
 #include "arap_input.h"
-#include "pose/full_arap.h"
 #include "pose_input.h"
 #include "weights_input.h"
 

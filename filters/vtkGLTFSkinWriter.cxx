@@ -8,7 +8,7 @@
 #include "io/atomic_file.h"
 #include "io/text_scanner.h"
 #include "pose/pose_file.h"
-#include "pose/skinning.h"
+#include "skinning/skinning.h"
 #include "weights_input.h"
 
 #include "vtkDataArray.h"

@@ -1,8 +1,8 @@
 // Connects the kernel bindpose::MovingLeastSquares to VTK.
 #include "vtkMovingLeastSquaresWarp.h"
 
-#include "pose/moving_least_squares.h"
 #include "pose_input.h"
+#include "skinning/moving_least_squares.h"
 
 #include "vtkObjectFactory.h"
 

@@ -2,8 +2,8 @@
 // computes the transforms of the handles and blends them.
 #include "vtkReducedARAP.h"
 
+#include "arap/reduced_arap.h"
 #include "arap_input.h"
-#include "pose/reduced_arap.h"
 #include "pose_input.h"
 
 #include "vtkDataArray.h"

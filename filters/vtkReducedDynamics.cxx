@@ -7,9 +7,9 @@
 // pipeline modification times of everything upstream, which the inputs' executives store.
 #include "vtkReducedDynamics.h"
 
+#include "arap/reduced_dynamics.h"
 #include "arap_input.h"
 #include "frame_times.h"
-#include "pose/reduced_dynamics.h"
 #include "pose_input.h"
 #include "vtkReducedARAP.h"
 

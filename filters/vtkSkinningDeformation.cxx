@@ -1,11 +1,11 @@
 // Connects the kernel bindpose::Skinning to VTK: the bind stores its sparse weights.
 #include "vtkSkinningDeformation.h"
 
-#include "pose/rotation_centers.h"
-#include "pose/skinning.h"
 #include "pose_elements.h"
 #include "pose_input.h"
 #include "pseudo_edge_cells.h"
+#include "skinning/rotation_centers.h"
+#include "skinning/skinning.h"
 #include "weights_input.h"
 
 #include "vtkDataArray.h"

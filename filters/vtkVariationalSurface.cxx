@@ -1,7 +1,7 @@
 // Connects the kernel bindpose::VariationalSurface to VTK: arrays of the mesh become its options.
 #include "vtkVariationalSurface.h"
 
-#include "pose/variational_surface.h"
+#include "fairing/variational_surface.h"
 #include "pose_input.h"
 #include "weights_input.h"
 

@@ -2,7 +2,7 @@
 #include "vtkWeightedColors.h"
 
 #include "base/execution.h"
-#include "weights/weighted_colors.h"
+#include "weight_uses/weighted_colors.h"
 #include "weights_input.h"
 
 #include "vtkCellData.h"

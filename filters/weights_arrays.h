@@ -2,7 +2,7 @@
 #define weights_arrays_h
 
 #include "BindposeFiltersModule.h" // for export macro
-#include "weights/domain.h"
+#include "domain/domain.h"
 #include "weights/weights_problem.h"
 
 #include "vtkSmartPointer.h"

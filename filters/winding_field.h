@@ -1,10 +1,10 @@
 #ifndef winding_field_h
 #define winding_field_h
 
-#include "base/mesh.h"
-#include "base/sample_grid.h"
 #include "base/status.h"
 #include "conversion.h"
+#include "geometry/mesh.h"
+#include "geometry/sample_grid.h"
 
 #include "vtkPolyData.h"
 

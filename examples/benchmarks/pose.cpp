@@ -9,15 +9,15 @@
 // results.
 #include "surfaces.h"
 
+#include "arap/crowd.h"
+#include "arap/full_arap.h"
+#include "arap/reduced_arap.h"
 #include "base/memory.h"
-#include "pose/crowd.h"
+#include "handles/farthest_points.h"
 #include "pose/element_stretch.h"
-#include "pose/full_arap.h"
-#include "pose/reduced_arap.h"
 #include "pose/rotation_fit.h"
-#include "pose/skinning.h"
+#include "skinning/skinning.h"
 #include "weights/bounded_biharmonic_weights.h"
-#include "weights/farthest_points.h"
 #include "weights/surface_weights.h"
 
 #include <benchmark/benchmark.h>

@@ -3,7 +3,7 @@
 
 // Surfaces of any size for benchmarks, which are computed instead of read from files.
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <cstdint>
 

@@ -2,10 +2,10 @@
 // the parts of the computation. Times are also reported as multiples of F. F is the time of one
 // factorization of the matrix Q of the biharmonic energy on the same mesh in the same run, so
 // multiples of F are comparable between machines.
+#include "qp/split_form.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/preview_weights.h"
-#include "weights/split_form.h"
 #include "weights/transfer.h"
 
 #include <benchmark/benchmark.h>

@@ -4,7 +4,7 @@
 
 #include "TestFilter.h"
 #include "conversion.h"
-#include "core/pose/full_arap_cases.h"
+#include "core/arap/full_arap_cases.h"
 #include "report_field_data.h"
 #include "vtkPoseHandles.h"
 

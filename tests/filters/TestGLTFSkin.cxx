@@ -4,7 +4,7 @@
 #include "TestFilter.h"
 
 #include "conversion.h"
-#include "io/gltf_skin.h"
+#include "gltf/gltf_skin.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "vtkGLTFSkinReader.h"

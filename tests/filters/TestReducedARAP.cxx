@@ -3,9 +3,9 @@
 #include "vtkReducedARAP.h"
 
 #include "TestFilter.h"
+#include "arap/reduced_arap.h"
 #include "conversion.h"
 #include "held_handles.h"
-#include "pose/reduced_arap.h"
 #include "report_field_data.h"
 #include "vtkPoseHandles.h"
 #include "vtkSkinningDeformation.h"

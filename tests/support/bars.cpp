@@ -1,6 +1,6 @@
 #include "support/bars.h"
 
-#include "base/laplacian.h"
+#include "geometry/laplacian.h"
 #include "support/handles.h"
 #include "support/meshes.h"
 

@@ -3,8 +3,8 @@
 
 // Small meshes with handles and smooth weights, for tests of posing methods.
 
-#include "base/mesh.h"
-#include "weights/handles.h"
+#include "geometry/mesh.h"
+#include "handles/handles.h"
 
 namespace bindpose::test
 {

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Check that the includes of the project respect its layers. Fail for an include in the wrong direction.
 
-The library core includes no VTK header. Inside of core the layers are base <- winding <- (surface <- embedding, helper,
-planar) <- inside <- weights <- (automatic, pose); io includes base only (inside may include io). Filters include
+The library core includes no VTK header. Inside of core, a folder includes only from itself and from the folders that
+CORE_ARROWS lists for it; there is no cycle. Filters include
 nothing from the viewer. Nothing outside of the tests includes a header of the tests. The ParaView plugin has no
 sources, and has a proxy for every filter that can be instantiated. No two units (a header and its source) include each
 other.
@@ -18,18 +18,31 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 # The folders of core from which each folder of core may include.
 CORE_ARROWS = {
     "base": {"base"},
-    "io": {"base", "io"},
-    "winding": {"base", "winding"},
-    "surface": {"base", "winding", "surface"},
-    "helper": {"base", "winding", "helper"},
+    "linear": {"base", "linear"},
+    "geometry": {"base", "linear", "geometry"},
+    "io": {"base", "geometry", "io"},
+    "gltf": {"base", "geometry", "io", "gltf"},
+    "solid_angle": {"base", "geometry", "solid_angle"},
+    "winding": {"base", "geometry", "solid_angle", "winding"},
+    "surface": {"base", "geometry", "winding", "surface"},
+    "helper": {"base", "geometry", "winding", "helper"},
     "planar": {"base", "winding", "helper", "planar"},
-    "embedding": {"base", "winding", "surface", "embedding"},
+    "embedding": {"base", "geometry", "winding", "surface", "embedding"},
+    "segmentation": {"base", "geometry", "winding", "segmentation"},
+    "tets": {"base", "geometry", "surface", "tets"},
     # The folder inside exchanges mesh files with the program fTetWild.
-    "inside": {"base", "io", "winding", "surface", "helper", "embedding", "inside"},
-    "weights": {"base", "winding", "surface", "planar", "embedding", "inside", "weights"},
-    "automatic": {"base", "winding", "surface", "helper", "inside", "weights", "automatic"},
-    "pose": {"base", "winding", "inside", "weights", "pose"},
-    "mesher": {"base", "winding", "surface", "helper", "planar", "inside", "mesher"},
+    "inside": {"base", "geometry", "io", "winding", "surface", "helper", "embedding", "segmentation", "tets", "inside"},
+    "handles": {"base", "geometry", "surface", "handles"},
+    "domain": {"base", "linear", "geometry", "surface", "planar", "embedding", "tets", "inside", "handles", "domain"},
+    "qp": {"base", "linear", "geometry", "domain", "qp"},
+    "weights": {"base", "linear", "geometry", "surface", "inside", "domain", "qp", "weights"},
+    "weight_uses": {"base", "geometry", "weight_uses"},
+    "automatic": {"base", "geometry", "winding", "surface", "helper", "inside", "handles", "automatic"},
+    "pose": {"base", "geometry", "handles", "pose"},
+    "skinning": {"base", "geometry", "handles", "pose", "skinning"},
+    "arap": {"base", "linear", "geometry", "handles", "pose", "skinning", "arap"},
+    "fairing": {"base", "geometry", "arap", "fairing"},
+    "mesher": {"base", "helper", "segmentation", "inside", "mesher"},
 }
 
 PLUGIN = "filters/paraview"

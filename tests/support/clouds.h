@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_support_clouds_h
 #define bindpose_tests_support_clouds_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 namespace bindpose::test
 {

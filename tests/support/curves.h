@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_support_curves_h
 #define bindpose_tests_support_curves_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <vector>
 

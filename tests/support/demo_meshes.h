@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_support_demo_meshes_h
 #define bindpose_tests_support_demo_meshes_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <string>
 

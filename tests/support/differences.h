@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_support_differences_h
 #define bindpose_tests_support_differences_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 namespace bindpose::test
 {

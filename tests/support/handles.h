@@ -3,7 +3,7 @@
 
 // Handles for tests, one function per handle type.
 
-#include "weights/handles.h"
+#include "handles/handles.h"
 
 #include <string>
 #include <vector>

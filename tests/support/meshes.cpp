@@ -1,7 +1,7 @@
 #include "support/meshes.h"
 
 #include "base/constants.h"
-#include "base/tet_facets.h"
+#include "geometry/tet_facets.h"
 
 #include <cmath>
 #include <map>

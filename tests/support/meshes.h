@@ -3,7 +3,7 @@
 
 // Meshes with known winding numbers, volumes and weights, on which tests can assert facts.
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <cstdint>
 

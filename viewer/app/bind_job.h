@@ -1,11 +1,11 @@
 #ifndef bind_job_h
 #define bind_job_h
 
-#include "base/mesh.h"
 #include "base/status.h"
+#include "geometry/mesh.h"
+#include "handles/handles.h"
 #include "inside/handle_places.h"
 #include "kernel_job.h"
-#include "weights/handles.h"
 #include "weights/surface_weights.h"
 #include "weights/weight_methods.h"
 

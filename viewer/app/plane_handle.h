@@ -1,7 +1,7 @@
 #ifndef plane_handle_h
 #define plane_handle_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include "vtkNew.h"
 

@@ -1,7 +1,7 @@
 #ifndef pose_ghost_h
 #define pose_ghost_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkLookupTable.h"

@@ -12,7 +12,7 @@
 #include "conversion.h"
 #include "handle_edit_cells.h"
 #include "posing/pose_blend.h"
-#include "weights/depth_order.h"
+#include "weight_uses/depth_order.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

@@ -14,10 +14,10 @@
 #include "weight_view.h"
 
 #include "conversion.h"
-#include "inside/tet_quality.h"
 #include "scene/coloring.h"
 #include "scene/shaded_surface.h"
 #include "scene/volume.h"
+#include "tets/tet_quality.h"
 
 #include "vtkCamera.h"
 #include "vtkCellArray.h"

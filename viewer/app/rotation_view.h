@@ -1,7 +1,7 @@
 #ifndef rotation_view_h
 #define rotation_view_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"

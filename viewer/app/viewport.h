@@ -5,8 +5,8 @@
 #include <QTimer>
 #include <QVTKOpenGLNativeWidget.h>
 
-#include "base/mesh.h"
 #include "base/status.h"
+#include "geometry/mesh.h"
 #include "scene/colors.h"
 
 #include "vtkNew.h"

@@ -1,7 +1,7 @@
 #ifndef volume_view_h
 #define volume_view_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 #include "plane_handle.h"
 
 #include "vtkImageData.h"

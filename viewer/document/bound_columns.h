@@ -1,7 +1,7 @@
 #ifndef document_bound_columns_h
 #define document_bound_columns_h
 
-#include "weights/handles.h"
+#include "handles/handles.h"
 
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"

@@ -2,8 +2,8 @@
 #define document_opened_file_h
 
 #include "base/status.h"
+#include "handles/handles.h"
 #include "pose/pose.h"
-#include "weights/handles.h"
 
 #include "vtkDataSet.h"
 #include "vtkImageData.h"

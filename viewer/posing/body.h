@@ -1,7 +1,7 @@
 #ifndef bindpose_posing_body_h
 #define bindpose_posing_body_h
 
-#include "pose/reduced_dynamics.h"
+#include "arap/reduced_dynamics.h"
 #include "posing/poser.h"
 
 #include <functional>

@@ -1,8 +1,8 @@
 #ifndef bindpose_posing_mesh_posers_h
 #define bindpose_posing_mesh_posers_h
 
-#include "pose/full_arap.h"
-#include "pose/variational_surface.h"
+#include "arap/full_arap.h"
+#include "fairing/variational_surface.h"
 #include "posing/poser.h"
 #include "posing/tet_anchors.h"
 

@@ -1,8 +1,8 @@
 #ifndef bindpose_posing_pose_blend_h
 #define bindpose_posing_pose_blend_h
 
+#include "handles/handles.h"
 #include "pose/pose.h"
-#include "weights/handles.h"
 
 namespace bindpose
 {

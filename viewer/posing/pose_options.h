@@ -1,11 +1,11 @@
 #ifndef bindpose_posing_pose_options_h
 #define bindpose_posing_pose_options_h
 
-#include "pose/arap_energy.h"
-#include "pose/endpoint_weights.h"
-#include "pose/polyharmonic.h"
+#include "arap/arap_energy.h"
+#include "arap/reduced_space.h"
+#include "fairing/polyharmonic.h"
 #include "pose/pose.h"
-#include "pose/reduced_space.h"
+#include "skinning/endpoint_weights.h"
 
 namespace bindpose
 {

@@ -1,7 +1,7 @@
 #ifndef bindpose_posing_pose_rotations_h
 #define bindpose_posing_pose_rotations_h
 
-#include "pose/arap_energy.h"
+#include "arap/arap_energy.h"
 #include "posing/pose_source.h"
 
 #include <memory>

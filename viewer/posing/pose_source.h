@@ -1,11 +1,11 @@
 #ifndef bindpose_posing_pose_source_h
 #define bindpose_posing_pose_source_h
 
-#include "base/mesh.h"
+#include "fairing/variational_surface.h"
+#include "geometry/mesh.h"
+#include "handles/handles.h"
 #include "pose/pose.h"
 #include "pose/pseudo_edges.h"
-#include "pose/variational_surface.h"
-#include "weights/handles.h"
 
 class vtkPolyData;
 class vtkUnstructuredGrid;

@@ -1,7 +1,7 @@
 #ifndef bindpose_posing_reduced_poser_h
 #define bindpose_posing_reduced_poser_h
 
-#include "pose/reduced_arap.h"
+#include "arap/reduced_arap.h"
 #include "posing/poser.h"
 
 #include <optional>

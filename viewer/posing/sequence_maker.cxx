@@ -1,7 +1,7 @@
 #include "posing/sequence_maker.h"
 
-#include "pose/skinning.h"
 #include "posing/make_poser.h"
+#include "skinning/skinning.h"
 
 namespace bindpose
 {

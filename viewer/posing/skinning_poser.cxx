@@ -2,7 +2,7 @@
 // as a bind. Both are phases of bind(), so that the window can show their progress and cancel them.
 #include "posing/skinning_poser.h"
 
-#include "pose/rotation_centers.h"
+#include "skinning/rotation_centers.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/surface_weights.h"
 

@@ -1,8 +1,8 @@
 #ifndef bindpose_posing_skinning_poser_h
 #define bindpose_posing_skinning_poser_h
 
-#include "pose/skinning.h"
 #include "posing/poser.h"
+#include "skinning/skinning.h"
 
 #include <optional>
 

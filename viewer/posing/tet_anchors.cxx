@@ -1,6 +1,6 @@
 #include "posing/tet_anchors.h"
 
-#include "base/simplex_locator.h"
+#include "geometry/simplex_locator.h"
 
 #include <algorithm>
 

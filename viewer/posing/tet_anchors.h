@@ -1,7 +1,7 @@
 #ifndef bindpose_posing_tet_anchors_h
 #define bindpose_posing_tet_anchors_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 #ifndef bindpose_scene_camera_h
 #define bindpose_scene_camera_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <string>
 

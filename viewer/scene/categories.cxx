@@ -5,7 +5,7 @@
 
 #include "base/number_text.h"
 #include "surface/surface_defects.h"
-#include "weights/weighted_colors.h"
+#include "weight_uses/weighted_colors.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -1,8 +1,8 @@
 #ifndef bindpose_scene_categories_h
 #define bindpose_scene_categories_h
 
-#include "base/mesh.h"
 #include "base/status.h"
+#include "geometry/mesh.h"
 #include "scene/colors.h"
 
 #include <string>

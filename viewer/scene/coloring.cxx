@@ -4,8 +4,8 @@
 #include "scene/coloring.h"
 
 #include "conversion.h"
-#include "inside/tet_quality.h"
 #include "scene/rotation_colors.h"
+#include "tets/tet_quality.h"
 
 #include "vtkCellData.h"
 #include "vtkContourFilter.h"

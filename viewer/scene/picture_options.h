@@ -1,7 +1,7 @@
 #ifndef bindpose_scene_picture_options_h
 #define bindpose_scene_picture_options_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 #include "scene/camera.h"
 
 #include "vtkSmartPointer.h"

@@ -1,7 +1,7 @@
 #ifndef bindpose_scene_ray_cast_h
 #define bindpose_scene_ray_cast_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #ifndef bindpose_scene_shaded_surface_h
 #define bindpose_scene_shaded_surface_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include "vtkFloatArray.h"
 #include "vtkNew.h"

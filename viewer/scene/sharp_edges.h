@@ -1,7 +1,7 @@
 #ifndef bindpose_scene_sharp_edges_h
 #define bindpose_scene_sharp_edges_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <vector>
 

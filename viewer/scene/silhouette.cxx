@@ -4,7 +4,7 @@
 #include "scene/silhouette.h"
 
 #include "base/parallel.h"
-#include "base/triangle_sides.h"
+#include "geometry/triangle_sides.h"
 #include "surface/vertex_order.h"
 
 #include <algorithm>

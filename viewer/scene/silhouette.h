@@ -1,7 +1,7 @@
 #ifndef bindpose_scene_silhouette_h
 #define bindpose_scene_silhouette_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 #ifndef bindpose_scene_tet_cut_h
 #define bindpose_scene_tet_cut_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <array>
 #include <vector>

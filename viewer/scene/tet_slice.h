@@ -1,7 +1,7 @@
 #ifndef bindpose_scene_tet_slice_h
 #define bindpose_scene_tet_slice_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include "vtkSmartPointer.h"
 

@@ -1,8 +1,8 @@
 #ifndef bindpose_scene_volume_h
 #define bindpose_scene_volume_h
 
-#include "base/mesh.h"
 #include "base/status.h"
+#include "geometry/mesh.h"
 
 #include "vtkSmartPointer.h"
 

@@ -2,8 +2,8 @@
 
 #include "motion_about.h"
 
+#include "handles/bone_projection.h"
 #include "pose/transform_parts.h"
-#include "weights/bone_projection.h"
 
 #include <Eigen/Geometry>
 

@@ -2,7 +2,7 @@
 #define bindpose_automatic_curve_skeleton_h
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 #include "winding/curve_winding_number.h"
 
 #include <vector>

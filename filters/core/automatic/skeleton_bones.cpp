@@ -6,7 +6,7 @@
 
 #include "base/constants.h"
 #include "base/number_text.h"
-#include "weights/bone_projection.h"
+#include "handles/bone_projection.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #define bindpose_automatic_skeleton_bones_h
 
 #include "automatic/curve_skeleton.h"
-#include "weights/handles.h"
+#include "handles/handles.h"
 
 #include <functional>
 

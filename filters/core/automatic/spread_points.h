@@ -2,7 +2,7 @@
 #define bindpose_automatic_spread_points_h
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 
 // Memory use of the process and checks of memory limits.
 
-#include "base/mesh.h"
+#include "base/mesh_types.h"
 #include "base/status.h"
 
 #include <string>

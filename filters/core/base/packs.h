@@ -1,7 +1,7 @@
 #ifndef bindpose_base_packs_h
 #define bindpose_base_packs_h
 
-#include "base/mesh.h"
+#include "base/mesh_types.h"
 #include "base/simd.h"
 
 namespace bindpose

@@ -4,7 +4,7 @@
 // Parallel loops and sums whose results do not depend on the number of threads.
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "base/mesh_types.h"
 
 #include <functional>
 

@@ -1,7 +1,7 @@
 #ifndef bindpose_embedding_disphenoid_lattice_h
 #define bindpose_embedding_disphenoid_lattice_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <array>
 #include <cmath>

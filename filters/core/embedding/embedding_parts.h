@@ -2,12 +2,12 @@
 #define bindpose_embedding_embedding_parts_h
 
 #include "base/execution.h"
-#include "base/mesh.h"
 #include "embedding/atom_connections.h"
 #include "embedding/embedding_atoms.h"
 #include "embedding/embedding_result.h"
 #include "embedding/lattice_cover.h"
 #include "embedding/material_probes.h"
+#include "geometry/mesh.h"
 
 namespace bindpose
 {

@@ -1,7 +1,7 @@
 #ifndef bindpose_embedding_embedding_result_h
 #define bindpose_embedding_embedding_result_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <vector>
 

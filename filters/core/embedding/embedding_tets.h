@@ -2,8 +2,8 @@
 #define bindpose_embedding_embedding_tets_h
 
 #include "base/execution.h"
-#include "base/mesh.h"
 #include "embedding/embedding_result.h"
+#include "geometry/mesh.h"
 #include "surface/part_links.h"
 #include "winding/winding_number.h"
 

@@ -3,7 +3,7 @@
 // exact signs of three areas determine whether the line crosses the triangle.
 #include "embedding/line_crossings.h"
 
-#include "base/exact.h"
+#include "geometry/exact.h"
 
 #include <algorithm>
 #include <cmath>

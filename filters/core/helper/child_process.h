@@ -2,7 +2,7 @@
 #define bindpose_helper_child_process_h
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <functional>
 #include <string>

@@ -1,7 +1,7 @@
 #ifndef bindpose_helper_mesher_format_h
 #define bindpose_helper_mesher_format_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 #include "winding/curve_winding_number.h"
 
 #include <vector>

@@ -5,10 +5,10 @@
 // kept.
 
 #include "base/execution.h"
-#include "base/tet_facets.h"
+#include "geometry/tet_facets.h"
 #include "inside/enclosed_region.h"
 #include "inside/handle_places.h"
-#include "inside/segmentation.h"
+#include "segmentation/segmentation.h"
 #include "surface/surface_repair.h"
 
 #include <limits>

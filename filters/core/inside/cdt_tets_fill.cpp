@@ -6,9 +6,9 @@
 
 #include "base/number_text.h"
 #include "inside/inner_points.h"
-#include "inside/tet_improvement.h"
-#include "inside/tet_insertion.h"
-#include "inside/tet_quality.h"
+#include "tets/tet_improvement.h"
+#include "tets/tet_insertion.h"
+#include "tets/tet_quality.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // points along long edges.
 #include "inside/crease_points.h"
 
-#include "base/triangle_sides.h"
+#include "geometry/triangle_sides.h"
 
 #include <algorithm>
 #include <cmath>

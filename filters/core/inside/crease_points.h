@@ -1,8 +1,8 @@
 #ifndef bindpose_inside_crease_points_h
 #define bindpose_inside_crease_points_h
 
-#include "inside/region_boundary.h"
 #include "inside/sizing_field.h"
+#include "segmentation/region_boundary.h"
 
 namespace bindpose
 {

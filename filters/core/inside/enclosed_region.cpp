@@ -7,7 +7,7 @@
 
 #include "base/number_text.h"
 #include "base/parallel.h"
-#include "inside/tet_quality.h"
+#include "tets/tet_quality.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,10 +8,10 @@
 #include "base/number_text.h"
 #include "helper/child_process.h"
 #include "helper/scratch_folder.h"
-#include "inside/tet_quality.h"
-#include "surface/unit_frame.h"
 #include "io/medit.h"
 #include "io/off.h"
+#include "surface/unit_frame.h"
+#include "tets/tet_quality.h"
 
 #include <cstdlib>
 

@@ -4,7 +4,7 @@
 // Tetrahedralization by the external program fTetWild.
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <string>
 

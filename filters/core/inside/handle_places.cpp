@@ -3,7 +3,7 @@
 // short enough; the samples are the midpoints of the bisected edges.
 #include "inside/handle_places.h"
 
-#include "base/line_pieces.h"
+#include "geometry/line_pieces.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #ifndef bindpose_inside_handle_places_h
 #define bindpose_inside_handle_places_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 #include "winding/curve_winding_number.h"
 
 #include <functional>

@@ -4,7 +4,7 @@
 // Points inside a closed surface, at graded distances from each other, as vertices of tets.
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 #include "inside/sizing_field.h"
 #include "surface/triangle_tree.h"
 #include "winding/winding_number.h"

@@ -17,7 +17,7 @@
 #include "inside/lattice_tets.h"
 
 #include "base/parallel.h"
-#include "inside/tet_quality.h"
+#include "tets/tet_quality.h"
 
 #include <algorithm>
 #include <cmath>

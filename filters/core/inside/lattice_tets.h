@@ -4,7 +4,7 @@
 // Tets by isosurface stuffing of a body-centered cubic lattice (Labelle and Shewchuk 2007).
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 #include "winding/winding_number.h"
 
 #include <functional>

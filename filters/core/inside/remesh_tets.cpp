@@ -6,8 +6,8 @@
 #include "base/number_text.h"
 #include "helper/child_process.h"
 #include "helper/mesher_process.h"
-#include "inside/tet_improvement.h"
-#include "inside/tet_quality.h"
+#include "tets/tet_improvement.h"
+#include "tets/tet_quality.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 // Method remesh of tetrahedralize(): tets by Delaunay refinement with graded edge lengths.
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 #include "inside/surface_distance.h"
 #include "winding/winding_number.h"
 

@@ -1,7 +1,7 @@
 #ifndef bindpose_inside_sizing_field_h
 #define bindpose_inside_sizing_field_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <vector>
 

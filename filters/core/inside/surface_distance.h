@@ -1,7 +1,7 @@
 #ifndef bindpose_inside_surface_distance_h
 #define bindpose_inside_surface_distance_h
 
-#include "inside/region_boundary.h"
+#include "segmentation/region_boundary.h"
 
 namespace bindpose
 {

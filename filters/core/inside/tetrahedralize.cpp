@@ -9,16 +9,16 @@
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
-#include "inside/cdt_tets.h"
-#include "helper/child_process.h"
 #include "embedding/embedding_tets.h"
+#include "helper/child_process.h"
+#include "inside/cdt_tets.h"
 #include "inside/enclosed_region.h"
 #include "inside/ftetwild_process.h"
 #include "inside/lattice_tets.h"
 #include "inside/remesh_tets.h"
 #include "inside/surface_distance.h"
-#include "inside/tet_quality.h"
 #include "inside/wrap_surface.h"
+#include "tets/tet_quality.h"
 
 #include <algorithm>
 #include <array>

@@ -4,11 +4,11 @@
 // Tets of the volume that any triangle mesh encloses: choice of the method, options and report.
 
 #include "base/execution.h"
-#include "base/mesh.h"
 #include "embedding/embedding_tets.h"
+#include "geometry/mesh.h"
 #include "inside/handle_places.h"
 #include "inside/prepared_surface.h"
-#include "inside/segmentation.h"
+#include "segmentation/segmentation.h"
 
 #include <vector>
 

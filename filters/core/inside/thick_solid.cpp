@@ -5,8 +5,8 @@
 
 #include "base/parallel.h"
 #include "inside/lattice_tets.h"
-#include "inside/manifold_boundary.h"
 #include "surface/triangle_tree.h"
+#include "tets/manifold_boundary.h"
 
 #include <algorithm>
 #include <cmath>

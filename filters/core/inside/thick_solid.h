@@ -4,7 +4,7 @@
 // Closed surfaces around open, flat or thin triangles.
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 #include "winding/winding_number.h"
 
 namespace bindpose

@@ -5,7 +5,7 @@
 // executable).
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 namespace bindpose
 {

@@ -1,7 +1,7 @@
 #ifndef bindpose_io_medit_h
 #define bindpose_io_medit_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #ifndef bindpose_io_polygon_mesh_h
 #define bindpose_io_polygon_mesh_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 namespace bindpose
 {

@@ -1,7 +1,7 @@
 #ifndef bindpose_io_text_scanner_h
 #define bindpose_io_text_scanner_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <string>
 #include <string_view>

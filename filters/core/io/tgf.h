@@ -1,7 +1,7 @@
 #ifndef bindpose_io_tgf_h
 #define bindpose_io_tgf_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 #define bindpose_io_vdb_h
 
 #include "base/execution.h"
-#include "base/sample_grid.h"
+#include "geometry/sample_grid.h"
 
 #include <string>
 

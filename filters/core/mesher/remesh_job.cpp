@@ -19,8 +19,8 @@
 
 #include "base/stopwatch.h"
 #include "inside/crease_points.h"
-#include "inside/region_boundary.h"
 #include "inside/sizing_field.h"
+#include "segmentation/region_boundary.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Labeled_mesh_domain_3.h>

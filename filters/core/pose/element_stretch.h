@@ -2,7 +2,7 @@
 #define bindpose_pose_element_stretch_h
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <vector>
 

@@ -2,8 +2,8 @@
 // parent-relative poses.
 #include "pose/handle_hierarchy.h"
 
+#include "handles/bone_projection.h"
 #include "pose/transform_parts.h"
-#include "weights/bone_projection.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

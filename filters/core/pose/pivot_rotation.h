@@ -1,8 +1,8 @@
 #ifndef bindpose_pose_pivot_rotation_h
 #define bindpose_pose_pivot_rotation_h
 
+#include "handles/handles.h"
 #include "pose/pose.h"
-#include "weights/handles.h"
 
 namespace bindpose
 {

@@ -3,7 +3,7 @@
 
 // A pose of a shape: one transform and one mode per handle, and checks of poses.
 
-#include "weights/handles.h"
+#include "handles/handles.h"
 
 #include <vector>
 

@@ -3,8 +3,8 @@
 
 // Reader and writer of POSE.json files, which contain poses or sequences of poses by handle name.
 
+#include "handles/handles.h"
 #include "pose/pose.h"
-#include "weights/handles.h"
 
 #include <functional>
 #include <optional>

@@ -5,8 +5,8 @@
 // al. 2011, Bounded Biharmonic Weights, section 5).
 
 #include "base/execution.h"
+#include "handles/handles.h"
 #include "pose/pose.h"
-#include "weights/handles.h"
 
 #include <array>
 #include <vector>

@@ -3,7 +3,7 @@
 
 // Rotations that best map rest edges to posed edges, for one or many 3 x 3 covariance matrices.
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <vector>
 

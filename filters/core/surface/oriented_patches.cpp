@@ -1,7 +1,7 @@
 // Traversal of patches with consistent orientation (see oriented_patches.h).
 #include "surface/oriented_patches.h"
 
-#include "base/triangle_sides.h"
+#include "geometry/triangle_sides.h"
 
 #include <array>
 #include <utility>

@@ -1,7 +1,7 @@
 #ifndef bindpose_surface_oriented_patches_h
 #define bindpose_surface_oriented_patches_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #define bindpose_surface_part_links_h
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 #ifndef bindpose_surface_surface_disc_h
 #define bindpose_surface_surface_disc_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <utility>
 #include <vector>

@@ -12,7 +12,7 @@
 
 #include "base/constants.h"
 #include "base/disjoint_sets.h"
-#include "base/triangle_sides.h"
+#include "geometry/triangle_sides.h"
 #include "surface/oriented_patches.h"
 #include "surface/triangle_predicates.h"
 #include "surface/triangle_tree.h"

@@ -2,7 +2,7 @@
 #define bindpose_surface_surface_repair_h
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <utility>
 #include <vector>

@@ -4,7 +4,7 @@
 // exact orientation signs.
 #include "surface/triangle_predicates.h"
 
-#include "base/exact.h"
+#include "geometry/exact.h"
 
 #include <algorithm>
 

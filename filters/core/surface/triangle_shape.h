@@ -1,7 +1,7 @@
 #ifndef bindpose_surface_triangle_shape_h
 #define bindpose_surface_triangle_shape_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 namespace bindpose
 {

@@ -2,7 +2,7 @@
 #define bindpose_surface_triangle_tree_h
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <functional>
 #include <utility>

@@ -1,7 +1,7 @@
 #ifndef bindpose_surface_unit_frame_h
 #define bindpose_surface_unit_frame_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 namespace bindpose
 {

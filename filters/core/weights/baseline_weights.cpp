@@ -12,10 +12,10 @@
 #include "weights/baseline_weights.h"
 
 #include "base/parallel.h"
-#include "base/simplex_locator.h"
+#include "geometry/simplex_locator.h"
+#include "qp/free_system.h"
 #include "surface/triangle_predicates.h"
 #include "surface/triangle_tree.h"
-#include "weights/free_system.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,7 +1,7 @@
 #ifndef bindpose_weights_extrema_h
 #define bindpose_weights_extrema_h
 
-#include "weights/domain.h"
+#include "domain/domain.h"
 
 namespace bindpose
 {

@@ -8,7 +8,7 @@
 // previous flood created, and these shrink.
 #include "weights/extrema_order.h"
 
-#include "weights/ordered_pairs.h"
+#include "qp/ordered_pairs.h"
 
 #include <algorithm>
 #include <queue>

@@ -2,8 +2,8 @@
 #define bindpose_weights_extrema_order_h
 
 #include "base/execution.h"
-#include "weights/certificate.h"
-#include "weights/domain.h"
+#include "domain/domain.h"
+#include "qp/certificate.h"
 
 namespace bindpose
 {

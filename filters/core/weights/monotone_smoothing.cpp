@@ -15,9 +15,9 @@
 // keep their earlier order. Solving again for that order can therefore only lower the energy.
 #include "weights/monotone_smoothing.h"
 
-#include "weights/free_system.h"
-#include "weights/ordered_pairs.h"
-#include "weights/scaled_mesh.h"
+#include "domain/scaled_mesh.h"
+#include "qp/free_system.h"
+#include "qp/ordered_pairs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #ifndef bindpose_weights_monotone_smoothing_h
 #define bindpose_weights_monotone_smoothing_h
 
-#include "weights/box_qp.h"
+#include "qp/box_qp.h"
 #include "weights/extrema.h"
 #include "weights/extrema_order.h"
 

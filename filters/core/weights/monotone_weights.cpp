@@ -18,8 +18,8 @@
 // (rigid sets, mirrors) are one vertex of the guide.
 #include "weights/monotone_weights.h"
 
-#include "weights/free_system.h"
-#include "weights/ordered_pairs.h"
+#include "qp/free_system.h"
+#include "qp/ordered_pairs.h"
 #include "weights/weight_solve.h"
 
 #include <algorithm>

@@ -8,8 +8,8 @@
 #include "weights/preview_weights.h"
 
 #include "base/parallel.h"
+#include "qp/split_form.h"
 #include "weights/column_groups.h"
-#include "weights/split_form.h"
 
 #include <Eigen/Cholesky>
 

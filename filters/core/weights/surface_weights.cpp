@@ -4,10 +4,10 @@
 // replaced by another one, the status of the replaced result is reported as the reason.
 #include "weights/surface_weights.h"
 
-#include "weights/cage_domain.h"
-#include "weights/domain_choice.h"
-#include "weights/embedded_surface.h"
-#include "weights/loose_parts.h"
+#include "domain/cage_domain.h"
+#include "domain/domain_choice.h"
+#include "domain/embedded_surface.h"
+#include "domain/loose_parts.h"
 #include "weights/preview_weights.h"
 #include "weights/transfer.h"
 

@@ -2,7 +2,7 @@
 #include "weights/transfer.h"
 
 #include "base/parallel.h"
-#include "base/simplex_locator.h"
+#include "geometry/simplex_locator.h"
 
 #include <memory>
 

@@ -2,7 +2,7 @@
 #define bindpose_weights_transfer_h
 
 #include "base/execution.h"
-#include "weights/domain.h"
+#include "domain/domain.h"
 
 namespace bindpose
 {

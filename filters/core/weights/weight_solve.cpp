@@ -7,7 +7,7 @@
 // entries for a larger k, so the energy decreases with k.
 #include "weights/weight_solve.h"
 
-#include "weights/coupled_qp.h"
+#include "qp/coupled_qp.h"
 
 #include <algorithm>
 #include <cmath>

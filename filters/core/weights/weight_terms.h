@@ -1,7 +1,7 @@
 #ifndef bindpose_weights_weight_terms_h
 #define bindpose_weights_weight_terms_h
 
-#include "weights/handle_constraints.h"
+#include "domain/handle_constraints.h"
 
 #include <utility>
 

@@ -3,7 +3,7 @@
 #include "weights/weights_problem.h"
 
 #include "base/parallel.h"
-#include "weights/scaled_mesh.h"
+#include "domain/scaled_mesh.h"
 
 #include <algorithm>
 #include <cmath>

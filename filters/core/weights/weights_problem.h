@@ -1,9 +1,9 @@
 #ifndef bindpose_weights_weights_problem_h
 #define bindpose_weights_weights_problem_h
 
-#include "base/laplacian.h"
-#include "base/sparse_solver.h"
-#include "weights/box_qp.h"
+#include "geometry/laplacian.h"
+#include "linear/sparse_solver.h"
+#include "qp/box_qp.h"
 #include "weights/extrema.h"
 #include "weights/weight_terms.h"
 

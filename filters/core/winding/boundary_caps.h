@@ -1,7 +1,7 @@
 #ifndef bindpose_winding_boundary_caps_h
 #define bindpose_winding_boundary_caps_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 namespace bindpose
 {

@@ -25,8 +25,8 @@
 #include "winding/curve_winding_number.h"
 
 #include "base/constants.h"
-#include "base/exact.h"
 #include "base/parallel_sort.h"
+#include "geometry/exact.h"
 #include "winding/exact_frame.h"
 #include "winding/point_values.h"
 

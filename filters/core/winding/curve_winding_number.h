@@ -4,7 +4,7 @@
 // Winding numbers of curves in the plane (Jacobson, Kavan, Sorkine-Hornung 2013).
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <memory>
 

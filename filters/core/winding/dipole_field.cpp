@@ -5,8 +5,8 @@
 #include "winding/dipole_field.h"
 
 #include "base/constants.h"
-#include "winding/local_polynomial.h"
-#include "winding/solid_harmonics.h"
+#include "solid_angle/local_polynomial.h"
+#include "solid_angle/solid_harmonics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #define bindpose_winding_dipole_field_h
 
 #include "base/execution.h"
-#include "winding/solid_angle.h"
-#include "winding/triangle_block.h"
+#include "solid_angle/solid_angle.h"
+#include "solid_angle/triangle_block.h"
 
 #include <cstdint>
 

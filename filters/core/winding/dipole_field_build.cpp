@@ -21,8 +21,8 @@
 
 #include "base/constants.h"
 #include "base/parallel.h"
-#include "winding/local_polynomial.h"
-#include "winding/solid_harmonics.h"
+#include "solid_angle/local_polynomial.h"
+#include "solid_angle/solid_harmonics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #ifndef bindpose_winding_exact_frame_h
 #define bindpose_winding_exact_frame_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -28,10 +28,10 @@
 #include "base/constants.h"
 #include "base/parallel.h"
 #include "base/simd.h"
+#include "solid_angle/solid_harmonics.h"
 #include "winding/exact_frame.h"
 #include "winding/point_areas.h"
 #include "winding/point_values.h"
-#include "winding/solid_harmonics.h"
 
 #include <algorithm>
 #include <cmath>

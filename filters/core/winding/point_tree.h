@@ -2,7 +2,7 @@
 #define bindpose_winding_point_tree_h
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <array>
 #include <cstdint>

@@ -12,11 +12,11 @@
 // the edge crosses exactly one of the two triangles, and sums over closed surfaces are integers.
 #include "winding/ray_crossings.h"
 
-#include "base/exact.h"
 #include "base/large_pages.h"
 #include "base/parallel.h"
 #include "base/simd.h"
-#include "winding/solid_angle.h"
+#include "geometry/exact.h"
+#include "solid_angle/solid_angle.h"
 
 #include <algorithm>
 #include <cmath>

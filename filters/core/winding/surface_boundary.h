@@ -1,7 +1,7 @@
 #ifndef bindpose_winding_surface_boundary_h
 #define bindpose_winding_surface_boundary_h
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <vector>
 

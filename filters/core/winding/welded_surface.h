@@ -2,7 +2,7 @@
 #define bindpose_winding_welded_surface_h
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 #include "winding/exact_frame.h"
 
 #include <vector>

@@ -14,8 +14,8 @@
 #include "winding/winding_cells.h"
 
 #include "base/simd.h"
-#include "winding/segment_crossing.h"
-#include "winding/solid_angle.h"
+#include "solid_angle/segment_crossing.h"
+#include "solid_angle/solid_angle.h"
 
 #include <algorithm>
 #include <cmath>

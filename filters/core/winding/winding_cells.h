@@ -2,7 +2,7 @@
 #define bindpose_winding_winding_cells_h
 
 #include "base/execution.h"
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <array>
 #include <cstdint>

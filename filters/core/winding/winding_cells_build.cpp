@@ -7,8 +7,8 @@
 
 #include "base/large_pages.h"
 #include "base/parallel.h"
-#include "winding/segment_crossing.h"
-#include "winding/solid_angle.h"
+#include "solid_angle/segment_crossing.h"
+#include "solid_angle/solid_angle.h"
 
 #include <algorithm>
 #include <atomic>

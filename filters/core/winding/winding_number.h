@@ -4,8 +4,8 @@
 // Generalized winding numbers of triangle meshes (Jacobson, Kavan, Sorkine-Hornung 2013).
 
 #include "base/execution.h"
-#include "base/mesh.h"
-#include "base/sample_grid.h"
+#include "geometry/mesh.h"
+#include "geometry/sample_grid.h"
 #include "winding/surface_boundary.h"
 
 #include <memory>

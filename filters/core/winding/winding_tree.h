@@ -2,7 +2,7 @@
 #define bindpose_winding_winding_tree_h
 
 #include "base/execution.h"
-#include "winding/solid_angle.h"
+#include "solid_angle/solid_angle.h"
 
 #include <cstdint>
 

@@ -3,7 +3,7 @@
 
 // Shapes with known limbs: the outer boundary of a union of unit cubes, as a clean surface.
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include <array>
 #include <map>

@@ -2,7 +2,7 @@
 // exact nodes.
 #include "embedding/disphenoid_lattice.h"
 
-#include "inside/tet_quality.h"
+#include "tets/tet_quality.h"
 
 #include "support/meshes.h"
 

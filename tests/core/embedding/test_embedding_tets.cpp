@@ -3,7 +3,7 @@
 #include "embedding/embedding_tets.h"
 
 #include "surface/surface_repair.h"
-#include "inside/tet_quality.h"
+#include "tets/tet_quality.h"
 
 #include "core/fuzz/hostile_surfaces.h"
 #include "support/demo_meshes.h"

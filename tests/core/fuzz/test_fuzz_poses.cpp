@@ -1,11 +1,11 @@
 // Fuzz test of skinning and as-rigid-as-possible solvers with sequences of extreme poses. Handles
 // are collapsed, mirrored or huge, and weights are repeated, zero or negative. Finite input gives
 // finite output, the rest pose gives the rest shape, and results are deterministic.
-#include "pose/full_arap.h"
-#include "pose/reduced_arap.h"
-#include "pose/skinning.h"
+#include "arap/full_arap.h"
+#include "arap/reduced_arap.h"
+#include "skinning/skinning.h"
 
-#include "core/pose/arap_cases.h"
+#include "core/arap/arap_cases.h"
 #include "support/bars.h"
 #include "support/fuzz.h"
 #include "support/handles.h"

@@ -1,8 +1,8 @@
 // Fuzz test of the file readers. Valid files of every format that the core library reads are
 // damaged: bits are flipped, lines moved, numbers replaced, ends cut off. A reader must return
 // usable data or one sentence.
+#include "gltf/gltf_skin.h"
 #include "io/dmat.h"
-#include "io/gltf_skin.h"
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"

@@ -2,13 +2,13 @@
 // one sentence.
 #include "inside/tetrahedralize.h"
 
-#include "inside/tet_quality.h"
-#include "winding/winding_number.h"
 #include "core/fuzz/hostile_surfaces.h"
 #include "support/environment.h"
 #include "support/fuzz.h"
 #include "support/needs_mesher.h"
 #include "support/sanitized.h"
+#include "tets/tet_quality.h"
+#include "winding/winding_number.h"
 
 #include <algorithm>
 #include <cmath>

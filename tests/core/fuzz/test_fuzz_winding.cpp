@@ -5,11 +5,11 @@
 // round-off of the sum of unsigned contributions, and integers are exact. Fast methods satisfy
 // their tolerance. All methods agree on which points are on the input. Rows of grids and batches of
 // points have the same bits as single points.
+#include "solid_angle/solid_angle.h"
+#include "surface/triangle_predicates.h"
 #include "winding/curve_winding_number.h"
 #include "winding/exact_frame.h"
 #include "winding/point_cloud_winding_number.h"
-#include "winding/solid_angle.h"
-#include "surface/triangle_predicates.h"
 #include "winding/winding_number.h"
 
 #include "core/fuzz/hostile_surfaces.h"

@@ -1,8 +1,8 @@
 // The process of the helper program bindpose-mesher: its results, and the cleanup after a failure.
 #include "helper/mesher_process.h"
 
-#include "inside/tet_quality.h"
 #include "surface/triangle_tree.h"
+#include "tets/tet_quality.h"
 
 #include "support/cancel_later.h"
 #include "support/environment.h"

@@ -4,8 +4,8 @@
 
 #include "helper/child_process.h"
 #include "helper/scratch_folder.h"
-#include "inside/tet_quality.h"
 #include "io/off.h"
+#include "tets/tet_quality.h"
 
 #include "support/cancel_later.h"
 #include "support/environment.h"

@@ -1,7 +1,7 @@
 // Isosurface stuffing: tets of a lattice that fill the inside of a surface.
 #include "inside/lattice_tets.h"
 
-#include "inside/tet_quality.h"
+#include "tets/tet_quality.h"
 
 #include "support/meshes.h"
 

@@ -3,9 +3,9 @@
 
 #include "base/constants.h"
 #include "helper/mesher_process.h"
-#include "inside/tet_quality.h"
 #include "inside/tetrahedralize.h"
 #include "surface/triangle_tree.h"
+#include "tets/tet_quality.h"
 
 #include "support/cancel_later.h"
 #include "support/environment.h"

@@ -5,8 +5,8 @@
 #include "base/number_text.h"
 
 #include "helper/mesher_process.h"
-#include "inside/tet_quality.h"
 #include "io/medit.h"
+#include "tets/tet_quality.h"
 
 #include "core/inside/tet_outcome.h"
 #include "support/cancel_later.h"

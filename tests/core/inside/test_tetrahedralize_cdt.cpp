@@ -2,8 +2,8 @@
 // other surfaces up to the boundary of their inside.
 #include "inside/tetrahedralize.h"
 
-#include "inside/tet_quality.h"
 #include "surface/triangle_tree.h"
+#include "tets/tet_quality.h"
 
 #include "core/inside/tet_outcome.h"
 #include "support/demo_meshes.h"

@@ -2,7 +2,7 @@
 // the threshold.
 #include "inside/tetrahedralize.h"
 
-#include "inside/tet_quality.h"
+#include "tets/tet_quality.h"
 
 #include "core/inside/tet_outcome.h"
 #include "support/meshes.h"

@@ -1,6 +1,6 @@
 #include "core/inside/tet_outcome.h"
 
-#include "inside/tet_quality.h"
+#include "tets/tet_quality.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Pose files in JSON: their meaning, hierarchies of handles, error messages, and round trips.
 #include "pose/handle_hierarchy.h"
 #include "pose/pose_file.h"
-#include "pose/skinning.h"
 #include "pose/transform_parts.h"
+#include "skinning/skinning.h"
 
 #include "support/handles.h"
 #include "support/meshes.h"

@@ -3,7 +3,7 @@
 #include "pose/pseudo_edges.h"
 
 #include "base/constants.h"
-#include "pose/skinning.h"
+#include "skinning/skinning.h"
 
 #include "support/affines.h"
 #include "support/differences.h"

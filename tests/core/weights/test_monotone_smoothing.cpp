@@ -3,9 +3,9 @@
 // on units.
 #include "weights/monotone_smoothing.h"
 
-#include "base/laplacian.h"
+#include "domain/scaled_mesh.h"
+#include "geometry/laplacian.h"
 #include "weights/monotone_weights.h"
-#include "weights/scaled_mesh.h"
 
 #include "support/cancel_later.h"
 #include "weights_shapes.h"

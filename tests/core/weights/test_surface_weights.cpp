@@ -1,8 +1,8 @@
 // Weights of surfaces, computed on tets of their volume or on an embedding lattice. They are
 // compared with the separate stages and with each other. Other tests check parts that are close but
 // not connected, and the automatic choice of the domain.
+#include "domain/embedded_surface.h"
 #include "weights/bounded_biharmonic_weights.h"
-#include "weights/embedded_surface.h"
 #include "weights/surface_weights.h"
 #include "weights/transfer.h"
 #include "weights/unconstrained_weights.h"

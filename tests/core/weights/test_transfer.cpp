@@ -1,7 +1,7 @@
 // Transfer of weights from a mesh to points. It is exact at vertices, reproduces linear functions
 // inside, and uses the nearest point of the mesh for points outside. The search agrees with brute
 // force over all elements.
-#include "base/simplex_locator.h"
+#include "geometry/simplex_locator.h"
 #include "weights/transfer.h"
 
 #include "weights_shapes.h"

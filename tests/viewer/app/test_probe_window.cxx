@@ -11,8 +11,8 @@
 #include "weight_view.h"
 
 #include "document/document.h"
-#include "inside/tet_quality.h"
 #include "scene/ray_cast.h"
+#include "tets/tet_quality.h"
 
 #include "support/meshes.h"
 #include "support/sanitized.h"

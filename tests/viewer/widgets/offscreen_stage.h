@@ -3,7 +3,7 @@
 
 // An off-screen window for one widget, with functions that send mouse and keyboard events.
 
-#include "base/mesh.h"
+#include "geometry/mesh.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"

@@ -1,0 +1,412 @@
+// As-rigid-as-possible energies for groups of vertices or elements that share a rotation.
+//
+// Every energy is a sum over elements, over the groups that contribute to an element, and over the
+// element's edges with their cotangent weights. Each group contributes with a fraction of the
+// element:
+// - Elements: one group contributes with the fraction 1.
+// - Spokes and rims: the group of each vertex contributes with one third (triangle) or one quarter
+//   (tet). The fractions of equal groups are added first.
+// - Spokes: the sum runs over the edges of the mesh, with their weights from the stiffness matrix.
+//   The groups of the two ends contribute with one half each.
+#include "arap/arap_energy.h"
+
+#include "base/most_frequent.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <vector>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr int triangle_edges[3][2] = { { 1, 2 }, { 2, 0 }, { 0, 1 } };
+
+constexpr const int (&edges_of(const TrianglesView&))[3][2]
+{
+  return triangle_edges;
+}
+constexpr const int (&edges_of(const TetsView&))[6][2]
+{
+  return tet_edges;
+}
+
+/// The groups that contribute to an element or edge, and their fractions, which sum to one.
+template <int Corners>
+struct Shares
+{
+  std::array<Index, Corners> group;
+  std::array<double, Corners> share;
+  int count = 0;
+
+  void add(Index g, double s)
+  {
+    for (int i = 0; i < this->count; ++i)
+    {
+      if (this->group[i] == g)
+      {
+        this->share[i] += s;
+        return;
+      }
+    }
+    this->group[this->count] = g;
+    this->share[this->count] = s;
+    ++this->count;
+  }
+};
+
+template <typename Elements, int Corners>
+Shares<Corners> shares_of(const Elements& elements, Index e, const RotationGroups& groups)
+{
+  Shares<Corners> shares;
+  if (groups.energy == ArapEnergy::elements)
+  {
+    shares.add(groups.of_element[static_cast<std::size_t>(e)], 1.0);
+    return shares;
+  }
+  for (int k = 0; k < Corners; ++k)
+  {
+    shares.add(groups.of_vertex[static_cast<std::size_t>(elements(e, k))], 1.0 / Corners);
+  }
+  return shares;
+}
+
+/// Return for each vertex the most frequent label among its elements; -1 if it has no element.
+template <typename Elements>
+std::vector<Index> labels_around(
+  const Elements& elements, const std::vector<Index>& of_element, std::size_t vertices)
+{
+  // Start of each vertex's labels. The array is shifted by two entries for the counting sort.
+  std::vector<Index> begin(vertices + 2, 0);
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    for (Index k = 0; k < elements.cols(); ++k)
+    {
+      begin[static_cast<std::size_t>(elements(e, k)) + 2] += 1;
+    }
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Index> labels(static_cast<std::size_t>(elements.size()));
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    for (Index k = 0; k < elements.cols(); ++k)
+    {
+      labels[begin[static_cast<std::size_t>(elements(e, k)) + 1]++] =
+        of_element[static_cast<std::size_t>(e)];
+    }
+  }
+  std::vector<Index> of_vertex(vertices, -1);
+  for (std::size_t v = 0; v < vertices; ++v)
+  {
+    if (begin[v] < begin[v + 1])
+    {
+      of_vertex[v] = most_frequent(labels.begin() + begin[v], labels.begin() + begin[v + 1]);
+    }
+  }
+  return of_vertex;
+}
+
+template <typename Elements, int Corners>
+RotationGroups make_groups(
+  ArapEnergy energy, const Elements& elements, Index count, std::vector<Index> vertex_labels)
+{
+  RotationGroups groups;
+  groups.energy = energy;
+  groups.count = count;
+  groups.of_vertex = std::move(vertex_labels);
+  if (energy != ArapEnergy::elements)
+  {
+    return groups;
+  }
+  groups.of_element.resize(static_cast<std::size_t>(elements.rows()));
+  std::vector<Index> fresh(static_cast<std::size_t>(count), -1);
+  groups.count = 0;
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    std::array<Index, Corners> labels;
+    for (int k = 0; k < Corners; ++k)
+    {
+      labels[k] = groups.of_vertex[static_cast<std::size_t>(elements(e, k))];
+    }
+    Index& name = fresh[static_cast<std::size_t>(most_frequent(labels.begin(), labels.end()))];
+    if (name < 0)
+    {
+      name = groups.count++;
+    }
+    groups.of_element[static_cast<std::size_t>(e)] = name;
+  }
+  groups.of_vertex = labels_around(elements, groups.of_element, groups.of_vertex.size());
+  return groups;
+}
+
+/// An edge of the mesh with the sum of its elements' cotangent weights, which must be positive.
+struct Spoke
+{
+  Index i, j;
+  double weight;
+};
+
+/// If the weight of an edge is below this fraction of the diagonal entries of its vertices, it is
+/// round-off and ignored.
+constexpr double no_weight = 1e-12;
+
+std::vector<Spoke> spokes_of(const SparseMatrix& stiffness, Index* left_out)
+{
+  std::vector<Spoke> spokes;
+  const Eigen::VectorXd diagonal = stiffness.diagonal();
+  Index negative = 0;
+  for (Index j = 0; j < stiffness.cols(); ++j)
+  {
+    for (SparseMatrix::InnerIterator it(stiffness, j); it && it.row() < j; ++it)
+    {
+      const double weight = -it.value();
+      const double least = no_weight * std::min(diagonal[it.row()], diagonal[j]);
+      if (weight > least)
+      {
+        spokes.push_back({ it.row(), j, weight });
+      }
+      negative += weight < -least;
+    }
+  }
+  if (left_out)
+  {
+    *left_out = negative;
+  }
+  return spokes;
+}
+
+template <typename Elements>
+SparseMatrix make_stiffness(
+  PointsView rest, const Elements& elements, ArapEnergy energy, Index* left_out)
+{
+  SparseMatrix stiffness = stiffness_matrix(rest, elements);
+  if (left_out)
+  {
+    *left_out = 0;
+  }
+  if (energy != ArapEnergy::spokes)
+  {
+    return stiffness;
+  }
+  std::vector<Eigen::Triplet<double, int>> entries;
+  for (const Spoke& spoke : spokes_of(stiffness, left_out))
+  {
+    const int i = static_cast<int>(spoke.i), j = static_cast<int>(spoke.j);
+    entries.emplace_back(i, j, -spoke.weight);
+    entries.emplace_back(j, i, -spoke.weight);
+    entries.emplace_back(i, i, spoke.weight);
+    entries.emplace_back(j, j, spoke.weight);
+  }
+  SparseMatrix positive(stiffness.rows(), stiffness.cols());
+  positive.setFromTriplets(entries.begin(), entries.end());
+  return positive;
+}
+
+/// Return the groups at the ends of an edge, each with its fraction of the edge.
+Shares<2> shares_of(const Spoke& spoke, const RotationGroups& groups)
+{
+  Shares<2> shares;
+  shares.add(groups.of_vertex[static_cast<std::size_t>(spoke.i)], 0.5);
+  shares.add(groups.of_vertex[static_cast<std::size_t>(spoke.j)], 0.5);
+  return shares;
+}
+
+SparseMatrix spokes_covariance(
+  PointsView rest, const std::vector<Spoke>& spokes, const RotationGroups& groups)
+{
+  std::vector<Eigen::Triplet<double, int>> entries;
+  entries.reserve(spokes.size() * 12);
+  for (const Spoke& spoke : spokes)
+  {
+    const Vec3 edge = spoke.weight * (rest.row(spoke.i) - rest.row(spoke.j)).transpose();
+    const Shares<2> shares = shares_of(spoke, groups);
+    for (int s = 0; s < shares.count; ++s)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        const auto row = static_cast<int>(i * groups.count + shares.group[s]);
+        entries.emplace_back(row, static_cast<int>(spoke.i), shares.share[s] * edge[i]);
+        entries.emplace_back(row, static_cast<int>(spoke.j), -shares.share[s] * edge[i]);
+      }
+    }
+  }
+  SparseMatrix matrix(3 * groups.count, rest.rows());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+double spokes_energy(PointsView rest, const std::vector<Spoke>& spokes,
+  const RotationGroups& groups, PointsView posed, const std::vector<Eigen::Matrix3d>& rotations)
+{
+  double sum = 0.0;
+  for (const Spoke& spoke : spokes)
+  {
+    const Vec3 edge = (rest.row(spoke.i) - rest.row(spoke.j)).transpose();
+    const Vec3 moved = (posed.row(spoke.i) - posed.row(spoke.j)).transpose();
+    const Shares<2> shares = shares_of(spoke, groups);
+    for (int s = 0; s < shares.count; ++s)
+    {
+      const Eigen::Matrix3d& rotation = rotations[static_cast<std::size_t>(shares.group[s])];
+      sum += 0.5 * shares.share[s] * spoke.weight * (moved - rotation * edge).squaredNorm();
+    }
+  }
+  return sum;
+}
+
+template <typename Elements, int Corners>
+SparseMatrix make_covariance(
+  PointsView rest, const Elements& elements, const RotationGroups& groups)
+{
+  if (groups.energy == ArapEnergy::spokes)
+  {
+    return spokes_covariance(rest, spokes_of(stiffness_matrix(rest, elements), nullptr), groups);
+  }
+  const auto& edges = edges_of(elements);
+  const auto c = cotangent_weights(rest, elements);
+  std::vector<Eigen::Triplet<double, int>> entries;
+  entries.reserve(static_cast<std::size_t>(elements.rows()) * Corners * 4);
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    // b_i = sum_j c_ij (v_i - v_j): the contribution of vertex i in this element to the covariance
+    // S.
+    Vec3 b[Corners];
+    std::fill(b, b + Corners, Vec3::Zero());
+    for (Index k = 0; k < c.cols(); ++k)
+    {
+      const int i = edges[k][0], j = edges[k][1];
+      const Vec3 edge = (rest.row(elements(e, i)) - rest.row(elements(e, j))).transpose();
+      b[i] += c(e, k) * edge;
+      b[j] -= c(e, k) * edge;
+    }
+    const auto shares = shares_of<Elements, Corners>(elements, e, groups);
+    for (int s = 0; s < shares.count; ++s)
+    {
+      for (int corner = 0; corner < Corners; ++corner)
+      {
+        for (int i = 0; i < 3; ++i)
+        {
+          entries.emplace_back(static_cast<int>(i * groups.count + shares.group[s]),
+            static_cast<int>(elements(e, corner)), shares.share[s] * b[corner][i]);
+        }
+      }
+    }
+  }
+  SparseMatrix matrix(3 * groups.count, rest.rows());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+template <typename Elements, int Corners>
+double sum_energy(PointsView rest, const Elements& elements, const RotationGroups& groups,
+  PointsView posed, const std::vector<Eigen::Matrix3d>& rotations)
+{
+  if (groups.energy == ArapEnergy::spokes)
+  {
+    return spokes_energy(
+      rest, spokes_of(stiffness_matrix(rest, elements), nullptr), groups, posed, rotations);
+  }
+  const auto& edges = edges_of(elements);
+  const auto c = cotangent_weights(rest, elements);
+  double sum = 0.0;
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    const auto shares = shares_of<Elements, Corners>(elements, e, groups);
+    for (int s = 0; s < shares.count; ++s)
+    {
+      const Eigen::Matrix3d& rotation = rotations[static_cast<std::size_t>(shares.group[s])];
+      for (Index k = 0; k < c.cols(); ++k)
+      {
+        const Index i = elements(e, edges[k][0]), j = elements(e, edges[k][1]);
+        const Vec3 edge = (rest.row(i) - rest.row(j)).transpose();
+        const Vec3 moved = (posed.row(i) - posed.row(j)).transpose();
+        sum += 0.5 * shares.share[s] * c(e, k) * (moved - rotation * edge).squaredNorm();
+      }
+    }
+  }
+  return sum;
+}
+} // namespace
+
+const char* to_string(ArapEnergy energy, bool tets)
+{
+  switch (resolved(energy, tets))
+  {
+    case ArapEnergy::spokes_and_rims:
+      return "spokes_and_rims";
+    case ArapEnergy::spokes:
+      return "spokes";
+    default:
+      return tets ? "tetrahedra" : "triangles";
+  }
+}
+
+ArapEnergy resolved(ArapEnergy energy, bool tets)
+{
+  if (energy != ArapEnergy::automatic)
+  {
+    return energy;
+  }
+  return tets ? ArapEnergy::elements : ArapEnergy::spokes_and_rims;
+}
+
+SparseMatrix arap_stiffness(
+  PointsView rest, TrianglesView triangles, ArapEnergy energy, Index* left_out)
+{
+  return make_stiffness(rest, triangles, energy, left_out);
+}
+
+SparseMatrix arap_stiffness(PointsView rest, TetsView tets, ArapEnergy energy, Index* left_out)
+{
+  return make_stiffness(rest, tets, energy, left_out);
+}
+
+std::string left_out_warning(Index left_out)
+{
+  if (left_out == 0)
+  {
+    return {};
+  }
+  return std::to_string(left_out) +
+    (left_out == 1 ? " edge has a negative cotangent weight (obtuse angles opposite to it)"
+                   : " edges have negative cotangent weights (obtuse angles opposite to them)") +
+    ", which energy spokes ignores; energy spokes-and-rims uses all edges";
+}
+
+RotationGroups rotation_groups(
+  ArapEnergy energy, TrianglesView triangles, Index count, std::vector<Index> vertex_labels)
+{
+  return make_groups<TrianglesView, 3>(energy, triangles, count, std::move(vertex_labels));
+}
+
+RotationGroups rotation_groups(
+  ArapEnergy energy, TetsView tets, Index count, std::vector<Index> vertex_labels)
+{
+  return make_groups<TetsView, 4>(energy, tets, count, std::move(vertex_labels));
+}
+
+SparseMatrix covariance_matrix(
+  PointsView rest, TrianglesView triangles, const RotationGroups& groups)
+{
+  return make_covariance<TrianglesView, 3>(rest, triangles, groups);
+}
+
+SparseMatrix covariance_matrix(PointsView rest, TetsView tets, const RotationGroups& groups)
+{
+  return make_covariance<TetsView, 4>(rest, tets, groups);
+}
+
+double arap_energy(PointsView rest, TrianglesView triangles, const RotationGroups& groups,
+  PointsView posed, const std::vector<Eigen::Matrix3d>& rotations)
+{
+  return sum_energy<TrianglesView, 3>(rest, triangles, groups, posed, rotations);
+}
+
+double arap_energy(PointsView rest, TetsView tets, const RotationGroups& groups, PointsView posed,
+  const std::vector<Eigen::Matrix3d>& rotations)
+{
+  return sum_energy<TetsView, 4>(rest, tets, groups, posed, rotations);
+}
+
+} // namespace bindpose

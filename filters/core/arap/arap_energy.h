@@ -1,0 +1,99 @@
+#ifndef bindpose_arap_arap_energy_h
+#define bindpose_arap_arap_energy_h
+
+// As-rigid-as-possible energies (Sorkine and Alexa 2007; Liu et al. 2008; Chao et al. 2010): groups
+// of edges that share a rotation, and the matrices of the energy.
+
+#include "geometry/laplacian.h"
+#include "geometry/mesh.h"
+
+#include <string>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Type of the as-rigid-as-possible energy, which determines the sets of edges that share one
+/// rotation. All energies are normalized: an affine map x -> J x with the same rotation R
+/// everywhere costs 1/2 volume |J - R|^2 (area on surfaces). For `spokes_and_rims` and `elements`,
+/// the minimum of this cost over all R is the energy of the map. For `spokes`, this is true if J is
+/// a rotation times a scale of at least 0. For another map J, the energy `spokes` may be lower,
+/// because the edges of one vertex need not be distributed evenly over all directions.
+///
+/// The weight of an edge is the sum of its elements' cotangent weights. The energy `spokes` omits
+/// edges with negative weights (obtuse angles opposite to the edge), because such an edge alone
+/// would lower the energy by rotating away from rest. The other energies keep all edges, because
+/// the weights of a whole element define a positive semi-definite form. The costs above apply to
+/// `spokes` only if no edge was omitted.
+enum class ArapEnergy : int
+{
+  automatic = 0, ///< `elements` on tets, `spokes_and_rims` on surfaces
+  /// One rotation per vertex, for all edges of its elements (Chao et al. 2010).
+  spokes_and_rims = 1,
+  elements = 2, ///< one rotation per triangle (Liu et al. 2008) or tet (Chao et al. 2010)
+  spokes = 3 ///< one rotation per vertex, for the edges at the vertex (Sorkine and Alexa 2007)
+};
+
+/// If the energy is below this fraction of the rest energy, it counts as zero in the convergence
+/// test.
+constexpr double negligible_energy = 1e-6;
+
+/// Return "spokes_and_rims", "triangles", "tetrahedra" or "spokes". `automatic` is first replaced
+/// by the energy that it selects.
+const char* to_string(ArapEnergy energy, bool tets);
+
+/// Return the energy that `automatic` selects; return any other energy unchanged.
+ArapEnergy resolved(ArapEnergy energy, bool tets);
+
+/// Return the matrix L of 1/2 tr(V'^T L V'), the quadratic part of the energy, #V x #V. L does not
+/// depend on the groups. L is the stiffness matrix; for `spokes`, edges with negative weights are
+/// excluded.
+/// @param left_out receives the number of excluded edges.
+SparseMatrix arap_stiffness(
+  PointsView rest, TrianglesView triangles, ArapEnergy energy, Index* left_out = nullptr);
+SparseMatrix arap_stiffness(
+  PointsView rest, TetsView tets, ArapEnergy energy, Index* left_out = nullptr);
+
+/// Return a one-sentence warning about the edges that the energy `spokes` omits; empty if there are
+/// none.
+std::string left_out_warning(Index left_out);
+
+/// Assignment of vertices or elements to groups that share a rotation. The energy `elements`
+/// assigns elements, the other energies assign vertices.
+struct RotationGroups
+{
+  ArapEnergy energy = ArapEnergy::spokes_and_rims;
+  Index count = 0;
+  /// #V: group of each vertex. For the energy `elements`: the most frequent group among the
+  /// vertex's elements (the lowest of equally frequent groups), -1 if no element uses the vertex.
+  std::vector<Index> of_vertex;
+  /// #elements: the group of each element; empty for the per-vertex energies.
+  std::vector<Index> of_element;
+};
+
+/// Return the groups for labels of the vertices. With the energy `elements`, the group of an
+/// element is the most frequent label among its vertices (the lowest of equally frequent labels),
+/// and unused labels are removed.
+RotationGroups rotation_groups(
+  ArapEnergy energy, TrianglesView triangles, Index count, std::vector<Index> vertex_labels);
+RotationGroups rotation_groups(
+  ArapEnergy energy, TetsView tets, Index count, std::vector<Index> vertex_labels);
+
+/// Return the matrix (3 #groups x #V) that computes the covariances S_k = sum c e e'^T of all
+/// groups from posed vertices. Row i * #groups + k of (matrix * V') is row i of S_k. The edges are
+/// e = v_i - v_j in the rest pose and e' in the posed shape.
+SparseMatrix covariance_matrix(
+  PointsView rest, TrianglesView triangles, const RotationGroups& groups);
+SparseMatrix covariance_matrix(PointsView rest, TetsView tets, const RotationGroups& groups);
+
+/// Return 1/2 sum_k sum c |e' - R_k e|^2, summed edge by edge. The sum is accurate even if the
+/// energy is near zero, because no large numbers are subtracted. Cost: one term for each edge of
+/// each element, and for each group of the element.
+double arap_energy(PointsView rest, TrianglesView triangles, const RotationGroups& groups,
+  PointsView posed, const std::vector<Eigen::Matrix3d>& rotations);
+double arap_energy(PointsView rest, TetsView tets, const RotationGroups& groups, PointsView posed,
+  const std::vector<Eigen::Matrix3d>& rotations);
+
+} // namespace bindpose
+
+#endif

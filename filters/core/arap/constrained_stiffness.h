@@ -1,0 +1,80 @@
+#ifndef bindpose_arap_constrained_stiffness_h
+#define bindpose_arap_constrained_stiffness_h
+
+// Solver for a sparse stiffness system in which some vertices are prescribed and some other points
+// of the mesh are constrained.
+
+#include "geometry/laplacian.h"
+#include "linear/sparse_solver.h"
+
+#include <utility>
+#include <vector>
+
+namespace bindpose
+{
+
+/// A point of a mesh, as vertex ids with barycentric weights that sum to one.
+using MeshPoint = std::vector<std::pair<Index, double>>;
+
+/// Minimizes 1/2 <x, L x> - <force, x> for a stiffness matrix L. x is prescribed at some vertices
+/// ("given") and at some other points of the mesh ("held"). The system is factored once for a
+/// choice of given vertices and held points. Then it can be solved for any prescribed values.
+///
+/// L may be singular, because a connected part without a given vertex can translate freely. Held
+/// points in such a part determine its translation. If there are none, the mean of x over the part
+/// is zero. Held points that depend linearly on other held points are detected and left out.
+/// Contradictory held points are satisfied in the least-squares sense.
+class ConstrainedStiffness
+{
+public:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  /// @param part_of_vertex #V: for each vertex its connected part of the mesh; -1: x is 0 at this
+  /// vertex.
+  /// @param given ids of the given vertices, ascending, without duplicates.
+  /// @return invalid_input if L cannot be factored: elements are too distorted for double
+  /// precision.
+  Status prepare(const SparseMatrix& stiffness, const std::vector<Index>& part_of_vertex,
+    Index part_count, std::vector<Index> given, std::vector<MeshPoint> held);
+
+  /// Compute x (#V x k) from a force (#V x k), the values at the given vertices (#given x k, in the
+  /// order of their ids) and the values at the held points (#held x k).
+  void solve(const Rows& force, const Rows& given, const Rows& held, Rows& x) const;
+
+  /// Return the indices of held points that depend linearly on other held points.
+  const std::vector<Index>& redundant() const { return this->redundant_; }
+
+private:
+  void choose_independent(const std::vector<char>& is_given);
+  void factor_held(double unit);
+
+  std::vector<Index> given_;
+  std::vector<MeshPoint> held_;
+  std::vector<Index> unknowns_; ///< ids of the vertices in the factored matrix
+  std::vector<Index> row_of_; ///< #V: index in unknowns_ or -1
+  /// #unknowns x #given: block of the stiffness between unknowns and given vertices.
+  SparseMatrix border_;
+  SparseSolver solver_;
+
+  // Per held point: factor that scales its row of A to unit length. The row contains the weights of
+  // the vertices that are not given.
+  std::vector<double> scale_;
+  std::vector<Index> kept_; ///< indices of linearly independent held points
+  std::vector<Index> redundant_;
+  /// #kept x #held: maps the targets of all held points to the targets of the kept points.
+  Eigen::MatrixXd least_squares_;
+  Eigen::MatrixXd response_; ///< #unknowns x #kept: L^-1 A^T
+  Eigen::MatrixXd held_system_; ///< A L^-1 A^T, bordered by the columns of the shifts
+  Eigen::MatrixXd multipliers_; ///< inverse of held_system_
+
+  /// #V: index of the vertex's part among the parts without a given vertex, or -1.
+  std::vector<Index> floating_;
+  /// Per part without a given vertex: index of its shift among the shifts in held_system_; -1 if no
+  /// held point is in the part.
+  std::vector<Index> shift_;
+  std::vector<double> size_; ///< per part without a given vertex: number of vertices
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,259 @@
+// Bind time of full as-rigid-as-possible: selects the elements that have an energy, and sets up the
+// sums that map displacements to covariances and rotations to forces.
+#include "arap/full_arap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+/// An element is flat if its largest cotangent exceeds this value. It has no energy, because its
+/// energy would be round-off.
+constexpr double largest_cotangent = 1e7;
+
+/// Return the unit of an element's cotangent weights: 1 for a triangle, the length of the longest
+/// edge for a tet.
+double weight_unit(PointsView, const TrianglesView&, Index)
+{
+  return 1.0;
+}
+double weight_unit(PointsView points, const TetsView& tets, Index e)
+{
+  double square = 0.0;
+  for (const auto& edge : tet_edges)
+  {
+    square =
+      std::max(square, (points.row(tets(e, edge[0])) - points.row(tets(e, edge[1]))).squaredNorm());
+  }
+  return std::sqrt(square);
+}
+
+Triangles owned(const TrianglesView& triangles)
+{
+  return triangles;
+}
+Tets owned(const TetsView& tets)
+{
+  return tets;
+}
+
+const char* element_word(const TetsView&)
+{
+  return "tet";
+}
+const char* element_word(const TrianglesView&)
+{
+  return "triangle";
+}
+
+/// Return for each vertex that only flat elements use the neighbor that it moves with; -1 for other
+/// vertices.
+template <typename Elements>
+std::vector<Index> leaders(const Elements& elements, const std::vector<Index>& part_of_vertex)
+{
+  std::vector<Index> leader(part_of_vertex.size(), -1);
+  for (bool again = true; again;)
+  {
+    again = false;
+    for (Index e = 0; e < elements.rows(); ++e)
+    {
+      Index guide = -1;
+      for (Index k = 0; k < elements.cols() && guide < 0; ++k)
+      {
+        const Index v = elements(e, k);
+        guide = part_of_vertex[v] >= 0 ? v : leader[v];
+      }
+      for (Index k = 0; k < elements.cols() && guide >= 0; ++k)
+      {
+        const Index v = elements(e, k);
+        if (part_of_vertex[v] < 0 && leader[v] < 0)
+        {
+          leader[v] = guide;
+          again = true;
+        }
+      }
+    }
+  }
+  return leader;
+}
+} // namespace
+
+void FullArap::take_covariance(const SparseMatrix& covariance)
+{
+  const Index groups = this->groups_.count, n = this->rest_.rows();
+  this->of_vertex_ = this->of_group_ = Terms();
+  this->of_vertex_.begin.assign(static_cast<std::size_t>(n) + 1, 0);
+  this->of_group_.begin.assign(static_cast<std::size_t>(groups) + 1, 0);
+  const auto terms = static_cast<std::size_t>(covariance.nonZeros() / 3);
+  for (Terms* t : { &this->of_vertex_, &this->of_group_ })
+  {
+    t->item.resize(terms);
+    t->b.resize(3 * terms);
+  }
+  // A column of the covariance matrix stores the x coordinates for all groups, then y, then z.
+  Index at = 0;
+  for (Index v = 0; v < n; ++v)
+  {
+    const Index first = covariance.outerIndexPtr()[v];
+    const Index count = (covariance.outerIndexPtr()[v + 1] - first) / 3;
+    for (Index t = 0; t < count; ++t, ++at)
+    {
+      this->of_vertex_.item[at] = covariance.innerIndexPtr()[first + t];
+      for (Index i = 0; i < 3; ++i)
+      {
+        this->of_vertex_.b[3 * at + i] = covariance.valuePtr()[first + i * count + t];
+      }
+      this->of_group_.begin[this->of_vertex_.item[at] + 1] += 1;
+    }
+    this->of_vertex_.begin[v + 1] = at;
+  }
+  std::vector<Index>& begin = this->of_group_.begin;
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Index> next(begin.begin(), begin.end() - 1);
+  this->stride_ = (groups + 7) / 8 * 8;
+  this->rest_covariance_.assign(static_cast<std::size_t>(9 * this->stride_), 0.0);
+  const Vec3 middle = bounding_box(this->rest_).center();
+  for (Index v = 0; v < n; ++v)
+  {
+    const Vec3 p = this->rest_.row(v).transpose() - middle;
+    for (Index t = this->of_vertex_.begin[v]; t < this->of_vertex_.begin[v + 1]; ++t)
+    {
+      const Index k = this->of_vertex_.item[t];
+      const Index to = next[k]++;
+      this->of_group_.item[to] = static_cast<int>(v);
+      for (Index i = 0; i < 3; ++i)
+      {
+        const double b = this->of_vertex_.b[3 * t + i];
+        this->of_group_.b[3 * to + i] = b;
+        for (Index j = 0; j < 3; ++j)
+        {
+          this->rest_covariance_[(3 * i + j) * this->stride_ + k] += b * p[j];
+        }
+      }
+    }
+  }
+}
+
+template <typename Elements>
+Status FullArap::bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
+  const Handles& handles, const FullArapOptions& options)
+{
+  *this = FullArap();
+  Status status = check_bendable(points, elements, handles);
+  if (!status.ok())
+  {
+    return status;
+  }
+  constexpr bool tets = Elements::ColsAtCompileTime == 4;
+  this->handles_ = handles;
+  this->rest_ = points;
+
+  // Keep the elements that are not flat, in their input order.
+  auto kept = owned(elements);
+  Index count = 0;
+  {
+    Phase phase(context, "elements", 0.0, 0.3);
+    const auto c = cotangent_weights(points, elements);
+    for (Index e = 0; e < elements.rows(); ++e)
+    {
+      const double largest = c.row(e).cwiseAbs().maxCoeff();
+      if (largest > 0.0 && largest <= largest_cotangent * weight_unit(points, elements, e))
+      {
+        kept.row(count++) = elements.row(e);
+      }
+    }
+    if (count == 0)
+    {
+      return Status::invalid_input(std::string("the mesh cannot be deformed because no ") +
+        element_word(elements) + (tets ? " has a volume" : " has an area"));
+    }
+    if (count < elements.rows())
+    {
+      const Index flat = elements.rows() - count;
+      status.warnings.push_back(std::to_string(flat) + " of " + std::to_string(elements.rows()) +
+        " " + element_word(elements) + "s are too flat and do not contribute to the energy");
+      kept.conservativeResize(count, Eigen::NoChange);
+    }
+    this->parts_ = connected_components(points.rows(), kept);
+    this->leader_ = count < elements.rows()
+      ? leaders(elements, this->parts_.of_vertex)
+      : std::vector<Index>(static_cast<std::size_t>(points.rows()), -1);
+  }
+  const Elements view = kept;
+  const Eigen::RowVector3d middle = points.colwise().mean();
+  this->radius_ = std::sqrt((points.rowwise() - middle).rowwise().squaredNorm().mean());
+  if (context.canceled())
+  {
+    return Status::canceled();
+  }
+  {
+    Phase phase(context, "grips", 0.3, 0.6);
+    Status gripped = this->grips_.find(points, view, this->parts_, handles, options.region_ids);
+    if (!gripped.ok())
+    {
+      return gripped;
+    }
+    status.warnings.insert(status.warnings.end(), gripped.warnings.begin(), gripped.warnings.end());
+  }
+  Phase phase(context, "energy", 0.6, 1.0);
+  const ArapEnergy energy = resolved(options.energy, tets);
+  this->groups_.energy = energy;
+  this->groups_.count = energy == ArapEnergy::elements ? count : points.rows();
+  std::vector<Index>& label =
+    energy == ArapEnergy::elements ? this->groups_.of_element : this->groups_.of_vertex;
+  label.resize(static_cast<std::size_t>(this->groups_.count));
+  std::iota(label.begin(), label.end(), Index(0));
+  this->group_vertices_.assign(static_cast<std::size_t>(this->groups_.count), { -1, -1, -1, -1 });
+  for (Index k = 0; k < this->groups_.count; ++k)
+  {
+    this->group_vertices_[k][0] = static_cast<int>(k);
+    for (Index corner = 0; energy == ArapEnergy::elements && corner < view.cols(); ++corner)
+    {
+      this->group_vertices_[k][corner] = static_cast<int>(view(k, corner));
+    }
+  }
+  Index left_out = 0;
+  this->stiffness_ = arap_stiffness(points, view, energy, &left_out);
+  if (left_out > 0)
+  {
+    status.warnings.push_back(left_out_warning(left_out));
+  }
+  if (context.canceled())
+  {
+    return Status::canceled();
+  }
+  this->take_covariance(covariance_matrix(points, view, this->groups_));
+  const Points centered = points.rowwise() - bounding_box(points).center().transpose();
+  this->rest_energy_ = 0.5 * (centered.array() * (this->stiffness_ * centered).array()).sum();
+  this->covariance_ = this->rotations_ = this->rest_covariance_;
+  this->turn_.assign(static_cast<std::size_t>(9 * this->groups_.count), 0.0);
+  this->posed_ = points;
+  if (context.canceled())
+  {
+    return Status::canceled();
+  }
+  status.report.set("counts.vertices", points.rows());
+  status.report.set(tets ? "counts.tets" : "counts.triangles", elements.rows());
+  status.report.set("counts.handles", handles.size());
+  status.report.set("counts.rotations", this->groups_.count);
+  status.report.set("method", to_string(energy, tets));
+  return status;
+}
+
+Status FullArap::bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const Handles& handles, const FullArapOptions& options)
+{
+  return this->bind_any(context, points, triangles, handles, options);
+}
+
+Status FullArap::bind(ExecutionContext& context, PointsView points, TetsView tets,
+  const Handles& handles, const FullArapOptions& options)
+{
+  return this->bind_any(context, points, tets, handles, options);
+}
+
+} // namespace bindpose

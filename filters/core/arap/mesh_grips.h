@@ -1,0 +1,104 @@
+#ifndef bindpose_arap_mesh_grips_h
+#define bindpose_arap_mesh_grips_h
+
+#include "arap/constrained_stiffness.h"
+#include "handles/handles.h"
+#include "pose/pose.h"
+
+namespace bindpose
+{
+
+/// The points of a mesh that its handles constrain, and their target positions in a pose.
+/// Constrained vertices are called "given", other constrained mesh points "held". Used by
+/// deformations in which every vertex is an unknown.
+///
+/// Constraints by the mode of a handle:
+/// - `full`: the transform moves the handle's vertices. These are the vertex at a point or cage
+///   vertex, the vertices along a bone, or the vertices with the label of a region.
+/// - `position`: the pivot is constrained to its transformed position. The pivot of a region is the
+///   mean of its vertices.
+/// - `tail`, `ends`: the tail, or both ends of a bone, are constrained to their transformed
+///   positions.
+/// - `free`: no constraint.
+///
+/// If there is no vertex at the position of a handle, the point of the element at this position is
+/// constrained exactly. If the handle is not on the mesh, the nearest point of the mesh is
+/// constrained. A vertex that several full handles constrain moves to the mean of their targets.
+class MeshGrips
+{
+public:
+  using Rows = ConstrainedStiffness::Rows;
+
+  /// One point that a handle constrains in the chosen modes.
+  struct Hold
+  {
+    Index handle;
+    MeshPoint point;
+    Index given = -1; ///< index in given(), or -1
+    Index held = -1; ///< index in held(), or -1
+    bool tail = false; ///< whether the point is the tail of a bone in mode tail or ends
+  };
+
+  /// Find the points of the mesh at each handle.
+  /// @param elements elements that have an energy.
+  /// @param parts connected parts of the elements.
+  /// @return ok, with a warning that contains the names of handles that are not on the mesh;
+  /// invalid_input if a region has no label or no vertices.
+  Status find(PointsView points, TrianglesView elements, const Components& parts,
+    const Handles& handles, const std::vector<Index>& region_ids);
+  Status find(PointsView points, TetsView elements, const Components& parts, const Handles& handles,
+    const std::vector<Index>& region_ids);
+
+  /// Select the constraints of a pose's modes.
+  /// @param staying additional given vertices. They stay at rest unless a handle constrains them.
+  void choose(const Pose& pose, const std::vector<Index>& staying = {});
+
+  /// given(): ids of constrained vertices, ascending. held(): constrained points that are not
+  /// vertices.
+  const std::vector<Index>& given() const { return this->given_; }
+  const std::vector<MeshPoint>& held() const { return this->held_; }
+  const std::vector<Hold>& holds() const { return this->holds_; }
+
+  /// Compute the target displacements for a pose with the chosen modes, one row per entry of
+  /// given() and held().
+  void targets(const Pose& pose, Rows& given, Rows& held) const;
+  /// Return a warning about redundant position handles, or an empty list.
+  /// @param points indices in held() of the redundant points that ConstrainedStiffness found.
+  std::vector<std::string> redundancy(const Pose& pose, const std::vector<Index>& points) const;
+  /// Return the largest violation of a constraint by the displacements (#V x 3), in bounding-box
+  /// diagonals. If handles contradict each other, append a warning.
+  double residual(
+    const Pose& pose, const Rows& displacements, std::vector<std::string>& warnings) const;
+
+  /// Return the diagonal of the bounding box of the vertices that elements use.
+  double diagonal() const { return this->diagonal_; }
+
+private:
+  struct Grip
+  {
+    std::vector<MeshPoint> points; ///< mesh points that mode full constrains
+    MeshPoint pivot; ///< mesh point of the pivot, which modes position and ends constrain
+    MeshPoint tail; ///< mesh point of a bone's tail, which modes tail and ends constrain
+  };
+  template <typename Elements>
+  Status find_any(PointsView points, const Elements& elements, const Components& parts,
+    const Handles& handles, const std::vector<Index>& region_ids);
+  Vec3 at_rest(const MeshPoint& point) const;
+  Vec3 wanted(const Hold& hold, const HandlePose& pose) const;
+
+  Handles handles_;
+  Points rest_;
+  double diagonal_ = 0.0;
+  std::vector<Grip> grips_;
+  std::vector<Hold> holds_;
+  std::vector<Index> given_;
+  std::vector<MeshPoint> held_;
+  std::vector<Index> holder_; ///< per held point: index of the handle that constrains it
+  /// Indices of the position handles that are redundant because another handle constrains their
+  /// vertex.
+  std::vector<Index> doubled_;
+};
+
+} // namespace bindpose
+
+#endif

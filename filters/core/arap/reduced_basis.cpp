@@ -1,0 +1,494 @@
+// Basis of the displacements that a choice of modes leaves undetermined, by a robust and a quick
+// method (see ReducedBasis for the notation). H is the stiffness, K the covariance, and the rows of
+// A are the constrained positions.
+//
+// Robust method. The constraints are A D = g. A pivoted QR decomposition of A^T detects redundant
+// positions. The last columns Z of its orthogonal factor span the displacements that satisfy A D =
+// 0. The basis is B = Z L^-T with L L^T = Z^T H Z. If L is ill-conditioned, B consists of scaled
+// eigenvectors of nonzero energy instead.
+//
+// Quick method. H does not depend on the modes. It is factored once for all unknowns: L L^T = H, D
+// = E z with E = L^-T, and the energy is |z|^2 / 2. A choice of modes then affects only its
+// constraints G z = g, with G = A E, where A has one more row for each unknown that a full handle
+// prescribes. The last columns Z of the orthogonal factor of G^T give B = E Z and C = (K E) Z,
+// which is computed by applying reflections to K E. A translation u of the whole shape has no
+// energy: H u = 0 and K u = 0. Therefore H is factored without one of the unknowns, and D = u t + E
+// z with an additional unknown t. Because t has no energy, the constraints determine it: a
+// reflection of the constraints removes t from all constraints except the first one, and the others
+// are constraints of z.
+//
+// If one of the following conditions does not hold, the quick method returns false and the robust
+// method is used.
+// - L is well-conditioned. Then a basis in fewer unknowns, or under constraints, is also
+//   well-conditioned, so the robust method would not remove a direction either.
+// - The condition number of A A^T for the positions is at most 1e6. No diagonal entry of a
+//   triangular factor is smaller than the smallest singular value. Therefore all pivots in the QR
+//   decomposition of the robust method would exceed a thousandth of the first pivot, and no
+//   position is redundant.
+// - The triangular factor of G^T is well-conditioned, and the component of u in the constraints is
+//   not small.
+#include "arap/reduced_basis.h"
+
+#include "linear/dense_product.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+/// A direction has no energy if its eigenvalue is below this fraction of the largest eigenvalue.
+constexpr double energy_rank = 1e-12;
+/// A position is redundant if its pivot is below this fraction of the largest pivot.
+constexpr double position_rank = 1e-9;
+/// The quick method requires that the reciprocal condition numbers of A A^T and of R are above this
+/// value.
+constexpr double beyond_doubt = 1e-6;
+/// The robust method is faster if there is more than one constraint per this many unknowns.
+constexpr Index unknowns_per_constraint = 4;
+/// Number of columns of a triangular matrix that are multiplied per block.
+constexpr Index triangle_columns = 192;
+
+double norm_of_rows(const Eigen::MatrixXd& m)
+{
+  return m.cwiseAbs().rowwise().sum().maxCoeff();
+}
+} // namespace
+
+Reflections::Reflections(const Eigen::MatrixXd& packed, const Eigen::VectorXd& factors, Index rank)
+  : v_(packed.leftCols(rank)), t_(Eigen::MatrixXd::Zero(rank, rank))
+{
+  this->v_.triangularView<Eigen::StrictlyUpper>().setZero();
+  this->v_.diagonal().setOnes();
+  const Eigen::MatrixXd products = dense_product(this->v_.transpose(), this->v_);
+  for (Index k = 0; k < rank; ++k)
+  {
+    const double factor = factors[k];
+    this->t_(k, k) = factor;
+    this->t_.col(k).head(k) = this->t_.topLeftCorner(k, k).triangularView<Eigen::Upper>() *
+      (-factor * products.col(k).head(k));
+  }
+  this->tail_ = dense_product(this->t_, this->v_.bottomRows(this->v_.rows() - rank).transpose());
+}
+
+void Reflections::times_tail(const Eigen::MatrixXd& m, Eigen::Ref<Eigen::MatrixXd> product) const
+{
+  product = m.rightCols(this->tail_.cols());
+  add_dense_product(-dense_product(m, this->v_), this->tail_, product);
+}
+
+Eigen::MatrixXd Reflections::times_tail(const Eigen::MatrixXd& m) const
+{
+  Eigen::MatrixXd product(m.rows(), this->tail_.cols());
+  this->times_tail(m, product);
+  return product;
+}
+
+Eigen::MatrixXd Reflections::tail() const
+{
+  Eigen::MatrixXd z = -dense_product(this->v_, this->tail_);
+  z.bottomRows(this->tail_.cols()).diagonal().array() += 1.0;
+  return z;
+}
+
+Coordinates Reflections::turned(const Coordinates& x) const
+{
+  return x - thin_product(this->v_, thin_product(this->t_, transposed_thin_product(this->v_, x)));
+}
+
+Coordinates Reflections::turned_back(const Coordinates& x) const
+{
+  return x -
+    thin_product(this->v_, transposed_thin_product(this->t_, transposed_thin_product(this->v_, x)));
+}
+
+void ReducedBasis::make(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+  const std::vector<Index>& open, const Eigen::MatrixXd& held)
+{
+  if (!this->make_quickly(space, stiffness, open, held))
+  {
+    this->make_sturdily(space, stiffness, open, held);
+  }
+}
+
+void ReducedBasis::factor_whole(const ReducedSpace& space, const Eigen::MatrixXd& stiffness)
+{
+  Whole& whole = this->whole_;
+  whole.tried = true;
+  for (Index i = 0; i < stiffness.rows(); ++i)
+  {
+    if (space.basis_scale[i] > 0.0)
+    {
+      whole.rows.push_back(i);
+    }
+  }
+  // The translation u has equal entries in the translation rows of all handles and 0 in the rows of
+  // extra weights, because the weights of the handles sum to one. The unknown that u changes most
+  // is omitted.
+  const auto handles = static_cast<Index>(space.handles.size());
+  const auto shift_of = [&](Index i)
+  { return i % 4 == 3 && i < 4 * handles ? 1.0 / space.basis_scale[i] : 0.0; };
+  const auto largest = std::max_element(whole.rows.begin(), whole.rows.end(),
+    [&](Index a, Index b) { return shift_of(a) < shift_of(b); });
+  if (largest == whole.rows.end() || shift_of(*largest) == 0.0)
+  {
+    return;
+  }
+  std::rotate(largest, largest + 1, whole.rows.end());
+  auto size = static_cast<Index>(whole.rows.size());
+  whole.scale = space.basis_scale(whole.rows);
+  whole.shift.resize(size);
+  for (Index q = 0; q < size; ++q)
+  {
+    whole.shift[q] = shift_of(whole.rows[static_cast<std::size_t>(q)]);
+  }
+  whole.shift.normalize();
+  Eigen::MatrixXd h =
+    whole.scale.asDiagonal() * stiffness(whole.rows, whole.rows) * whole.scale.asDiagonal();
+  Eigen::MatrixXd k = space.covariance(Eigen::all, whole.rows) * whole.scale.asDiagonal();
+  if ((h * whole.shift).norm() > energy_rank * h.norm())
+  {
+    whole.shift.resize(0);
+  }
+  else if ((k * whole.shift).norm() > energy_rank * k.norm())
+  {
+    return;
+  }
+  else
+  {
+    size -= 1;
+    h.conservativeResize(size, size);
+    k.conservativeResize(Eigen::NoChange, size);
+  }
+  if (size == 0 || !whole.cholesky.factor(std::move(h)) ||
+    !(whole.cholesky.reciprocal_condition() > 1e3 * energy_rank))
+  {
+    return;
+  }
+  whole.directions = Eigen::MatrixXd::Identity(size, size);
+  whole.cholesky.solve_right(whole.directions);
+  whole.covariance = std::move(k);
+  whole.cholesky.solve_right(whole.covariance);
+  whole.good = true;
+}
+
+bool ReducedBasis::make_quickly(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+  const std::vector<Index>& open, const Eigen::MatrixXd& held)
+{
+  const Index all = stiffness.rows(), asked = held.rows();
+  if (unknowns_per_constraint * (asked + all - static_cast<Index>(open.size())) > all)
+  {
+    return false;
+  }
+  if (!this->whole_.tried)
+  {
+    this->factor_whole(space, stiffness);
+  }
+  const Whole& whole = this->whole_;
+  if (!whole.good)
+  {
+    return false;
+  }
+  const Index unknowns = whole.directions.rows();
+  std::vector<char> is_open(static_cast<std::size_t>(all), 0);
+  for (const Index i : open)
+  {
+    is_open[static_cast<std::size_t>(i)] = 1;
+  }
+  std::vector<Index> given;
+  this->reached_.clear();
+  for (Index q = 0; q < static_cast<Index>(whole.rows.size()); ++q)
+  {
+    (is_open[static_cast<std::size_t>(whole.rows[static_cast<std::size_t>(q)])] ? this->reached_
+                                                                                : given)
+      .push_back(q);
+  }
+  const auto count = asked + static_cast<Index>(given.size());
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(count, static_cast<Index>(whole.rows.size()));
+  for (const Index q : this->reached_)
+  {
+    a.col(q).head(asked) = whole.scale[q] * held.col(whole.rows[static_cast<std::size_t>(q)]);
+  }
+  if (asked > 0)
+  {
+    DenseCholesky positions;
+    if (!positions.factor(dense_product(a.topRows(asked), a.topRows(asked).transpose())) ||
+      !(positions.reciprocal_condition() > beyond_doubt))
+    {
+      return false;
+    }
+  }
+  for (std::size_t i = 0; i < given.size(); ++i)
+  {
+    a(asked + static_cast<Index>(i), given[i]) = 1.0;
+  }
+
+  // G = A E, and E is upper triangular.
+  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(count, unknowns);
+  for (Index first = 0; first < unknowns; first += triangle_columns)
+  {
+    const Index columns = std::min(triangle_columns, unknowns - first), last = first + columns;
+    add_dense_product(a.leftCols(last), whole.directions.block(0, first, last, columns),
+      g.middleCols(first, columns));
+  }
+  const bool shifts = whole.shift.size() > 0;
+  if (shifts)
+  {
+    this->mirror_ = a * whole.shift;
+    const double length = this->mirror_.norm();
+    if (count == 0 || !(length > beyond_doubt * a.norm()))
+    {
+      return false;
+    }
+    this->rho_ = this->mirror_[0] < 0.0 ? length : -length;
+    this->mirror_[0] -= this->rho_;
+    this->mirror_ *= std::sqrt(2.0) / this->mirror_.norm();
+    g -= this->mirror_ * (this->mirror_.transpose() * g).eval();
+    this->lever_ = g.row(0);
+  }
+  const Index rank = count - (shifts ? 1 : 0);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(g.bottomRows(rank).transpose());
+  const Eigen::MatrixXd r = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
+  this->inverse_ = Eigen::MatrixXd::Identity(rank, rank);
+  r.transpose().triangularView<Eigen::Lower>().solveInPlace(this->inverse_);
+  if (rank > 0 &&
+    !(beyond_doubt * norm_of_rows(r.transpose()) * norm_of_rows(this->inverse_) < 1.0))
+  {
+    return false;
+  }
+  this->reflections_ = Reflections(qr.matrixQR(), qr.hCoeffs(), rank);
+
+  this->quick_ = true;
+  this->coordinates_ = unknowns - rank;
+  this->open_ = open;
+  this->constraints_ = count;
+  this->redundant_.clear();
+  this->particular_.resize(0, 0);
+  this->basis_.resize(0, 0);
+  return true;
+}
+
+void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+  const std::vector<Index>& open, const Eigen::MatrixXd& held)
+{
+  this->quick_ = false;
+  this->open_ = open;
+  this->redundant_.clear();
+  // Unknowns are scaled so that each column of M has root mean square one. An empty column has
+  // scale 0.
+  const auto size = static_cast<Index>(open.size()), asked = held.rows();
+  const Eigen::VectorXd scale = space.basis_scale(open);
+  Eigen::MatrixXd reduced = scale.asDiagonal() * stiffness(open, open) * scale.asDiagonal();
+  Eigen::MatrixXd covariance = space.covariance(Eigen::all, open) * scale.asDiagonal();
+
+  // The displacements that move the constrained positions by b are D = `particular_` b + Z y, with
+  // `rows` Z = 0. The columns of Z (`free_space`) are the last columns of the orthogonal factor.
+  this->particular_ = Eigen::MatrixXd::Zero(size, asked);
+  Eigen::MatrixXd free_space;
+  Index rank = 0;
+  if (asked > 0 && size > 0)
+  {
+    const Eigen::MatrixXd rows = held(Eigen::all, open) * scale.asDiagonal();
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(size, asked);
+    qr.setThreshold(position_rank);
+    qr.compute(rows.transpose());
+    rank = qr.rank();
+    for (Index r = rank; r < asked; ++r)
+    {
+      this->redundant_.push_back(qr.colsPermutation().indices()[r]);
+    }
+    if (rank > 0)
+    {
+      Eigen::MatrixXd range = Eigen::MatrixXd::Identity(size, rank);
+      range.applyOnTheLeft(qr.householderQ());
+      const Eigen::MatrixXd met = rows * range; // of full column rank
+      this->particular_ =
+        range * met.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(asked, asked));
+      const Reflections reflections(qr.matrixQR(), qr.hCoeffs(), rank);
+      free_space = reflections.tail();
+      covariance = reflections.times_tail(covariance);
+      // Z^T H Z = (H Z)^T Z, because H is symmetric.
+      reduced = reflections.times_tail(reflections.times_tail(reduced).transpose());
+    }
+  }
+  if (rank == 0)
+  {
+    free_space = Eigen::MatrixXd::Identity(size, size);
+  }
+  // B = Z L^-T, C = K B. Double precision is needed for C if directions are nearly parallel.
+  this->basis_.resize(size, 0);
+  if (reduced.rows() > 0)
+  {
+    DenseCholesky cholesky;
+    if (cholesky.factor(reduced) && cholesky.reciprocal_condition() > 1e3 * energy_rank)
+    {
+      this->basis_ = std::move(free_space);
+      cholesky.solve_right(this->basis_);
+      cholesky.solve_right(covariance);
+    }
+    else
+    {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
+      const double largest = std::max(eigen.eigenvalues().maxCoeff(), 0.0);
+      // Eigenvalues are in ascending order, so directions with energy are the last ones.
+      const Index seen = (eigen.eigenvalues().array() > energy_rank * largest).count();
+      const Eigen::MatrixXd directions = eigen.eigenvectors().rightCols(seen) *
+        eigen.eigenvalues().tail(seen).cwiseSqrt().cwiseInverse().asDiagonal();
+      this->basis_ = dense_product(free_space, directions);
+      covariance = dense_product(covariance, directions);
+    }
+  }
+  this->particular_ = scale.asDiagonal() * this->particular_;
+  this->basis_ = scale.asDiagonal() * this->basis_;
+  this->covariance_ = std::move(covariance);
+  this->coordinates_ = this->basis_.cols();
+}
+
+void ReducedBasis::take_covariance(Eigen::Ref<Eigen::MatrixXd> covariance)
+{
+  if (this->quick_)
+  {
+    this->reflections_.times_tail(this->whole_.covariance, covariance);
+  }
+  else
+  {
+    covariance = this->covariance_;
+    this->covariance_.resize(0, 0);
+  }
+}
+
+void ReducedBasis::add_open(const Coordinates& change, Coordinates& d) const
+{
+  for (Index r = 0; r < change.rows(); ++r)
+  {
+    d.row(this->open_[static_cast<std::size_t>(r)]) += change.row(r);
+  }
+}
+
+ReducedBasis::Unturned ReducedBasis::unturned_sturdily(const ReducedSpace& space,
+  const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
+  const Coordinates& missing) const
+{
+  // First compute a displacement that contains the given blocks and satisfies the constrained
+  // positions. Then add the response to its force and to the load: the combination of columns of B
+  // that minimizes the energy.
+  Unturned result;
+  result.given = given;
+  Coordinates& star = result.given;
+  this->add_open(thin_product(this->particular_, missing), star);
+  const Coordinates bent = thin_product(stiffness, star);
+  const Coordinates force = bent - load;
+  const Coordinates answer = transposed_thin_product(this->basis_, force(this->open_, Eigen::all));
+  // The response lowers the energy by half the squared norm of its coordinates `answer`, because
+  // B^T H B = I.
+  result.energy = 0.5 * (star.array() * bent.array()).sum() - (star.array() * load.array()).sum() -
+    0.5 * answer.squaredNorm();
+  this->add_open(-thin_product(this->basis_, answer), star);
+  result.covariance = thin_product(space.covariance, star);
+  return result;
+}
+
+Eigen::RowVector3d ReducedBasis::shift_of(
+  const Coordinates& z, const Eigen::RowVector3d& first) const
+{
+  return (first - this->lever_.transpose() * z) / this->rho_;
+}
+
+ReducedBasis::Unturned ReducedBasis::unturned(const ReducedSpace& space,
+  const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
+  const Coordinates& missing) const
+{
+  if (!this->quick_)
+  {
+    return this->unturned_sturdily(space, stiffness, load, given, missing);
+  }
+  // z is Q times a vector with two parts. The first part satisfies the constraints; the second part
+  // is the response to the given blocks and the load. The first part is orthogonal to the
+  // directions of B, so it causes no response.
+  const Whole& whole = this->whole_;
+  const Index unknowns = whole.directions.rows(), rank = this->reflections_.rank();
+  const bool shifts = rank < this->constraints_;
+  Unturned result;
+  result.given = given;
+  Coordinates wanted = Coordinates::Zero(this->constraints_, 3);
+  wanted.topRows(missing.rows()) = missing;
+  if (shifts)
+  {
+    wanted -= this->mirror_ * (this->mirror_.transpose() * wanted).eval();
+    result.first = wanted.row(0);
+  }
+  result.z = Coordinates::Zero(unknowns, 3);
+  result.z.topRows(rank) = thin_product(this->inverse_, wanted.bottomRows(rank));
+
+  const bool is_given = !given.isZero(0.0);
+  if (!is_given && load.isZero(0.0))
+  {
+    result.z = this->reflections_.turned(result.z);
+    result.energy = 0.5 * result.z.squaredNorm();
+    result.covariance = thin_product(whole.covariance, result.z);
+    return result;
+  }
+  const Coordinates bent = thin_product(stiffness, given);
+  Coordinates force = Coordinates::Zero(static_cast<Index>(whole.rows.size()), 3);
+  for (const Index q : this->reached_)
+  {
+    const Index row = whole.rows[static_cast<std::size_t>(q)];
+    force.row(q) = whole.scale[q] * (bent.row(row) - load.row(row));
+  }
+  const Coordinates pull = transposed_thin_product(whole.directions, force.topRows(unknowns));
+  Coordinates open_pull = pull;
+  Eigen::RowVector3d shift_pull = Eigen::RowVector3d::Zero();
+  if (shifts)
+  {
+    shift_pull = whole.shift.transpose() * force;
+    open_pull -= this->lever_ * (shift_pull / this->rho_);
+  }
+  const Index open = unknowns - rank;
+  result.z.bottomRows(open) = -this->reflections_.turned_back(open_pull).bottomRows(open);
+  result.z = this->reflections_.turned(result.z);
+  result.energy = 0.5 * (given.array() * bent.array()).sum() -
+    (given.array() * load.array()).sum() + (pull.array() * result.z.array()).sum() +
+    0.5 * result.z.squaredNorm();
+  if (shifts)
+  {
+    result.energy += shift_pull.dot(this->shift_of(result.z, result.first));
+  }
+  result.covariance = thin_product(whole.covariance, result.z);
+  if (is_given)
+  {
+    result.covariance += thin_product(space.covariance, given);
+  }
+  return result;
+}
+
+Coordinates ReducedBasis::displacement(const Unturned& from, const Coordinates& y) const
+{
+  Coordinates d = from.given;
+  if (!this->quick_)
+  {
+    this->add_open(thin_product(this->basis_, y), d);
+    return d;
+  }
+  const Whole& whole = this->whole_;
+  Coordinates z = Coordinates::Zero(whole.directions.rows(), 3);
+  z.bottomRows(y.rows()) = y;
+  z = from.z + this->reflections_.turned(z);
+  Coordinates in_units = Coordinates::Zero(static_cast<Index>(whole.rows.size()), 3);
+  in_units.topRows(z.rows()) = thin_product(whole.directions, z);
+  if (whole.shift.size() > 0)
+  {
+    in_units += whole.shift * this->shift_of(z, from.first);
+  }
+  for (const Index q : this->reached_)
+  {
+    d.row(whole.rows[static_cast<std::size_t>(q)]) += whole.scale[q] * in_units.row(q);
+  }
+  return d;
+}
+
+} // namespace bindpose

@@ -1,0 +1,147 @@
+#ifndef bindpose_arap_reduced_basis_h
+#define bindpose_arap_reduced_basis_h
+
+// Basis of the displacements that the constraints of a choice of modes leave undetermined, for the
+// global step of reduced as-rigid-as-possible (reduced_solver.cpp).
+
+#include "arap/reduced_space.h"
+#include "linear/dense_cholesky.h"
+#include "linear/thin_product.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// The orthogonal factor Q = I - V T V^T of a QR decomposition, stored as reflections (Schreiber
+/// and Van Loan 1989). Z denotes the columns of Q after the first `rank` columns. They span the
+/// orthogonal complement of the decomposed matrix's range.
+class Reflections
+{
+public:
+  Reflections() = default;
+  /// @param packed Householder vectors in the lower triangle, as LAPACK and Eigen return them.
+  /// @param factors Householder coefficients, as LAPACK and Eigen return them.
+  /// @param rank number of columns of `packed` to use.
+  Reflections(const Eigen::MatrixXd& packed, const Eigen::VectorXd& factors, Index rank);
+
+  Index rank() const { return this->v_.cols(); }
+  /// Compute the product M Z.
+  void times_tail(const Eigen::MatrixXd& m, Eigen::Ref<Eigen::MatrixXd> product) const;
+  Eigen::MatrixXd times_tail(const Eigen::MatrixXd& m) const;
+  /// Return the matrix Z.
+  Eigen::MatrixXd tail() const;
+  /// Return Q X. The next function returns Q^T X.
+  Coordinates turned(const Coordinates& x) const;
+  Coordinates turned_back(const Coordinates& x) const;
+
+private:
+  Eigen::MatrixXd v_, t_;
+  Eigen::MatrixXd tail_; ///< T times those columns of V^T that correspond to Z
+};
+
+/// The displacements D of a ReducedSpace that are possible for a choice of modes: D = D* + B Y with
+/// coordinates Y. D* contains the given blocks of full handles and moves the constrained positions
+/// to their targets. The columns of B span the displacements that change neither the given blocks
+/// nor the constrained positions. They are orthonormal in the stiffness H (B^T H B = I).
+///
+/// There are two methods. The robust method (make_sturdily) determines the ranks for any input and
+/// factors the part of H for the open rows, which no full handle prescribes: O(#open^3). The quick
+/// method (make_quickly) factors the whole matrix H once. After each choice of modes it only
+/// applies reflections to that factor: O((#columns + #clusters) #columns #constraints). The quick
+/// method requires that all ranks are numerically certain; otherwise it returns false.
+class ReducedBasis
+{
+public:
+  /// Compute B by the quick method, or by the robust method if the quick method returns false.
+  /// @param stiffness H; it must be the same matrix in every call.
+  /// @param open indices of the rows of D that no full handle prescribes, ascending.
+  /// @param held matrix that maps D to the displacements of the constrained positions: #positions x
+  /// #rows of D.
+  void make(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+    const std::vector<Index>& open, const Eigen::MatrixXd& held);
+
+  /// Compute B by the robust or by the quick method. make_quickly returns false if a rank is not
+  /// certain or if the robust method would be faster.
+  bool make_quickly(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+    const std::vector<Index>& open, const Eigen::MatrixXd& held);
+  void make_sturdily(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+    const std::vector<Index>& open, const Eigen::MatrixXd& held);
+
+  /// Return the indices of constrained positions that depend linearly on other positions.
+  const std::vector<Index>& redundant() const { return this->redundant_; }
+
+  /// Return the number of columns of B.
+  Index coordinates() const { return this->coordinates_; }
+  /// Move the covariance C = K B to `covariance`. Call this once after make().
+  void take_covariance(Eigen::Ref<Eigen::MatrixXd> covariance);
+
+  /// D* for one pose: the minimizer of 1/2 <D, H D> - <P, D> among all D that contain the given
+  /// blocks and satisfy the constrained positions in the least-squares sense.
+  struct Unturned
+  {
+    double energy = 0.0; ///< value of the minimized expression at D*
+    Coordinates covariance; ///< covariances K D*
+    Coordinates given; ///< D*; for the quick method the given blocks only
+    Coordinates z; ///< coordinates z of D*, for the quick method
+    Eigen::RowVector3d first; ///< target of the constraint that determines the translation t
+  };
+  /// Compute D* for one pose.
+  /// @param load P
+  /// @param given contains the given blocks of D; 0 in all other rows.
+  /// @param missing differences between the targets of the constrained positions and those of
+  /// `given`.
+  Unturned unturned(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+    const Coordinates& load, const Coordinates& given, const Coordinates& missing) const;
+  /// Return D* + B Y.
+  Coordinates displacement(const Unturned& from, const Coordinates& y) const;
+
+private:
+  /// Factorization H = L L^T for the unknowns that affect the energy, scaled so that each column of
+  /// M has root mean square one. If a translation u of the whole shape has no energy, one unknown
+  /// is omitted, and D = u t + E z.
+  struct Whole
+  {
+    bool tried = false, good = false;
+    std::vector<Index> rows; ///< indices of rows of D; if u is not empty, H omits the last one
+    Eigen::VectorXd scale; ///< scale of each row
+    Eigen::VectorXd shift; ///< u, of norm one; empty if u has an energy
+    DenseCholesky cholesky; ///< Cholesky factor L
+    Eigen::MatrixXd directions; ///< E = L^-T
+    Eigen::MatrixXd covariance; ///< covariances K E
+  };
+  void factor_whole(const ReducedSpace& space, const Eigen::MatrixXd& stiffness);
+  Unturned unturned_sturdily(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+    const Coordinates& load, const Coordinates& given, const Coordinates& missing) const;
+  /// Return the translation t for z and the target of the first constraint.
+  Eigen::RowVector3d shift_of(const Coordinates& z, const Eigen::RowVector3d& first) const;
+  /// Add `change` to the rows of d that no full handle prescribes.
+  void add_open(const Coordinates& change, Coordinates& d) const;
+
+  std::vector<Index> open_;
+  std::vector<Index> redundant_;
+  Index coordinates_ = 0;
+  bool quick_ = false;
+
+  // ---- robust method
+  /// Open x positions: maps differences of positions to the smallest change that corrects them.
+  Eigen::MatrixXd particular_;
+  Eigen::MatrixXd basis_; ///< B, open x coordinates
+  Eigen::MatrixXd covariance_; ///< covariance C = K B; empty after take_covariance()
+
+  // ---- quick method. The constraints are A D = g, positions first. A reflection removes t from
+  // all constraints except the first one. The constraints are then rho t + lever z = g_0 and R^T
+  // (Q^T z) = the other entries of g.
+  Whole whole_;
+  std::vector<Index> reached_; ///< indices of the open unknowns in whole_.rows
+  Index constraints_ = 0;
+  Eigen::VectorXd mirror_; ///< the reflection of the constraints is I - mirror mirror^T
+  Eigen::VectorXd lever_;
+  double rho_ = 1.0;
+  Reflections reflections_; ///< orthogonal factor Q of the constraints
+  Eigen::MatrixXd inverse_; ///< inverse transpose of the constraints' triangular factor, R^-T
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,115 @@
+#ifndef bindpose_arap_reduced_iteration_h
+#define bindpose_arap_reduced_iteration_h
+
+// Alternation of local and global steps of reduced as-rigid-as-possible, in single or double
+// precision (notation: reduced_solver.cpp).
+
+#include "arap/anderson.h"
+#include "base/aligned_vector.h"
+#include "base/execution.h"
+#include "linear/thin_product.h"
+
+#include <chrono>
+#include <optional>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Stopping criteria of the alternation between local and global steps. Energies are those of the
+/// solver; the divisor of C (set_matrix()) does not affect them.
+struct ReducedLimits
+{
+  /// The run ends if an iteration lowers the energy by at most this fraction of the energy.
+  double tolerance = 0.0;
+  double least_energy = 0.0; ///< lower bound for the energy in the convergence test
+  double same_energy = 0.0; ///< energies whose difference is at most this are equal up to round-off
+  Index iterations = 0; ///< maximum number of iterations
+  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+};
+
+/// Result of an alternation.
+struct ReducedProgress
+{
+  std::vector<double>& energies; ///< energies after each local and global step are appended
+  Index iterations = 0;
+  double change = 0.0; ///< decrease of the energy in the last iteration
+  bool converged = false;
+  bool in_time = true;
+  bool canceled = false;
+};
+
+/// The alternation of reduced as-rigid-as-possible in its coordinates Y, as described in
+/// reduced_solver.cpp:
+///
+///     S = S* + C Y,   Q = best rotations of S - I,   Y = C^T Q,
+///
+/// with Anderson acceleration. Scalar: float or double. In single precision the alternation stops
+/// when the decrease of the energy is smaller than the round-off. Values are scaled so that the
+/// size of C is one.
+///
+/// Cost of an iteration: 36 #clusters #columns multiply-adds and #clusters rotation fits; C is read
+/// once.
+template <typename Scalar>
+class ReducedIteration
+{
+public:
+  using Columns =
+    Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>, 0, Eigen::OuterStride<>>;
+
+  /// Return the matrix C, which the caller must fill. Entry (i, column) of cluster k is in row i
+  /// #clusters + k.
+  Columns matrix(Index clusters, Index columns);
+  /// Copy the matrix C of another iteration.
+  /// @param unit divisor of C.
+  template <typename Other>
+  void set_matrix(const ReducedIteration<Other>& from, double unit);
+
+  /// Set S* and the initial rotations. Matrices are stored in planes: entry (i, j) of matrix k is
+  /// at (3 i + j) stride + k.
+  void begin(Index stride, const std::vector<double>& star, const std::vector<double>& rotations);
+
+  /// Continue from the last iterate of another iteration that began with the same values. Call this
+  /// after begin(). If the covariances do not determine a rotation, the rotation of begin() is
+  /// kept.
+  template <typename Other>
+  void go_on(const ReducedIteration<Other>& from);
+
+  /// Run the alternation. `star_energy` is added to all energies. Return false if a value is not
+  /// finite; in this case the list of energies is unchanged.
+  bool run(ExecutionContext& context, const ReducedLimits& limits, Index window, double star_energy,
+    ReducedProgress& progress);
+
+  /// Write the last rotations, stored in planes as in begin().
+  void rotations(Index stride, std::vector<double>& planes) const;
+
+  /// Return Y, #columns x 3.
+  Coordinates coordinates() const;
+
+private:
+  template <typename Other>
+  friend class ReducedIteration;
+  void set_size(Index clusters, Index columns);
+  void set_star(Index stride, const std::vector<double>& star);
+  double local_step(AlignedVector<Scalar>& iterate);
+  double global_step(AlignedVector<Scalar>& iterate);
+
+  // A column of C, of S^T or of Q^T consists of three blocks of #clusters values (one per
+  // coordinate) and is padded with zeros to whole tiles.
+  Index clusters_ = 0, columns_ = 0;
+  Index rows_ = 0; ///< padded length of a column of C, S^T or Q^T
+  Index length_ = 0; ///< padded length of a column of Y
+  double unit_ = 1.0;
+  AlignedVector<Scalar> covariance_; ///< C, with the columns in groups of four
+  AlignedVector<Scalar> star_; ///< covariances S* of D*
+  AlignedVector<Scalar> turns_; ///< rotations minus the identity, Q
+  /// Plain and extrapolated iterate: three columns of Y, then S.
+  AlignedVector<Scalar> plain_, tried_;
+  std::optional<Anderson<Scalar>> anderson_; ///< stored here to reuse its memory
+  bool has_iterate_ = false; ///< false: the iteration starts from the rotations
+  double magnitude_ = 0.0; ///< sum of the absolute values of the energy's terms
+};
+
+} // namespace bindpose
+
+#endif

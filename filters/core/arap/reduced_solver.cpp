@@ -1,0 +1,298 @@
+// Pose time of reduced as-rigid-as-possible (Jacobson et al. 2012; bind time: reduced_space.cpp).
+//
+// With displacements D from rest (V' = V + M D) and Q = R - I for the rotations, the solver
+// minimizes
+//
+//     E(D, Q) = 1/2 <D, H D> - <P, D> - <Q, S0 + K D>,
+//
+// where H, K and S0 are projected at bind time. The deformation energy (P = 0) has no constant term
+// and no term that is linear in D alone, because rest with R = I is its minimum. The blocks of full
+// handles are given. The other unknowns are D = D* + B Y. D* is the displacement of minimum energy
+// that satisfies the constrained positions with Q = 0. The columns of B span the displacements that
+// do not change the constrained positions. They are orthonormal in H (B^T H B = I). With C = K B
+// one iteration is
+//
+//     S = S* + C Y                   covariances
+//     Q = best rotations of S - I    the local step
+//     Y = C^T Q                      the global step
+//
+// S and Y are each computed by one product with the same dense matrix C. The energies after the two
+// steps are
+//
+//     after a local step   E = E* + 1/2 |Y|^2 - <Q, S>,
+//     after a global step  E = E* - 1/2 |Y|^2 - <Q, S*>,   E* = 1/2 <D*, H D*> - <P, D*>.
+//
+// Anderson acceleration extrapolates Y, whose squared length is in units of the energy. C Y is
+// extrapolated, too, so an extrapolated Y needs no product. The extrapolated Y is accepted if its
+// energy, with the best rotations for it, is at most the energy of the plain Y. The last iterate is
+// always a plain iterate.
+//
+// reduced_basis.cpp computes B. Displacements that affect neither the energy nor a constraint
+// remain zero.
+#include "arap/reduced_solver.h"
+
+#include "base/number_text.h"
+#include "linear/thin_product.h"
+#include "pose/pivot_rotation.h"
+#include "pose/rotation_fit.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+using Rows = ReducedSpace::Rows;
+
+/// Energies whose difference is at most this fraction of the rest energy are equal up to round-off.
+constexpr double same_energy = 1e-15;
+} // namespace
+
+void ReducedSolver::reset()
+{
+  *this = ReducedSolver();
+}
+
+void ReducedSolver::set_rotations(std::vector<double> rotations)
+{
+  this->rotations_ = std::move(rotations);
+  this->warm_ = true;
+}
+
+void ReducedSolver::factor(
+  const ReducedSpace& space, const Eigen::MatrixXd& stiffness, const Pose& pose)
+{
+  this->modes_ = modes_of(pose);
+  this->positions_.clear();
+  const auto handles = static_cast<Index>(pose.size());
+  std::vector<Index> open;
+  for (Index h = 0; h < handles; ++h)
+  {
+    const HandleMode mode = this->modes_[static_cast<std::size_t>(h)];
+    if (holds_pivot(mode))
+    {
+      this->positions_.push_back(h);
+    }
+    if (holds_tail(mode))
+    {
+      this->positions_.push_back(h + handles);
+    }
+  }
+  for (Index j = 0; j < space.columns; ++j)
+  {
+    if (j >= handles || !holds_transform(this->modes_[static_cast<std::size_t>(j)]))
+    {
+      for (Index a = 0; a < 4; ++a)
+      {
+        open.push_back(4 * j + a);
+      }
+    }
+  }
+  this->position_rows_ = space.pivot_rows(this->positions_, Eigen::all);
+  this->basis_.make(space, stiffness, open, this->position_rows_);
+  this->redundant_.clear();
+  for (const Index r : this->basis_.redundant())
+  {
+    this->redundant_.push_back(this->positions_[static_cast<std::size_t>(r)] % handles);
+  }
+  this->basis_.take_covariance(
+    this->iteration_.matrix(space.groups.count, this->basis_.coordinates()));
+  const double unit = std::sqrt(space.rest_energy);
+  this->has_single_ = std::isnormal(unit);
+  if (this->has_single_)
+  {
+    this->single_iteration_.set_matrix(this->iteration_, unit);
+  }
+}
+
+/// Compute initial rotations from the pose only. The rotation of a cluster is a blend over all
+/// handles, with their mean weights in the cluster. A full handle contributes its own rotation.
+/// Every other handle contributes the same rotation, which best fits all pivots and the frames of
+/// full handles.
+void ReducedSolver::start_rotations(const ReducedSpace& space, const Pose& pose)
+{
+  const double reach = 0.3 * space.radius; // size of the frame that represents a full handle
+  const Eigen::Matrix3d common = pivot_rotation(space.handles, pose, reach);
+  for (Index k = 0; k < space.groups.count; ++k)
+  {
+    Eigen::Matrix3d blend = 1e-9 * common;
+    for (std::size_t h = 0; h < pose.size(); ++h)
+    {
+      const double w = space.cluster_weights(k, static_cast<Index>(h));
+      blend += w *
+        (holds_transform(pose[h].mode) ? Eigen::Matrix3d(pose[h].transform.leftCols<3>()) : common);
+    }
+    Eigen::Matrix3d rotation = common;
+    fit_rotation(blend.transpose(), rotation);
+    for (Index e = 0; e < 9; ++e)
+    {
+      this->rotations_[static_cast<std::size_t>(e * space.stride + k)] = rotation(e / 3, e % 3);
+    }
+  }
+}
+
+Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space,
+  const Quadratic& quadratic, const Pose& pose, const ReducedSolveOptions& options, Rows& d)
+{
+  Status status = check_pose(space.handles, pose);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (!same_modes(this->modes_, pose))
+  {
+    this->factor(space, quadratic.stiffness, pose);
+  }
+  if (!this->redundant_.empty())
+  {
+    status.warnings.push_back("the position constraints of these handles are redundant (other "
+                              "constraints determine them, or no weight is there): " +
+      quoted_names(space.handles, this->redundant_));
+  }
+
+  // The constraints of this pose are the blocks of full handles and the targets of positions.
+  const Index clusters = space.groups.count, stride = space.stride;
+  d = Rows::Zero(4 * space.columns, 3);
+  for (std::size_t h = 0; h < pose.size(); ++h)
+  {
+    if (holds_transform(pose[h].mode))
+    {
+      const auto j = static_cast<Index>(h);
+      d.middleRows<4>(4 * j) = space.block_of(pose[h].transform, j);
+    }
+  }
+  const auto asked = static_cast<Index>(this->positions_.size());
+  Rows wanted(asked, 3);
+  for (Index r = 0; r < asked; ++r)
+  {
+    const Index h = this->positions_[static_cast<std::size_t>(r)];
+    const auto handle = static_cast<std::size_t>(h) % pose.size();
+    const Handle& rest = space.handles[handle];
+    const Vec3 move = static_cast<std::size_t>(h) < pose.size()
+      ? posed_pivot(rest, pose[handle]) - rest.head
+      : posed_tail(rest, pose[handle]) - rest.tail;
+    wanted.row(r) = move.transpose();
+  }
+  const ReducedBasis::Unturned star = this->basis_.unturned(
+    space, quadratic.stiffness, quadratic.load, d, wanted - thin_product(this->position_rows_, d));
+  const double star_energy = quadratic.constant + star.energy;
+  std::vector<double> star_covariance = space.rest_covariance;
+  for (Index e = 0; e < 9; ++e)
+  {
+    for (Index k = 0; k < clusters; ++k)
+    {
+      star_covariance[static_cast<std::size_t>(e * stride + k)] +=
+        star.covariance(e / 3 * clusters + k, e % 3);
+    }
+  }
+
+  this->rotations_.resize(static_cast<std::size_t>(9 * stride), 0.0);
+  if (options.start == ReducedStart::rest)
+  {
+    for (Index e = 0; e < 9; ++e)
+    {
+      std::fill_n(this->rotations_.begin() + static_cast<std::ptrdiff_t>(e * stride), clusters,
+        e % 4 == 0 ? 1.0 : 0.0);
+    }
+  }
+  else if (options.start == ReducedStart::guess || !this->warm_)
+  {
+    this->start_rotations(space, pose);
+  }
+
+  const auto start = std::chrono::steady_clock::now();
+  const double floor = negligible_energy * space.rest_energy;
+  this->energies_.clear();
+  ReducedProgress progress{ this->energies_ };
+  ReducedLimits limits{ options.tolerance, floor, same_energy * space.rest_energy };
+  if (options.budget_microseconds > 0.0)
+  {
+    limits.deadline = start +
+      std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double, std::micro>(options.budget_microseconds));
+  }
+  Index single_iterations = 0;
+  this->iteration_.begin(stride, star_covariance, this->rotations_);
+  if (options.mixed_precision && this->has_single_ && options.max_iterations > 1)
+  {
+    limits.iterations = options.max_iterations - 1;
+    this->single_iteration_.begin(stride, star_covariance, this->rotations_);
+    if (this->single_iteration_.run(
+          context, limits, options.anderson_window, star_energy, progress))
+    {
+      this->iteration_.go_on(this->single_iteration_);
+      single_iterations = progress.iterations;
+    }
+    progress.in_time = true; // always allow one iteration in double precision
+  }
+  if (!progress.canceled)
+  {
+    // A result that converged in single precision needs one more iteration in double precision for
+    // its last digits.
+    const bool converged = progress.converged;
+    limits.iterations = converged ? 1 : options.max_iterations - progress.iterations;
+    this->iteration_.run(context, limits, options.anderson_window, star_energy, progress);
+    progress.converged |= converged;
+  }
+  if (progress.canceled)
+  {
+    return Status::canceled();
+  }
+  this->iteration_.rotations(stride, this->rotations_);
+  const double microseconds =
+    std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+  const Index iterations = progress.iterations;
+  const double change = progress.change;
+  this->warm_ = true;
+
+  d = this->basis_.displacement(star, this->iteration_.coordinates());
+  double residual = 0.0;
+  std::vector<Index> contradicting;
+  if (asked > 0)
+  {
+    const Rows missed = thin_product(this->position_rows_, d) - wanted;
+    for (Index r = 0; r < asked; ++r)
+    {
+      const double miss = missed.row(r).norm() / std::max(space.diagonal, 1e-300);
+      residual = std::max(residual, miss);
+      if (miss > contradictory_miss)
+      {
+        contradicting.push_back(
+          this->positions_[static_cast<std::size_t>(r)] % static_cast<Index>(pose.size()));
+      }
+    }
+  }
+  if (!contradicting.empty())
+  {
+    status.warnings.push_back(
+      "these handles have contradictory or unreachable positions, with a largest error of " +
+      std::to_string(residual * space.diagonal) + ": " +
+      quoted_names(space.handles, contradicting));
+  }
+  status.report.set("energy", Report::Value(std::max(this->energies_.back(), 0.0)));
+  status.report.set("iterations", Report::Value(std::int64_t(iterations)));
+  status.report.set("single_precision_iterations", Report::Value(std::int64_t(single_iterations)));
+  if (iterations > 0)
+  {
+    status.report.set(
+      "residual", Report::Value(std::max(change, 0.0) / std::max(this->energies_.back(), floor)));
+  }
+  status.report.set("microseconds_per_iteration",
+    Report::Value(iterations > 0 ? microseconds / static_cast<double>(iterations) : 0.0));
+  if (asked > 0)
+  {
+    status.report.set("constraint_residual", Report::Value(residual));
+  }
+  if (options.tolerance > 0.0 && !progress.converged && options.max_iterations > 0)
+  {
+    status.code = StatusCode::not_converged;
+    status.message = "the energy still decreased by " + short_number(change) + " of " +
+      short_number(this->energies_.back()) + " in the last of " + std::to_string(iterations) +
+      " iterations" + (progress.in_time ? "" : ", when the time budget was used up");
+  }
+  return status;
+}
+
+} // namespace bindpose

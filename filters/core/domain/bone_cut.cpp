@@ -1,0 +1,292 @@
+// This file duplicates the vertices along bones (see bone_cut.h). The triangles around a vertex on
+// a bone form groups. Two triangles are in one group if they share an edge that ends at the vertex
+// and is on no bone. The first group keeps the vertex; every other group gets a copy. The copy
+// belongs to the side of the bone that its group touches. A group that touches both sides of one
+// bone surrounds the tip of the bone.
+#include "domain/bone_cut.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Points nearer to a bone than this fraction of the mesh's diagonal are on the bone.
+constexpr double on_bone = 1e-6;
+
+using EdgeKey = std::pair<Index, Index>;
+
+EdgeKey key_of(Index a, Index b)
+{
+  return { std::min(a, b), std::max(a, b) };
+}
+
+/// The first bone along each mesh edge; -1: no bone.
+using BoneEdges = std::map<EdgeKey, Index>;
+
+/// Return the mesh's vertices on the bone, from head to tail; empty if they do not include both
+/// ends.
+std::vector<Index> vertices_along(PointsView points, const Handle& bone, double tolerance)
+{
+  const Eigen::Vector2d head = bone.head.head<2>();
+  const Eigen::Vector2d along = (bone.tail - bone.head).head<2>();
+  const double length = along.norm();
+  std::vector<std::pair<double, Index>> found;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    const Eigen::Vector2d offset = points.row(v).head<2>().transpose() - head;
+    const double at = offset.dot(along) / length;
+    const double aside = (along[0] * offset[1] - along[1] * offset[0]) / length;
+    if (std::abs(aside) <= tolerance && at >= -tolerance && at <= length + tolerance)
+    {
+      found.emplace_back(at, v);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<Index> vertices;
+  if (!found.empty() && found.front().first <= tolerance &&
+    found.back().first >= length - tolerance)
+  {
+    for (const auto& [at, v] : found)
+    {
+      vertices.push_back(v);
+    }
+  }
+  return vertices;
+}
+
+/// Return twice the signed area of the triangle (head, tail, p), positive if p is left of the bone.
+double left_of(const Handle& bone, const Eigen::RowVector3d& p)
+{
+  const Vec3 along = bone.tail - bone.head;
+  return along[0] * (p[1] - bone.head[1]) - along[1] * (p[0] - bone.head[0]);
+}
+
+/// Return the triangles at a vertex, in groups that are separated by bones.
+std::vector<std::vector<Index>> groups_around(
+  Index vertex, const std::vector<Index>& around, TrianglesView triangles, const BoneEdges& bones)
+{
+  std::vector<std::size_t> group(around.size());
+  // Key: other end of an edge at `vertex`; value: first triangle at that edge.
+  std::map<Index, std::size_t> first_at;
+  for (std::size_t i = 0; i < around.size(); ++i)
+  {
+    group[i] = i;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index other = triangles(around[i], k);
+      if (other == vertex || bones.count(key_of(vertex, other)))
+      {
+        continue;
+      }
+      const auto [place, is_new] = first_at.emplace(other, i);
+      const std::size_t from = group[i];
+      const std::size_t to = group[place->second];
+      if (!is_new && from != to)
+      {
+        std::replace(group.begin(), group.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+          std::max(from, to), std::min(from, to));
+      }
+    }
+  }
+  std::vector<std::vector<Index>> groups;
+  for (std::size_t g = 0; g < around.size(); ++g)
+  {
+    std::vector<Index> members;
+    for (std::size_t i = 0; i < around.size(); ++i)
+    {
+      if (group[i] == g)
+      {
+        members.push_back(around[i]);
+      }
+    }
+    if (!members.empty())
+    {
+      groups.push_back(std::move(members));
+    }
+  }
+  return groups;
+}
+
+/// Return the side of a bone (see BoneCut::side) on which a group of triangles around a vertex is.
+Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
+  TrianglesView triangles, const Handles& handles, const std::vector<Index>& curves,
+  const BoneEdges& bones)
+{
+  std::vector<Index> sides;
+  for (const Index t : group)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index other = triangles(t, k);
+      const auto bone = other == vertex ? bones.end() : bones.find(key_of(vertex, other));
+      if (bone != bones.end())
+      {
+        const Index third = triangles.row(t).sum() - vertex - other;
+        const bool left =
+          left_of(handles[static_cast<std::size_t>(bone->second)], points.row(third)) > 0.0;
+        sides.push_back(2 * curves[static_cast<std::size_t>(bone->second)] + (left ? 1 : 2));
+      }
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 1; i < sides.size(); ++i)
+  {
+    if (sides[i] != sides[i - 1] && (sides[i] - 1) / 2 == (sides[i - 1] - 1) / 2)
+    {
+      return 0; // the group surrounds a tip
+    }
+  }
+  return sides.empty() ? 0 : sides.front();
+}
+} // namespace
+
+Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles& handles,
+  const std::vector<Index>& curves, ExecutionContext& context, BoneCut& result)
+{
+  Status status = check_mesh(points, triangles);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const Box box = bounding_box(points);
+  const double tolerance = on_bone * box.diagonal();
+  if (triangles.rows() == 0 || box.size()[2] > tolerance)
+  {
+    return Status::invalid_input("a mesh must be in a plane z = const to be cut along bones");
+  }
+  BoneEdges edges;
+  for (const Edge& edge : mesh_edges(triangles))
+  {
+    edges.emplace(key_of(edge.a, edge.b), -1);
+  }
+  std::vector<Index> curve_of = curves;
+  for (std::size_t b = curve_of.size(); b < handles.size(); ++b)
+  {
+    curve_of.push_back(static_cast<Index>(b));
+  }
+  Index bones = 0;
+  BoneEdges cut;
+  for (std::size_t b = 0; b < handles.size(); ++b)
+  {
+    if (context.canceled())
+    {
+      return Status::canceled();
+    }
+    if (handles[b].kind != HandleKind::bone)
+    {
+      continue;
+    }
+    bones += 1;
+    const std::vector<Index> along = vertices_along(points, handles[b], tolerance);
+    bool is_row = along.size() > 1;
+    for (std::size_t i = 1; i < along.size(); ++i)
+    {
+      is_row = is_row && edges.count(key_of(along[i - 1], along[i])) > 0;
+      cut.emplace(key_of(along[i - 1], along[i]), static_cast<Index>(b));
+    }
+    if (!is_row)
+    {
+      return Status::invalid_input("bone '" + handles[b].name +
+        "' must consist of edges of the mesh; create the mesh with these handles");
+    }
+  }
+  if (bones == 0)
+  {
+    return Status::invalid_input("the handles contain no bone to cut along");
+  }
+
+  std::map<Index, std::vector<Index>> around; // triangles around each vertex on a bone, ascending
+  for (const auto& [edge, bone] : cut)
+  {
+    around[edge.first];
+    around[edge.second];
+  }
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto place = around.find(triangles(t, k));
+      if (place != around.end())
+      {
+        place->second.push_back(t);
+      }
+    }
+  }
+  result.triangles = triangles;
+  result.original.resize(static_cast<std::size_t>(points.rows()));
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    result.original[static_cast<std::size_t>(v)] = v;
+  }
+  result.side.assign(static_cast<std::size_t>(points.rows()), 0);
+  std::vector<bool> opened(handles.size(), false);
+  for (const auto& [vertex, triangles_around] : around)
+  {
+    const auto groups = groups_around(vertex, triangles_around, triangles, cut);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+    {
+      for (const Index t : groups.size() > 1 ? groups[g] : std::vector<Index>())
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          const auto bone = cut.find(key_of(vertex, triangles(t, k)));
+          if (bone != cut.end())
+          {
+            opened[static_cast<std::size_t>(bone->second)] = true;
+          }
+        }
+      }
+      const Index side = side_of(vertex, groups[g], points, triangles, handles, curve_of, cut);
+      if (g == 0)
+      {
+        result.side[static_cast<std::size_t>(vertex)] = side;
+        continue;
+      }
+      const auto copy = static_cast<Index>(result.original.size());
+      result.original.push_back(vertex);
+      result.side.push_back(side);
+      for (const Index t : groups[g])
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          if (triangles(t, k) == vertex)
+          {
+            result.triangles(t, k) = copy;
+          }
+        }
+      }
+    }
+  }
+  for (std::size_t b = 0; b < handles.size(); ++b)
+  {
+    const Index left = 2 * curve_of[b] + 1;
+    const auto has = [&result](Index side)
+    { return std::find(result.side.begin(), result.side.end(), side) != result.side.end(); };
+    if (handles[b].kind != HandleKind::bone || has(left) || has(left + 1))
+    {
+      continue;
+    }
+    if (!opened[b])
+    {
+      return Status::invalid_input("bone '" + handles[b].name +
+        "' cannot be cut because it has no vertex between its ends; use a finer mesh");
+    }
+    status.warnings.push_back("bone '" + handles[b].name +
+      "' has no vertex of its own between its neighbors and uses their sides; use a finer mesh");
+  }
+  result.points.resize(static_cast<Index>(result.original.size()), 3);
+  for (Index v = 0; v < result.points.rows(); ++v)
+  {
+    result.points.row(v) = points.row(result.original[static_cast<std::size_t>(v)]);
+  }
+  status.report.set("counts.doubled_vertices", result.points.rows() - points.rows());
+  return status;
+}
+
+} // namespace bindpose

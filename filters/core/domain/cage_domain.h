@@ -1,0 +1,43 @@
+#ifndef bindpose_domain_cage_domain_h
+#define bindpose_domain_cage_domain_h
+
+#include "domain/domain.h"
+#include "handles/handles.h"
+#include "inside/tetrahedralize.h"
+
+namespace bindpose
+{
+
+/// Options of fill_cage(), which makes the domain of the weights from a cage among the handles.
+struct CageOptions
+{
+  /// Points with at least this winding number are inside the cage, > 0.
+  double winding_threshold = 0.5;
+  HandlePlaces places; ///< handle geometry that becomes part of the tets, such as bones
+  /// The points of the surface become vertices if there are at most this many of them, else none
+  /// does.
+  Index most_points = 20000;
+};
+
+/// The result of fill_cage().
+struct CageDomain
+{
+  Domain domain;
+  TetrahedralizeResult tets; ///< the tets that fill a cage of faces
+  TriangleMesh plane_cage; ///< the triangles that fill a cage of edges
+};
+
+/// Fill the closed cage that is formed by cage vertices among the handles. A cage of faces is
+/// filled with tets (tetrahedralize); a cage of edges in the plane of a flat shape is filled with
+/// triangles (planar_shape). The points of the surface become vertices, unless there are too many
+/// (CageOptions::most_points).
+///
+/// Report: for a cage of faces, the report of tetrahedralize(); for a cage of edges, cage.area and
+/// cage.min_angle (degrees). Return an error if the handles have no closed cage, if a cage of edges
+/// is not flat, or if tetrahedralize() or planar_shape() fails.
+Status fill_cage(PointsView points, TrianglesView triangles, const Handles& handles,
+  const CageOptions& options, CageDomain& result, ExecutionContext& context);
+
+} // namespace bindpose
+
+#endif

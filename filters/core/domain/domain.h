@@ -1,0 +1,76 @@
+#ifndef bindpose_domain_domain_h
+#define bindpose_domain_domain_h
+
+#include "geometry/mesh.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// The mesh on which weights are solved: tets or a triangle surface. A planar shape is a flat
+/// surface.
+struct Domain
+{
+  Points points;
+  Tets tets;
+  Triangles triangles; ///< triangles of a surface, used if there are no tets
+  /// #T: fraction of each tet that is inside the surface, > 0, for a lattice that contains a
+  /// surface; empty: 1 for all tets. Energies are integrated over this fraction.
+  Eigen::VectorXd shares;
+  /// For a lattice that contains a surface: the points of the surface, and for each point one
+  /// corner of the tet that contains it (-1: no tet does). Distances of components from handles are
+  /// measured from these points, or from the vertices if there are no such points.
+  Points held_points;
+  std::vector<Index> held_corners;
+
+  bool is_volume() const { return this->tets.rows() > 0; }
+  int corners() const { return this->is_volume() ? 4 : 3; }
+  Index element_count() const
+  {
+    return this->is_volume() ? this->tets.rows() : this->triangles.rows();
+  }
+  /// Return the element's vertex ids, corners() of them.
+  const Index* element(Index e) const
+  {
+    return this->is_volume() ? this->tets.data() + 4 * e : this->triangles.data() + 3 * e;
+  }
+};
+
+/// Return the tets as a domain in which every tet is completely inside.
+Domain volume_of(const TetMesh& mesh);
+
+/// Check a domain. Return invalid_input if the domain has no element, if ids are out of range, if
+/// coordinates are not finite, if the volume of a tet is not positive (naming the first such tet
+/// and the number of such tets), or if a surface has no area.
+Status check_domain(const Domain& domain);
+
+/// Return "tet" or "triangle", the type of the domain's elements.
+const char* element_name(const Domain& domain);
+
+/// Return for each element 1 if it has an area or a volume, else 0.
+std::vector<char> measurable_elements(const Domain& domain);
+
+/// Return the domain's triangles that have an area.
+Triangles measurable_triangles(const Domain& domain);
+
+/// Return the connected components of the elements that have an area or a volume.
+Components connected_components(const Domain& domain);
+
+/// Return the mean edge length of an element; it is used as local mesh size.
+double mean_edge_length(const Domain& domain, Index element);
+
+/// Report whether all points are in a plane, within 1e-9 of the diagonal, and return its normal.
+bool is_flat(PointsView points, double diagonal, Vec3& normal);
+
+/// The neighbors of every vertex along edges, ascending, without duplicates.
+struct VertexGraph
+{
+  std::vector<Index> begin; ///< #V + 1 offsets into neighbors
+  std::vector<Index> neighbors;
+};
+VertexGraph vertex_graph(const Domain& domain);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,87 @@
+// Heuristics of the domain "automatic" (surface_weights.h): conforming tets or an embedding
+// lattice.
+#include "domain/domain_choice.h"
+
+#include "base/number_text.h"
+#include "surface/triangle_shape.h"
+#include "tets/tet_quality.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Maximum number of triangles for conforming tets. For a larger surface, a lattice of about 30,000
+/// tets is coarser and therefore cheaper.
+constexpr Index most_triangles = 20000;
+/// A triangle with an angle below this makes its tets at least as badly shaped.
+constexpr double bad_angle = 2.0; // degrees
+/// Maximum fractions of badly shaped triangles and of badly shaped tets. On real furniture models,
+/// all conforming tets whose solves failed exceeded these fractions.
+constexpr double most_bad_triangles = 0.02;
+constexpr double most_bad_tets = 0.03;
+/// Approximate number of vertices of a lattice, and the time of solving on two lattices (the guard)
+/// divided by the time of one solve.
+constexpr Index lattice_vertices = 9000;
+constexpr double both_resolutions = 1.3;
+
+std::string percent_of(Index part, Index whole)
+{
+  return short_number(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
+}
+} // namespace
+
+std::string reason_against_volume(const RepairedSurface& surface)
+{
+  const Index count = surface.triangles.rows();
+  if (!surface.closed)
+  {
+    return "the surface is not closed";
+  }
+  if (!surface.clean())
+  {
+    return "triangles cross or coincide";
+  }
+  if (count > most_triangles)
+  {
+    return "the surface has many triangles";
+  }
+  const Index bad = count_needles(surface.points, surface.triangles, bad_angle);
+  return static_cast<double>(bad) > most_bad_triangles * static_cast<double>(count)
+    ? percent_of(bad, count) + " of the triangles have an angle below " + short_number(bad_angle) +
+      " degrees"
+    : std::string();
+}
+
+std::string reason_against_tets(const TetMesh& tets, Index handle_count)
+{
+  const Index count = tets.tets.rows();
+  const TetQuality quality = measure_tets(tets.points, tets.tets);
+  if (static_cast<double>(quality.below_5_degrees) > most_bad_tets * static_cast<double>(count))
+  {
+    return percent_of(quality.below_5_degrees, count) +
+      " of the tets have a dihedral angle below 5 degrees";
+  }
+  const double in_tets = predicted_seconds(tets.points.rows(), handle_count);
+  const double in_lattice = both_resolutions * predicted_seconds(lattice_vertices, handle_count);
+  // Conforming tets may take up to this factor times the predicted time of lattices, because they
+  // preserve the surface.
+  constexpr double worth = 2.0;
+  return in_tets > worth * in_lattice ? std::to_string(count) + " tets would take about " +
+      short_number(in_tets, 2) + " s, a lattice " + short_number(in_lattice, 2) + " s"
+                                      : std::string();
+}
+
+double predicted_seconds(Index vertices, Index handle_count)
+{
+  const double thousands = static_cast<double>(vertices) / 12000.0;
+  constexpr double factorization = 0.1;
+  constexpr double per_column = 6.0;
+  return factorization * thousands * thousands *
+    (2.0 + per_column * static_cast<double>(handle_count));
+}
+
+} // namespace bindpose

@@ -1,0 +1,376 @@
+// The transfer of weights from a lattice to its surface (see embedded_surface.h). Copies of a tet
+// have the same position, so they are found by their common center. The correct copy for a point is
+// the copy that is connected with the nearest point of the surface, because the segment from a
+// point inside to its nearest surface point crosses no surface. A breadth-first search over tets
+// with common vertices starts at the tet that contains this surface point and ends at the first
+// copy of the tet at the given point.
+//
+// On a tet with values w_i and gradients g_i at its corners x_i, the value at p is
+//   sum l_i (w_i + g_i.(p - x_i) / 2), where l_i are the barycentric coordinates of p.
+// It is continuous, and exact for quadratic functions if the gradients are exact.
+#include "domain/embedded_surface.h"
+
+#include "base/parallel.h"
+#include "base/sort_unique.h"
+#include "domain/surface_smoothing.h"
+#include "embedding/lattice_cover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_set>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr double least_share = 0.03;
+
+/// Return the gradients of the columns at the vertices, #V x (3 #columns): x of all columns, then
+/// y, then z. The gradient at a vertex is the mean over its tets, weighted by their volume inside.
+Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
+{
+  const Index n = domain.points.rows();
+  const Index m = values.cols();
+  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(n, 3 * m);
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(n);
+  for (Index t = 0; t < domain.tets.rows(); ++t)
+  {
+    const auto corner = [&](int k) -> Vec3 { return domain.points.row(domain.tets(t, k)); };
+    const Vec3 a = corner(1) - corner(0), b = corner(2) - corner(0), c = corner(3) - corner(0);
+    const double six_volumes = a.cross(b).dot(c);
+    const double volume = six_volumes * (domain.shares.size() > 0 ? domain.shares[t] : 1.0);
+    const Vec3 of_hat[3] = { b.cross(c) / six_volumes, c.cross(a) / six_volumes,
+      a.cross(b) / six_volumes };
+    const auto row = [&](int k) { return values.row(domain.tets(t, k)); };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      Eigen::RowVectorXd g = Eigen::RowVectorXd::Zero(m);
+      for (int k = 1; k < 4; ++k)
+      {
+        g += of_hat[k - 1][axis] * (row(k) - row(0));
+      }
+      for (int k = 0; k < 4; ++k)
+      {
+        gradients.row(domain.tets(t, k)).segment(axis * m, m) += volume * g;
+      }
+    }
+    for (int k = 0; k < 4; ++k)
+    {
+      sums[domain.tets(t, k)] += volume;
+    }
+  }
+  for (Index v = 0; v < n; ++v)
+  {
+    gradients.row(v) /= sums[v] > 0.0 ? sums[v] : 1.0;
+  }
+  return gradients;
+}
+
+/// Group the indices of items by the keys 0 … count - 1 of the items. Items with key k are
+/// grouped[first[k]] to grouped[first[k + 1] - 1].
+template <typename KeyOf>
+void group_by_key(Index count, Index items, const KeyOf& key_of, std::vector<Index>& first,
+  std::vector<Index>& grouped)
+{
+  first.assign(static_cast<std::size_t>(count) + 1, 0);
+  for (Index i = 0; i < items; ++i)
+  {
+    ++first[key_of(i) + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  grouped.resize(static_cast<std::size_t>(items));
+  std::vector<Index> next(first.begin(), first.end() - 1);
+  for (Index i = 0; i < items; ++i)
+  {
+    grouped[next[key_of(i)]++] = i;
+  }
+}
+} // namespace
+
+std::size_t EmbeddedSurface::PlaceHash::operator()(const Place& place) const
+{
+  std::size_t hash = 0;
+  for (const Index x : place)
+  {
+    hash = hash * 1000003 + static_cast<std::size_t>(x);
+  }
+  return hash;
+}
+
+EmbeddedSurface::EmbeddedSurface(PointsView points, TrianglesView triangles,
+  const SimplexLocator& surface, const TetMesh& lattice, const PointBinding& binding)
+  : points_(points), triangles_(triangles), lattice_(lattice), binding_(binding),
+    tets_(lattice.points, lattice.tets), surface_(surface)
+{
+  for (int k = 1; k < 4; ++k)
+  {
+    this->spacing_ = std::max(this->spacing_,
+      (lattice.points.row(lattice.tets(0, k)) - lattice.points.row(lattice.tets(0, k - 1))).norm());
+  }
+  this->spacing_ = std::max(this->spacing_,
+    (lattice.points.row(lattice.tets(0, 0)) - lattice.points.row(lattice.tets(0, 3))).norm());
+  for (Index t = 0; t < lattice.tets.rows(); ++t)
+  {
+    this->copies_[this->center_of(t)].push_back(t);
+  }
+  for (auto at = this->copies_.begin(); at != this->copies_.end();)
+  {
+    at = at->second.size() > 1 ? std::next(at) : this->copies_.erase(at);
+  }
+  group_by_key(
+    lattice.points.rows(), lattice.tets.size(), [&](Index i) { return lattice.tets.data()[i]; },
+    this->first_corner_, this->corners_at_);
+}
+
+EmbeddedSurface::Place EmbeddedSurface::center_of(Index tet) const
+{
+  Vec3 sum = Vec3::Zero();
+  for (int k = 0; k < 4; ++k)
+  {
+    sum += (this->lattice_.points.row(this->lattice_.tets(tet, k)) - this->lattice_.points.row(0));
+  }
+  Place place;
+  for (int k = 0; k < 3; ++k)
+  {
+    // Lattice nodes are at multiples of half the edge of a cube, so means of four nodes are at
+    // multiples of an eighth of this edge.
+    place[k] = static_cast<Index>(std::llround(2.0 * sum[k] / this->spacing_));
+  }
+  return place;
+}
+
+Domain EmbeddedSurface::domain(const Eigen::VectorXd& inside_fractions) const
+{
+  Domain result;
+  result.points = this->lattice_.points;
+  result.tets = this->lattice_.tets;
+  result.shares = inside_fractions.cwiseMax(least_share);
+  result.held_points = this->points_;
+  for (const Index tet : this->binding_.tets)
+  {
+    result.held_corners.push_back(tet < 0 ? -1 : this->lattice_.tets(tet, 0));
+  }
+  return result;
+}
+
+Index EmbeddedSurface::tet_of(const Vec3& place) const
+{
+  const Index found = this->tets_.locate(place).element;
+  const auto copies = found < 0 ? this->copies_.end() : this->copies_.find(this->center_of(found));
+  if (copies == this->copies_.end())
+  {
+    return found;
+  }
+  const SimplexLocation near = this->surface_.locate(place);
+  if (near.element < 0)
+  {
+    return found;
+  }
+  const auto corner = std::max_element(near.barycentric.begin(), near.barycentric.begin() + 3);
+  const Index start =
+    this->binding_.tets[this->triangles_(near.element, corner - near.barycentric.begin())];
+  std::vector<Index> queue{ start };
+  std::unordered_set<Index> seen{ start };
+  for (std::size_t i = 0; i < queue.size(); ++i)
+  {
+    if (std::find(copies->second.begin(), copies->second.end(), queue[i]) != copies->second.end())
+    {
+      return queue[i];
+    }
+    for (int k = 0; k < 4; ++k)
+    {
+      const Index v = this->lattice_.tets(queue[i], k);
+      for (Index at = this->first_corner_[v]; at < this->first_corner_[v + 1]; ++at)
+      {
+        const Index tet = this->corners_at_[at] / 4;
+        if (seen.insert(tet).second)
+        {
+          queue.push_back(tet);
+        }
+      }
+    }
+  }
+  return found; // no copy is connected with the nearest surface point
+}
+
+Status EmbeddedSurface::interpolate(
+  const HandleInsertion& mesh, WeightsView values, ExecutionContext& context, Weights& result) const
+{
+  const Domain& domain = mesh.domain;
+  const Index m = values.cols();
+  const Eigen::MatrixXd gradients = corner_gradients(domain, values);
+  // The elements into which handle insertion split each tet of the lattice.
+  std::vector<Index> first, parts;
+  group_by_key(
+    this->lattice_.tets.rows(), domain.tets.rows(), [&](Index e) { return mesh.parent_element[e]; },
+    first, parts);
+
+  const Eigen::RowVectorXd lowest = values.colwise().minCoeff();
+  const Eigen::RowVectorXd highest = values.colwise().maxCoeff();
+  result.resize(this->points_.rows(), m);
+  const bool whole = parallel_for(context, this->points_.rows(), 512,
+    [&](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        const Vec3 p = this->points_.row(i);
+        Index tet = this->binding_.tets[i];
+        if (tet < 0)
+        {
+          tet = p.allFinite() ? this->tet_of(p) : -1;
+        }
+        if (tet < 0)
+        {
+          result.row(i).setZero();
+          continue;
+        }
+        SimplexLocation best;
+        best.distance = 1e300;
+        for (Index at = first[tet]; at < first[tet + 1]; ++at)
+        {
+          const auto corner = [&](int k) -> Vec3
+          { return domain.points.row(domain.tets(parts[at], k)); };
+          SimplexLocation here = nearest_in_tet(p, corner(0), corner(1), corner(2), corner(3));
+          if (here.distance < best.distance)
+          {
+            best = here;
+            best.element = parts[at];
+          }
+        }
+        Vec3 place = Vec3::Zero();
+        for (int k = 0; k < 4; ++k)
+        {
+          place +=
+            best.barycentric[k] * domain.points.row(domain.tets(best.element, k)).transpose();
+        }
+        result.row(i).setZero();
+        for (int k = 0; k < 4; ++k)
+        {
+          const Index v = domain.tets(best.element, k);
+          const Vec3 half = 0.5 * (place - domain.points.row(v).transpose());
+          result.row(i) += best.barycentric[k] *
+            (values.row(v) + half[0] * gradients.row(v).segment(0, m) +
+              half[1] * gradients.row(v).segment(m, m) +
+              half[2] * gradients.row(v).segment(2 * m, m));
+        }
+        result.row(i) = result.row(i).cwiseMax(lowest).cwiseMin(highest);
+      }
+    });
+  return whole ? Status() : Status::canceled();
+}
+
+/// Return the id of the surface's point at a position; -1: no point there.
+Index EmbeddedSurface::point_at(const Vec3& place) const
+{
+  const SimplexLocation at = this->surface_.locate(place);
+  for (int k = 0; k < 3 && at.element >= 0; ++k)
+  {
+    if (at.distance <= 1e-7 * this->spacing_ && at.barycentric[k] >= 1.0 - 1e-7)
+    {
+      return this->triangles_(at.element, k);
+    }
+  }
+  return -1;
+}
+
+Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double length,
+  ExecutionContext& context, Weights& result) const
+{
+  constexpr double built = 0.03; // progress when equal points are merged
+  LatticeSurface welded;
+  {
+    const ProgressRange range(context, 0.0, built);
+    if (!welded.build(this->points_, this->triangles_, {}, context))
+    {
+      return Status::canceled();
+    }
+  }
+  const ProgressRange range(context, built, 1.0);
+  const auto n = static_cast<Index>(welded.points.size());
+  Points points(n, 3);
+  for (Index v = 0; v < n; ++v)
+  {
+    points.row(v) = welded.points[v];
+  }
+  Triangles triangles(static_cast<Index>(welded.triangles.size()), 3);
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      triangles(f, k) = welded.triangles[f][k];
+    }
+  }
+  std::vector<Index> fixed;
+  for (const Index point : fixed_points)
+  {
+    fixed.push_back(welded.of_point[point]);
+  }
+  sort_unique(fixed);
+
+  Eigen::MatrixXd smooth = Eigen::MatrixXd::Zero(n, result.cols());
+  for (Index i = 0; i < result.rows(); ++i)
+  {
+    if (welded.of_point[i] >= 0)
+    {
+      smooth.row(welded.of_point[i]) = result.row(i);
+    }
+  }
+  if (!smooth_on_surface(points, triangles, fixed, length, smooth, context))
+  {
+    return Status::canceled();
+  }
+  const Eigen::RowVectorXd lowest = result.colwise().minCoeff();
+  const Eigen::RowVectorXd highest = result.colwise().maxCoeff();
+  for (Index i = 0; i < result.rows(); ++i)
+  {
+    if (welded.of_point[i] >= 0)
+    {
+      const Index v = welded.of_point[i];
+      result.row(i) = smooth.row(v).cwiseMax(lowest).cwiseMin(highest);
+    }
+  }
+  return {};
+}
+
+Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handles,
+  WeightsView values, Smoothness smoothness, ExecutionContext& context, Weights& result) const
+{
+  constexpr double smoothing = 0.3;
+  const bool smoothed = smoothness == Smoothness::smoothed;
+  const double interpolation = smoothed ? 0.1 : 1.0; // progress at the end of the interpolation
+  Status status;
+  {
+    const ProgressRange range(context, 0.0, interpolation);
+    status = this->interpolate(mesh, values, context, result);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  // Points on handles get the values of the handle's vertex, which may be a small distance away.
+  std::vector<Index> fixed;
+  for (std::size_t j = 0; j < mesh.handles.size(); ++j)
+  {
+    const std::vector<Index>& vertices = mesh.handles[j].vertices;
+    for (const Index v : vertices)
+    {
+      fixed.push_back(this->point_at(mesh.domain.points.row(v)));
+    }
+    if (handles[j].kind != HandleKind::bone && vertices.size() == 1)
+    {
+      const Index point = this->point_at(handles[j].head);
+      if (point >= 0)
+      {
+        result.row(point) = values.row(vertices[0]);
+        fixed.push_back(point);
+      }
+    }
+  }
+  fixed.erase(std::remove(fixed.begin(), fixed.end(), -1), fixed.end());
+  const ProgressRange range(context, interpolation, 1.0);
+  return smoothed ? this->smooth(fixed, smoothing * this->spacing_, context, result) : Status();
+}
+
+} // namespace bindpose

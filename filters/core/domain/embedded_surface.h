@@ -1,0 +1,84 @@
+#ifndef bindpose_domain_embedded_surface_h
+#define bindpose_domain_embedded_surface_h
+
+#include "base/execution.h"
+#include "domain/handle_insertion.h"
+#include "embedding/embedding_tets.h"
+#include "geometry/simplex_locator.h"
+
+#include <array>
+#include <unordered_map>
+#include <vector>
+
+namespace bindpose
+{
+
+/// A surface in the tets of its embedding, a lattice that contains the surface. This class
+/// transfers weights from the coarse tets to the surface. Several tets, called copies, may have the
+/// same position, because the lattice keeps parts separate that are near each other but not
+/// connected.
+class EmbeddedSurface
+{
+public:
+  /// The constructor keeps references: all arguments must outlive this object.
+  /// @param surface locator of the points and triangles; shared by the lattices of all resolutions.
+  /// @param lattice,binding a lattice that contains the points (embed_surface).
+  EmbeddedSurface(PointsView points, TrianglesView triangles, const SimplexLocator& surface,
+    const TetMesh& lattice, const PointBinding& binding);
+
+  /// Return the lattice's tets as a domain, with the surface's points and the fraction of each tet
+  /// that is inside. Fractions are raised to at least 0.03, because even a tet that is almost empty
+  /// connects its corners.
+  Domain domain(const Eigen::VectorXd& inside_fractions) const;
+
+  /// Return the tet that contains a point, or the nearest tet. If the tet has copies, return the
+  /// copy that is connected with the surface point nearest to the given point. Thread-safe.
+  Index tet_of(const Vec3& place) const;
+
+  /// Whether transferred values are smoothed along the surface. Interpolated values are good enough
+  /// for comparing lattices but not for display, because their second derivatives are discontinuous
+  /// between tets.
+  enum class Smoothness
+  {
+    as_interpolated,
+    smoothed
+  };
+
+  /// Compute values at the surface's points (#V x #columns) from values at the vertices of the
+  /// lattice in which the handles were inserted. Linear interpolation would make every tet visible.
+  /// Therefore each corner also contributes its gradient times half of the vector from the corner
+  /// to the point, and the sum is clamped to the column's range. Smoothed values are smoothed along
+  /// the surface over 0.3 times the lattice spacing (smooth_on_surface), except at points on
+  /// handles.
+  Status carry(const HandleInsertion& mesh, const Handles& handles, WeightsView values,
+    Smoothness smoothness, ExecutionContext& context, Weights& result) const;
+
+private:
+  using Place = std::array<Index, 3>;
+  struct PlaceHash
+  {
+    std::size_t operator()(const Place& place) const;
+  };
+  Place center_of(Index tet) const;
+  Status interpolate(const HandleInsertion& mesh, WeightsView values, ExecutionContext& context,
+    Weights& result) const;
+  /// @param fixed_points ids of points whose values do not change.
+  Status smooth(const std::vector<Index>& fixed_points, double length, ExecutionContext& context,
+    Weights& result) const;
+  Index point_at(const Vec3& place) const;
+
+  PointsView points_;
+  TrianglesView triangles_;
+  const TetMesh& lattice_;
+  const PointBinding& binding_;
+  SimplexLocator tets_;
+  const SimplexLocator& surface_;
+  double spacing_ = 0.0; ///< edge length of a lattice cube, which is the longest edge of a tet
+  /// For each center that several tets have in common, the ids of these tets (copies).
+  std::unordered_map<Place, std::vector<Index>, PlaceHash> copies_;
+  std::vector<Index> first_corner_, corners_at_; ///< corners grouped by vertex, as 4 * tet + corner
+};
+
+} // namespace bindpose
+
+#endif

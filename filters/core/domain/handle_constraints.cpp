@@ -1,0 +1,446 @@
+// Assign vertices and boundary values to handles (see handle_constraints.h).
+#include "domain/handle_constraints.h"
+
+#include "base/disjoint_sets.h"
+#include "base/number_text.h"
+#include "base/sort_unique.h"
+#include "geometry/laplacian.h"
+#include "geometry/simplex_locator.h"
+
+#include <algorithm>
+#include <map>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Return the distance from p to a bone's segment or to a handle's point.
+double handle_distance(const Handle& handle, const Vec3& p)
+{
+  return nearest_in_triangle(p, handle.head, handle.tail, handle.tail).distance;
+}
+
+bool touch(const Handle& a, const Handle& b, double tolerance)
+{
+  return handle_distance(a, b.head) <= tolerance || handle_distance(a, b.tail) <= tolerance ||
+    handle_distance(b, a.head) <= tolerance || handle_distance(b, a.tail) <= tolerance;
+}
+
+void find_components(const Domain& domain, HandleConstraints& result)
+{
+  const std::vector<char> has_measure = measurable_elements(domain);
+  const Index vertex_count = domain.points.rows();
+  result.roles.assign(static_cast<std::size_t>(vertex_count), VertexRole::unreferenced);
+  result.components = connected_components(domain);
+  for (Index v = 0; v < vertex_count; ++v)
+  {
+    if (result.components.of_vertex[v] >= 0)
+    {
+      result.roles[v] = VertexRole::solved;
+    }
+  }
+  // A vertex that is only in elements without area (a follower) copies the weights of a neighbor.
+  // If the neighbor is a follower, too, the vertex copies from the vertex that the neighbor copies
+  // from.
+  result.leader.assign(static_cast<std::size_t>(vertex_count), -1);
+  for (bool again = true; again;)
+  {
+    again = false;
+    for (Index e = 0; e < domain.element_count(); ++e)
+    {
+      const Index* ids = domain.element(e);
+      for (int i = 0; i < domain.corners() && !has_measure[e]; ++i)
+      {
+        for (int j = 0; j < domain.corners(); ++j)
+        {
+          if (result.roles[ids[i]] == VertexRole::unreferenced &&
+            result.roles[ids[j]] != VertexRole::unreferenced)
+          {
+            result.roles[ids[i]] = VertexRole::follower;
+            result.leader[ids[i]] = result.leader[ids[j]] >= 0 ? result.leader[ids[j]] : ids[j];
+            again = true;
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Merge all components that contain vertices of the same label > 0.
+void join_components(const std::vector<Index>& labels, Components& components)
+{
+  DisjointSets<Index> parts(static_cast<std::size_t>(components.count));
+  std::map<Index, Index> part_of_label;
+  for (std::size_t v = 0; v < labels.size(); ++v)
+  {
+    const Index c = components.of_vertex[v];
+    if (labels[v] > 0 && c >= 0)
+    {
+      parts.unite(c, part_of_label.insert({ labels[v], c }).first->second);
+    }
+  }
+  std::vector<Index> renumbered(static_cast<std::size_t>(components.count), -1);
+  Index count = 0;
+  for (Index c = 0; c < components.count; ++c)
+  {
+    const Index root = parts.find(c);
+    renumbered[c] = root == c ? count++ : renumbered[root];
+  }
+  for (Index& c : components.of_vertex)
+  {
+    c = c < 0 ? c : renumbered[c];
+  }
+  components.count = count;
+}
+
+void tether_components(const Domain& domain, const Handles& handles,
+  const std::vector<std::vector<Index>>& of_handle, HandleConstraints& result)
+{
+  const Index count = result.components.count;
+  result.tether.assign(static_cast<std::size_t>(count), -1);
+  std::vector<char> has_handle(static_cast<std::size_t>(count), 0);
+  for (const Index v : result.vertices)
+  {
+    has_handle[result.components.of_vertex[v]] = 1;
+  }
+  for (Index v = 0; v < domain.points.rows(); ++v)
+  {
+    const Index c = result.components.of_vertex[v];
+    if (c >= 0 && !has_handle[c])
+    {
+      result.roles[v] = VertexRole::tethered;
+    }
+  }
+  const bool holds = !domain.held_corners.empty();
+  const PointsView places = holds ? domain.held_points : domain.points;
+  std::vector<double> nearest(static_cast<std::size_t>(count), 1e300);
+  for (Index v = 0; v < places.rows(); ++v)
+  {
+    const Index corner = holds ? domain.held_corners[v] : v;
+    const Index c = corner < 0 ? -1 : result.components.of_vertex[corner];
+    if (c < 0 || has_handle[c])
+    {
+      continue;
+    }
+    const Vec3 p = places.row(v);
+    for (std::size_t i = 0; i < handles.size(); ++i)
+    {
+      double distance = 1e300;
+      if (result.counts[i] == 0)
+      {
+        continue; // the handle was skipped: it has no weights
+      }
+      if (handles[i].kind == HandleKind::region)
+      {
+        for (const Index u : of_handle[i])
+        {
+          distance = std::min(distance, (domain.points.row(u).transpose() - p).norm());
+        }
+      }
+      else
+      {
+        distance = handle_distance(handles[i], p);
+      }
+      if (distance < nearest[c])
+      {
+        nearest[c] = distance;
+        result.tether[c] = static_cast<Index>(i);
+      }
+    }
+  }
+  // A lattice component that contains no point of the surface does not affect the result. It copies
+  // the weights of the first handle that has vertices.
+  const auto first =
+    std::find_if(result.counts.begin(), result.counts.end(), [](Index owned) { return owned > 0; });
+  for (Index c = 0; c < count; ++c)
+  {
+    if (result.tether[c] < 0 && !has_handle[c])
+    {
+      result.tether[c] = first - result.counts.begin();
+    }
+  }
+  std::map<Index, Index> parts; // handle -> number of components that copy its weights
+  for (const Index handle : result.tether)
+  {
+    if (handle >= 0)
+    {
+      parts[handle] += 1;
+    }
+  }
+  if (parts.empty())
+  {
+    return;
+  }
+  Index all = 0;
+  std::vector<Index> followed;
+  for (const auto& [handle, number] : parts)
+  {
+    all += number;
+    followed.push_back(handle);
+  }
+  result.warnings.push_back(std::to_string(all) +
+    (all == 1 ? " connected part without a handle follows the nearest handle "
+              : " connected parts without a handle follow the nearest ") +
+    (all == 1               ? ""
+        : parts.size() == 1 ? "handle "
+                            : "handles ") +
+    first_names(handles, followed));
+}
+
+/// Return advice to the user about a handle that has no vertex of its own.
+std::string advice_about(const Handle& handle, const Box& box)
+{
+  const auto distance = [&](const Vec3& p)
+  { return (p - p.cwiseMax(box.lower).cwiseMin(box.upper)).norm() / box.diagonal(); };
+  const double away = std::min(distance(handle.head), distance(handle.tail));
+  constexpr double near = 0.05;
+  return away > near ? "it is " + short_number(away) +
+      " bounding-box diagonals outside the mesh, so check the units and the position of the "
+      "handles"
+                     : "move it, or refine the mesh there";
+}
+
+/// Give every handle a vertex of its own. A handle that shares all of its vertices (a point on a
+/// bone) would not have a weight of one anywhere. It gets, for itself alone, the first of its
+/// vertices at which all other handles have vertices of their own. If there is no such vertex and
+/// the handle is optional, its vertices are left to the other handles.
+Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
+  std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
+{
+  std::vector<Index> own(handles.size(), 0);
+  for (const auto& [v, list] : owners)
+  {
+    own[list[0]] += list.size() == 1;
+  }
+  const auto set_row = [&](Index vertex, const std::vector<Index>& list)
+  {
+    const auto row = std::lower_bound(result.vertices.begin(), result.vertices.end(), vertex) -
+      result.vertices.begin();
+    result.values.row(row).setZero();
+    for (const Index owner : list)
+    {
+      result.values(row, owner) = 1.0 / static_cast<double>(list.size());
+    }
+  };
+  std::vector<Index> idle;
+  for (std::size_t j = 0; j < handles.size(); ++j)
+  {
+    const auto at = static_cast<Index>(j);
+    for (auto vertex = owners.begin(); vertex != owners.end() && own[j] == 0; ++vertex)
+    {
+      auto& list = vertex->second;
+      if (std::find(list.begin(), list.end(), at) != list.end() &&
+        std::all_of(list.begin(), list.end(), [&](Index i) { return i == at || own[i] > 0; }))
+      {
+        list = { at };
+        set_row(vertex->first, list);
+        own[j] = 1;
+      }
+    }
+    if (own[j] > 0)
+    {
+      continue;
+    }
+    if (handles[j].ownership == Ownership::required)
+    {
+      return Status::invalid_input("handle '" + handles[j].name +
+        "' has no vertex of its own because other handles constrain the same vertices; " +
+        advice_about(handles[j], box));
+    }
+    idle.push_back(at);
+    result.counts[j] = 0;
+    for (auto& [v, list] : owners)
+    {
+      const auto its = std::find(list.begin(), list.end(), at);
+      if (its != list.end())
+      {
+        list.erase(its);
+        own[list[0]] += list.size() == 1;
+        set_row(v, list);
+      }
+    }
+  }
+  if (idle.size() == handles.size())
+  {
+    return Status::invalid_input(
+      "no handle constrains a vertex because all handles are on elements without area");
+  }
+  if (!idle.empty())
+  {
+    result.warnings.push_back(idle.size() == 1 ? "joint " + first_names(handles, idle) +
+          " has no vertex of its own and was skipped: its weights are zero"
+                                               : std::to_string(idle.size()) +
+          " joints have no vertex of their own and were skipped; their weights are zero: " +
+          first_names(handles, idle));
+  }
+  return {};
+}
+
+/// Add one warning for all handles that share vertices although they do not touch.
+void warn_of_shared_vertices(const Handles& handles,
+  const std::map<std::pair<Index, Index>, Index>& shared, double tolerance,
+  HandleConstraints& result)
+{
+  constexpr Index most = 3; // largest number of pairs that the warning names
+  std::string first;
+  std::string list;
+  Index pairs = 0;
+  for (const auto& [pair, count] : shared)
+  {
+    const Handle& a = handles[pair.first];
+    const Handle& b = handles[pair.second];
+    const bool idle = result.counts[pair.first] == 0 || result.counts[pair.second] == 0;
+    if (idle ||
+      (a.kind != HandleKind::region && b.kind != HandleKind::region && touch(a, b, tolerance)))
+    {
+      continue;
+    }
+    const std::string names = "'" + a.name + "' and '" + b.name + "'";
+    if (pairs == 0)
+    {
+      first = "handles " + names + " share " + std::to_string(count) +
+        (count == 1 ? " vertex" : " vertices");
+    }
+    if (pairs < most)
+    {
+      list += (pairs > 0 ? "; " : "") + names;
+    }
+    pairs += 1;
+  }
+  if (pairs > 0)
+  {
+    result.warnings.push_back(
+      (pairs == 1 ? first
+                  : std::to_string(pairs) + " pairs of handles that do not touch share vertices (" +
+            list + (pairs > most ? "; …)" : ")")) +
+      "; their weights are split evenly there");
+  }
+}
+} // namespace
+
+Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
+  const std::vector<Index>& region_ids, HandleConstraints& result, const std::vector<Index>& joined)
+{
+  result = {};
+  const Domain& domain = mesh.domain;
+  find_components(domain, result);
+  if (!joined.empty())
+  {
+    join_components(joined, result.components);
+  }
+
+  const Status valid = check_regions(
+    handles, region_ids, domain.points.rows() - static_cast<Index>(mesh.inserted.size()));
+  if (!valid.ok())
+  {
+    return valid;
+  }
+  const std::vector<Index> labels = extend_labels(mesh, region_ids);
+  std::vector<std::vector<Index>> of_handle(handles.size());
+  result.counts.assign(handles.size(), 0);
+  std::map<Index, std::vector<Index>> handles_of_vertex;
+  for (std::size_t i = 0; i < handles.size(); ++i)
+  {
+    const Handle& handle = handles[i];
+    if (handle.kind != HandleKind::region)
+    {
+      of_handle[i] = mesh.handles[i].vertices;
+    }
+    else
+    {
+      for (Index v = 0; v < domain.points.rows(); ++v)
+      {
+        if (labels[v] == handle.region_id)
+        {
+          of_handle[i].push_back(v);
+        }
+      }
+    }
+    for (const Index v : of_handle[i])
+    {
+      if (result.components.of_vertex[v] >= 0)
+      {
+        handles_of_vertex[v].push_back(static_cast<Index>(i));
+        result.counts[i] += 1;
+      }
+    }
+    if (result.counts[i] == 0 && handle.ownership == Ownership::required)
+    {
+      return Status::invalid_input(
+        "handle '" + handle.name + "' constrains no vertex because it is on elements without area");
+    }
+  }
+
+  const auto m = static_cast<Index>(handles.size());
+  for (const auto& entry : handles_of_vertex)
+  {
+    result.vertices.push_back(entry.first);
+  }
+  for (const CageVertex& on_cage : mesh.cage)
+  {
+    if (result.components.of_vertex[on_cage.vertex] >= 0)
+    {
+      result.vertices.push_back(on_cage.vertex);
+    }
+  }
+  sort_unique(result.vertices);
+  result.values = Weights::Zero(static_cast<Index>(result.vertices.size()), m);
+  const auto row_of = [&](Index v)
+  {
+    return std::lower_bound(result.vertices.begin(), result.vertices.end(), v) -
+      result.vertices.begin();
+  };
+  for (const CageVertex& on_cage : mesh.cage)
+  {
+    // Handles take precedence over cages. Where cage elements meet, their values agree.
+    if (result.components.of_vertex[on_cage.vertex] >= 0 &&
+      handles_of_vertex.count(on_cage.vertex) == 0)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        if (on_cage.element[k] >= 0)
+        {
+          result.values(row_of(on_cage.vertex), on_cage.element[k]) += on_cage.shares[k];
+        }
+      }
+    }
+  }
+  for (std::size_t i = 0; i < result.vertices.size(); ++i)
+  {
+    const auto row = static_cast<Index>(i);
+    result.roles[result.vertices[i]] = VertexRole::handle;
+    const double sum = result.values.row(row).sum();
+    if (sum > 0.0)
+    {
+      result.values.row(row) /= sum;
+    }
+  }
+  std::map<std::pair<Index, Index>, Index> shared;
+  for (const auto& [v, owners] : handles_of_vertex)
+  {
+    const auto row = row_of(v);
+    for (const Index owner : owners)
+    {
+      result.values(row, owner) = 1.0 / static_cast<double>(owners.size());
+      for (const Index other : owners)
+      {
+        if (owner < other)
+        {
+          shared[{ owner, other }] += 1;
+        }
+      }
+    }
+  }
+  const Box box = bounding_box(domain.points);
+  const Status owned = give_every_handle_a_vertex(handles, box, handles_of_vertex, result);
+  if (!owned.ok())
+  {
+    return owned;
+  }
+  warn_of_shared_vertices(handles, shared, 1e-9 * box.diagonal(), result);
+  tether_components(domain, handles, of_handle, result);
+  return {};
+}
+
+} // namespace bindpose

@@ -1,0 +1,94 @@
+#ifndef bindpose_domain_handle_insertion_h
+#define bindpose_domain_handle_insertion_h
+
+#include "base/execution.h"
+#include "domain/domain.h"
+#include "handles/handles.h"
+
+#include <array>
+#include <functional>
+
+namespace bindpose
+{
+
+/// Options of insert_handles(), which makes handles vertices of the mesh.
+struct HandleInsertionOptions
+{
+  /// Snapping range as a barycentric coordinate, range (0, 0.25). A sample (a point of a handle)
+  /// moves to an existing vertex, edge or face if this sets only coordinates below `snap` to zero.
+  /// Smaller values keep handles closer to their specified positions; larger values give better
+  /// shaped elements. No sample moves by more than 3 * snap edge lengths.
+  double snap = 0.1;
+  /// Do not change the mesh; instead, constrain the corners of the element that contains a sample.
+  bool keep_mesh = false;
+  /// Distance between the samples of a bone, in local edge lengths, range (0, 1].
+  double spacing = 1.0;
+  /// Callback that returns the element that contains a point. It is needed where elements overlap
+  /// (the copies of an embedding), because the position alone is ambiguous there. If empty, the
+  /// first element found is used.
+  std::function<Index(const Vec3&)> element_of;
+};
+
+/// The position of one handle in the mesh.
+struct HandlePlacement
+{
+  std::vector<Index> vertices; ///< the vertices on the handle, ascending; empty for regions
+  double outside = 0.0; ///< largest distance between the mesh and a sample outside of the mesh
+  double snap = 0.0; ///< largest distance that a sample moved within the mesh
+};
+
+/// A new vertex as a point in an element of the original mesh.
+struct InsertedVertex
+{
+  /// Original vertex ids; the last is -1 on surfaces.
+  std::array<Index, 4> parents{ -1, -1, -1, -1 };
+  std::array<double, 4> barycentric{ 0.0, 0.0, 0.0, 0.0 };
+};
+
+/// A vertex on an edge or face of a cage, between the cage vertices at its corners.
+struct CageVertex
+{
+  Index vertex = -1;
+  CageElement element{ -1, -1, -1 };
+  /// Barycentric coordinates of the vertex in the edge or face of the cage.
+  std::array<double, 3> shares{ 0.0, 0.0, 0.0 };
+};
+
+/// The mesh with handles as vertices.
+struct HandleInsertion
+{
+  /// Original vertices come first, with their ids, then the inserted ones. Elements that were not
+  /// split come first, in the order of the original mesh.
+  Domain domain;
+  std::vector<HandlePlacement> handles; ///< placements of all handles
+  std::vector<CageVertex> cage; ///< mesh vertices on edges and faces of the cage
+  std::vector<InsertedVertex> inserted;
+  std::vector<Index> parent_element; ///< #elements: the original element that contains each element
+  /// Largest distance that a sample moved within the mesh, in local edge lengths.
+  double largest_snap = 0.0;
+  std::vector<std::string> warnings;
+};
+
+/// Extend labels to inserted vertices: an inserted vertex gets the label of the corners of its
+/// original element if they all have the same label, else 0.
+std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<Index>& labels);
+
+/// Make handles vertices of the mesh. Without this, a weight of one at a point inside an element
+/// would require a weight of one at all corners of the element.
+///
+/// Samples are points, cage vertices, and points along bones. The samples of a bone are spaced by
+/// the local edge length between the vertices that are already on the bone. A sample outside of the
+/// mesh is moved to the nearest element, with a warning that names handles and distances. Each
+/// sample then splits the elements that contain it. The union of the mesh, its volume or area and
+/// all orientations do not change. Two different handles share a vertex only if they coincide, even
+/// if separate vertices make small elements.
+///
+/// Edges and faces of cages are sampled like bones, but their samples outside of the mesh are
+/// dropped.
+/// Cost: O(#elements log #elements), no more than building a search tree.
+Status insert_handles(const Domain& domain, const Handles& handles,
+  const HandleInsertionOptions& options, ExecutionContext& context, HandleInsertion& result);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,102 @@
+// Links for surface components that no handle controls (see loose_parts.h).
+#include "domain/loose_parts.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Maximum distance of touching components, as a fraction of the surface's diagonal.
+constexpr double touching = 1.0 / 500.0;
+constexpr Index most_loose_components = 20000;
+
+/// For each part of the lattice, return 1 if the part contains a handle, else 0.
+std::vector<char> parts_with_handles(
+  const Components& parts, Index vertex_count, const HandleInsertion& inserted)
+{
+  std::vector<char> has_handle(static_cast<std::size_t>(parts.count), 0);
+  const auto add = [&](Index v)
+  {
+    const Index original = v < vertex_count ? v : inserted.inserted[v - vertex_count].parents[0];
+    has_handle[parts.of_vertex[original]] = 1;
+  };
+  for (const HandlePlacement& placement : inserted.handles)
+  {
+    std::for_each(placement.vertices.begin(), placement.vertices.end(), add);
+  }
+  for (const CageVertex& on_cage : inserted.cage)
+  {
+    add(on_cage.vertex);
+  }
+  return has_handle;
+}
+
+/// Return the components of a surface after welding equal points.
+Components welded_components(
+  TrianglesView triangles, const std::vector<Index>& lowest_equal, std::vector<Index>& of_triangle)
+{
+  Triangles welded = triangles;
+  for (Index i = 0; i < welded.size(); ++i)
+  {
+    welded.data()[i] = lowest_equal[welded.data()[i]];
+  }
+  Components components =
+    connected_components(static_cast<Index>(lowest_equal.size()), TrianglesView(welded));
+  of_triangle.resize(static_cast<std::size_t>(welded.rows()));
+  for (Index f = 0; f < welded.rows(); ++f)
+  {
+    of_triangle[f] = components.of_vertex[welded(f, 0)];
+  }
+  return components;
+}
+} // namespace
+
+Status find_loose_parts(PointsView points, TrianglesView triangles,
+  const std::vector<Index>& lowest_equal, const EmbeddingTets& lattice,
+  const EmbeddedSurface& surface, const Handles& handles, const HandleInsertionOptions& insertion,
+  LooseParts& result, ExecutionContext& context)
+{
+  result = LooseParts();
+  const TetMesh& tets = lattice.mesh;
+  if (lattice.components < 2)
+  {
+    return {};
+  }
+  HandleInsertion inserted;
+  const Status status =
+    insert_handles(surface.domain(lattice.inside_fractions), handles, insertion, context, inserted);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const Components parts = connected_components(tets.points.rows(), tets.tets);
+  const std::vector<char> has_handle = parts_with_handles(parts, tets.points.rows(), inserted);
+  result.count = static_cast<Index>(std::count(has_handle.begin(), has_handle.end(), 0));
+  if (result.count == 0)
+  {
+    return {};
+  }
+  // Link components individually instead of parts, because a finer lattice may separate the
+  // components of one part.
+  std::vector<Index> of_triangle;
+  const Components components = welded_components(triangles, lowest_equal, of_triangle);
+  std::vector<char> is_held(static_cast<std::size_t>(components.count), 0);
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    const Index tet = lattice.binding.tets[triangles(f, 0)];
+    is_held[of_triangle[f]] = tet < 0 || has_handle[parts.of_vertex[tets.tets(tet, 0)]] ? 1 : 0;
+  }
+  const auto loose = std::count(is_held.begin(), is_held.end(), 0);
+  if (loose == 0 || loose == components.count || loose > most_loose_components)
+  {
+    return {};
+  }
+  PartLinkOptions options;
+  options.touching = touching * bounding_box(points, triangles).diagonal();
+  options.spacing = lattice.spacing;
+  return link_parts(points, triangles, of_triangle, is_held, options, result.links, context);
+}
+
+} // namespace bindpose

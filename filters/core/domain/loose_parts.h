@@ -1,0 +1,34 @@
+#ifndef bindpose_domain_loose_parts_h
+#define bindpose_domain_loose_parts_h
+
+#include "domain/embedded_surface.h"
+#include "embedding/embedding_tets.h"
+#include "handles/handles.h"
+#include "surface/part_links.h"
+
+namespace bindpose
+{
+
+/// The parts of an embedding lattice that have no handle, and links that connect them to other
+/// parts.
+struct LooseParts
+{
+  Index count = 0; ///< number of connected parts of the lattice without a handle
+  /// Empty if no surface component is in a part without a handle, if all components are in such
+  /// parts, or if more than 20,000 are.
+  std::vector<PartLink> links;
+};
+
+/// Find parts of the lattice that no handle controls. Link every surface component in such a part
+/// to the components that it touches (within 1/500 of the diagonal), or else to the nearest
+/// component (link_parts). The caller must then embed the surface again with these links.
+/// @param surface the surface of the points and triangles, embedded in `lattice`
+/// @param lowest_equal #V: the smallest id of all points with the same position
+Status find_loose_parts(PointsView points, TrianglesView triangles,
+  const std::vector<Index>& lowest_equal, const EmbeddingTets& lattice,
+  const EmbeddedSurface& surface, const Handles& handles, const HandleInsertionOptions& insertion,
+  LooseParts& result, ExecutionContext& context);
+
+} // namespace bindpose
+
+#endif

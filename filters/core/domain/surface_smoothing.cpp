@@ -1,0 +1,356 @@
+// Smoothing of transferred weights along a surface (see surface_smoothing.h).
+#include "domain/surface_smoothing.h"
+
+#include "base/parallel.h"
+#include "geometry/laplacian.h"
+#include "linear/float_cholesky.h"
+#include "linear/sparse_solver.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+using Eigen::VectorXd;
+/// Number of columns that are smoothed together, so that the matrix is read once for all of them.
+constexpr int lanes = 4;
+/// Progress as fractions of the time: at the end of the factorization, and before the first
+/// iteration.
+constexpr double factored = 0.4;
+constexpr double preparation_end = 0.5;
+using Lanes = Eigen::Array<double, 1, lanes>;
+/// Values of one block of columns, #V x lanes.
+using Columns = Eigen::Array<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
+
+/// The matrix M + K M⁻¹ K of the energy at the points that are not fixed, with lengths in units of
+/// `length`. K is the cotangent stiffness and M the lumped mass.
+class SmoothingEnergy
+{
+public:
+  SmoothingEnergy(PointsView points, TrianglesView triangles, const std::vector<Index>& fixed,
+    double length, ExecutionContext& context)
+    : free_(VectorXd::Ones(points.rows()))
+  {
+    const Points scaled = (points.rowwise() - points.row(0)) / length;
+    this->stiffness_ = stiffness_matrix(scaled, triangles, shares_of(scaled, triangles));
+    this->mass_ = lumped_mass(scaled, triangles);
+    // Raise tiny masses: points of needle triangles would increase the number of iterations.
+    constexpr double least_mass = 1e-3;
+    this->mass_ = this->mass_.cwiseMax(least_mass * this->mass_.mean());
+    for (const Index v : fixed)
+    {
+      this->free_[v] = 0.0;
+    }
+    if (this->factor(context))
+    {
+      this->count_fixed(fixed, context);
+    }
+    else
+    {
+      this->take_diagonal();
+    }
+  }
+
+  /// Minimize the energy by conjugate gradients; each column has its own step lengths. After each
+  /// iteration, `advance` is called with the estimated fraction of the work that is done.
+  void minimize(Columns& w, const ExecutionContext& context,
+    const std::function<void(double share)>& advance) const
+  {
+    constexpr double reduction = 1e-6;
+    constexpr int most_iterations = 200;
+    const Index count = w.rows();
+    Columns curvature(count, lanes), r(count, lanes), z(count, lanes), p(count, lanes),
+      ap(count, lanes);
+    Work work;
+    this->find_curvature(w, curvature);
+    for (Index v = 0; v < count; ++v)
+    {
+      r.row(v) = -this->free_[v] * this->times_stiffness(curvature, v);
+    }
+    Lanes now = this->precondition(r, z, work);
+    p = z;
+    const Lanes first = now;
+    const Lanes enough = reduction * reduction * first;
+    // Columns that have converged, or that do not improve because of round-off, do not change any
+    // more.
+    Eigen::Array<bool, 1, lanes> goes_on = now > enough;
+    for (int i = 0; i < most_iterations && goes_on.any() && !context.canceled(); ++i)
+    {
+      this->find_curvature(p, curvature);
+      Lanes along = Lanes::Zero();
+      for (Index v = 0; v < count; ++v)
+      {
+        const Lanes p_v = p.row(v);
+        const Lanes ap_v =
+          this->free_[v] * (this->mass_[v] * p_v + this->times_stiffness(curvature, v));
+        ap.row(v) = ap_v;
+        along += p_v * ap_v;
+      }
+      goes_on = goes_on && along > 0.0;
+      const Lanes step = goes_on.select(now / along, 0.0);
+      for (Index v = 0; v < count; ++v)
+      {
+        w.row(v) += step * p.row(v);
+        r.row(v) -= step * ap.row(v);
+      }
+      const Lanes next = this->precondition(r, z, work);
+      const Lanes again = goes_on.select(next / now, 0.0);
+      for (Index v = 0; v < count; ++v)
+      {
+        p.row(v) = z.row(v) + again * p.row(v);
+      }
+      now = next;
+      goes_on = goes_on && now > enough;
+      const Lanes gone = goes_on.select((now / first).log() / std::log(reduction * reduction), 1.0);
+      advance(gone.minCoeff());
+    }
+  }
+
+private:
+  /// Work memory, reused for each block of columns.
+  struct Work
+  {
+    Eigen::MatrixXd once, twice;
+  };
+
+  /// Return the weights of the triangles. The matrix entries between the points of triangles with
+  /// almost no height are up to 1e16, and their round-off would exceed the values. The weights of
+  /// these triangles are reduced so that no entry is larger than at an angle of 2 degrees; the
+  /// matrix stays positive semi-definite.
+  static VectorXd shares_of(const Points& points, TrianglesView triangles)
+  {
+    // Limit of the matrix entries: half of the cotangent of 2 degrees, rounded up.
+    constexpr double most = 15.0;
+    const auto weights = cotangent_weights(points, triangles);
+    VectorXd shares(triangles.rows());
+    for (Index t = 0; t < triangles.rows(); ++t)
+    {
+      shares[t] = most / std::max(most, weights.row(t).cwiseAbs().maxCoeff());
+    }
+    return shares;
+  }
+
+  /// Return row v of K w. K is symmetric; the code reads column v of K, which is stored
+  /// contiguously.
+  Lanes times_stiffness(const Columns& w, Index v) const
+  {
+    Lanes sum = Lanes::Zero();
+    for (SparseMatrix::InnerIterator k(this->stiffness_, v); k; ++k)
+    {
+      sum += k.value() * w.row(k.row());
+    }
+    return sum;
+  }
+
+  /// Compute M⁻¹ K w.
+  void find_curvature(const Columns& w, Columns& curvature) const
+  {
+    for (Index v = 0; v < w.rows(); ++v)
+    {
+      curvature.row(v) = this->times_stiffness(w, v) / this->mass_[v];
+    }
+  }
+
+  /// Factor M + K.
+  /// @return false if the factorization is not available.
+  bool factor(ExecutionContext& context)
+  {
+    const ProgressRange range(context, 0.0, factored);
+    SparseMatrix a = this->stiffness_;
+    for (int j = 0; j < a.outerSize(); ++j)
+    {
+      for (SparseMatrix::InnerIterator k(a, j); k; ++k)
+      {
+        k.valueRef() *= k.row() == k.col() ? 1.0 : this->free_[k.row()] * this->free_[j];
+      }
+    }
+    a += SparseMatrix(this->mass_.asDiagonal());
+    // Progress when M + K is assembled, as a fraction of the time for its factor.
+    constexpr double assembled = 0.15;
+    constexpr double analyzed = 0.6;
+    context.progress(assembled);
+    // METIS would take more time than its better ordering saves.
+    SparseSolver::Options options;
+    options.ordering = SparseSolver::Ordering::amd;
+    SparseSolver analysis(options);
+    if (!analysis.analyze(a).ok() || !this->factor_.analyze(analysis, a).ok())
+    {
+      return false;
+    }
+    context.progress(analyzed);
+    return this->factor_.factor(a, 0.0, context).ok();
+  }
+
+  /// Add a correction to the preconditioner for the energy of the curvature at fixed points.
+  void count_fixed(const std::vector<Index>& fixed, ExecutionContext& context)
+  {
+    const ProgressRange range(context, factored, preparation_end);
+    constexpr Index most_numbers = 40'000'000; // 320 MB
+    const Index n = this->mass_.size();
+    const Index most = std::min(static_cast<Index>(fixed.size()), most_numbers / n);
+    this->counted_.assign(fixed.begin(), fixed.begin() + most);
+    this->responses_.resize(n, most);
+    const bool whole = parallel_for(context, most, lanes,
+      [&](Index begin, Index end)
+      {
+        Columns terms = Columns::Zero(n, lanes), found(n, lanes);
+        Work work;
+        for (Index c = begin; c < end; ++c)
+        {
+          this->for_each_of_term(c, [&](Index v, double value) { terms(v, c - begin) = value; });
+        }
+        this->solve_with_factor(terms, found, work);
+        this->responses_.middleCols(begin, end - begin) = found.leftCols(end - begin);
+      });
+    if (!whole)
+    {
+      this->counted_.clear(); // canceled: some solutions are missing
+      return;
+    }
+    Eigen::MatrixXd small = Eigen::MatrixXd::Identity(most, most);
+    for (Index c = 0; c < most; ++c)
+    {
+      this->for_each_of_term(
+        c, [&](Index v, double value) { small.row(c) += value * this->responses_.row(v); });
+    }
+    this->small_.compute(0.5 * (small + small.transpose()));
+    if (this->small_.info() != Eigen::Success)
+    {
+      // Single precision is not accurate enough for the corrections. Omit them; more iterations
+      // follow.
+      this->counted_.clear();
+    }
+  }
+
+  /// Call visit(v, value) for the nonzero entries of the vector u of one fixed point. The dot
+  /// product of u and w is the curvature at the fixed point, times the square root of its mass, as
+  /// a function of the points that are not fixed.
+  template <typename Visit>
+  void for_each_of_term(Index c, const Visit& visit) const
+  {
+    const Index point = this->counted_[c];
+    for (SparseMatrix::InnerIterator k(this->stiffness_, point); k; ++k)
+    {
+      if (this->free_[k.row()] != 0.0)
+      {
+        visit(k.row(), k.value() / std::sqrt(this->mass_[point]));
+      }
+    }
+  }
+
+  /// Use the inverse diagonal as preconditioner if there is no factor:
+  /// (K M⁻¹ K)_ii = sum_j K_ij² / m_j.
+  void take_diagonal()
+  {
+    this->factor_ = FloatCholesky();
+    VectorXd diagonal = this->mass_;
+    for (int j = 0; j < this->stiffness_.outerSize(); ++j)
+    {
+      for (SparseMatrix::InnerIterator k(this->stiffness_, j); k; ++k)
+      {
+        diagonal[k.row()] += k.value() * k.value() / this->mass_[j];
+      }
+    }
+    this->inverse_diagonal_ = this->free_.cwiseQuotient(diagonal);
+  }
+
+  /// Compute z = (M + K)⁻¹ M (M + K)⁻¹ r at the free points; z = 0 at the others.
+  void solve_with_factor(const Columns& r, Columns& z, Work& work) const
+  {
+    work.twice = r;
+    this->factor_.solve(work.twice, work.once);
+    work.once.array().colwise() *= this->mass_.array();
+    this->factor_.solve(work.once, work.twice);
+    z = work.twice.array().colwise() * this->free_.array();
+  }
+
+  /// Subtract from z the correction for the fixed points (Woodbury).
+  void correct(Columns& z) const
+  {
+    if (this->counted_.empty())
+    {
+      return;
+    }
+    Eigen::MatrixXd at_fixed = Eigen::MatrixXd::Zero(this->responses_.cols(), lanes);
+    for (Index c = 0; c < at_fixed.rows(); ++c)
+    {
+      this->for_each_of_term(
+        c, [&](Index v, double value) { at_fixed.row(c) += value * z.row(v).matrix(); });
+    }
+    z.matrix() -= this->responses_ * this->small_.solve(at_fixed);
+  }
+
+  /// Apply the preconditioner P: compute z = P⁻¹ r at the free points; z = 0 at the others.
+  /// @return r · z for each column.
+  Lanes precondition(const Columns& r, Columns& z, Work& work) const
+  {
+    if (this->factor_.analyzed())
+    {
+      this->solve_with_factor(r, z, work);
+      this->correct(z);
+    }
+    else
+    {
+      z = r.colwise() * this->inverse_diagonal_.array();
+    }
+    Lanes sum = Lanes::Zero();
+    for (Index v = 0; v < r.rows(); ++v)
+    {
+      sum += r.row(v) * z.row(v);
+    }
+    return sum;
+  }
+
+  SparseMatrix stiffness_;
+  VectorXd mass_;
+  VectorXd free_; // 0 for fixed points, 1 for all others
+  // The preconditioner. Without fixed points, M + K M⁻¹ K is at most (M + K) M⁻¹ (M + K) and at
+  // least half of it, so few iterations are needed. Each fixed point adds a term u uᵀ to the
+  // energy, which would cost several more iterations. The preconditioner includes these terms by
+  // the Sherman-Morrison-Woodbury formula.
+  FloatCholesky factor_; // factor of M + K, if available
+  std::vector<Index> counted_; // fixed points whose terms u uᵀ are in the preconditioner
+  Eigen::MatrixXd responses_; // #V x #counted: (M + K)⁻¹ M (M + K)⁻¹ u for each of these points
+  // Factor of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, where the columns of U are the vectors u.
+  Eigen::LLT<Eigen::MatrixXd> small_;
+  // The preconditioner if there is no factor: inverse diagonal of the energy's matrix; 0 for fixed
+  // points.
+  VectorXd inverse_diagonal_;
+};
+} // namespace
+
+bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::vector<Index>& fixed,
+  double length, Eigen::MatrixXd& values, ExecutionContext& context)
+{
+  if (points.rows() == 0 || values.cols() == 0)
+  {
+    return !context.canceled();
+  }
+  const SmoothingEnergy energy(points, triangles, fixed, length, context);
+  const ProgressRange range(context, preparation_end, 1.0);
+  const Index blocks = (values.cols() + lanes - 1) / lanes;
+  std::vector<std::atomic<double>> gone(static_cast<std::size_t>(blocks));
+  const bool whole = parallel_for(context, values.cols(), lanes,
+    [&](Index begin, Index end)
+    {
+      Columns w = Columns::Zero(values.rows(), lanes);
+      w.leftCols(end - begin) = values.middleCols(begin, end - begin);
+      energy.minimize(w, context,
+        [&](double share)
+        {
+          gone[begin / lanes] = share;
+          const double sum = std::accumulate(gone.begin(), gone.end(), 0.0);
+          context.progress(sum / static_cast<double>(blocks));
+        });
+      values.middleCols(begin, end - begin) = w.leftCols(end - begin);
+    });
+  return whole && !context.canceled();
+}
+
+} // namespace bindpose

@@ -1,0 +1,105 @@
+#ifndef bindpose_fairing_polyharmonic_h
+#define bindpose_fairing_polyharmonic_h
+
+// Laplace, biharmonic and triharmonic equations on a triangle mesh, by mixed finite elements
+// (Jacobson, Tosun, Sorkine, Zorin 2010).
+
+#include "arap/constrained_stiffness.h"
+#include "base/execution.h"
+
+namespace bindpose
+{
+
+/// Conditions on the solution at the edge of its patch, in addition to its values. The integers are
+/// those of vtkVariationalSurface.
+enum class PatchBoundary : int
+{
+  /// The mesh continues beyond the edge. Values are given in a band of `order` one-ring layers, and
+  /// the solution continues them smoothly (C0, C1, C2 for order 1, 2, 3). If the mesh ends within
+  /// the band, derivatives perpendicular to the border are zero.
+  region = 0,
+  /// Only values are given. The Laplacian is zero at the edge (for order 3 also the Laplacian of
+  /// the Laplacian). This condition is called simply supported.
+  curve = 1,
+  /// Values and outward derivatives perpendicular to the edge are given.
+  tangent = 2
+};
+
+/// Return "region", "curve" or "tangent".
+const char* to_string(PatchBoundary boundary);
+
+/// Solves (-Laplacian)^k u = load, k = 1, 2, 3, at the free vertices of a triangle mesh, by mixed
+/// finite elements. u is prescribed at the other vertices ("given"), and optionally at other mesh
+/// points ("held"). Method: Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite elements for
+/// variational surface modeling.
+///
+/// The matrix is factored once for a choice of given vertices. Then the system can be solved for
+/// any values, #V x m.
+class Polyharmonic
+{
+public:
+  using Rows = ConstrainedStiffness::Rows;
+
+  /// Set the mesh and the boundary condition.
+  /// @param parameters positions of the vertices in the parameter domain, #V x 3.
+  /// @param order 1, 2 or 3.
+  void bind(PointsView parameters, TrianglesView triangles, int order, PatchBoundary boundary);
+
+  /// Factor the system for a choice of given vertices.
+  /// @param given ids of the given vertices, ascending.
+  /// @param held points of the mesh whose values are also prescribed.
+  /// @return invalid_input, with the first invalid triangle or edge, if a triangle at a free vertex
+  /// has no area or an edge there has three triangles or more. For boundary `region`, the triangles
+  /// of the band are checked, too. Return unavailable if the system cannot be factored in double
+  /// precision. The report contains counts.free and condition (a lower bound of the condition
+  /// number of the matrix, scaled to ones on its diagonal).
+  Status prepare(ExecutionContext& context, const Components& parts,
+    const std::vector<Index>& given, const std::vector<MeshPoint>& held);
+
+  /// Solve for u, and store it in x.
+  /// @param flux integrals of phi_i du/dn along the edge of the patch, from one of the functions
+  /// below; empty: zero.
+  /// @param load #V x m; empty: zero.
+  /// @return the last correction of the iterative refinement, relative to x (ratio of the largest
+  /// absolute entries).
+  double solve(
+    const Rows& given, const Rows& held, const Rows& flux, const Rows& load, Rows& x) const;
+
+  /// Return the flux that corresponds to derivatives du/dn (#V x m) at the vertices of the patch's
+  /// edge.
+  Rows flux_of_derivatives(const Rows& derivatives) const;
+  /// Return the flux of values on the triangles outside of the patch at its edge; zero where there
+  /// is no such triangle.
+  Rows flux_of_surroundings(const Rows& values) const;
+  /// Return the flux of values on the triangles of the patch at its edge.
+  Rows flux_of_patch(const Rows& values) const;
+
+  /// Return the number of one-ring layers between the free vertices and the border of the mesh, at
+  /// most `order`.
+  int layers() const { return this->layers_; }
+  /// Return the indices of held points that depend linearly on other held points.
+  const std::vector<Index>& redundant() const { return this->system_.redundant(); }
+
+private:
+  void estimate_condition(Report& report) const;
+
+  Points parameters_;
+  Triangles triangles_;
+  int order_ = 2;
+  PatchBoundary boundary_ = PatchBoundary::region;
+
+  Index given_count_ = 0, held_count_ = 0;
+  std::vector<char> is_free_;
+  int layers_ = 0;
+  SparseMatrix stiffness_; ///< stiffness K of the triangles in use
+  Eigen::VectorXd mass_; ///< lumped mass M of the triangles in use, scaled to mean 1
+  Eigen::VectorXd inverse_mass_; ///< inverse of mass_; 0 where the Laplacian is zero
+  double unit_ = 1.0; ///< mass of a vertex whose entry in mass_ is 1
+  SparseMatrix matrix_; ///< K (M^-1 K)^(k-1)
+  SparseMatrix edge_mass_, outside_flux_, inside_flux_;
+  ConstrainedStiffness system_;
+};
+
+} // namespace bindpose
+
+#endif

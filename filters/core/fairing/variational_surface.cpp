@@ -1,0 +1,278 @@
+// Smooth surfaces by polyharmonic equations (polyharmonic.h). The patch consists of the free
+// vertices, which neither a handle nor a flag constrains. The positions or displacements of the
+// constrained vertices are passed to Polyharmonic as one column per coordinate. Tangents are passed
+// as a flux. If the unknowns are displacements, the flux is the difference between the required
+// flux and the flux at rest.
+#include "fairing/variational_surface.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace bindpose
+{
+
+namespace
+{
+/// If the last correction is above this fraction of the solution, fewer than six digits are
+/// correct.
+constexpr double uncertain = 1e-6;
+
+Status check_length(const char* what, Index count, Index vertices)
+{
+  if (count == 0 || count == vertices)
+  {
+    return {};
+  }
+  return Status::invalid_input("there are " + std::to_string(count) + " " + what + ", but " +
+    std::to_string(vertices) + " vertices");
+}
+} // namespace
+
+Status VariationalSurface::bind(ExecutionContext& context, PointsView points,
+  TrianglesView triangles, const Handles& handles, const VariationalSurfaceOptions& options)
+{
+  *this = VariationalSurface();
+  const Index n = points.rows();
+  Status status = check_mesh(points, triangles);
+  const std::pair<const char*, Index> lengths[] = { { "parameters", options.parameters.rows() },
+    { "flags of fixed vertices", static_cast<Index>(options.fixed.size()) },
+    { "tangents", options.tangents.rows() }, { "loads", options.load.rows() },
+    { "region labels", static_cast<Index>(options.region_ids.size()) } };
+  for (const auto& [what, count] : lengths)
+  {
+    status = status.ok() ? check_length(what, count, n) : status;
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (triangles.rows() == 0)
+  {
+    return Status::invalid_input("the mesh has no triangles; a surface is required");
+  }
+  if (!points.allFinite() || !options.parameters.allFinite() || !options.tangents.allFinite() ||
+    !options.load.allFinite())
+  {
+    return Status::invalid_input(
+      "a coordinate, parameter, tangent or load of the mesh is not a finite number");
+  }
+  if (options.order < 1 || options.order > 3)
+  {
+    return Status::invalid_input(
+      "the order must be 1, 2 or 3, not " + std::to_string(options.order));
+  }
+  if (options.boundary == PatchBoundary::tangent &&
+    options.tangent_source == PatchTangents::given && options.tangents.rows() == 0)
+  {
+    return Status::invalid_input("tangent source given needs tangents, but the mesh has none");
+  }
+  if (!handles.empty())
+  {
+    status = check_handles(handles);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  this->handles_ = handles;
+  this->options_ = options;
+  this->rest_ = this->posed_ = points;
+  this->parts_ = connected_components(n, triangles);
+  for (Index v = 0; v < static_cast<Index>(options.fixed.size()); ++v)
+  {
+    if (options.fixed[v] && this->parts_.of_vertex[v] >= 0)
+    {
+      this->staying_.push_back(v);
+    }
+  }
+  status = this->grips_.find(points, triangles, this->parts_, handles, options.region_ids);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (options.parameters.rows() == 0)
+  {
+    this->system_.bind(points, triangles, options.order, options.boundary);
+  }
+  else
+  {
+    this->system_.bind(options.parameters, triangles, options.order, options.boundary);
+  }
+  status.report.set("counts.vertices", n);
+  status.report.set("counts.triangles", triangles.rows());
+  status.report.set("counts.handles", handles.size());
+  status.report.set("method", "variational");
+  status.report.set("order", options.order);
+  status.report.set("boundary", to_string(options.boundary));
+  return context.canceled() ? Status::canceled() : status;
+}
+
+Status VariationalSurface::prepare(ExecutionContext& context, const Pose& pose)
+{
+  const VariationalSurfaceOptions& options = this->options_;
+  this->grips_.choose(pose, this->staying_);
+  if (options.fair)
+  {
+    std::vector<char> held(static_cast<std::size_t>(this->parts_.count), 0);
+    for (const Index v : this->grips_.given())
+    {
+      held[this->parts_.of_vertex[v]] = 1;
+    }
+    for (const MeshPoint& point : this->grips_.held())
+    {
+      held[this->parts_.of_vertex[point[0].first]] = 1;
+    }
+    for (Index v = 0; v < this->rest_.rows(); ++v)
+    {
+      if (this->parts_.of_vertex[v] >= 0 && !held[this->parts_.of_vertex[v]])
+      {
+        return Status::invalid_input("the connected part that contains point " + std::to_string(v) +
+          " must have at least one fixed point");
+      }
+    }
+  }
+  Status status =
+    this->system_.prepare(context, this->parts_, this->grips_.given(), this->grips_.held());
+  if (!status.ok())
+  {
+    return status;
+  }
+  this->factorizations_ += 1;
+  status.report.set("counts.constrained", this->grips_.given().size() + this->grips_.held().size());
+  const int order = options.order;
+  if (options.boundary == PatchBoundary::curve && order > 1 && options.load.rows() == 0)
+  {
+    status.warnings.push_back("boundary curve without a load reduces order " +
+      std::to_string(order) +
+      " to the membrane of order 1, because the Laplacian is zero at the curve and therefore "
+      "everywhere");
+  }
+  if (options.boundary == PatchBoundary::tangent && order == 1)
+  {
+    status.warnings.emplace_back("tangents are ignored because order 1 cannot satisfy them");
+  }
+  if (options.boundary == PatchBoundary::tangent && order == 3)
+  {
+    status.warnings.emplace_back(
+      "order 3 with boundary tangent does not continue the curvature: the derivative of the "
+      "Laplacian across the boundary is zero; use boundary region with three fixed layers instead");
+  }
+  if (options.fair && options.boundary == PatchBoundary::region && this->system_.layers() < order)
+  {
+    status.warnings.push_back("order " + std::to_string(order) + " needs " + std::to_string(order) +
+      " one-ring layers of fixed points around the patch, but the mesh has only " +
+      std::to_string(this->system_.layers()) + "; slopes across the border of the mesh are zero");
+  }
+  return status;
+}
+
+/// Return a #V x 3 matrix with the rows of `given` at the given vertices and zero elsewhere.
+VariationalSurface::Rows VariationalSurface::known(const Rows& given) const
+{
+  Rows all = Rows::Zero(this->rest_.rows(), 3);
+  for (Index i = 0; i < given.rows(); ++i)
+  {
+    all.row(this->grips_.given()[i]) = given.row(i);
+  }
+  return all;
+}
+
+Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
+{
+  const VariationalSurfaceOptions& options = this->options_;
+  if (!this->handles_.empty())
+  {
+    const Status status = check_pose(this->handles_, pose);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  if (!this->prepared_ || !same_modes(this->modes_, pose))
+  {
+    Phase phase(context, "factor", 0.0, 0.8);
+    this->prepared_ = false;
+    this->prepared_status_ = this->prepare(context, pose);
+    if (!this->prepared_status_.ok())
+    {
+      return this->prepared_status_;
+    }
+    this->modes_ = modes_of(pose);
+    this->prepared_ = true;
+  }
+  Status status = this->prepared_status_;
+  std::vector<std::string> redundant = this->grips_.redundancy(pose, this->system_.redundant());
+  status.warnings.insert(status.warnings.end(), redundant.begin(), redundant.end());
+
+  Rows given, held;
+  this->grips_.targets(pose, given, held);
+  if (options.fair)
+  {
+    for (Index i = 0; i < given.rows(); ++i)
+    {
+      given.row(i) += this->rest_.row(this->grips_.given()[i]);
+    }
+    for (Index i = 0; i < held.rows(); ++i)
+    {
+      for (const auto& [v, share] : this->grips_.held()[i])
+      {
+        held.row(i) += share * this->rest_.row(v);
+      }
+    }
+  }
+  Rows flux;
+  if (options.boundary == PatchBoundary::tangent)
+  {
+    switch (options.tangent_source)
+    {
+      case PatchTangents::surroundings:
+        flux = this->system_.flux_of_surroundings(this->known(given));
+        break;
+      case PatchTangents::given:
+        flux = this->system_.flux_of_derivatives(options.tangents);
+        if (!options.fair)
+        {
+          flux -= this->system_.flux_of_patch(this->rest_);
+        }
+        break;
+      case PatchTangents::clamped:
+        break;
+    }
+  }
+  Rows x;
+  const double refinement = this->system_.solve(given, held, flux, options.load, x);
+  if (!x.allFinite())
+  {
+    return Status::failure(StatusCode::unavailable, "the patch has no finite solution");
+  }
+  if (!options.fair)
+  {
+    x += this->rest_;
+  }
+  for (Index v = 0; v < x.rows(); ++v)
+  {
+    if (this->parts_.of_vertex[v] < 0)
+    {
+      x.row(v) = this->rest_.row(v);
+    }
+  }
+  this->posed_ = x;
+  status.report.set("refinement", refinement);
+  if (refinement > uncertain)
+  {
+    char text[16];
+    std::snprintf(text, sizeof(text), "%.0e", refinement);
+    status.warnings.push_back(std::string("the last refinement step changed the result by ") +
+      text +
+      " of the largest coordinate, so the result is inaccurate; use a lower order or a coarser "
+      "mesh");
+  }
+  if (!this->grips_.holds().empty())
+  {
+    status.report.set(
+      "constraint_residual", this->grips_.residual(pose, x - Rows(this->rest_), status.warnings));
+  }
+  return context.canceled() ? Status::canceled() : status;
+}
+
+} // namespace bindpose

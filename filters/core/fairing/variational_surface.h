@@ -1,0 +1,118 @@
+#ifndef bindpose_fairing_variational_surface_h
+#define bindpose_fairing_variational_surface_h
+
+#include "arap/mesh_grips.h"
+#include "base/execution.h"
+#include "fairing/polyharmonic.h"
+
+namespace bindpose
+{
+
+/// Derivatives across the edge of a patch that are prescribed for PatchBoundary::tangent. The
+/// integers are those of vtkVariationalSurface.
+enum class PatchTangents : int
+{
+  /// Derivatives on the triangles on the other side of the edge; zero where the mesh ends.
+  surroundings = 0,
+  given = 1, ///< the values of VariationalSurfaceOptions::tangents
+  clamped = 2 ///< zero. Displacements keep the tangents at rest; positions get a cusp.
+};
+
+/// Options of VariationalSurface::bind().
+struct VariationalSurfaceOptions
+{
+  /// Exponent of the Laplacian in the equation. 1: the Laplacian, a membrane; 2: its square, a thin
+  /// plate; 3: its cube.
+  int order = 2;
+  PatchBoundary boundary = PatchBoundary::region;
+  PatchTangents tangent_source = PatchTangents::surroundings;
+  /// Type of the unknowns. false: displacements from rest, so that details are kept. true:
+  /// positions, so that the patch is replaced by a smooth surface that continues its surroundings.
+  bool fair = false;
+  /// #V x 3 positions of the vertices in the parameter domain; empty: the rest positions.
+  Points parameters;
+  /// #V flags: 1 for vertices that are fixed in addition to those that handles constrain; empty:
+  /// none.
+  std::vector<char> fixed;
+  /// #V x 3 derivatives of the position in the direction perpendicular to the edge, outwards, per
+  /// unit length of the parameter domain. With unit vectors that point away from the patch, the
+  /// patch is isometric to the parameter domain at the edge. Used by PatchTangents::given.
+  Points tangents;
+  /// #V x 3 right-hand side: required values of (-Laplacian)^order of the position (if `fair`) or
+  /// of the displacement; empty: zero.
+  Points load;
+  /// #V labels of the vertices (Handle::region_id; 0: none). Required if a handle is a region.
+  std::vector<Index> region_ids;
+};
+
+/// Smooth surfaces between constraints. Each coordinate of the free vertices solves a polyharmonic
+/// equation of order 1, 2 or 3. The Laplacian is that of a constant parameter domain. Method:
+/// Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite elements for variational surface modeling.
+///
+///     VariationalSurface surface;
+///     surface.bind(context, points, triangles, handles, options);  // once
+///     surface.solve(context, pose);            // factors if modes change, then solves
+///     surface.posed();
+///
+/// Handles constrain the mesh as in FullArap (see MeshGrips); handles are optional. The method is
+/// linear: large rotations shear details, and no part remains rigid.
+///
+/// If the unknowns are displacements, a connected part without constraints does not move. If the
+/// unknowns are positions, such a part is an error, because its shape is undetermined.
+///
+/// Cost: bind O(#V). A solve after a change of modes needs one sparse factorization of the free
+/// vertices' matrix (about 7, 19 or 37 entries per row for order 1, 2 or 3). Every solve needs a
+/// few solves with the factor for three right-hand sides.
+class VariationalSurface
+{
+public:
+  /// Bind a mesh and its handles. The report contains counts.vertices, counts.triangles,
+  /// counts.handles, method, order and boundary. A warning contains the names of handles that are
+  /// not on the mesh. Return invalid_input if a value is not finite, an array has the wrong length,
+  /// the order is not 1 to 3, there is no triangle, or a region has no label or no vertices.
+  Status bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
+    const Handles& handles, const VariationalSurfaceOptions& options = {});
+
+  /// Compute the vertices for a pose, which has one entry per handle. The report contains
+  /// counts.free, counts.constrained (number of constrained vertices and points), condition (a
+  /// lower bound of the condition number of the factored matrix, scaled to ones on its diagonal),
+  /// refinement (the last correction, as a fraction of the largest coordinate) and
+  /// constraint_residual (in bounding-box diagonals). Errors are those of Polyharmonic::prepare;
+  /// another error is a part without constraints if the unknowns are positions. Warnings report
+  /// contradictory or redundant handles, a refinement after which few digits are correct, and
+  /// boundary conditions that have less effect than expected.
+  Status solve(ExecutionContext& context, const Pose& pose);
+
+  /// The vertices in the last solved pose.
+  const Points& posed() const { return this->posed_; }
+  /// Number of factorizations: one for each choice of modes.
+  Index factorizations() const { return this->factorizations_; }
+
+private:
+  using Rows = Polyharmonic::Rows;
+
+  Status prepare(ExecutionContext& context, const Pose& pose);
+  Rows known(const Rows& given) const;
+
+  Handles handles_;
+  VariationalSurfaceOptions options_;
+  Points rest_;
+  Components parts_;
+  std::vector<Index> staying_;
+  MeshGrips grips_;
+
+  // ---- per choice of modes
+  bool prepared_ = false;
+  std::vector<HandleMode> modes_;
+  Polyharmonic system_;
+  /// Status of the last preparation; its report and warnings are copied to the status of every
+  /// solve.
+  Status prepared_status_;
+  Index factorizations_ = 0;
+
+  Points posed_;
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,226 @@
+// Bounding boxes, validity checks, volumes, edges and connected components of triangle and tet
+// meshes.
+#include "geometry/mesh.h"
+
+#include "base/disjoint_sets.h"
+#include "geometry/tet_facets.h"
+#include "geometry/triangle_sides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace bindpose
+{
+
+namespace
+{
+template <typename Elements>
+Status check_elements(PointsView points, const Elements& elements, const char* element_name)
+{
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    for (Index k = 0; k < elements.cols(); ++k)
+    {
+      const Index v = elements(e, k);
+      if (v < 0 || v >= points.rows())
+      {
+        return Status::invalid_input(std::string(element_name) + " " + std::to_string(e) +
+          " references vertex " + std::to_string(v) + ", but there are " +
+          std::to_string(points.rows()) + " vertices");
+      }
+      if (!points.row(v).allFinite())
+      {
+        return Status::invalid_input("vertex " + std::to_string(v) +
+          " has a coordinate that is not a finite number (used by " + element_name + " " +
+          std::to_string(e) + ")");
+      }
+    }
+  }
+  return {};
+}
+
+template <typename Elements>
+Components components_of(Index vertex_count, const Elements& elements)
+{
+  DisjointSets<Index> sets(static_cast<std::size_t>(vertex_count));
+  std::vector<char> used(static_cast<std::size_t>(vertex_count), 0);
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    for (Index k = 0; k < elements.cols(); ++k)
+    {
+      used[elements(e, k)] = 1;
+      sets.unite(elements(e, 0), elements(e, k));
+    }
+  }
+  Components result;
+  result.of_vertex.assign(static_cast<std::size_t>(vertex_count), -1);
+  for (Index v = 0; v < vertex_count; ++v)
+  {
+    if (used[v])
+    {
+      const Index root = sets.find(v);
+      result.of_vertex[v] = root == v ? result.count++ : result.of_vertex[root];
+    }
+  }
+  return result;
+}
+} // namespace
+
+void Box::add(const Vec3& p)
+{
+  this->lower = this->lower.cwiseMin(p);
+  this->upper = this->upper.cwiseMax(p);
+}
+
+Box bounding_box(PointsView points)
+{
+  Box box;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    box.add(points.row(v));
+  }
+  return box;
+}
+
+Box bounding_box(PointsView points, TrianglesView triangles)
+{
+  Box box;
+  for (Index k = 0; k < triangles.size(); ++k)
+  {
+    box.add(points.row(triangles.data()[k]));
+  }
+  return box;
+}
+
+Status check_mesh(PointsView points, TrianglesView triangles)
+{
+  return check_elements(points, triangles, "triangle");
+}
+
+Status check_mesh(PointsView points, TetsView tets)
+{
+  return check_elements(points, tets, "tet");
+}
+
+double signed_volume(PointsView points, TrianglesView triangles)
+{
+  // Coordinates are relative to the center of the box. Far from the origin, the determinants would
+  // lose digits by cancellation.
+  const Vec3 c = triangles.rows() ? bounding_box(points, triangles).center() : Vec3::Zero();
+  double six_volumes = 0.0;
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Vec3 p0 = points.row(triangles(t, 0)).transpose() - c;
+    const Vec3 p1 = points.row(triangles(t, 1)).transpose() - c;
+    const Vec3 p2 = points.row(triangles(t, 2)).transpose() - c;
+    six_volumes += p0.dot(p1.cross(p2));
+  }
+  return six_volumes / 6.0;
+}
+
+double surface_area(PointsView points, TrianglesView triangles)
+{
+  double two_areas = 0.0;
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Vec3 p0 = points.row(triangles(t, 0));
+    const Vec3 p1 = points.row(triangles(t, 1));
+    const Vec3 p2 = points.row(triangles(t, 2));
+    two_areas += (p1 - p0).cross(p2 - p0).norm();
+  }
+  return 0.5 * two_areas;
+}
+
+double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+{
+  return (b - a).cross(c - a).dot(d - a) / 6.0;
+}
+
+Eigen::VectorXd tet_volumes(PointsView points, TetsView tets)
+{
+  Eigen::VectorXd volumes(tets.rows());
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    volumes[t] = tet_volume(points.row(tets(t, 0)), points.row(tets(t, 1)), points.row(tets(t, 2)),
+      points.row(tets(t, 3)));
+  }
+  return volumes;
+}
+
+Triangles boundary_triangles(TetsView tets)
+{
+  const std::vector<TetFacet> facets = tet_facets(tets);
+  std::vector<TetFacet> single;
+  for (std::size_t i = 0, j = 0; i < facets.size(); i = j)
+  {
+    while (j < facets.size() && facets[j].vertices == facets[i].vertices)
+    {
+      ++j;
+    }
+    if (j == i + 1)
+    {
+      single.push_back(facets[i]);
+    }
+  }
+  std::sort(single.begin(), single.end(),
+    [](const TetFacet& x, const TetFacet& y)
+    { return x.tet != y.tet ? x.tet < y.tet : x.side < y.side; });
+  Triangles result(static_cast<Index>(single.size()), 3);
+  for (Index i = 0; i < result.rows(); ++i)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      result(i, k) = tets(single[i].tet, facet_corners[single[i].side][k]);
+    }
+  }
+  return result;
+}
+
+std::vector<Edge> mesh_edges(TrianglesView triangles)
+{
+  const std::vector<TriangleSide> sides = sides_by_edge(triangles);
+  std::vector<Edge> edges;
+  edges.reserve(sides.size() / 2 + 1); // enough for a closed surface
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end)
+  {
+    end = end_of_edge(sides, begin);
+    Edge edge{ sides[begin].a, sides[begin].b, 0, 0 };
+    for (std::size_t k = begin; k < end; ++k)
+    {
+      edge.uses += 1;
+      edge.net_direction += sides[k].forward ? 1 : -1;
+    }
+    if (edge.a != edge.b)
+    {
+      edges.push_back(edge);
+    }
+  }
+  return edges;
+}
+
+EdgeCounts count_edges(TrianglesView triangles)
+{
+  EdgeCounts counts;
+  for (const Edge& edge : mesh_edges(triangles))
+  {
+    counts.edges += 1;
+    counts.boundary += edge.uses == 1;
+    counts.nonmanifold += edge.uses >= 3;
+    counts.misoriented += edge.uses == 2 && edge.net_direction != 0;
+    counts.closed = counts.closed && edge.net_direction == 0;
+  }
+  return counts;
+}
+
+Components connected_components(Index vertex_count, TrianglesView triangles)
+{
+  return components_of(vertex_count, triangles);
+}
+
+Components connected_components(Index vertex_count, TetsView tets)
+{
+  return components_of(vertex_count, tets);
+}
+
+} // namespace bindpose

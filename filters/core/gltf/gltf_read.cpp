@@ -1,0 +1,1335 @@
+// Reader of skinned meshes in glTF files (see gltf_skin.h). tinygltf parses the file. It reads
+// buffers through a callback and reads no images. Its output is not trusted: every index, count and
+// offset is checked before a value is read from a buffer.
+#include "gltf/gltf_skin.h"
+
+#include "base/memory.h"
+#include "gltf/gltf_transform.h"
+#include "gltf/tiny_gltf.h"
+#include "io/text_scanner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr Index deepest = 100; // maximum nesting of brackets in the JSON text
+constexpr Index most_frames = 100000;
+constexpr double frames_per_second = 24.0; // frame rate if the keys are not evenly spaced
+
+using Transforms = std::vector<Eigen::Affine3d>;
+
+/// Exception for an error in the file. The message is the file's path followed by this sentence.
+struct Broken : std::exception
+{
+  explicit Broken(std::string text) : sentence(std::move(text)) {}
+  const char* what() const noexcept override { return this->sentence.c_str(); }
+  std::string sentence;
+};
+
+// ---- Parsing -----------------------------------------------------------------------------------
+
+/// Return the nesting depth of the brackets of a JSON text. The parser recurses once per level.
+Index depth_of(std::string_view text)
+{
+  Index depth = 0;
+  Index largest = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    const char c = text[i];
+    if (quoted)
+    {
+      i += c == '\\';
+      quoted = c != '"';
+    }
+    else if (c == '"')
+    {
+      quoted = true;
+    }
+    else if (c == '{' || c == '[')
+    {
+      largest = std::max(largest, ++depth);
+    }
+    else if (c == '}' || c == ']')
+    {
+      --depth;
+    }
+  }
+  return largest;
+}
+
+bool is_file(const std::string& path, void*)
+{
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error);
+}
+
+std::string as_it_is(const std::string& path, void*)
+{
+  return path;
+}
+
+bool read_bytes(
+  std::vector<unsigned char>* bytes, std::string* reason, const std::string& path, void*)
+{
+  std::string content;
+  const Status status = read_file(path, content);
+  bytes->assign(content.begin(), content.end());
+  *reason = status.message;
+  return status.ok();
+}
+
+bool no_picture(
+  tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*)
+{
+  return true;
+}
+
+tinygltf::Model parse(const std::string& path, const std::string& content)
+{
+  const bool binary = content.compare(0, 4, "glTF") == 0;
+  if (content.size() > 0xffffffffULL)
+  {
+    throw Broken("the file is larger than 4 GB, which is not supported");
+  }
+  std::string_view text(content);
+  if (binary)
+  {
+    std::uint32_t length = 0;
+    if (content.size() >= 20)
+    {
+      std::memcpy(&length, content.data() + 12, sizeof(length));
+    }
+    text = text.substr(std::min<std::size_t>(20, text.size()), length);
+  }
+  if (depth_of(text) > deepest)
+  {
+    throw Broken("the JSON of the file is nested too deeply");
+  }
+  tinygltf::Model model;
+  tinygltf::TinyGLTF parser;
+  parser.SetFsCallbacks({ is_file, as_it_is, read_bytes, nullptr, nullptr });
+  parser.SetImageLoader(no_picture, nullptr);
+  std::string errors;
+  std::string warnings;
+  const auto size = static_cast<unsigned int>(content.size());
+  std::string folder = std::filesystem::path(path).parent_path().string();
+  folder = folder.empty() ? "." : folder;
+  bool parsed = false;
+  try
+  {
+    parsed = binary
+      ? parser.LoadBinaryFromMemory(&model, &errors, &warnings,
+          reinterpret_cast<const unsigned char*>(content.data()), size, folder)
+      : parser.LoadASCIIFromString(&model, &errors, &warnings, content.data(), size, folder);
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw;
+  }
+  catch (const std::exception& error) // thrown for JSON values of a wrong type
+  {
+    errors = error.what();
+  }
+  if (!parsed)
+  {
+    const std::string first = errors.substr(0, errors.find('\n')).substr(0, 200);
+    throw Broken(first.empty() ? "not a glTF file" : "the file is not valid: " + first);
+  }
+  if (model.asset.version.compare(0, 2, "2.") != 0)
+  {
+    throw Broken("glTF " + model.asset.version.substr(0, 20) + " is not supported; expected 2.0");
+  }
+  for (const std::string& extension : model.extensionsRequired)
+  {
+    // All other extensions can change the geometry of a mesh or a node.
+    if (extension.compare(0, 14, "KHR_materials_") != 0 &&
+      extension.compare(0, 12, "KHR_texture_") != 0)
+    {
+      throw Broken("the required extension " + extension.substr(0, 100) + " is not supported");
+    }
+  }
+  return model;
+}
+
+template <typename Element>
+const Element& at(const std::vector<Element>& list, int id, const char* what)
+{
+  if (id < 0 || static_cast<std::size_t>(id) >= list.size())
+  {
+    throw Broken(std::string(what) + " " + std::to_string(id) + " does not exist; the file has " +
+      std::to_string(list.size()));
+  }
+  return list[static_cast<std::size_t>(id)];
+}
+
+// ---- Accessors ---------------------------------------------------------------------------------
+
+using Numbers = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+template <typename T>
+double number_at(const unsigned char* bytes)
+{
+  T value;
+  std::memcpy(&value, bytes, sizeof(T));
+  return static_cast<double>(value);
+}
+
+double component_at(const unsigned char* bytes, int type)
+{
+  switch (type)
+  {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return number_at<std::int8_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return number_at<std::uint8_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return number_at<std::int16_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return number_at<std::uint16_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return number_at<std::uint32_t>(bytes);
+    default:
+      return number_at<float>(bytes);
+  }
+}
+
+std::size_t component_size(int type)
+{
+  switch (type)
+  {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 1;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 2;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return 4;
+    default:
+      throw Broken("an accessor has an unknown component type");
+  }
+}
+
+/// Return the divisor of normalized integers: the largest value of the component type.
+double unit_of(int type)
+{
+  switch (type)
+  {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return 127.0;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 255.0;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return 32767.0;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 65535.0;
+    default:
+      return 1.0;
+  }
+}
+
+class Accessors
+{
+public:
+  Accessors(const tinygltf::Model& model, std::size_t file_size) : model_(model)
+  {
+    for (const tinygltf::Buffer& buffer : model.buffers)
+    {
+      this->bytes_ += buffer.data.size();
+    }
+    this->bytes_ = std::max(this->bytes_, file_size);
+  }
+
+  /// Read all values of an accessor, one element per row.
+  /// @param type number of components, as a constant of tinygltf.
+  /// @param what name of the values in error messages.
+  Numbers read(int id, int type, const char* what) const
+  {
+    const tinygltf::Accessor& accessor = at(this->model_.accessors, id, "accessor");
+    if (accessor.type != type)
+    {
+      throw Broken(std::string(what) + ": unexpected number of components");
+    }
+    const int columns = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
+    const std::size_t size = component_size(accessor.componentType);
+    // A sparse accessor stores no bytes for zeros. As a sanity check, the number of its elements
+    // must not exceed the number of bytes in the file.
+    if (accessor.count == 0 || accessor.count > this->bytes_)
+    {
+      throw Broken(std::string(what) + ": the number of elements is " +
+        std::to_string(accessor.count) + "; it must be at least 1 and fit into the file");
+    }
+    const auto count = static_cast<Index>(accessor.count);
+    if (accessor.bufferView < 0 && !accessor.sparse.isSparse)
+    {
+      throw Broken(std::string(what) + ": no data");
+    }
+    Numbers numbers;
+    if (accessor.bufferView >= 0)
+    {
+      const View view =
+        this->view(accessor.bufferView, accessor.byteOffset, accessor.count, columns * size, what);
+      numbers.resize(count, columns);
+      for (Index r = 0; r < count; ++r)
+      {
+        for (int c = 0; c < columns; ++c)
+        {
+          numbers(r, c) =
+            component_at(view.data + r * view.stride + c * size, accessor.componentType);
+        }
+      }
+    }
+    else
+    {
+      numbers.setZero(count, columns);
+    }
+    if (accessor.sparse.isSparse)
+    {
+      this->replace(accessor, columns, size, what, numbers);
+    }
+    if (accessor.normalized)
+    {
+      numbers /= unit_of(accessor.componentType);
+      numbers = numbers.cwiseMax(-1.0);
+    }
+    return numbers;
+  }
+
+  /// Read an accessor and check that all values are finite.
+  Numbers read_finite(int id, int type, const char* what) const
+  {
+    Numbers numbers = this->read(id, type, what);
+    if (!numbers.allFinite())
+    {
+      throw Broken(std::string(what) + ": a value is not finite");
+    }
+    return numbers;
+  }
+
+  /// Read an accessor and check that its values are unsigned integers.
+  Numbers read_ids(int id, int type, const char* what) const
+  {
+    const int component = at(this->model_.accessors, id, "accessor").componentType;
+    if (component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+      component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+      component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+    {
+      throw Broken(std::string(what) + ": expected unsigned integers");
+    }
+    return this->read(id, type, what);
+  }
+
+private:
+  struct View
+  {
+    const unsigned char* data;
+    std::size_t stride;
+  };
+
+  View view(int id, std::size_t offset, std::size_t count, std::size_t size, const char* what) const
+  {
+    const tinygltf::BufferView& view = at(this->model_.bufferViews, id, "buffer view");
+    const tinygltf::Buffer& buffer = at(this->model_.buffers, view.buffer, "buffer");
+    const std::size_t stride = view.byteStride > 0 ? view.byteStride : size;
+    const std::size_t all = buffer.data.size();
+    if (view.byteOffset > all || view.byteLength > all - view.byteOffset ||
+      offset > view.byteLength || stride > all || size > view.byteLength - offset ||
+      stride < size || (count - 1) > (view.byteLength - offset - size) / stride)
+    {
+      throw Broken(std::string(what) + ": the data extend beyond the end of the buffer");
+    }
+    return { buffer.data.data() + view.byteOffset + offset, stride };
+  }
+
+  void replace(const tinygltf::Accessor& accessor, int columns, std::size_t size, const char* what,
+    Numbers& numbers) const
+  {
+    const auto& sparse = accessor.sparse;
+    if (sparse.count < 0 || sparse.count > numbers.rows() || sparse.indices.byteOffset < 0 ||
+      sparse.values.byteOffset < 0)
+    {
+      throw Broken(std::string(what) + ": the sparse values are out of range");
+    }
+    if (sparse.count == 0)
+    {
+      return;
+    }
+    const auto count = static_cast<std::size_t>(sparse.count);
+    const std::size_t id_size = component_size(sparse.indices.componentType);
+    const View ids =
+      this->view(sparse.indices.bufferView, sparse.indices.byteOffset, count, id_size, what);
+    const View values =
+      this->view(sparse.values.bufferView, sparse.values.byteOffset, count, columns * size, what);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const double row = component_at(ids.data + k * ids.stride, sparse.indices.componentType);
+      if (!(row >= 0.0 && row < static_cast<double>(numbers.rows())) || row != std::floor(row))
+      {
+        throw Broken(std::string(what) + ": the sparse values are out of range");
+      }
+      for (int c = 0; c < columns; ++c)
+      {
+        numbers(static_cast<Index>(row), c) =
+          component_at(values.data + k * values.stride + c * size, accessor.componentType);
+      }
+    }
+  }
+
+  const tinygltf::Model& model_;
+  std::size_t bytes_ = 0;
+};
+
+// ---- Nodes -------------------------------------------------------------------------------------
+
+template <int Size>
+bool take(const std::vector<double>& from, Eigen::Matrix<double, Size, 1>& to)
+{
+  if (from.empty())
+  {
+    return true;
+  }
+  if (from.size() != Size)
+  {
+    return false;
+  }
+  to = Eigen::Map<const Eigen::Matrix<double, Size, 1>>(from.data());
+  return to.allFinite();
+}
+
+/// The local transform of a node: a matrix, or translation, rotation and scale.
+struct Placement
+{
+  bool has_matrix = false;
+  Eigen::Affine3d matrix = Eigen::Affine3d::Identity();
+  Trs trs;
+
+  Eigen::Affine3d affine() const { return this->has_matrix ? this->matrix : this->trs.affine(); }
+};
+
+void set_rotation(const Eigen::Vector4d& q, Trs& trs)
+{
+  if (!(q.norm() > 1e-12))
+  {
+    throw Broken("a rotation has length zero");
+  }
+  trs.rotation.coeffs() = q.normalized();
+}
+
+Placement placement_of(const tinygltf::Node& node)
+{
+  Placement result;
+  Eigen::Matrix<double, 16, 1> columns = Eigen::Matrix<double, 16, 1>::Zero();
+  Eigen::Vector4d rotation = Eigen::Vector4d::UnitW();
+  if (!take<16>(node.matrix, columns) || !take<3>(node.translation, result.trs.translation) ||
+    !take<4>(node.rotation, rotation) || !take<3>(node.scale, result.trs.scale))
+  {
+    throw Broken("the transform of a node is not valid: expected finite numbers, 16 for the "
+                 "matrix, 3 for the translation and scale, and 4 for the rotation");
+  }
+  set_rotation(rotation, result.trs);
+  if (!node.matrix.empty())
+  {
+    result.has_matrix = true;
+    result.matrix.matrix() = Eigen::Map<const Eigen::Matrix4d>(columns.data());
+    result.matrix.makeAffine();
+  }
+  return result;
+}
+
+struct Nodes
+{
+  std::vector<Placement> placements;
+  std::vector<int> parents;
+  std::vector<int> order; ///< parents first
+
+  /// Return the node-to-scene transforms.
+  Transforms stand() const
+  {
+    Transforms global(this->placements.size());
+    for (const int id : this->order)
+    {
+      const Eigen::Affine3d own = this->placements[id].affine();
+      global[id] = this->parents[id] < 0 ? own : global[this->parents[id]] * own;
+    }
+    return global;
+  }
+};
+
+Nodes read_nodes(const tinygltf::Model& model)
+{
+  Nodes nodes;
+  nodes.parents.assign(model.nodes.size(), -1);
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+  {
+    nodes.placements.push_back(placement_of(model.nodes[n]));
+    for (const int child : model.nodes[n].children)
+    {
+      at(model.nodes, child, "node");
+      if (nodes.parents[child] >= 0)
+      {
+        throw Broken("node " + std::to_string(child) + " has more than one parent");
+      }
+      nodes.parents[child] = static_cast<int>(n);
+    }
+  }
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+  {
+    if (nodes.parents[n] < 0)
+    {
+      nodes.order.push_back(static_cast<int>(n));
+    }
+  }
+  for (std::size_t k = 0; k < nodes.order.size(); ++k)
+  {
+    const auto& children = model.nodes[nodes.order[k]].children;
+    nodes.order.insert(nodes.order.end(), children.begin(), children.end());
+  }
+  if (nodes.order.size() != model.nodes.size())
+  {
+    throw Broken("the hierarchy of the nodes contains a cycle");
+  }
+  return nodes;
+}
+
+// ---- Joints ------------------------------------------------------------------------------------
+
+bool take(const tinygltf::Value& value, Vec3& to)
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    if (!value.IsArray() || value.ArrayLen() != 3 || !value.Get(k).IsNumber())
+    {
+      return false;
+    }
+    to[k] = value.Get(k).GetNumberAsDouble();
+  }
+  return to.allFinite();
+}
+
+/// Read the extras that Bindpose writes for a handle. Return nothing if they are missing or
+/// invalid.
+std::optional<GltfNote> read_note(const tinygltf::Value& extras, std::size_t joints)
+{
+  if (!extras.IsObject() || !extras.Has("bindpose") || !extras.Get("bindpose").IsObject())
+  {
+    return {};
+  }
+  const tinygltf::Value& words = extras.Get("bindpose");
+  GltfNote note;
+  if (!words.Has("kind") || !words.Get("kind").IsString() || !take(words.Get("head"), note.head) ||
+    !take(words.Get("tail"), note.tail))
+  {
+    return {};
+  }
+  note.kind = words.Get("kind").Get<std::string>();
+  if (words.Has("region") && words.Get("region").IsNumber())
+  {
+    const double region = words.Get("region").GetNumberAsDouble();
+    note.region = region > 0.0 && region < 1e15 ? static_cast<Index>(region) : 0;
+  }
+  const tinygltf::Value& cage = words.Get("cage");
+  for (std::size_t e = 0; cage.IsArray() && e < cage.ArrayLen(); ++e)
+  {
+    const tinygltf::Value& corners = cage.Get(static_cast<int>(e));
+    std::array<Index, 3> element{ -1, -1, -1 };
+    for (int k = 0; k < 3; ++k)
+    {
+      const bool whole = corners.IsArray() && corners.ArrayLen() == 3 && corners.Get(k).IsInt();
+      element[k] = whole ? corners.Get(k).GetNumberAsInt() : -2;
+      if (element[k] < (k < 2 ? 0 : -1) || element[k] >= static_cast<Index>(joints))
+      {
+        return {};
+      }
+    }
+    note.cage.push_back(element);
+  }
+  return note;
+}
+
+struct SkinNodes
+{
+  std::vector<int> nodes; ///< node of each joint
+  std::vector<int> joint_of_node;
+};
+
+SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, const Nodes& nodes,
+  const tinygltf::Skin& from, GltfSkin& skin)
+{
+  SkinNodes result;
+  result.joint_of_node.assign(model.nodes.size(), -1);
+  result.nodes = from.joints;
+  if (from.joints.empty())
+  {
+    throw Broken("the skin has no joints");
+  }
+  for (std::size_t j = 0; j < from.joints.size(); ++j)
+  {
+    at(model.nodes, from.joints[j], "node");
+    int& joint = result.joint_of_node[from.joints[j]];
+    if (joint >= 0)
+    {
+      throw Broken("the skin contains a joint twice");
+    }
+    joint = static_cast<int>(j);
+  }
+  Numbers inverse_binds;
+  if (from.inverseBindMatrices >= 0)
+  {
+    inverse_binds =
+      accessors.read_finite(from.inverseBindMatrices, TINYGLTF_TYPE_MAT4, "inverse bind matrices");
+    if (inverse_binds.rows() < static_cast<Index>(from.joints.size()))
+    {
+      throw Broken("the skin has fewer inverse bind matrices than joints");
+    }
+  }
+  const Transforms global = nodes.stand();
+  std::set<std::string> names;
+  for (std::size_t j = 0; j < from.joints.size(); ++j)
+  {
+    const int id = from.joints[j];
+    GltfJoint joint;
+    joint.posed = global[id];
+    if (inverse_binds.rows() > 0)
+    {
+      Eigen::Affine3d inverse;
+      inverse.matrix() =
+        Eigen::Map<const Eigen::Matrix4d>(inverse_binds.data() + 16 * static_cast<Index>(j));
+      inverse.makeAffine();
+      joint.rest = inverse.inverse();
+    }
+    if (!joint.rest.matrix().allFinite() || !joint.posed.matrix().allFinite())
+    {
+      throw Broken(
+        "joint " + std::to_string(j) + " has a matrix that is not finite or not invertible");
+    }
+    for (int above = nodes.parents[id]; above >= 0 && joint.parent < 0;
+         above = nodes.parents[above])
+    {
+      joint.parent = result.joint_of_node[above];
+    }
+    joint.note = read_note(model.nodes[id].extras, from.joints.size());
+    const std::string name = one_line(model.nodes[id].name);
+    joint.name = name.empty() ? "joint " + std::to_string(j) : name;
+    for (int copy = 2; !names.insert(joint.name).second; ++copy)
+    {
+      joint.name =
+        (name.empty() ? "joint " + std::to_string(j) : name) + "_" + std::to_string(copy);
+    }
+    skin.joints.push_back(joint);
+  }
+  return result;
+}
+
+// ---- Meshes ------------------------------------------------------------------------------------
+
+/// Mesh data collected from all primitives. The first four members contain one matrix per
+/// primitive.
+struct Parts
+{
+  std::vector<Numbers> points;
+  std::vector<Numbers> normals;
+  std::vector<Numbers> textures;
+  std::vector<Numbers> colors;
+  std::vector<std::array<Index, 3>> triangles;
+  Index vertices = 0;
+  Index sets = 0;
+  Index skipped = 0;
+  Index morph_targets = 0;
+  Index meshes = 0;
+  bool more_attributes = false; ///< whether there are more sets of texture coordinates or colors
+  Index unweighted = 0;
+  /// The first vertex of each combination of accessors. Primitives with different materials can
+  /// share their vertices.
+  std::map<std::map<std::string, int>, Index> shared;
+  /// For each vertex, pairs of joint and weight.
+  std::vector<std::vector<std::pair<Index, double>>> influences;
+};
+
+void add_triangles(const std::vector<Index>& corners, int mode, Index offset, Parts& parts)
+{
+  const auto count = static_cast<Index>(corners.size());
+  if (count < 3 || (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0))
+  {
+    throw Broken("a mesh has " + std::to_string(count) +
+      " triangle corners; expected at least 3, and a multiple of 3 for a triangle list");
+  }
+  const auto add = [&](Index a, Index b, Index c)
+  {
+    parts.triangles.push_back({ offset + corners[static_cast<std::size_t>(a)],
+      offset + corners[static_cast<std::size_t>(b)],
+      offset + corners[static_cast<std::size_t>(c)] });
+  };
+  for (Index k = 0; k + 2 < count; k += mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1)
+  {
+    const Index flip = mode == TINYGLTF_MODE_TRIANGLE_STRIP ? k % 2 : 0;
+    add(mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : k, k + 1 + flip, k + 2 - flip);
+  }
+}
+
+/// Read an attribute with one row per vertex. Return a matrix without rows if it is missing.
+Numbers read_attribute(const Accessors& accessors, const tinygltf::Primitive& primitive,
+  const char* name, int type, Index vertices, bool ids = false)
+{
+  const auto entry = primitive.attributes.find(name);
+  if (entry == primitive.attributes.end())
+  {
+    return {};
+  }
+  Numbers numbers = ids ? accessors.read_ids(entry->second, type, name)
+                        : accessors.read_finite(entry->second, type, name);
+  if (vertices >= 0 && numbers.rows() != vertices)
+  {
+    throw Broken(std::string(name) + " has " + std::to_string(numbers.rows()) + " elements for " +
+      std::to_string(vertices) + " vertices");
+  }
+  return numbers;
+}
+
+Numbers read_colors(const tinygltf::Model& model, const Accessors& accessors,
+  const tinygltf::Primitive& primitive, Index vertices)
+{
+  const auto entry = primitive.attributes.find("COLOR_0");
+  const bool three = entry != primitive.attributes.end() &&
+    at(model.accessors, entry->second, "accessor").type == TINYGLTF_TYPE_VEC3;
+  Numbers colors = read_attribute(
+    accessors, primitive, "COLOR_0", three ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4, vertices);
+  if (three)
+  {
+    colors.conservativeResize(Eigen::NoChange, 4);
+    colors.col(3).setOnes();
+  }
+  return colors;
+}
+
+void read_influences(const Accessors& accessors, const tinygltf::Primitive& primitive,
+  Index vertices, std::size_t joints, Parts& parts)
+{
+  const auto first = parts.influences.size();
+  parts.influences.resize(first + static_cast<std::size_t>(vertices));
+  for (Index set = 0;; ++set)
+  {
+    const std::string joint_name = "JOINTS_" + std::to_string(set);
+    const std::string weight_name = "WEIGHTS_" + std::to_string(set);
+    const Numbers ids =
+      read_attribute(accessors, primitive, joint_name.c_str(), TINYGLTF_TYPE_VEC4, vertices, true);
+    const Numbers weights =
+      read_attribute(accessors, primitive, weight_name.c_str(), TINYGLTF_TYPE_VEC4, vertices);
+    if (ids.rows() != weights.rows())
+    {
+      throw Broken("JOINTS and WEIGHTS of set " + std::to_string(set) +
+        " must be either both present or both missing");
+    }
+    if (ids.rows() == 0)
+    {
+      return;
+    }
+    parts.sets = std::max(parts.sets, set + 1);
+    for (Index v = 0; v < vertices; ++v)
+    {
+      for (int k = 0; k < 4; ++k)
+      {
+        const double weight = weights(v, k);
+        if (weight == 0.0)
+        {
+          continue; // skip unused entries, whose joint id may be invalid
+        }
+        if (weight < 0.0 || ids(v, k) >= static_cast<double>(joints))
+        {
+          throw Broken("vertex " + std::to_string(v) +
+            (weight < 0.0
+                ? std::string(" has a negative weight")
+                : " has a weight of joint " + std::to_string(static_cast<Index>(ids(v, k))) +
+                  ", but there are " + std::to_string(joints) + " joints"));
+        }
+        parts.influences[first + v].emplace_back(static_cast<Index>(ids(v, k)), weight);
+      }
+    }
+  }
+}
+
+void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
+  const tinygltf::Primitive& primitive, const Eigen::Affine3d& place, std::size_t joints,
+  Parts& parts)
+{
+  const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+  if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
+    mode != TINYGLTF_MODE_TRIANGLE_FAN)
+  {
+    parts.skipped += 1;
+    return;
+  }
+  parts.morph_targets = std::max(parts.morph_targets, static_cast<Index>(primitive.targets.size()));
+  parts.more_attributes = parts.more_attributes || primitive.attributes.count("TEXCOORD_1") > 0 ||
+    primitive.attributes.count("COLOR_1") > 0;
+  Numbers points = read_attribute(accessors, primitive, "POSITION", TINYGLTF_TYPE_VEC3, -1);
+  if (points.rows() == 0)
+  {
+    throw Broken("a mesh has no attribute POSITION");
+  }
+  const Index vertices = points.rows();
+  const auto [entry, fresh] = parts.shared.insert({ primitive.attributes, parts.vertices });
+  const Index offset = entry->second;
+  if (fresh)
+  {
+    for (Index v = 0; v < vertices; ++v)
+    {
+      points.row(v) = (place * Vec3(points.row(v).transpose())).transpose();
+    }
+    Numbers normals = read_attribute(accessors, primitive, "NORMAL", TINYGLTF_TYPE_VEC3, vertices);
+    const Eigen::Matrix3d turn = place.linear().inverse().transpose();
+    for (Index v = 0; v < normals.rows() && turn.allFinite(); ++v)
+    {
+      normals.row(v) = (turn * normals.row(v).transpose()).stableNormalized().transpose();
+    }
+    parts.points.push_back(points);
+    parts.normals.push_back(normals);
+    parts.textures.push_back(
+      read_attribute(accessors, primitive, "TEXCOORD_0", TINYGLTF_TYPE_VEC2, vertices));
+    parts.colors.push_back(read_colors(model, accessors, primitive, vertices));
+    if (joints > 0)
+    {
+      read_influences(accessors, primitive, vertices, joints, parts);
+    }
+    parts.vertices += vertices;
+  }
+  std::vector<Index> corners(static_cast<std::size_t>(primitive.indices < 0 ? vertices : 0));
+  for (std::size_t k = 0; k < corners.size(); ++k)
+  {
+    corners[k] = static_cast<Index>(k);
+  }
+  if (primitive.indices >= 0)
+  {
+    const Numbers ids = accessors.read_ids(primitive.indices, TINYGLTF_TYPE_SCALAR, "indices");
+    for (Index k = 0; k < ids.rows(); ++k)
+    {
+      if (ids(k, 0) >= static_cast<double>(vertices))
+      {
+        throw Broken("a triangle references vertex " +
+          std::to_string(static_cast<Index>(ids(k, 0))) + ", but there are " +
+          std::to_string(vertices) + " vertices");
+      }
+      corners.push_back(static_cast<Index>(ids(k, 0)));
+    }
+  }
+  add_triangles(corners, mode, offset, parts);
+}
+
+/// Concatenate the matrices of all primitives. Do nothing if a primitive lacks the attribute.
+template <typename Matrix>
+void join(const std::vector<Numbers>& parts, Index rows, double unit, Matrix& all)
+{
+  Index sum = 0;
+  for (const Numbers& part : parts)
+  {
+    sum += part.rows();
+  }
+  if (sum != rows)
+  {
+    return;
+  }
+  all.resize(rows, all.cols());
+  Index next = 0;
+  for (const Numbers& part : parts)
+  {
+    if constexpr (std::is_integral_v<typename Matrix::Scalar>)
+    {
+      all.middleRows(next, part.rows()) = (part.array().max(0.0).min(1.0) * unit)
+                                            .round()
+                                            .template cast<typename Matrix::Scalar>()
+                                            .matrix();
+    }
+    else
+    {
+      all.middleRows(next, part.rows()) = unit * part;
+    }
+    next += part.rows();
+  }
+}
+
+/// Set the weights, with rows that sum to one. Then remove the joint "rest", which
+/// write_gltf_skin() adds.
+void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
+{
+  const auto joints = static_cast<Index>(skin.joints.size());
+  const std::size_t needed =
+    static_cast<std::size_t>(parts.vertices) * static_cast<std::size_t>(joints) * sizeof(double);
+  if (static_cast<double>(needed) > available_memory())
+  {
+    throw Broken("the weights of " + std::to_string(parts.vertices) + " vertices and " +
+      std::to_string(joints) + " joints need more memory than is available");
+  }
+  skin.weights.setZero(parts.vertices, joints);
+  for (Index v = 0; v < parts.vertices; ++v)
+  {
+    double sum = 0.0;
+    for (const auto& [joint, weight] : parts.influences[v])
+    {
+      skin.weights(v, joint) += weight;
+      sum += weight;
+    }
+    parts.unweighted += !(sum > 0.0);
+    if (sum > 0.0)
+    {
+      skin.weights.row(v) /= sum;
+    }
+  }
+  const auto& note = skin.joints.back().note;
+  if (joints > 1 && note && note->kind == "rest")
+  {
+    skin.joints.pop_back();
+    joint_nodes.nodes.pop_back();
+    skin.weights.conservativeResize(Eigen::NoChange, joints - 1);
+    // Files of other programs may have joints below the joint "rest".
+    for (GltfJoint& joint : skin.joints)
+    {
+      joint.parent = joint.parent < joints - 1 ? joint.parent : -1;
+    }
+  }
+}
+
+// ---- Animation ---------------------------------------------------------------------------------
+
+/// A property of a node as a function of time.
+struct Track
+{
+  int node;
+  enum class Property
+  {
+    translation,
+    rotation,
+    scale
+  } property;
+  std::string interpolation;
+  std::vector<double> times;
+  /// One row per key; for cubic interpolation three rows per key: in-tangent, value, out-tangent.
+  Numbers values;
+
+  bool cubic() const { return this->interpolation == "CUBICSPLINE"; }
+  Eigen::VectorXd value(std::size_t key) const
+  {
+    return this->values.row(static_cast<Index>(this->cubic() ? 3 * key + 1 : key)).transpose();
+  }
+
+  Eigen::VectorXd at(double time) const
+  {
+    const auto after = std::upper_bound(this->times.begin(), this->times.end(), time);
+    if (after == this->times.begin() || after == this->times.end())
+    {
+      return this->value(after == this->times.begin() ? 0 : this->times.size() - 1);
+    }
+    const auto key = static_cast<std::size_t>(after - this->times.begin()) - 1;
+    const double step = this->times[key + 1] - this->times[key];
+    const double u = (time - this->times[key]) / step;
+    Eigen::VectorXd a = this->value(key);
+    const Eigen::VectorXd b = this->value(key + 1);
+    if (this->interpolation == "STEP")
+    {
+      return a;
+    }
+    if (this->cubic())
+    {
+      const auto row = static_cast<Index>(3 * key);
+      const Eigen::VectorXd out = step * this->values.row(row + 2).transpose();
+      const Eigen::VectorXd in = step * this->values.row(row + 3).transpose();
+      const double u2 = u * u;
+      const double u3 = u2 * u;
+      return (2 * u3 - 3 * u2 + 1) * a + (u3 - 2 * u2 + u) * out + (3 * u2 - 2 * u3) * b +
+        (u3 - u2) * in;
+    }
+    if (this->property == Property::rotation)
+    {
+      const Eigen::Quaterniond p(Eigen::Vector4d(a.normalized()));
+      const Eigen::Quaterniond q(Eigen::Vector4d(b.normalized()));
+      return p.slerp(u, q).coeffs();
+    }
+    return (1.0 - u) * a + u * b;
+  }
+};
+
+std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& accessors,
+  const tinygltf::Animation& animation, const tinygltf::AnimationChannel& channel)
+{
+  Track track;
+  track.node = channel.target_node;
+  if (channel.target_path == "rotation")
+  {
+    track.property = Track::Property::rotation;
+  }
+  else if (channel.target_path == "translation" || channel.target_path == "scale")
+  {
+    track.property =
+      channel.target_path == "scale" ? Track::Property::scale : Track::Property::translation;
+  }
+  else
+  {
+    return {}; // the channel animates weights of morph targets, which are not read
+  }
+  if (track.node < 0)
+  {
+    return {}; // the channel belongs to an extension
+  }
+  at(model.nodes, track.node, "node");
+  const tinygltf::AnimationSampler& sampler = at(animation.samplers, channel.sampler, "sampler");
+  track.interpolation = sampler.interpolation;
+  const Numbers times = accessors.read_finite(sampler.input, TINYGLTF_TYPE_SCALAR, "key times");
+  track.times.assign(times.data(), times.data() + times.size());
+  for (std::size_t k = 1; k < track.times.size(); ++k)
+  {
+    if (!(track.times[k] > track.times[k - 1]))
+    {
+      throw Broken("the key times of an animation must be strictly increasing");
+    }
+  }
+  const bool rotates = track.property == Track::Property::rotation;
+  track.values = accessors.read_finite(
+    sampler.output, rotates ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, "keys");
+  if (track.values.rows() != times.rows() * (track.cubic() ? 3 : 1))
+  {
+    throw Broken("the number of keys of an animation must match the number of key times");
+  }
+  return track;
+}
+
+/// Return the times of the frames: the keys if they are evenly spaced, else 24 per second.
+/// @param rate set to the number of frames per second.
+std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
+{
+  std::set<double> keys;
+  for (const Track& track : tracks)
+  {
+    keys.insert(track.times.begin(), track.times.end());
+  }
+  const double first = *keys.begin();
+  const double length = *keys.rbegin() - first;
+  rate = frames_per_second;
+  const double step = keys.size() > 1 ? length / static_cast<double>(keys.size() - 1) : 0.0;
+  bool even = keys.size() > 1;
+  Index k = 0;
+  for (const double key : keys)
+  {
+    even = even && std::abs(key - first - step * static_cast<double>(k++)) < 1e-3 * step;
+  }
+  if (even)
+  {
+    // Times are stored as floats, so a rate close to an integer is rounded.
+    rate = 1.0 / step;
+    rate = std::abs(rate - std::round(rate)) < 1e-4 * rate ? std::round(rate) : rate;
+    return { keys.begin(), keys.end() };
+  }
+  const double frames = std::round(length * rate) + 1.0;
+  if (!(frames <= static_cast<double>(most_frames)))
+  {
+    throw Broken("the animation is longer than " + std::to_string(most_frames) + " frames");
+  }
+  std::vector<double> times;
+  for (Index frame = 0; frame < static_cast<Index>(frames); ++frame)
+  {
+    times.push_back(first + static_cast<double>(frame) / rate);
+  }
+  return times;
+}
+
+/// Read the first animation that moves a joint. Return its name, or nothing if there is none.
+std::optional<std::string> read_animation(const tinygltf::Model& model, const Accessors& accessors,
+  Nodes nodes, const SkinNodes& skin_nodes, GltfSkin& skin)
+{
+  std::vector<char> moves_a_joint(model.nodes.size(), 0);
+  for (int id : skin_nodes.nodes)
+  {
+    for (; id >= 0 && !moves_a_joint[id]; id = nodes.parents[id])
+    {
+      moves_a_joint[id] = 1;
+    }
+  }
+  std::vector<Track> tracks;
+  std::string name;
+  for (const tinygltf::Animation& animation : model.animations)
+  {
+    std::vector<Track> found;
+    for (const tinygltf::AnimationChannel& channel : animation.channels)
+    {
+      if (auto track = read_track(model, accessors, animation, channel);
+          track && moves_a_joint[track->node])
+      {
+        found.push_back(*track);
+      }
+    }
+    if (tracks.empty() && !found.empty())
+    {
+      tracks = std::move(found);
+      name = one_line(animation.name);
+    }
+  }
+  if (tracks.empty())
+  {
+    return {};
+  }
+  const std::vector<double> times = frame_times(tracks, skin.frames_per_second);
+  if (static_cast<double>(times.size() * skin.joints.size() * sizeof(Eigen::Affine3d)) >
+    available_memory())
+  {
+    throw Broken("the animation needs more memory than is available");
+  }
+  for (const double time : times)
+  {
+    for (const Track& track : tracks)
+    {
+      Placement& placement = nodes.placements[track.node];
+      placement.has_matrix = false; // glTF does not allow animated nodes with a matrix
+      const Eigen::VectorXd value = track.at(time);
+      switch (track.property)
+      {
+        case Track::Property::translation:
+          placement.trs.translation = value;
+          break;
+        case Track::Property::scale:
+          placement.trs.scale = value;
+          break;
+        case Track::Property::rotation:
+          set_rotation(value, placement.trs);
+          break;
+      }
+    }
+    const Transforms global = nodes.stand();
+    GltfFrame frame;
+    for (const int id : skin_nodes.nodes)
+    {
+      frame.posed.push_back(global[id]);
+      if (!global[id].matrix().allFinite())
+      {
+        throw Broken("the animation gives a joint a transform that is not finite");
+      }
+    }
+    skin.frames.push_back(std::move(frame));
+  }
+  return name;
+}
+
+// ---- Content that is not read ------------------------------------------------------------------
+
+std::string counted(std::size_t count, const char* one, const char* many)
+{
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// Return the content of the file that `skin` does not contain, one phrase per type.
+std::vector<std::string> find_losses(const tinygltf::Model& model, const Parts& parts,
+  const GltfSkin& skin, const std::optional<std::string>& animation, Index other_meshes)
+{
+  std::vector<std::string> losses;
+  const auto add = [&losses](std::size_t count, const char* one, const char* many)
+  {
+    if (count > 0)
+    {
+      losses.push_back(counted(count, one, many));
+    }
+  };
+  const std::size_t animations = model.animations.size();
+  if (animation && animations > 1)
+  {
+    losses.push_back(std::to_string(animations - 1) + " of " + std::to_string(animations) +
+      " animations (" + (animation->empty() ? "the first" : "'" + *animation + "'") + " is kept)");
+  }
+  else if (!animation)
+  {
+    add(animations, "animation", "animations");
+  }
+  add(model.materials.size(), "material", "materials");
+  add(std::max(model.textures.size(), model.images.size()), "texture", "textures");
+  add(static_cast<std::size_t>(parts.morph_targets), "morph target", "morph targets");
+  add(model.cameras.size(), "camera", "cameras");
+  add(model.lights.size(), "light", "lights");
+  add(static_cast<std::size_t>(other_meshes), "mesh that does not use the first skin",
+    "meshes that do not use the first skin");
+  add(static_cast<std::size_t>(parts.skipped), "primitive of points or lines",
+    "primitives of points or lines");
+  if (parts.meshes > 1)
+  {
+    losses.push_back("the division into " + std::to_string(parts.meshes) + " meshes");
+  }
+  const auto some = [&losses](const std::vector<Numbers>& rows, Index kept, const char* what)
+  {
+    const bool any =
+      std::any_of(rows.begin(), rows.end(), [](const Numbers& part) { return part.rows() > 0; });
+    if (any && kept == 0)
+    {
+      losses.push_back(std::string(what) + ", which only some meshes have");
+    }
+  };
+  some(parts.normals, skin.normals.rows(), "normals");
+  some(parts.textures, skin.texture.rows(), "texture coordinates");
+  some(parts.colors, skin.colors.rows(), "vertex colors");
+  if (parts.more_attributes)
+  {
+    losses.emplace_back("further sets of texture coordinates or vertex colors");
+  }
+  return losses;
+}
+
+/// Return "a, b and c".
+std::string listed(const std::vector<std::string>& phrases)
+{
+  std::string text;
+  for (std::size_t k = 0; k < phrases.size(); ++k)
+  {
+    text += (k == 0 ? "" : k + 1 == phrases.size() ? " and " : ", ") + phrases[k];
+  }
+  return text;
+}
+
+// ---- The whole file ----------------------------------------------------------------------------
+
+/// Return the skin of the first mesh that has one, or -1 if no mesh has one.
+int first_skin(const tinygltf::Model& model)
+{
+  for (const tinygltf::Node& node : model.nodes)
+  {
+    if (node.mesh >= 0 && node.skin >= 0)
+    {
+      return node.skin;
+    }
+  }
+  return -1;
+}
+
+void read_model(const std::string& path, const tinygltf::Model& model, std::size_t file_size,
+  GltfSkin& skin, Status& status)
+{
+  const Accessors accessors(model, file_size);
+  const Nodes nodes = read_nodes(model);
+  const int which = first_skin(model);
+  SkinNodes skin_nodes;
+  if (which >= 0)
+  {
+    skin_nodes = read_joints(model, accessors, nodes, at(model.skins, which, "skin"), skin);
+  }
+  const Transforms global = nodes.stand();
+  Parts parts;
+  std::set<int> seen;
+  Index left_out = 0;
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+  {
+    const tinygltf::Node& node = model.nodes[n];
+    if (node.mesh < 0)
+    {
+      continue;
+    }
+    if (node.skin != which)
+    {
+      left_out += 1;
+      continue;
+    }
+    const tinygltf::Mesh& mesh = at(model.meshes, node.mesh, "mesh");
+    if (which >= 0 && !seen.insert(node.mesh).second)
+    {
+      // The joints determine the mesh's position, so a second node would duplicate the mesh.
+      continue;
+    }
+    if (!global[n].matrix().allFinite())
+    {
+      throw Broken("the transform of a node is not finite");
+    }
+    const Eigen::Affine3d place = which >= 0 ? Eigen::Affine3d::Identity() : global[n];
+    if (which < 0)
+    {
+      parts.shared.clear(); // a mesh at another position needs its own vertices
+    }
+    for (const tinygltf::Primitive& primitive : mesh.primitives)
+    {
+      read_primitive(model, accessors, primitive, place, skin.joints.size(), parts);
+    }
+    skin.name = mesh.name.empty() ? skin.name : one_line(mesh.name);
+    parts.meshes += 1;
+  }
+  if (parts.triangles.empty())
+  {
+    throw Broken("the file contains no triangles");
+  }
+  join(parts.points, parts.vertices, 1.0, skin.points);
+  join(parts.normals, parts.vertices, 1.0, skin.normals);
+  join(parts.textures, parts.vertices, 1.0, skin.texture);
+  join(parts.colors, parts.vertices, 255.0, skin.colors);
+  if (!skin.points.allFinite())
+  {
+    throw Broken("a vertex has a coordinate that is not finite");
+  }
+  if (skin.texture.rows() > 0)
+  {
+    skin.texture.col(1) = 1.0 - skin.texture.col(1).array();
+  }
+  skin.triangles.resize(static_cast<Index>(parts.triangles.size()), 3);
+  for (Index t = 0; t < skin.triangles.rows(); ++t)
+  {
+    skin.triangles.row(t) << parts.triangles[t][0], parts.triangles[t][1], parts.triangles[t][2];
+  }
+  std::optional<std::string> animation;
+  if (which >= 0)
+  {
+    set_weights(parts, skin_nodes, skin);
+    animation = read_animation(model, accessors, nodes, skin_nodes, skin);
+  }
+  const std::vector<std::string> losses = find_losses(model, parts, skin, animation, left_out);
+  if (!losses.empty())
+  {
+    status.warnings.push_back(path + ": Bindpose does not keep " + listed(losses));
+    status.report.set("not_kept[]", losses);
+  }
+  Report& report = status.report;
+  report.set("counts.vertices", skin.points.rows());
+  report.set("counts.triangles", skin.triangles.rows());
+  report.set("counts.joints", skin.joints.size());
+  report.set("counts.skins", model.skins.size());
+  report.set("counts.frames", skin.frames.size());
+  report.set("counts.animations", model.animations.size());
+  report.set("counts.materials", model.materials.size());
+  report.set("counts.skipped_primitives", parts.skipped);
+  report.set("counts.morph_targets", parts.morph_targets);
+  if (which >= 0)
+  {
+    report.set("counts.unweighted_vertices", parts.unweighted);
+    report.set("sets", parts.sets);
+  }
+}
+} // namespace
+
+Status read_gltf_skin(const std::string& path, GltfSkin& skin)
+{
+  skin = GltfSkin();
+  std::string content;
+  Status status = read_file(path, content);
+  if (!status.ok())
+  {
+    return status;
+  }
+  try
+  {
+    const tinygltf::Model model = parse(path, content);
+    read_model(path, model, content.size(), skin, status);
+  }
+  catch (const Broken& broken)
+  {
+    status = Status::invalid_input(path + ": " + broken.sentence);
+  }
+  catch (const std::bad_alloc&)
+  {
+    status = Status::invalid_input(path + ": the file needs more memory than is available");
+  }
+  if (!status.ok())
+  {
+    skin = GltfSkin();
+  }
+  return status;
+}
+
+} // namespace bindpose

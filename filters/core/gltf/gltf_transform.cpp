@@ -1,0 +1,39 @@
+// Decomposition of affine maps for glTF nodes (see gltf_transform.h).
+#include "gltf/gltf_transform.h"
+
+#include <Eigen/SVD>
+
+namespace bindpose
+{
+
+Eigen::Affine3d Trs::affine() const
+{
+  Eigen::Affine3d map = Eigen::Affine3d::Identity();
+  map.linear() = this->rotation.toRotationMatrix() * this->scale.asDiagonal();
+  map.translation() = this->translation;
+  return map;
+}
+
+Trs nearest_trs(const Eigen::Affine3d& map)
+{
+  Trs result;
+  result.translation = map.translation();
+  const Eigen::Matrix3d linear = map.linear();
+  // The linear part M is R P with a positive definite P. If M mirrors, -M = R P has such a P.
+  const double sign = linear.determinant() < 0.0 ? -1.0 : 1.0;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+    sign * linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
+  // The linear part is singular, and the sign of its smallest axis is arbitrary.
+  if (rotation.determinant() < 0.0)
+  {
+    Eigen::Matrix3d u = svd.matrixU();
+    u.col(2) *= -1.0;
+    rotation = u * svd.matrixV().transpose();
+  }
+  result.rotation = Eigen::Quaterniond(rotation).normalized();
+  result.scale = (rotation.transpose() * linear).diagonal();
+  return result;
+}
+
+} // namespace bindpose

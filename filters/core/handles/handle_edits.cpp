@@ -1,0 +1,490 @@
+// Edits of a handle list (see handle_edits.h). Every edit copies the list, changes the copy and
+// checks it. A failed edit has no effect.
+#include "handles/handle_edits.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+namespace bindpose
+{
+namespace
+{
+EditedHandles unedited(const Handles& handles)
+{
+  EditedHandles edited;
+  edited.handles = handles;
+  for (std::size_t i = 0; i < handles.size(); ++i)
+  {
+    edited.source.push_back(static_cast<Index>(i));
+  }
+  edited.model = edited.source;
+  return edited;
+}
+
+/// Return the edited handles if they are valid, else the handles before the edit.
+Status finish(const Handles& before, EditedHandles edited, EditedHandles& after)
+{
+  Status status = edited.handles.empty() ? Status() : check_handles(edited.handles);
+  after = status.ok() ? std::move(edited) : unedited(before);
+  return status;
+}
+
+Status refuse(const Handles& before, EditedHandles& after, const std::string& why)
+{
+  after = unedited(before);
+  return Status::invalid_input(why);
+}
+
+bool is_number(const Handles& handles, Index which)
+{
+  return which >= 0 && which < static_cast<Index>(handles.size());
+}
+
+std::string no_such(Index which)
+{
+  return "handle " + std::to_string(which) + " does not exist";
+}
+
+bool has_name(const Handles& handles, const std::string& name)
+{
+  return std::any_of(
+    handles.begin(), handles.end(), [&](const Handle& handle) { return handle.name == name; });
+}
+
+std::vector<Index> all_or(const Handles& handles, const std::vector<Index>& which)
+{
+  return which.empty() ? unedited(handles).source : which;
+}
+
+double extent(const Handles& handles)
+{
+  Box box;
+  for (const Handle& handle : handles)
+  {
+    box.add(handle.head);
+    box.add(handle.tail);
+  }
+  return box.diagonal();
+}
+
+Vec3& end_of(Handles& handles, const HandleEnd& end)
+{
+  Handle& handle = handles[static_cast<std::size_t>(end.handle)];
+  return end.tail ? handle.tail : handle.head;
+}
+
+bool same_set(const CageElement& a, CageElement b)
+{
+  CageElement sorted = a;
+  std::sort(sorted.begin(), sorted.end());
+  std::sort(b.begin(), b.end());
+  return sorted == b;
+}
+
+bool has_element(const Handles& handles, const CageElement& element)
+{
+  return std::any_of(handles.begin(), handles.end(),
+    [&](const Handle& handle)
+    {
+      return std::any_of(handle.cage.begin(), handle.cage.end(),
+        [&](const CageElement& other) { return same_set(element, other); });
+    });
+}
+} // namespace
+
+// ---- Names -------------------------------------------------------------------------------------
+
+std::string free_name(const Handles& handles, const std::string& wanted, HandleKind kind)
+{
+  if (!wanted.empty() && !has_name(handles, wanted))
+  {
+    return wanted;
+  }
+  const std::string letter = kind == HandleKind::bone ? "b"
+    : kind == HandleKind::cage_vertex                 ? "c"
+    : kind == HandleKind::region                      ? "r"
+                                                      : "p";
+  for (int number = 1;; ++number)
+  {
+    char digits[16];
+    std::snprintf(digits, sizeof(digits), ".%03d", number);
+    std::string name = wanted.empty() ? letter + std::to_string(number) : wanted + digits;
+    if (!has_name(handles, name))
+    {
+      return name;
+    }
+  }
+}
+
+namespace
+{
+bool is_separator(char c)
+{
+  return c == '.' || c == '_' || c == '-' || c == ' ';
+}
+
+/// Return the opposite side's letter: R for L, r for l and vice versa; 0 for any other character.
+char other_side(char c)
+{
+  return c == 'L' ? 'R' : c == 'R' ? 'L' : c == 'l' ? 'r' : c == 'r' ? 'l' : '\0';
+}
+} // namespace
+
+std::string mirrored_name(const std::string& name)
+{
+  std::string stem = name;
+  std::string number;
+  const std::size_t dot = name.rfind('.');
+  const auto digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  if (dot != std::string::npos && dot + 1 < name.size() &&
+    std::all_of(name.begin() + static_cast<long>(dot) + 1, name.end(), digit))
+  {
+    stem = name.substr(0, dot);
+    number = name.substr(dot);
+  }
+  const std::size_t size = stem.size();
+  if (size >= 2 && is_separator(stem[size - 2]) && other_side(stem[size - 1]))
+  {
+    stem[size - 1] = other_side(stem[size - 1]);
+    return stem + number;
+  }
+  if (size >= 2 && is_separator(stem[1]) && other_side(stem[0]))
+  {
+    stem[0] = other_side(stem[0]);
+    return stem + number;
+  }
+  const std::pair<const char*, const char*> words[3] = { { "left", "right" }, { "Left", "Right" },
+    { "LEFT", "RIGHT" } };
+  for (const auto& [left, right] : words)
+  {
+    for (const auto& [from, to] : { std::pair<std::string, std::string>{ left, right },
+           std::pair<std::string, std::string>{ right, left } })
+    {
+      if (size >= from.size() && stem.compare(size - from.size(), from.size(), from) == 0)
+      {
+        return stem.replace(size - from.size(), from.size(), to) + number;
+      }
+      if (stem.compare(0, from.size(), from) == 0)
+      {
+        return stem.replace(0, from.size(), to) + number;
+      }
+    }
+  }
+  return name;
+}
+
+Status rename_handle(
+  const Handles& before, Index which, const std::string& name, EditedHandles& after)
+{
+  if (!is_number(before, which))
+  {
+    return refuse(before, after, no_such(which));
+  }
+  EditedHandles edited = unedited(before);
+  Handle& handle = edited.handles[static_cast<std::size_t>(which)];
+  if (name.empty())
+  {
+    return refuse(before, after, "handle '" + handle.name + "' must have a name");
+  }
+  if (name != handle.name && has_name(before, name))
+  {
+    return refuse(before, after, "another handle is named '" + name + "' already");
+  }
+  handle.name = name;
+  return finish(before, std::move(edited), after);
+}
+
+// ---- Add, remove and link ----------------------------------------------------------------------
+
+Status add_handle(const Handles& before, Handle handle, EditedHandles& after)
+{
+  EditedHandles edited = unedited(before);
+  handle.name = free_name(before, handle.name, handle.kind);
+  if (handle.kind != HandleKind::bone)
+  {
+    handle.tail = handle.head;
+  }
+  edited.handles.push_back(std::move(handle));
+  edited.source.push_back(-1);
+  edited.model.push_back(-1);
+  return finish(before, std::move(edited), after);
+}
+
+Status remove_handles(const Handles& before, const std::vector<Index>& which, EditedHandles& after)
+{
+  std::vector<bool> gone(before.size(), false);
+  for (const Index h : which)
+  {
+    if (!is_number(before, h))
+    {
+      return refuse(before, after, no_such(h));
+    }
+    gone[static_cast<std::size_t>(h)] = true;
+  }
+  std::vector<Index> number(before.size(), -1); // index after the edit; -1: removed
+  EditedHandles edited;
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    if (!gone[i])
+    {
+      number[i] = static_cast<Index>(edited.handles.size());
+      edited.handles.push_back(before[i]);
+      edited.source.push_back(static_cast<Index>(i));
+    }
+  }
+  for (Handle& handle : edited.handles)
+  {
+    while (handle.parent >= 0 && gone[static_cast<std::size_t>(handle.parent)])
+    {
+      handle.parent = before[static_cast<std::size_t>(handle.parent)].parent;
+    }
+    handle.parent = handle.parent < 0 ? -1 : number[static_cast<std::size_t>(handle.parent)];
+    std::vector<CageElement> kept;
+    for (CageElement element : handle.cage)
+    {
+      bool whole = true;
+      for (Index& corner : element)
+      {
+        const Index now = corner < 0 ? -1 : number[static_cast<std::size_t>(corner)];
+        whole = whole && (corner < 0 || now >= 0);
+        corner = now;
+      }
+      if (whole)
+      {
+        kept.push_back(element);
+      }
+    }
+    handle.cage = kept;
+  }
+  edited.model = edited.source;
+  return finish(before, std::move(edited), after);
+}
+
+Status set_parent(const Handles& before, Index which, Index parent, EditedHandles& after)
+{
+  if (!is_number(before, which) || (parent != -1 && !is_number(before, parent)))
+  {
+    return refuse(before, after, no_such(is_number(before, which) ? parent : which));
+  }
+  EditedHandles edited = unedited(before);
+  edited.handles[static_cast<std::size_t>(which)].parent = parent;
+  return finish(before, std::move(edited), after);
+}
+
+Status toggle_cage_edge(const Handles& before, Index a, Index b, EditedHandles& after)
+{
+  if (!is_number(before, a) || !is_number(before, b))
+  {
+    return refuse(before, after, no_such(is_number(before, a) ? b : a));
+  }
+  EditedHandles edited = unedited(before);
+  const CageElement edge{ a, b, -1 };
+  if (has_element(before, edge))
+  {
+    for (Handle& handle : edited.handles)
+    {
+      handle.cage.erase(std::remove_if(handle.cage.begin(), handle.cage.end(),
+                          [&](const CageElement& other) { return same_set(edge, other); }),
+        handle.cage.end());
+    }
+  }
+  else
+  {
+    edited.handles[static_cast<std::size_t>(a)].cage.push_back(edge);
+  }
+  return finish(before, std::move(edited), after);
+}
+
+// ---- Positions ---------------------------------------------------------------------------------
+
+std::vector<HandleEnd> joint_of(const Handles& handles, const HandleEnd& end)
+{
+  std::vector<HandleEnd> joint{ end };
+  if (!is_number(handles, end.handle) ||
+    handles[static_cast<std::size_t>(end.handle)].kind != HandleKind::bone)
+  {
+    return joint;
+  }
+  const Handle& own = handles[static_cast<std::size_t>(end.handle)];
+  const Vec3& place = end.tail ? own.tail : own.head;
+  const double same = 1e-9 * extent(handles);
+  for (std::size_t i = 0; i < handles.size(); ++i)
+  {
+    for (const bool tail : { false, true })
+    {
+      const auto number = static_cast<Index>(i);
+      const Vec3& other = tail ? handles[i].tail : handles[i].head;
+      if (handles[i].kind == HandleKind::bone && (other - place).norm() <= same &&
+        (number != end.handle || tail != end.tail))
+      {
+        joint.push_back({ number, tail });
+      }
+    }
+  }
+  return joint;
+}
+
+Status move_ends(const Handles& before, const std::vector<HandleEnd>& ends,
+  const std::vector<Vec3>& places, EditedHandles& after)
+{
+  EditedHandles edited = unedited(before);
+  for (std::size_t i = 0; i < ends.size() && i < places.size(); ++i)
+  {
+    if (!is_number(before, ends[i].handle))
+    {
+      return refuse(before, after, no_such(ends[i].handle));
+    }
+    for (const HandleEnd& end : joint_of(before, ends[i]))
+    {
+      end_of(edited.handles, end) = places[i];
+      Handle& handle = edited.handles[static_cast<std::size_t>(end.handle)];
+      if (handle.kind != HandleKind::bone)
+      {
+        handle.head = handle.tail = places[i];
+      }
+    }
+  }
+  return finish(before, std::move(edited), after);
+}
+
+Status snap_to_surface(const Handles& before, const std::vector<Index>& which,
+  const SurfaceProbe& surface, EditedHandles& after)
+{
+  std::vector<HandleEnd> ends;
+  std::vector<Vec3> places;
+  for (const Index h : all_or(before, which))
+  {
+    if (!is_number(before, h))
+    {
+      return refuse(before, after, no_such(h));
+    }
+    const Handle& handle = before[static_cast<std::size_t>(h)];
+    for (const bool tail : { false, true })
+    {
+      if (handle.kind == HandleKind::region || (tail && handle.kind != HandleKind::bone))
+      {
+        continue;
+      }
+      Vec3 place;
+      if (!surface.nearest(tail ? handle.tail : handle.head, place))
+      {
+        return refuse(before, after, "the surface has no triangles to snap to");
+      }
+      ends.push_back({ h, tail });
+      places.push_back(place);
+    }
+  }
+  return move_ends(before, ends, places, after);
+}
+
+Status mirror_handles(const Handles& before, const std::vector<Index>& which, const Vec3& place,
+  const Vec3& normal, EditedHandles& after)
+{
+  const double length = normal.norm();
+  if (!(length > 0.0) || !normal.allFinite() || !place.allFinite())
+  {
+    return refuse(before, after, "the mirror plane must have a normal");
+  }
+  const Vec3 n = normal / length;
+  const auto mirrored = [&](const Vec3& p) { return Vec3(p - 2.0 * n * n.dot(p - place)); };
+  const double same = 1e-9 * std::max(extent(before), 1e-300);
+  const auto near = [&](const Vec3& a, const Vec3& b) { return (a - b).norm() <= same; };
+  const auto in_plane = [&](const Vec3& p) { return std::abs(n.dot(p - place)) <= same; };
+
+  std::map<std::string, Index> by_name;
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    by_name[before[i].name] = static_cast<Index>(i);
+  }
+  const std::vector<Index> list = all_or(before, which);
+  EditedHandles edited = unedited(before);
+  std::vector<Index> image(before.size(), -1); // indices of the mirror images, -1: none
+  for (const Index h : list)
+  {
+    if (!is_number(before, h))
+    {
+      return refuse(before, after, no_such(h));
+    }
+    const Handle& handle = before[static_cast<std::size_t>(h)];
+    const bool across =
+      near(mirrored(handle.head), handle.tail) && near(mirrored(handle.tail), handle.head);
+    if ((in_plane(handle.head) && in_plane(handle.tail)) || across)
+    {
+      image[static_cast<std::size_t>(h)] = h;
+      continue;
+    }
+    if (handle.kind == HandleKind::region || image[static_cast<std::size_t>(h)] >= 0)
+    {
+      continue;
+    }
+    const std::string name = mirrored_name(handle.name);
+    const auto partner = by_name.find(name);
+    if (name != handle.name && partner != by_name.end() &&
+      before[static_cast<std::size_t>(partner->second)].kind == handle.kind)
+    {
+      image[static_cast<std::size_t>(h)] = partner->second;
+      if (std::find(list.begin(), list.end(), partner->second) == list.end())
+      {
+        Handle& other = edited.handles[static_cast<std::size_t>(partner->second)];
+        other.head = mirrored(handle.head);
+        other.tail = mirrored(handle.tail);
+      }
+      continue;
+    }
+    // A handle that is already at the mirrored position is the image, whatever its name.
+    const auto there = std::find_if(before.begin(), before.end(),
+      [&](const Handle& other)
+      {
+        return other.kind == handle.kind && near(other.head, mirrored(handle.head)) &&
+          near(other.tail, mirrored(handle.tail));
+      });
+    if (there != before.end())
+    {
+      image[static_cast<std::size_t>(h)] = there - before.begin();
+      continue;
+    }
+    Handle copy = handle;
+    copy.name = free_name(edited.handles, name, handle.kind);
+    copy.head = mirrored(handle.head);
+    copy.tail = mirrored(handle.tail);
+    copy.cage.clear();
+    image[static_cast<std::size_t>(h)] = static_cast<Index>(edited.handles.size());
+    edited.handles.push_back(copy);
+    edited.source.push_back(-1);
+    edited.model.push_back(h);
+  }
+  for (std::size_t i = before.size(); i < edited.handles.size(); ++i)
+  {
+    Index& parent = edited.handles[i].parent;
+    const Index other = parent < 0 ? -1 : image[static_cast<std::size_t>(parent)];
+    parent = other >= 0 ? other : parent;
+  }
+  for (const Handle& handle : before)
+  {
+    for (const CageElement& element : handle.cage)
+    {
+      CageElement copy = element;
+      bool known = true;
+      for (Index& corner : copy)
+      {
+        const Index other = corner < 0 ? -1 : image[static_cast<std::size_t>(corner)];
+        known = known && (corner < 0 || other >= 0);
+        corner = other;
+      }
+      if (known && copy[2] >= 0)
+      {
+        std::swap(copy[1], copy[2]);
+      }
+      if (known && !has_element(edited.handles, copy))
+      {
+        edited.handles[static_cast<std::size_t>(copy[0])].cage.push_back(copy);
+      }
+    }
+  }
+  return finish(before, std::move(edited), after);
+}
+
+} // namespace bindpose

@@ -1,0 +1,98 @@
+#ifndef bindpose_handles_handle_edits_h
+#define bindpose_handles_handle_edits_h
+
+#include "handles/handles.h"
+#include "surface/surface_probe.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Handles after an edit, and the original index of each handle, so that other per-handle data can
+/// be reordered.
+struct EditedHandles
+{
+  Handles handles;
+  std::vector<Index> source; ///< index before the edit; -1: new handle
+  /// For a copy, the index of the copied handle before the edit, else the source; -1: neither.
+  std::vector<Index> model;
+};
+
+// Every edit below takes handles that pass check_handles(), or an empty list, and returns such
+// handles. On invalid_input, the message is one sentence that names the handle, and `after` equals
+// the handles before the edit. Names of handles that are not edited do not change. `before` and
+// `after.handles` must not be the same object.
+
+/// Return the wanted name, with a suffix .001, .002, … if another handle has it. If the wanted name
+/// is empty, return the first free name of the form p1, b1, c1 or r1, by kind.
+std::string free_name(const Handles& handles, const std::string& wanted, HandleKind kind);
+
+/// Append a handle; its name becomes free_name(). Its cage elements may refer to the new handle by
+/// its future index, which is the size of the list before the edit.
+Status add_handle(const Handles& before, Handle handle, EditedHandles& after);
+
+/// Remove handles. Children of a removed handle are attached to their nearest remaining ancestor.
+/// Edges and faces of a cage that lose a corner are removed.
+Status remove_handles(const Handles& before, const std::vector<Index>& which, EditedHandles& after);
+
+/// Rename a handle. Return invalid_input if the name is empty or belongs to another handle.
+Status rename_handle(
+  const Handles& before, Index which, const std::string& name, EditedHandles& after);
+
+/// Set the parent; -1: none. Return invalid_input if the parent is the handle itself or one of its
+/// descendants.
+Status set_parent(const Handles& before, Index which, Index parent, EditedHandles& after);
+
+/// Add the edge of a cage between two cage vertices, or remove it if it exists.
+Status toggle_cage_edge(const Handles& before, Index a, Index b, EditedHandles& after);
+
+/// One end of a handle. Only bones have a tail.
+struct HandleEnd
+{
+  Index handle = -1;
+  bool tail = false;
+};
+/// Return the ends of all bones at the same position as `end` (equal, or within 1e-9 of the
+/// handles' extent), with `end` first. If the handle is not a bone, return `end` alone.
+std::vector<HandleEnd> joint_of(const Handles& handles, const HandleEnd& end);
+
+/// Move each end to its new position, together with all bone ends of its joint.
+Status move_ends(const Handles& before, const std::vector<HandleEnd>& ends,
+  const std::vector<Vec3>& places, EditedHandles& after);
+
+/// Return the name of the mirrored handle, by Blender's conventions. The name contains a side, left
+/// or right, in one of these forms:
+/// - L or R, l or r, at the end after '.', '_', '-' or a blank, or at the beginning before one of
+///   these characters;
+/// - left or right at the end or the beginning, in lower case, in capitals or capitalized.
+/// The result contains the opposite side. A numeric suffix such as .001 does not change. A name
+/// without a side is returned unchanged.
+std::string mirrored_name(const std::string& name);
+
+/// Mirror handles at the plane through `place` with the given `normal` (of any nonzero length). The
+/// copy of a handle is named by mirrored_name(). If a handle of the same kind has that name
+/// already, it is moved to the mirrored position and no copy is made. If that handle is itself to
+/// be mirrored, neither of the two is moved.
+///
+/// Three kinds of handles are not copied: handles that are their own mirror images, handles whose
+/// mirror image exists already, and regions, because regions need labels on the mesh.
+///
+/// The parent of a copy is the mirror image of the original's parent, or that parent itself if it
+/// has no image. Edges and faces of cages are copied if all of their corners have images. The
+/// orientation of copied faces is reversed, so that their outer sides stay outside.
+/// @param which  indices of the handles to mirror; empty: all
+Status mirror_handles(const Handles& before, const std::vector<Index>& which, const Vec3& place,
+  const Vec3& normal, EditedHandles& after);
+
+/// Move points, cage vertices and both ends of bones to the nearest point of a surface. Regions do
+/// not move.
+/// @param which  indices of the handles to move; empty: all
+Status snap_to_surface(const Handles& before, const std::vector<Index>& which,
+  const SurfaceProbe& surface, EditedHandles& after);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,91 @@
+#ifndef bindpose_handles_handles_h
+#define bindpose_handles_handles_h
+
+#include "geometry/mesh.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace bindpose
+{
+
+/// The type of a handle. The integer values are stored in the cell array HandleKind.
+enum class HandleKind : int
+{
+  /// An edge or face of a cage. It has no column of its own, because weights are linear between its
+  /// corners.
+  cage_element = -1,
+  point = 0,
+  bone = 1,
+  cage_vertex = 2,
+  region = 3
+};
+
+/// Whether a bind assigns vertices to the handle. A handle without vertices has zero weights, and
+/// its children in the hierarchy move with it. The integer values are stored in the cell array
+/// Ownership.
+enum class Ownership : int
+{
+  required = 0, ///< the bind fails if all vertices on the handle belong to other handles
+  /// The handle is skipped with a warning if all its vertices belong to other handles. Used for
+  /// joints of a rig that was read from a file.
+  optional = 1,
+  /// The handle is always skipped. Used for joints of such a rig that move nothing (control bones).
+  none = 2
+};
+
+/// The handles at the corners of an edge or face of a cage. The third index of an edge is -1.
+using CageElement = std::array<Index, 3>;
+
+/// One handle: one cell of the handle dataset. Except for cage elements, each handle is one column
+/// of the weights, in the order of the cells.
+struct Handle
+{
+  std::string name;
+  HandleKind kind = HandleKind::point;
+  /// Position of a point or cage vertex, head of a bone, rotation center (pivot) of a region.
+  Vec3 head = Vec3::Zero();
+  /// Tail of a bone. Equal to head for all other kinds.
+  Vec3 tail = Vec3::Zero();
+  /// Index of the parent in the handle list, or -1.
+  Index parent = -1;
+  /// Label of a region in the mesh's point array RegionId (> 0; 0 means that a vertex is in no
+  /// region).
+  Index region_id = 0;
+  /// The edges and faces of the cage whose first corner is this cage vertex. Weights are linear
+  /// along them.
+  std::vector<CageElement> cage;
+  Ownership ownership = Ownership::required;
+};
+
+using Handles = std::vector<Handle>;
+
+/// Return "point", "bone", "cage_vertex", "region" or "cage_element".
+const char* to_string(HandleKind kind);
+
+/// Return the quoted names of the listed handles for use in a sentence: 'a', 'b'.
+std::string quoted_names(const Handles& handles, const std::vector<Index>& list);
+/// Like quoted_names(), but abbreviate a long list: 'a', 'b', 'c' and 12 more.
+std::string first_names(const Handles& handles, const std::vector<Index>& list);
+
+/// Check handles before a bind. Return invalid_input, naming the handle, if
+/// - the list is empty;
+/// - a name is empty or occurs twice;
+/// - a coordinate is not finite;
+/// - a bone has length zero;
+/// - two handles of the same kind coincide (closer than 1e-9 of the handles' extent, or exactly
+///   equal if the extent is zero);
+/// - a parent is out of range or part of a cycle;
+/// - the corners of a cage element are not two or three different cage vertices.
+Status check_handles(const Handles& handles);
+
+/// Check the regions among the handles. Return invalid_input if region_ids is neither empty nor of
+/// length `vertices`. Return invalid_input, naming the region, if a region has no label, if the
+/// mesh has no labels, or if no vertex has the region's label.
+/// @param region_ids label of every vertex, or empty.
+Status check_regions(const Handles& handles, const std::vector<Index>& region_ids, Index vertices);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,66 @@
+#ifndef bindpose_linear_float_cholesky_h
+#define bindpose_linear_float_cholesky_h
+
+#include "base/execution.h"
+#include "linear/sparse_solver.h"
+
+#include <memory>
+
+namespace bindpose
+{
+
+/// Sparse Cholesky factorization in single precision that reuses the analysis of a SparseSolver.
+/// Compared with CHOLMOD in double precision, the factorization takes half the memory and half the
+/// time. For matrices of meshes the solutions are accurate to 1e-3 or better. The intended use is
+/// as a preconditioner for conjugate gradients.
+///
+/// The matrix is scaled to a unit diagonal before it is rounded. As with SparseSolver, only the
+/// lower triangle is read, an object factors on one thread at a time, and clones share the
+/// analysis. The bits do not depend on the number of threads.
+///
+/// Method: Duff and Reid 1983, The multifrontal solution of indefinite sparse symmetric linear
+/// equations.
+class FloatCholesky
+{
+public:
+  /// Construct an object without an analysis.
+  FloatCholesky();
+  ~FloatCholesky();
+  FloatCholesky(FloatCholesky&&) noexcept;
+  FloatCholesky& operator=(FloatCholesky&&) noexcept;
+
+  /// Reuse the analysis that the solver computed for this matrix. The status is unavailable if the
+  /// solver has no supernodes (Eigen's backend, or a build without CHOLMOD).
+  Status analyze(const SparseSolver& solver, const SparseMatrix& matrix);
+  /// Return an object with the same analysis and no factorization, for use on another thread.
+  FloatCholesky clone() const;
+  /// Report whether analyze() succeeded.
+  bool analyzed() const;
+
+  /// Factor the sum of a matrix of the analyzed pattern and `shift` times the diagonal of this
+  /// matrix. The status is invalid_input if the sum is not positive definite in single precision;
+  /// the message contains the unknown whose pivot failed. A cancel request is checked between dense
+  /// blocks.
+  Status factor(const SparseMatrix& matrix, double shift, const ExecutionContext& context);
+  /// Solve approximately with the last factorization. Several threads may call it concurrently.
+  void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
+  /// Solve for many columns, which takes several times less time per column.
+  void solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& x) const;
+
+  /// Free the memory that only factor() needs; the factor is kept.
+  void release_workspace();
+  /// Return the memory of this object's factor in bytes. The second function returns the additional
+  /// bytes that factor() needs.
+  double factor_bytes() const;
+  double workspace_bytes() const;
+  /// Return the total number of factorizations by this object and all its clones.
+  Index factorizations() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,108 @@
+// The active-set method of BoxQp (see active_set.h). A vertex is held while its weight is
+// constrained to a bound. The factor of A, with the held vertices decoupled, gives exact solutions
+// while the set of held vertices does not change, and is a good preconditioner while few vertices
+// enter or leave this set. If projected_newton() does not converge with a factor, the next factor
+// is computed for the vertices that are held at that time.
+#include "qp/active_set.h"
+
+#include "base/stopwatch.h"
+#include "qp/projected_newton.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+namespace
+{
+using Eigen::VectorXd;
+
+/// Compute the certificate of a column's weights w.
+/// @param inverse A^-1, called only if round-off makes the first bound of the certificate too
+/// large.
+Certificate certify_column(const SplitForm& matrices, const BoxQpColumn& column,
+  const ColumnProblem& problem, double tolerance, const InverseForm& inverse, const VectorXd& w)
+{
+  const BoundedEnergy energy{ matrices.q, problem.free_here, column.bounds };
+  const Certificate first = certify(energy, w);
+  return first.relative_gap <= tolerance || first.kkt_residual > tolerance
+    ? first
+    : certify(energy, w, {}, VectorXd(), inverse);
+}
+} // namespace
+
+BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
+  const BoxQpColumn& column, const ColumnStart& start, const InverseForm& inverse,
+  BoxQpWorkspace& workspace, ExecutionContext& context)
+{
+  const Stopwatch watch;
+  constexpr int most_factorizations = 10;
+  constexpr int sure = 2; // number of factorizations that are exempt from the test for stalling
+  // With each later factorization, the largest change of a weight in the last Newton round must be
+  // below this factor times the smallest such change so far.
+  constexpr double nearer = 0.5;
+  constexpr int rounds = 6; // maximum number of Newton rounds per factorization
+  const double tolerance = options.tolerance;
+  const double enough = settled_newton_move(tolerance);
+  const ColumnProblem problem(matrices, column);
+  BoxQpSolution solution;
+  VectorXd x = start.x;
+  std::vector<char> held = start.held;
+  const int most = std::min(most_factorizations, options.maximum_iterations);
+  const bool given = std::all_of(
+    problem.pinned.begin(), problem.pinned.end(), [](char pinned) { return pinned != 0; });
+  double moved = given ? 0.0 : 1e300;
+  double least_move = 1e300;
+  const auto certified = [&]
+  {
+    solution.w = problem.whole(matrices, x);
+    solution.certificate =
+      certify_column(matrices, column, problem, tolerance, inverse, solution.w);
+    return std::max(solution.certificate.relative_gap, solution.certificate.kkt_residual) <=
+      tolerance;
+  };
+  while (!(moved <= enough && certified()))
+  {
+    const bool stalled = solution.iterations > sure && !(moved < nearer * least_move);
+    if (stalled || solution.iterations >= most || context.canceled())
+    {
+      solution.status = Status::failure(StatusCode::not_converged, "");
+      break;
+    }
+    least_move = std::min(least_move, moved);
+    if (solution.iterations > 0)
+    {
+      held = held_vertices(matrices, problem, matrices.a.transpose() * x + problem.c, x);
+    }
+    const Stopwatch factor_watch;
+    std::copy(matrices.lower.valuePtr(), matrices.lower.valuePtr() + matrices.lower.nonZeros(),
+      workspace.matrix.valuePtr());
+    SplitForm::decouple(held, workspace.matrix);
+    const Status factored = workspace.single.factor(workspace.matrix, 0.0, context);
+    solution.factorizations += 1;
+    solution.factor_seconds += factor_watch.seconds();
+    if (!factored.ok())
+    {
+      solution.status = Status::failure(StatusCode::not_converged, factored.message);
+      break;
+    }
+    moved = projected_newton(
+      matrices, problem, [&](const VectorXd& r, VectorXd& z) { workspace.single.solve(r, z); },
+      rounds, enough, context, x);
+    solution.iterations += 1;
+  }
+  // If the iterations are used up, a certified iterate is a valid result even if the weights still
+  // move.
+  if (!solution.status.ok() && certified() && solution.iterations >= options.maximum_iterations)
+  {
+    solution.status = Status();
+  }
+  if (context.canceled())
+  {
+    solution.status = Status::canceled();
+  }
+  solution.solve_seconds = watch.seconds() - solution.factor_seconds;
+  return solution;
+}
+
+} // namespace bindpose

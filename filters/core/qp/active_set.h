@@ -1,0 +1,27 @@
+#ifndef bindpose_qp_active_set_h
+#define bindpose_qp_active_set_h
+
+#include "qp/box_qp_column.h"
+#include "qp/box_qp_workspace.h"
+#include "qp/splitting_start.h"
+
+namespace bindpose
+{
+
+/// Solve one column of bounded weights without ordered pairs, starting from a good guess of the
+/// vertices whose weight is at a bound. The method is a projected Newton method. Its systems are
+/// solved with a factor of A, the block of the free vertices in the quadratic form, where the
+/// vertices at a bound are decoupled. One to three factorizations are usual, each with 5 to 20
+/// solves.
+///
+/// Hintermueller, Ito and Kunisch 2003, The primal-dual active set strategy as a semismooth Newton
+/// method; Bertsekas 1982.
+/// @param inverse A^-1 for the certificate, called rarely.
+/// @return not_converged, with the last iterate, if the guess was not good enough.
+BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
+  const BoxQpColumn& column, const ColumnStart& start, const InverseForm& inverse,
+  BoxQpWorkspace& workspace, ExecutionContext& context);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,515 @@
+// The solver of the quadratic programs of all columns (see box_qp.h). A, the block of free vertices
+// in Q, is analyzed and factored once. The factor is in single precision if conjugate gradients
+// reach the limit of double precision with it, else in double precision. (Single precision usually
+// suffices for biharmonic energies of meshes, rarely for triharmonic ones.) Then the starts of all
+// columns are computed together (splitting_start.cpp). Each column is solved from its start
+// (active_set.cpp), in a workspace that the next column reuses. The interior-point method
+// (interior_point.cpp) solves columns without a start, and columns whose start does not lead to the
+// minimizer.
+#include "qp/box_qp.h"
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/per_thread.h"
+#include "base/stopwatch.h"
+#include "linear/refined_solve.h"
+#include "qp/active_set.h"
+#include "qp/interior_point.h"
+#include "qp/splitting_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <utility>
+
+namespace bindpose
+{
+
+namespace
+{
+using Eigen::VectorXd;
+
+/// Relative residuals of linear systems in A: the target of the refinement, and the largest
+/// acceptable residual.
+constexpr double wanted_accuracy = 1e-14;
+constexpr double good_accuracy = 1e-12;
+
+/// Limit the number of threads of a context while this object exists; 0: no limit.
+class FewerThreads
+{
+public:
+  FewerThreads(ExecutionContext& context, int most) : context_(context), asked_(context.threads())
+  {
+    if (most > 0)
+    {
+      context.set_threads(std::min(thread_count(this->asked_), most));
+    }
+  }
+  ~FewerThreads() { this->context_.set_threads(this->asked_); }
+  FewerThreads(const FewerThreads&) = delete;
+  FewerThreads& operator=(const FewerThreads&) = delete;
+
+private:
+  ExecutionContext& context_;
+  const int asked_;
+};
+} // namespace
+
+struct BoxQp::Impl : SplitForm
+{
+  class ColumnsSolve;
+  using SplitForm::SplitForm;
+
+  BoxQpOptions options;
+  mutable SparseSolver solver; // double precision; its analysis is shared by all other solvers
+  // Single precision, with the analysis of `solver`; not analyzed if single precision is
+  // unavailable.
+  FloatCholesky single;
+  FloatCholesky single_of_a; // A's factor, if single precision is accurate enough
+  bool in_single = false;
+  mutable bool in_double = false; // whether `solver` contains A's factor
+  VectorXd inverse_diagonal; // 1 / diagonal of A
+  double memory_estimate = 0.0;
+  int most_threads = 0; // maximum number of threads that the memory allows; 0: no limit
+  mutable std::mutex solver_mutex;
+  mutable PerThread<BoxQpWorkspace> of_threads;
+
+  /// Estimate the memory of the factors and set the number of threads: one workspace per thread, at
+  /// least one. Return an error if the memory does not suffice for one workspace.
+  /// @param in_single_precision whether A is factored in single precision.
+  Status plan_memory(const std::vector<BoxQpColumn>& columns, int threads, bool in_single_precision)
+  {
+    const bool ordered = std::any_of(columns.begin(), columns.end(),
+      [](const BoxQpColumn& column) { return !column.pairs.empty(); });
+    const auto count = static_cast<double>(columns.size());
+    const auto vertices = static_cast<double>(this->q.rows());
+    const double in_double_precision = this->solver.factor_bytes();
+    // Memory per column: given values, minimizer without bounds, start, solution.
+    const double once = (in_single_precision ? this->single.factor_bytes() : in_double_precision) +
+      5.0 * sizeof(double) * vertices * std::max(count, 1.0);
+    // Memory per workspace: the matrix, about 40 vectors and the factors.
+    const double each = columns.empty()
+      ? 0.0
+      : static_cast<double>(this->lower.nonZeros()) * (sizeof(double) + sizeof(int)) +
+        40.0 * sizeof(double) * vertices + this->single.factor_bytes() +
+        this->single.workspace_bytes() +
+        (ordered || !this->single.analyzed() ? in_double_precision : 0.0);
+    const double left = memory_left(this->options.solver.memory_limit);
+    const double wanted = std::min(count, static_cast<double>(thread_count(threads)));
+    const double fitting = each > 0.0 ? std::floor((left - once) / each) : wanted;
+    const double workspaces = std::clamp(fitting, std::min(1.0, count), std::max(wanted, 1.0));
+    this->most_threads = static_cast<int>(workspaces);
+    this->memory_estimate = resident_memory() + once + workspaces * each;
+    return check_memory("solving for " + std::to_string(columns.size()) + " columns on " +
+        std::to_string(this->q.rows()) + " vertices",
+      once + workspaces * each, this->options.solver.memory_limit);
+  }
+  std::unique_ptr<BoxQpWorkspace> make_workspace() const
+  {
+    auto workspace = std::make_unique<BoxQpWorkspace>();
+    workspace->solver = this->solver.clone();
+    workspace->single = this->single.clone();
+    workspace->matrix = this->lower;
+    return workspace;
+  }
+  /// Compute A^-1 b for all columns of b, to the limit of double precision. The result depends only
+  /// on the right-hand sides, not on earlier solves.
+  /// @return false if this accuracy is not reached because the memory does not suffice for a factor
+  /// in double precision or because the context is canceled.
+  bool solve_a(
+    const Eigen::MatrixXd& rhs, const ExecutionContext* context, Eigen::MatrixXd& x) const
+  {
+    x = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
+    if (rhs.size() == 0 || (this->in_single && this->refined(rhs, context, x) <= good_accuracy))
+    {
+      return true;
+    }
+    const std::lock_guard<std::mutex> lock(this->solver_mutex);
+    if (!this->in_double && !(context && context->canceled()))
+    {
+      this->in_double = this->solver.factor(this->lower).ok();
+    }
+    if (this->in_double)
+    {
+      x = this->solver.solve(rhs);
+      x += this->solver.solve(rhs - this->a * x);
+    }
+    return this->in_double;
+  }
+  /// Like solve_a(), for certificates: NaN if the accuracy is not reached.
+  Eigen::MatrixXd inverse_of_a(const Eigen::MatrixXd& rhs) const
+  {
+    Eigen::MatrixXd x;
+    if (!this->solve_a(rhs, nullptr, x))
+    {
+      x.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    return x;
+  }
+  /// Solve with the factor in single precision and refinement.
+  /// @return the relative residual that was reached.
+  double refined(
+    const Eigen::MatrixXd& rhs, const ExecutionContext* context, Eigen::MatrixXd& x) const
+  {
+    constexpr int most_steps = 40;
+    return refined_solve(
+      this->single_of_a,
+      [this](const Eigen::MatrixXd& p) { return Eigen::MatrixXd(this->a.transpose() * p); },
+      this->inverse_diagonal, rhs, { wanted_accuracy, most_steps, context }, x);
+  }
+  /// Factor A in single precision. The factor is kept if it is accurate enough for a typical
+  /// right-hand side.
+  Status factor_single(const ExecutionContext& context)
+  {
+    this->inverse_diagonal.resize(this->lower.rows());
+    for (Index i = 0; i < this->inverse_diagonal.size(); ++i)
+    {
+      this->inverse_diagonal[i] = 1.0 / this->lower.valuePtr()[this->diagonal[i]];
+    }
+    this->single_of_a = this->single.clone();
+    const Status status = this->single_of_a.factor(this->lower, 0.0, context);
+    this->single_of_a.release_workspace();
+    Eigen::MatrixXd x;
+    const VectorXd ones = VectorXd::Ones(this->to_fixed.cols());
+    this->in_single =
+      status.ok() && this->refined(this->to_fixed * ones, &context, x) <= good_accuracy;
+    if (!this->in_single)
+    {
+      this->single_of_a = FloatCholesky();
+    }
+    return status.code == StatusCode::canceled ? status : Status();
+  }
+  /// Multiply A^-1 with the free entries of r (#V). The result (#V) is 0 at fixed vertices.
+  VectorXd inverse(const VectorXd& r) const
+  {
+    return this->whole(this->inverse_of_a(this->free_rows(r)),
+      Eigen::MatrixXd::Zero(static_cast<Index>(this->fixed.size()), 1));
+  }
+  /// Return the minimizers without bounds (#V x m). They are used even if solve_a() fails, because
+  /// the results that are derived from them have their own certificates.
+  Eigen::MatrixXd minimizers(
+    const Eigen::MatrixXd& fixed_values, const ExecutionContext* context) const
+  {
+    Eigen::MatrixXd x;
+    this->solve_a(-(this->to_fixed * fixed_values), context, x);
+    return this->whole(x, fixed_values);
+  }
+};
+
+/// Solve all columns: first those with a start by the active-set method, then the remaining columns
+/// by the interior-point method.
+class BoxQp::Impl::ColumnsSolve
+{
+public:
+  ColumnsSolve(const BoxQp::Impl& qp, const std::vector<BoxQpColumn>& columns,
+    Eigen::MatrixXd unconstrained, std::vector<BoxQpSolution>& solutions, ExecutionContext& context)
+    : qp_(qp), columns_(columns), unconstrained_(std::move(unconstrained)), solutions_(solutions),
+      context_(context), inverse_([&qp](const VectorXd& r) { return qp.inverse(r); })
+  {
+  }
+
+  void run()
+  {
+    constexpr double at_bounds = 0.7; // progress at the end of the active-set method
+    std::vector<std::size_t> left; // indices of the columns for the interior-point method
+    {
+      const ProgressRange range(this->context_, 0.0, at_bounds);
+      std::vector<std::size_t> all(this->columns_.size());
+      std::iota(all.begin(), all.end(), std::size_t(0));
+      const std::vector<ColumnStart> starts = this->find_starts(all, false);
+      std::vector<std::size_t> started;
+      for (const std::size_t j : all)
+      {
+        (starts[j].x.size() > 0 ? started : left).push_back(j);
+      }
+      const ProgressRange solving(this->context_, start_share, 1.0);
+      this->solve_each(started,
+        [&](std::size_t j, BoxQpWorkspace& workspace)
+        {
+          return active_set(this->qp_, this->qp_.options, this->columns_[j], starts[j],
+            this->inverse_, workspace, this->context_);
+        });
+      for (const std::size_t j : started)
+      {
+        if (this->solutions_[j].status.code == StatusCode::not_converged &&
+          this->solutions_[j].iterations < this->qp_.options.maximum_iterations)
+        {
+          // The status is canceled until the interior-point method solves this column.
+          this->solutions_[j].status = Status::canceled();
+          left.push_back(j);
+        }
+      }
+    }
+    if (this->context_.canceled())
+    {
+      return;
+    }
+    const ProgressRange range(this->context_, at_bounds, 1.0);
+    const std::vector<ColumnStart> starts = this->find_starts(left, true);
+    const ProgressRange solving(this->context_, start_share, 1.0);
+    this->solve_each(left,
+      [&](std::size_t j, BoxQpWorkspace& workspace)
+      {
+        const VectorXd unconstrained = this->unconstrained_.col(static_cast<Index>(j));
+        BoxQpOptions options = this->qp_.options;
+        options.maximum_iterations -= this->solutions_[j].iterations;
+        return interior_point(this->qp_, options, this->columns_[j], unconstrained, starts[j],
+          this->inverse_, workspace, this->context_);
+      });
+  }
+
+private:
+  // Progress at the end of computing the starts, as a fraction of the progress of one method
+  // (active set or interior point).
+  static constexpr double start_share = 0.3;
+
+  /// Report whether a start can be computed for the column: the caller gives no start, there are no
+  /// ordered pairs, and the bounds are finite.
+  bool may_start(const BoxQpColumn& column) const
+  {
+    return this->qp_.single.analyzed() && column.pairs.empty() && column.start.size() == 0 &&
+      column.bounds.lower.allFinite() && column.bounds.upper.allFinite();
+  }
+
+  /// Compute starts for the requested columns.
+  /// @param asked indices of the columns.
+  /// @param barriers compute starts for the interior-point method (see splitting_start).
+  /// @return #columns; a start is empty if its column was not requested or cannot have a start.
+  std::vector<ColumnStart> find_starts(const std::vector<std::size_t>& asked, bool barriers)
+  {
+    const Stopwatch watch;
+    std::vector<ColumnStart> starts(this->columns_.size());
+    std::vector<std::size_t> chosen;
+    std::vector<BoxQpColumn> some;
+    Eigen::MatrixXd unconstrained(this->unconstrained_.rows(), static_cast<Index>(asked.size()));
+    for (const std::size_t j : asked)
+    {
+      if (this->may_start(this->columns_[j]))
+      {
+        unconstrained.col(static_cast<Index>(chosen.size())) =
+          this->unconstrained_.col(static_cast<Index>(j));
+        chosen.push_back(j);
+        some.push_back(this->columns_[j]);
+      }
+    }
+    if (chosen.empty())
+    {
+      return starts;
+    }
+    const ProgressRange range(this->context_, 0.0, start_share);
+    FloatCholesky own = this->qp_.single.clone();
+    std::vector<ColumnStart> found =
+      splitting_start(this->qp_, some, barriers, unconstrained, own, this->context_);
+    const double seconds = watch.seconds() / static_cast<double>(chosen.size());
+    for (std::size_t k = 0; k < chosen.size(); ++k)
+    {
+      starts[chosen[k]] = std::move(found[k]);
+      this->solutions_[chosen[k]].solve_seconds += seconds;
+    }
+    return starts;
+  }
+
+  /// Solve the chosen columns in parallel and add their counts and times to those of earlier
+  /// attempts.
+  /// @param solve (column, workspace) -> solution; called on any thread.
+  template <class Solve>
+  void solve_each(const std::vector<std::size_t>& chosen, const Solve& solve)
+  {
+    parallel_for(this->context_, static_cast<Index>(chosen.size()), 1,
+      [&](Index begin, Index end)
+      {
+        for (Index k = begin; k < end; ++k)
+        {
+          this->qp_.of_threads.with([&] { return this->qp_.make_workspace(); },
+            [&](BoxQpWorkspace& workspace)
+            {
+              BoxQpSolution& before = this->solutions_[chosen[k]];
+              BoxQpSolution solution = solve(chosen[k], workspace);
+              solution.iterations += before.iterations;
+              solution.factorizations += before.factorizations;
+              solution.factor_seconds += before.factor_seconds;
+              solution.solve_seconds += before.solve_seconds;
+              before = std::move(solution);
+            });
+        }
+      });
+  }
+
+  const BoxQp::Impl& qp_;
+  const std::vector<BoxQpColumn>& columns_;
+  const Eigen::MatrixXd unconstrained_; // #V x #columns
+  std::vector<BoxQpSolution>& solutions_;
+  ExecutionContext& context_;
+  const InverseForm inverse_;
+};
+
+BoxQp::BoxQp(const SparseMatrix& q, std::vector<Index> fixed, const BoxQpOptions& options)
+  : impl_(new Impl(q, std::move(fixed)))
+{
+  Impl& impl = *this->impl_;
+  impl.options = options;
+  impl.solver = SparseSolver(options.solver);
+}
+
+BoxQp::~BoxQp() = default;
+
+Status BoxQp::prepare(ExecutionContext& context, const std::vector<BoxQpColumn>& columns)
+{
+  Impl& impl = *this->impl_;
+  if (impl.free_vertices.empty())
+  {
+    return {};
+  }
+  Status status;
+  {
+    Phase phase(context, "analyze");
+    status = impl.solver.analyze(impl.lower);
+    if (status.ok())
+    {
+      const Status single = impl.single.analyze(impl.solver, impl.lower);
+      status = single.code == StatusCode::unavailable ? status : single;
+    }
+  }
+  const Stopwatch watch;
+  if (status.ok())
+  {
+    status = impl.plan_memory(columns, context.threads(), impl.single.analyzed());
+  }
+  if (status.ok() && !context.canceled() && impl.single.analyzed())
+  {
+    status = impl.factor_single(context);
+  }
+  if (status.ok() && !context.canceled() && !impl.in_single)
+  {
+    status = impl.plan_memory(columns, context.threads(), false);
+    status = status.ok() ? without_minimum(impl.solver.factor(impl.lower)) : status;
+    impl.in_double = status.ok();
+  }
+  context.add_seconds("factor", watch.seconds());
+  return status.ok() && context.canceled() ? Status::canceled() : status;
+}
+
+Eigen::MatrixXd BoxQp::unconstrained(const Eigen::MatrixXd& fixed_values) const
+{
+  return this->impl_->minimizers(fixed_values, nullptr);
+}
+
+Eigen::MatrixXd BoxQp::inverse(const Eigen::MatrixXd& rhs) const
+{
+  return this->impl_->inverse_of_a(rhs);
+}
+
+std::vector<BoxQpSolution> BoxQp::solve_unbounded(
+  const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const
+{
+  const Impl& impl = *this->impl_;
+  std::vector<BoxQpSolution> solutions(columns.size());
+  Eigen::MatrixXd fixed_values(
+    static_cast<Index>(impl.fixed.size()), static_cast<Index>(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j)
+  {
+    fixed_values.col(static_cast<Index>(j)) = columns[j].fixed_values;
+  }
+  const Stopwatch watch;
+  const Eigen::MatrixXd w = impl.minimizers(fixed_values, &context);
+  const double seconds = watch.seconds() / std::max<double>(1.0, double(columns.size()));
+  for (std::size_t j = 0; j < columns.size() && !context.canceled(); ++j)
+  {
+    const Stopwatch column_watch;
+    BoxQpSolution& solution = solutions[j];
+    solution.w = w.col(static_cast<Index>(j));
+    std::vector<char> pinned(static_cast<std::size_t>(impl.q.rows()), 0);
+    for (std::size_t i = 0; i < columns[j].pinned.size(); ++i)
+    {
+      pinned[columns[j].pinned[i]] = 1;
+      solution.w[columns[j].pinned[i]] = columns[j].pinned_values[static_cast<Index>(i)];
+    }
+    std::vector<char> nowhere(pinned.size(), 0);
+    solution.certificate = certify({ impl.q, nowhere }, solution.w);
+    VectorXd g = impl.q.transpose() * solution.w;
+    for (Index v = 0; v < g.size(); ++v)
+    {
+      g[v] = impl.is_free[v] && !pinned[v] ? g[v] : 0.0;
+      if (g[v] != 0.0)
+      {
+        solution.certificate.kkt_residual =
+          std::max(solution.certificate.kkt_residual, std::abs(g[v]) / impl.q.coeff(v, v));
+      }
+    }
+    if (solution.certificate.energy > 0.0)
+    {
+      solution.certificate.relative_gap =
+        0.5 * g.dot(impl.inverse(g)) / solution.certificate.energy;
+    }
+    solution.solve_seconds = seconds + column_watch.seconds();
+  }
+  return solutions;
+}
+
+BoxQpSolution BoxQp::solve(const BoxQpColumn& column, ExecutionContext& context) const
+{
+  return std::move(this->solve_all({ column }, context).front());
+}
+
+std::vector<BoxQpSolution> BoxQp::solve_all(
+  const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const
+{
+  const Impl& impl = *this->impl_;
+  std::vector<BoxQpSolution> solutions(columns.size());
+  Eigen::MatrixXd fixed_values(
+    static_cast<Index>(impl.fixed.size()), static_cast<Index>(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j)
+  {
+    fixed_values.col(static_cast<Index>(j)) = columns[j].fixed_values;
+    solutions[j].status = Status::canceled();
+    solutions[j].w = VectorXd::Zero(impl.q.rows());
+  }
+  Eigen::MatrixXd free_of_bounds = impl.minimizers(fixed_values, &context);
+  if (!context.canceled())
+  {
+    const FewerThreads fewer(context, impl.most_threads);
+    Impl::ColumnsSolve(impl, columns, std::move(free_of_bounds), solutions, context).run();
+  }
+  return solutions;
+}
+
+Index BoxQp::free_count() const
+{
+  return static_cast<Index>(this->impl_->free_vertices.size());
+}
+
+Index BoxQp::analyses() const
+{
+  return this->impl_->solver.analyses();
+}
+
+Index BoxQp::factorizations() const
+{
+  return this->impl_->solver.factorizations() + this->impl_->single.factorizations();
+}
+
+double BoxQp::memory_estimate() const
+{
+  return this->impl_->memory_estimate;
+}
+
+const SparseSolver& BoxQp::solver() const
+{
+  return this->impl_->solver;
+}
+
+Status worst_of(const std::vector<BoxQpSolution>& solutions)
+{
+  for (const BoxQpSolution& solution : solutions)
+  {
+    if (!solution.status.usable())
+    {
+      return solution.status;
+    }
+  }
+  return {};
+}
+
+} // namespace bindpose

@@ -1,0 +1,92 @@
+#ifndef bindpose_qp_box_qp_h
+#define bindpose_qp_box_qp_h
+
+#include "base/execution.h"
+#include "linear/sparse_solver.h"
+#include "qp/box_qp_column.h"
+
+#include <memory>
+
+namespace bindpose
+{
+
+/// Solve min 1/2 w' Q w subject to l <= w <= u (0 and 1 by default) and given values at the fixed
+/// vertices, for many columns w. One symbolic analysis serves all columns. A splitting method
+/// guesses the solutions and the active bounds of all columns together. An active-set method then
+/// solves each column, starting from its guess. A primal-dual interior-point method solves the
+/// columns with ordered pairs and the columns that the active-set method does not solve.
+/// The only convergence criterion is the optimality certificate (see Certificate). If the
+/// certificate does not reach the tolerance within maximum_iterations, the status is not_converged,
+/// and the result is the best iterate with its certificate.
+///
+/// Cost per column with CHOLMOD and eight columns, in units of F, the time of one factorization of
+/// Q in double precision:
+/// - 3 to 6 F on lattices of real shapes with 9k to 11k vertices;
+/// - three to five times as much with the interior-point method;
+/// - 12 to 13 F with ordered pairs, on a box of 5k vertices;
+/// - 10 to 25 F with Eigen's solver.
+///
+/// Memory, in units of one factor of Q in single precision: one for the common factor, one per
+/// thread for the thread's own factor, and one third per thread for its workspace (63k vertices:
+/// 1.4 GB in total with one thread). With ordered pairs, or if single precision fails, each thread
+/// also stores a factor in double precision.
+///
+/// Hintermueller, Ito and Kunisch 2003; Mehrotra 1992; Gondzio 1996; Jacobson et al. 2011 and 2012
+/// for the problems.
+class BoxQp
+{
+public:
+  /// @param q symmetric positive semi-definite, #V x #V, positive definite on the free vertices.
+  /// @param fixed ids of the fixed vertices, each once.
+  BoxQp(const SparseMatrix& q, std::vector<Index> fixed, const BoxQpOptions& options);
+  ~BoxQp();
+  BoxQp(const BoxQp&) = delete;
+  BoxQp& operator=(const BoxQp&) = delete;
+
+  /// Analyze and factor Q once. This call must succeed before any other call. It reports progress
+  /// as phase "analyze". Return internal_error, before any factorization, if the memory is
+  /// insufficient for these columns.
+  /// @param columns the columns that solve_all() will receive. If the memory does not suffice for
+  /// one factor per thread, solve_all() uses fewer threads.
+  Status prepare(ExecutionContext& context, const std::vector<BoxQpColumn>& columns = {});
+
+  /// Return the minimizers without bounds (#V x m) for m columns of fixed values (#fixed x m).
+  Eigen::MatrixXd unconstrained(const Eigen::MatrixXd& fixed_values) const;
+  /// Return the inverse of Q's block of free vertices times m columns (#free x m); NaN if the
+  /// memory is insufficient.
+  Eigen::MatrixXd inverse(const Eigen::MatrixXd& rhs) const;
+
+  /// Solve like unconstrained(), for columns with pinned vertices. The certificate is that of a
+  /// problem without bounds, where g is the gradient and A is Q's block of free vertices:
+  ///   gap = 1/2 g' A^-1 g = E(w) - min E exactly,   residual = max |g / diag Q|.
+  std::vector<BoxQpSolution> solve_unbounded(
+    const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const;
+
+  /// Solve one column.
+  BoxQpSolution solve(const BoxQpColumn& column, ExecutionContext& context) const;
+
+  /// Solve all columns on the context's threads. The result is bitwise the same for any number of
+  /// threads. After a cancel, columns that were not solved have the status canceled.
+  std::vector<BoxQpSolution> solve_all(
+    const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const;
+
+  Index free_count() const;
+  Index analyses() const;
+  Index factorizations() const;
+  /// Return the estimate of the process's peak memory in bytes, which prepare() makes after the
+  /// analysis.
+  double memory_estimate() const;
+  /// Return the solver that has analyzed the pattern of Q's block of free vertices.
+  const SparseSolver& solver() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Return the status of the first column that has no usable result; ok if all columns have one.
+Status worst_of(const std::vector<BoxQpSolution>& solutions);
+
+} // namespace bindpose
+
+#endif

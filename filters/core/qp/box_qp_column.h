@@ -1,0 +1,58 @@
+#ifndef bindpose_qp_box_qp_column_h
+#define bindpose_qp_box_qp_column_h
+
+#include "linear/sparse_solver.h"
+#include "qp/certificate.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// Options of BoxQp, the solver of the quadratic programs of bounded weights.
+struct BoxQpOptions
+{
+  /// Upper limit of the relative duality gap and of the natural residual. 1e-6 by default; 1e-9 is
+  /// "tight" and near the limit of double precision on fine meshes. Range (0, 1).
+  double tolerance = 1e-6;
+  /// Largest number of iterations per column; each is one factorization. 1 to 3 are usual, 5 to 20
+  /// if the guess of the active bounds is poor, 25 with ordered pairs.
+  int maximum_iterations = 100;
+  SparseSolver::Options solver;
+};
+
+/// One column of the weights to solve for. All columns share Q and the fixed vertices.
+struct BoxQpColumn
+{
+  Eigen::VectorXd fixed_values; ///< values at the fixed vertices, in their order
+  /// Vertices that only this column fixes, in addition to the fixed vertices, and their values.
+  std::vector<Index> pinned;
+  Eigen::VectorXd pinned_values;
+  /// Bounds of the vertices that are neither fixed nor pinned, [0, 1] by default. lower < upper is
+  /// required; a vertex with equal bounds must be pinned instead. Both bounds of a vertex are
+  /// finite or both are infinite.
+  Bounds bounds;
+  /// Pairs of vertices whose values must be in a given order, optionally with a minimum difference.
+  /// The pairs must have no cycle, and Q must have an entry for every pair. Pairs in which both
+  /// values are given are ignored.
+  std::vector<OrderedPair> pairs;
+  Eigen::VectorXd start; ///< #V, initial guess; empty: the minimizer without bounds
+  double energy = 0.0; ///< estimate of the minimum energy; 0: use the minimum without bounds
+};
+
+/// The solution of one column.
+struct BoxQpSolution
+{
+  Status status; ///< ok, not_converged or canceled; internal_error if a factorization fails
+  Eigen::VectorXd w; ///< #V: the weights; they satisfy bounds and pairs exactly
+  Certificate certificate;
+  Eigen::VectorXd multipliers; ///< Lagrange multipliers of column.pairs, >= 0
+  int iterations = 0;
+  int factorizations = 0;
+  double factor_seconds = 0.0;
+  double solve_seconds = 0.0; ///< time of everything except factorizations
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,42 @@
+#ifndef bindpose_qp_box_qp_workspace_h
+#define bindpose_qp_box_qp_workspace_h
+
+#include "linear/float_cholesky.h"
+#include "linear/sparse_solver.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace bindpose
+{
+
+/// The memory for solving one column (see BoxQp), reused for the next column.
+struct BoxQpWorkspace
+{
+  SparseSolver solver; ///< double precision; has analyzed the pattern of SplitForm::lower
+  /// Single precision; has analyzed the same pattern, if single precision is available.
+  FloatCholesky single;
+  SparseMatrix matrix; ///< the matrix to factor, with the same pattern
+};
+
+/// The map r -> A^-1 r for vectors over all vertices (see certify).
+using InverseForm = std::function<Eigen::VectorXd(const Eigen::VectorXd& r)>;
+
+/// Return the largest change of a weight in one iteration that counts as converged. The certificate
+/// alone is not enough: the gap is quadratic in the error of the weights, so a certified iterate
+/// can be a thousand tolerances away from the minimizer.
+inline double settled_move(double tolerance)
+{
+  return std::max(tolerance, std::min(5.0 * tolerance, 1.5e-6));
+}
+
+/// Return the largest change of a weight in the last round of a projected Newton method that counts
+/// as converged.
+inline double settled_newton_move(double tolerance)
+{
+  return 0.1 * settled_move(tolerance);
+}
+
+} // namespace bindpose
+
+#endif

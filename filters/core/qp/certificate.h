@@ -1,0 +1,81 @@
+#ifndef bindpose_qp_certificate_h
+#define bindpose_qp_certificate_h
+
+#include "geometry/laplacian.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace bindpose
+{
+
+/// The constraint w[low] + least <= w[high] on the values of two vertices.
+struct OrderedPair
+{
+  Index low = 0;
+  Index high = 0;
+  double least = 0.0;
+};
+
+/// An optimality certificate: a bound on the difference between a column's energy and the minimum,
+/// and the column's residual.
+///
+/// Let g = Q w be the gradient. With ordered pairs G w >= h and their multipliers lambda >= 0, let
+/// g' = Q w - G' lambda, else g' = g. The dual of the quadratic program bounds the minimum from
+/// below, so that
+///   gap = lambda' (G w - h) + sum over free vertices of max(g' (w - l), -g' (u - w))
+/// is a rigorous bound on E(w) - min E, independent of the method that computed w and lambda.
+///
+/// On needle-shaped elements, and for triharmonic energies, the round-off of Q w (1e-16 of Q's
+/// entries) makes that sum large even if w is optimal. A second bound is equally rigorous, and its
+/// error is the square of the round-off. For any set R of vertices, with r = g' in R and 0
+/// elsewhere,
+///   gap = lambda' (G w - h) + (the sum above over all vertices not in R) + 1/2 r' A^-1 r
+/// where A is Q's block of free vertices. If A^-1 is given, the smaller of the two bounds is used.
+/// Without bounds on w only the second bound is finite.
+struct Certificate
+{
+  double relative_gap = 0.0; ///< gap / E
+  /// Natural residual: max over free vertices of |w - clip(w - g' / diag Q, l, u)|.
+  double kkt_residual = 0.0;
+  double energy = 0.0; ///< E = 1/2 w' Q w
+  /// Largest w[low] + least - w[high] over the ordered pairs, at least 0.
+  double order_violation = 0.0;
+  double bounds_violation = 0.0; ///< largest distance of w from [l, u]
+};
+
+/// Bounds l <= w <= u with one value per vertex. Both may be infinite if there are no bounds.
+struct Bounds
+{
+  Eigen::VectorXd lower; ///< #V; empty: 0 everywhere
+  Eigen::VectorXd upper; ///< #V; empty: 1 everywhere
+
+  double low(Index v) const { return this->lower.size() ? this->lower[v] : 0.0; }
+  double high(Index v) const { return this->upper.size() ? this->upper[v] : 1.0; }
+};
+
+/// The quadratic program min 1/2 w' Q w subject to l <= w <= u, where w is given at the vertices
+/// that are not free.
+struct BoundedEnergy
+{
+  const SparseMatrix& q; ///< symmetric, #V x #V
+  const std::vector<char>& free; ///< #V: 1 for vertices that are solved for
+  Bounds bounds = {};
+};
+
+/// Compute the certificate of w (#V) from the problem's data alone. The gap is divided by max(E,
+/// 1e-12 * mean diagonal of Q / 2), because E is zero for a column that is constant.
+/// @param pairs, multipliers the ordered pairs and their lambda >= 0, of equal length.
+/// @param inverse r -> A^-1 r for vectors over all vertices, zero at vertices with given values.
+Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
+  const std::vector<OrderedPair>& pairs = {},
+  const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
+  const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& inverse = {});
+
+/// Return "are not certified (relative gap …, residual …, asked for …)", for use in a message.
+std::string not_certified(double relative_gap, double kkt_residual, double tolerance);
+
+} // namespace bindpose
+
+#endif

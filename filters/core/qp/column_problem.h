@@ -1,0 +1,37 @@
+#ifndef bindpose_qp_column_problem_h
+#define bindpose_qp_column_problem_h
+
+#include "qp/box_qp.h"
+#include "qp/split_form.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// The problem of one column over the n free vertices: min 1/2 x'Ax + c'x subject to l <= x <= u,
+/// where x is given at pinned vertices.
+struct ColumnProblem
+{
+  ColumnProblem(const SplitForm& matrices, const BoxQpColumn& column);
+
+  Eigen::VectorXd c; ///< n
+  Eigen::VectorXd lower, upper; ///< n: l and u
+  std::vector<char> pinned; ///< n: 1 for pinned vertices
+  Eigen::VectorXd given; ///< #V: fixed and pinned values, 0 elsewhere
+  std::vector<char> free_here; ///< #V: 1 for vertices that this column solves for
+
+  /// Restrict a vector to the free vertices and clamp it to the bounds; pinned entries get their
+  /// given values.
+  /// @param all one entry per vertex, #V.
+  /// @return one entry per free vertex, n.
+  Eigen::VectorXd nearest(const SplitForm& matrices, const Eigen::VectorXd& all) const;
+  /// Extend a vector from the free vertices to all vertices; x is clamped to the bounds.
+  /// @param x one entry per free vertex, n.
+  /// @return #V: x, and the given values.
+  Eigen::VectorXd whole(const SplitForm& matrices, const Eigen::VectorXd& x) const;
+};
+
+} // namespace bindpose
+
+#endif

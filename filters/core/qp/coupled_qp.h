@@ -1,0 +1,42 @@
+#ifndef bindpose_qp_coupled_qp_h
+#define bindpose_qp_coupled_qp_h
+
+#include "qp/box_qp.h"
+
+namespace bindpose
+{
+
+/// The result of solve_coupled_qp(): bounded weights whose rows sum to one as a constraint.
+struct CoupledSolution
+{
+  /// See BoxQpSolution; invalid_input if bounds and pins admit no row that sums to one.
+  Status status;
+  /// One solution per column. Its certificate contains the gap and the residual of the whole
+  /// problem and the energy of the column. Rows sum to one, within the bounds.
+  std::vector<BoxQpSolution> columns;
+  Certificate certificate; ///< certificate of the whole problem, as described in coupled_qp.cpp
+  Eigen::VectorXd multipliers; ///< #V, Lagrange multipliers of the row sums
+  Index vertex = -1; ///< the vertex that caused invalid_input; -1: no such vertex
+  int iterations = 0;
+  int factorizations = 0;
+  int inner_iterations = 0; ///< iterations of conjugate gradients
+};
+
+/// Solve min sum of 1/2 w_j' Q w_j over all columns j, subject to l <= w <= u, the columns' fixed
+/// and pinned values, and rows that sum to one.
+///
+/// The method is a primal-dual interior-point method that starts from nearly optimal rows. Each
+/// iteration factors Q once per column, as BoxQp does, and computes the multipliers of the row sums
+/// by conjugate gradients. Each step of conjugate gradients takes one solve per column. The factors
+/// of all columns are in memory at the same time, in double precision. Cost and size:
+/// filters/README.md.
+/// @param q, fixed, columns see BoxQp; ordered pairs and starts of columns are ignored.
+/// @param start #V x #columns, weights whose rows nearly sum to one.
+/// @param prepared a solver of the same q and fixed vertices.
+CoupledSolution solve_coupled_qp(const SparseMatrix& q, const std::vector<Index>& fixed,
+  const std::vector<BoxQpColumn>& columns, const Eigen::MatrixXd& start, const BoxQp& prepared,
+  const BoxQpOptions& options, ExecutionContext& context);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,54 @@
+// A factored linear system with Dirichlet values (see free_system.h).
+#include "qp/free_system.h"
+
+namespace bindpose
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+FreeSystem::FreeSystem(const SparseMatrix& matrix, const std::vector<Index>& fixed)
+  : form_(matrix, fixed)
+{
+}
+
+Status FreeSystem::factor(const SparseSolver::Options& options, ExecutionContext& context)
+{
+  if (this->form_.free_vertices.empty())
+  {
+    return {};
+  }
+  this->solver_ = SparseSolver(options);
+  Status status = this->solver_.analyze(this->form_.lower);
+  if (status.ok() && !context.canceled())
+  {
+    status = without_minimum(this->solver_.factor(this->form_.lower));
+  }
+  return context.canceled() ? Status::canceled() : status;
+}
+
+MatrixXd FreeSystem::minimizers(const MatrixXd& fixed_values) const
+{
+  return this->form_.whole(
+    this->solver_.solve(-(this->form_.to_fixed * fixed_values)), fixed_values);
+}
+
+VectorXd FreeSystem::solve(const MatrixXd& rhs, MatrixXd& w) const
+{
+  const MatrixXd given = w(this->form_.fixed, Eigen::all);
+  const MatrixXd right = this->form_.free_rows(rhs) - this->form_.to_fixed * given;
+  const MatrixXd x = this->solver_.solve(right);
+  w = this->form_.whole(x, given);
+  if (this->form_.free_vertices.empty())
+  {
+    return VectorXd::Zero(rhs.cols());
+  }
+  MatrixXd residuals = right - this->form_.a * x;
+  for (Index i = 0; i < residuals.rows(); ++i)
+  {
+    residuals.row(i) /= this->form_.lower.valuePtr()[this->form_.diagonal[i]];
+  }
+  return residuals.cwiseAbs().colwise().maxCoeff().transpose();
+}
+
+} // namespace bindpose

@@ -1,0 +1,781 @@
+// A primal-dual interior-point method for one column, with a slack for every inequality.
+//
+// The problem over the free vertices x is
+//   min 1/2 x'Ax + c'x  subject to  Bx + h = s >= 0,
+// where the rows of B are x >= l, x <= u and the ordered pairs. With multipliers z >= 0 the
+// optimality conditions are
+//   Ax + c - B'z = 0,   Bx + h - s = 0,   s z = 0.
+// Newton's step for s z = target eliminates s and z and requires one factorization of
+//   A + B' diag(z/s) B.
+// This matrix has the pattern of A: bounds change only its diagonal, and pairs are edges of the
+// mesh, which the pattern of A includes. So one ordering and one symbolic analysis serve all
+// iterations.
+//
+// If available, the factorization is in single precision. It is the preconditioner of one or two
+// steps of conjugate gradients in double precision (float_cholesky.cpp). Matrices for which these
+// steps are not accurate enough are factored in double precision. This always happens with ordered
+// pairs, because their multipliers span too many orders of magnitude.
+//
+// Slacks are separate variables: Bx + h = s holds only in the limit. An iterate may therefore
+// violate the bounds temporarily. Compared with slacks that are computed from x, this saves about a
+// third of the iterations. Each factorization is used for a predictor, Mehrotra's corrector and a
+// few of Gondzio's centrality correctors. Primal and dual step lengths differ without pairs and are
+// equal with pairs (measured to be best in both cases).
+//
+// Near the minimum the central path converges slowly: a tiny weight that is not at a bound
+// approaches its value like the square root of mu, the mean of the products s z. So once the
+// weights change little, a projected Newton method is tried, which solves with the last factor
+// (projected_newton.cpp). If it does not converge, the interior-point method continues from the
+// unchanged iterate.
+//
+// The result is never the interior iterate but its projection to the bounds (and to the order of
+// the pairs). The certificate is computed for that projection.
+#include "qp/interior_point.h"
+
+#include "base/stopwatch.h"
+#include "linear/refined_solve.h"
+#include "qp/column_problem.h"
+#include "qp/ordered_pairs.h"
+#include "qp/projected_newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// An ordered pair as a row of B, with the free indices of its two vertices; -1 for a vertex with a
+/// given value.
+struct PairRow
+{
+  Index low = -1;
+  Index high = -1;
+  double offset = 0.0; // constant term of the row, from given values and OrderedPair::least
+  int position = -1; // index of the entry (low, high) in the values of SplitForm::lower
+  Index pair = 0; // index of the pair in the column's list
+};
+
+/// The solve of one column. Vectors over constraints contain an entry of x >= l for each bounded
+/// unknown, then an entry of x <= u for each, then one entry for each pair.
+class InteriorPoint
+{
+public:
+  /// @param in_single whether factors in single precision may be used.
+  InteriorPoint(const SplitForm& matrices, const BoxQpOptions& options, const BoxQpColumn& column,
+    const VectorXd& unconstrained, const ColumnStart& start, const InverseForm& inverse,
+    BoxQpWorkspace& workspace, ExecutionContext& context, bool in_single)
+    : matrices_(matrices), options_(options), column_(column), unconstrained_(unconstrained),
+      start_(start), inverse_(inverse), workspace_(workspace), context_(context),
+      problem_(matrices, column), single_is_enough_(in_single)
+  {
+  }
+
+  BoxQpSolution run();
+
+private:
+  Status set_up();
+  void set_start(bool central);
+  void balance_start();
+  void raise_slacks(double least);
+  VectorXd apply(const VectorXd& x) const; // Compute B x.
+  VectorXd apply_transposed(const VectorXd& y) const; // Compute B' y.
+  Status factor(const VectorXd& d);
+  struct Direction
+  {
+    VectorXd x, s, z;
+  };
+  Status factor_double();
+  MatrixXd multiply(const MatrixXd& x) const;
+  bool solve_refined(const VectorXd& rhs, double accuracy, VectorXd& x);
+  Direction solve(const VectorXd& target, double accuracy);
+  double finish(double enough);
+  static double longest_step(const VectorXd& at, const VectorXd& direction);
+  void step_lengths(const Direction& d, double& primal, double& dual) const;
+  Direction find_direction();
+  void certify_iterate(bool second_bound = false);
+  void order_pairs(VectorXd& w) const;
+
+  const SplitForm& matrices_;
+  const BoxQpOptions& options_;
+  const BoxQpColumn& column_;
+  const VectorXd& unconstrained_; // #V
+  const ColumnStart& start_;
+  const InverseForm& inverse_;
+  BoxQpWorkspace& workspace_;
+  ExecutionContext& context_;
+
+  const ColumnProblem problem_;
+  std::vector<Index> unpinned_; // free indices of vertices that are not pinned
+  std::vector<Index> bounded_; // the indices of unpinned_ that have bounds
+  std::vector<PairRow> rows_;
+  std::vector<OrderedPair> upwards_; // the column's pairs, sorted by upward_pairs()
+  VectorXd h_; // constant terms of the constraints
+  VectorXd x_, s_, z_;
+  VectorXd rd_, rp_; // residuals of the first two optimality conditions
+  VectorXd quotient_; // z / s
+  // Terms that the bounds add to A's diagonal, and the weights z / s of the pairs.
+  VectorXd extra_, of_pairs_;
+  VectorXd inverse_diagonal_; // 1 / diagonal of the factored matrix
+  double shift_ = 0.0; // largest diagonal shift that a factorization in single precision has needed
+  bool in_single_ = false; // whether the last factorization is in single precision
+  bool single_is_enough_;
+  Status failure_; // status of a factorization that failed within solve()
+  double mu_ = 0.0;
+  BoxQpSolution best_;
+  BoxQpSolution result_;
+};
+
+Status InteriorPoint::set_up()
+{
+  const auto& matrices = this->matrices_;
+  const ColumnProblem& problem = this->problem_;
+  for (Index i = 0; i < problem.c.size(); ++i)
+  {
+    if (!problem.pinned[i])
+    {
+      this->unpinned_.push_back(i);
+      if (std::isfinite(problem.lower[i]) && std::isfinite(problem.upper[i]))
+      {
+        this->bounded_.push_back(i);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < this->column_.pairs.size(); ++k)
+  {
+    const OrderedPair& pair = this->column_.pairs[k];
+    PairRow row;
+    row.pair = static_cast<Index>(k);
+    row.low = this->problem_.free_here[pair.low] ? matrices.free_of_vertex[pair.low] : -1;
+    row.high = this->problem_.free_here[pair.high] ? matrices.free_of_vertex[pair.high] : -1;
+    row.offset = (row.high < 0 ? this->problem_.given[pair.high] : 0.0) -
+      (row.low < 0 ? this->problem_.given[pair.low] : 0.0) - pair.least;
+    if (row.low < 0 && row.high < 0)
+    {
+      continue;
+    }
+    if (row.low >= 0 && row.high >= 0)
+    {
+      row.position = matrices.position(std::max(row.low, row.high), std::min(row.low, row.high));
+      if (row.position < 0)
+      {
+        return Status::failure(StatusCode::internal_error, "an ordered pair is not an entry of Q");
+      }
+    }
+    this->rows_.push_back(row);
+  }
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  this->h_.resize(2 * nb + static_cast<Index>(this->rows_.size()));
+  for (Index i = 0; i < nb; ++i)
+  {
+    this->h_[i] = -this->problem_.lower[this->bounded_[i]];
+    this->h_[nb + i] = this->problem_.upper[this->bounded_[i]];
+  }
+  for (std::size_t r = 0; r < this->rows_.size(); ++r)
+  {
+    this->h_[2 * nb + static_cast<Index>(r)] = this->rows_[r].offset;
+  }
+
+  if (!this->rows_.empty())
+  {
+    const std::vector<Index> order = upward_order(this->column_.pairs, matrices.q.rows());
+    if (static_cast<Index>(order.size()) != matrices.q.rows())
+    {
+      return Status::failure(StatusCode::internal_error, "the ordered pairs contain a cycle");
+    }
+    this->upwards_ = upward_pairs(this->column_.pairs, order);
+  }
+  return {};
+}
+
+VectorXd InteriorPoint::apply(const VectorXd& x) const
+{
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  VectorXd y(this->h_.size());
+  for (Index i = 0; i < nb; ++i)
+  {
+    y[i] = x[this->bounded_[i]];
+    y[nb + i] = -y[i];
+  }
+  for (std::size_t r = 0; r < this->rows_.size(); ++r)
+  {
+    const PairRow& row = this->rows_[r];
+    y[2 * nb + static_cast<Index>(r)] =
+      (row.high >= 0 ? x[row.high] : 0.0) - (row.low >= 0 ? x[row.low] : 0.0);
+  }
+  return y;
+}
+
+VectorXd InteriorPoint::apply_transposed(const VectorXd& y) const
+{
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  VectorXd x = VectorXd::Zero(this->problem_.c.size());
+  for (Index i = 0; i < nb; ++i)
+  {
+    x[this->bounded_[i]] = y[i] - y[nb + i];
+  }
+  for (std::size_t r = 0; r < this->rows_.size(); ++r)
+  {
+    const PairRow& row = this->rows_[r];
+    const double value = y[2 * nb + static_cast<Index>(r)];
+    if (row.high >= 0)
+    {
+      x[row.high] += value;
+    }
+    if (row.low >= 0)
+    {
+      x[row.low] -= value;
+    }
+  }
+  return x;
+}
+
+Status InteriorPoint::factor(const VectorXd& d)
+{
+  const Stopwatch watch;
+  const auto& matrices = this->matrices_;
+  SparseMatrix& matrix = this->workspace_.matrix;
+  double* values = matrix.valuePtr();
+  std::copy(
+    matrices.lower.valuePtr(), matrices.lower.valuePtr() + matrices.lower.nonZeros(), values);
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  for (Index i = 0; i < nb; ++i)
+  {
+    values[matrices.diagonal[this->bounded_[i]]] += d[i] + d[nb + i];
+  }
+  for (std::size_t r = 0; r < this->rows_.size(); ++r)
+  {
+    const PairRow& row = this->rows_[r];
+    const double value = d[2 * nb + static_cast<Index>(r)];
+    if (row.high >= 0)
+    {
+      values[matrices.diagonal[row.high]] += value;
+    }
+    if (row.low >= 0)
+    {
+      values[matrices.diagonal[row.low]] += value;
+    }
+    if (row.position >= 0)
+    {
+      values[row.position] -= value;
+    }
+  }
+  if (static_cast<Index>(this->unpinned_.size()) < matrix.cols())
+  {
+    SplitForm::decouple(this->problem_.pinned, matrix);
+  }
+  Status status;
+  this->in_single_ = false;
+  if (this->workspace_.single.analyzed() && this->single_is_enough_)
+  {
+    this->extra_ = VectorXd::Zero(this->problem_.c.size());
+    for (Index i = 0; i < nb; ++i)
+    {
+      this->extra_[this->bounded_[i]] = d[i] + d[nb + i];
+    }
+    this->of_pairs_ = d.tail(static_cast<Index>(this->rows_.size()));
+    this->inverse_diagonal_.resize(this->problem_.c.size());
+    for (Index i = 0; i < this->problem_.c.size(); ++i)
+    {
+      this->inverse_diagonal_[i] = 1.0 / values[matrices.diagonal[i]];
+    }
+    // If factorization fails in single precision because a matrix pivot is not positive, a shift of
+    // the diagonal makes it succeed, and conjugate gradients correct the effect of the shift. The
+    // next iteration starts with the same shift.
+    constexpr double least_shift = 1e-6;
+    constexpr double largest_shift = 1e-3;
+    do
+    {
+      status = this->workspace_.single.factor(matrix, this->shift_, this->context_);
+      this->result_.factorizations += 1;
+    } while (status.code == StatusCode::invalid_input &&
+      (this->shift_ = std::max(least_shift, 10.0 * this->shift_)) < 1.5 * largest_shift);
+    this->in_single_ = status.ok();
+    this->single_is_enough_ = status.code != StatusCode::invalid_input;
+  }
+  if (!this->in_single_ && status.code != StatusCode::canceled)
+  {
+    status = this->factor_double();
+  }
+  this->result_.factor_seconds += watch.seconds();
+  return status;
+}
+
+/// Factor the workspace's matrix in double precision.
+Status InteriorPoint::factor_double()
+{
+  const auto& matrices = this->matrices_;
+  SparseMatrix& matrix = this->workspace_.matrix;
+  double* values = matrix.valuePtr();
+  Status status = this->workspace_.solver.factor(matrix);
+  this->result_.factorizations += 1;
+  // Because of round-off, a matrix pivot that is positive in exact arithmetic can be negative. A
+  // relative shift of the diagonal makes the step slightly shorter, but the solution stays correct.
+  for (double shift = 1e-14; !status.ok() && status.code == StatusCode::invalid_input &&
+       shift < 1e-6 && !this->context_.canceled();
+       shift *= 100.0)
+  {
+    for (const int k : matrices.diagonal)
+    {
+      values[k] *= 1.0 + shift;
+    }
+    status = this->workspace_.solver.factor(matrix);
+    this->result_.factorizations += 1;
+  }
+  return status;
+}
+
+/// Multiply x by the matrix that was factored.
+MatrixXd InteriorPoint::multiply(const MatrixXd& x) const
+{
+  MatrixXd y = this->matrices_.a.transpose() * x + this->extra_.asDiagonal() * x;
+  for (std::size_t r = 0; r < this->rows_.size(); ++r)
+  {
+    const PairRow& row = this->rows_[r];
+    for (Index j = 0; j < x.cols(); ++j)
+    {
+      const double pull = this->of_pairs_[static_cast<Index>(r)] *
+        ((row.high >= 0 ? x(row.high, j) : 0.0) - (row.low >= 0 ? x(row.low, j) : 0.0));
+      if (row.high >= 0)
+      {
+        y(row.high, j) += pull;
+      }
+      if (row.low >= 0)
+      {
+        y(row.low, j) -= pull;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < this->problem_.pinned.size(); ++i)
+  {
+    if (this->problem_.pinned[i])
+    {
+      y.row(static_cast<Index>(i)).setZero();
+    }
+  }
+  return y;
+}
+
+/// Solve with the factor in single precision. One or two refinement iterations are usual.
+/// @return false if the accuracy was not reached.
+bool InteriorPoint::solve_refined(const VectorXd& rhs, double accuracy, VectorXd& x)
+{
+  MatrixXd result;
+  const double reached = refined_solve(
+    this->workspace_.single, [this](const MatrixXd& p) { return this->multiply(p); },
+    this->inverse_diagonal_, rhs, { accuracy, 20, nullptr }, result);
+  x = result;
+  return reached <= accuracy;
+}
+
+/// Compute the Newton step that changes the products s z by `target`, to first order.
+/// @param accuracy relative accuracy of the linear solve, if the factor is in single precision.
+InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target, double accuracy)
+{
+  const VectorXd per_s = target.cwiseQuotient(this->s_);
+  VectorXd rhs =
+    this->apply_transposed(per_s - this->quotient_.cwiseProduct(this->rp_)) - this->rd_;
+  for (std::size_t i = 0; i < this->problem_.pinned.size(); ++i)
+  {
+    if (this->problem_.pinned[i])
+    {
+      rhs[static_cast<Index>(i)] = 0.0;
+    }
+  }
+  Direction d;
+  if (this->in_single_ && !this->solve_refined(rhs, accuracy, d.x) && !this->context_.canceled())
+  {
+    // Single precision is not accurate enough. Use double precision for the rest of this column.
+    const Stopwatch watch;
+    this->in_single_ = false;
+    this->single_is_enough_ = false;
+    this->failure_ = this->factor_double();
+    this->result_.factor_seconds += watch.seconds();
+  }
+  if (!this->in_single_ && this->failure_.ok())
+  {
+    this->workspace_.solver.solve(rhs, d.x);
+  }
+  d.s = this->apply(d.x) + this->rp_;
+  d.z = per_s - this->quotient_.cwiseProduct(d.s);
+  return d;
+}
+
+double InteriorPoint::longest_step(const VectorXd& at, const VectorXd& direction)
+{
+  double step = 1e300;
+  for (Index i = 0; i < at.size(); ++i)
+  {
+    if (direction[i] < 0.0)
+    {
+      step = std::min(step, -at[i] / direction[i]);
+    }
+  }
+  return step;
+}
+
+void InteriorPoint::step_lengths(const Direction& d, double& primal, double& dual) const
+{
+  primal = std::min(1.0, longest_step(this->s_, d.s));
+  dual = std::min(1.0, longest_step(this->z_, d.z));
+  if (!this->rows_.empty())
+  {
+    primal = dual = std::min(primal, dual);
+  }
+}
+
+InteriorPoint::Direction InteriorPoint::find_direction()
+{
+  const double count = static_cast<double>(this->s_.size());
+  const VectorXd products = this->s_.cwiseProduct(this->z_);
+  // Relative accuracy of the linear solve for the predictor. A smaller value saves no iteration
+  // (measured).
+  constexpr double predictor_accuracy = 1e-2;
+  const double step_accuracy = this->rows_.empty() ? 1e-3 : 1e-5;
+  Direction d = this->solve(-products, predictor_accuracy);
+  double primal;
+  double dual;
+  this->step_lengths(d, primal, dual);
+  const double affine = (this->s_ + primal * d.s).dot(this->z_ + dual * d.z) / count;
+  const double sigma = std::pow(affine / this->mu_, 3.0);
+  const double wanted = sigma * this->mu_;
+  VectorXd target =
+    VectorXd::Constant(products.size(), wanted) - products - primal * dual * d.s.cwiseProduct(d.z);
+  d = this->solve(target, step_accuracy);
+  this->step_lengths(d, primal, dual);
+
+  constexpr int correctors = 5;
+  constexpr double reach = 0.35; // increase of the step length that each corrector aims for
+  for (int k = 0; k < correctors && !this->context_.canceled(); ++k)
+  {
+    const double p = std::min(1.0, primal + reach);
+    const double q = std::min(1.0, dual + reach);
+    VectorXd change(products.size());
+    for (Index i = 0; i < change.size(); ++i)
+    {
+      const double v = (this->s_[i] + p * d.s[i]) * (this->z_[i] + q * d.z[i]);
+      const double lowest = 0.1 * wanted;
+      const double highest = 10.0 * wanted;
+      change[i] = v < lowest ? lowest - v : v > highest ? std::max(highest - v, -highest) : 0.0;
+    }
+    const VectorXd next_target = target + change;
+    Direction next = this->solve(next_target, step_accuracy);
+    double next_primal;
+    double next_dual;
+    this->step_lengths(next, next_primal, next_dual);
+    if (next_primal + next_dual < primal + dual + 0.01)
+    {
+      break;
+    }
+    d = std::move(next);
+    target = next_target;
+    primal = next_primal;
+    dual = next_dual;
+  }
+  return d;
+}
+
+/// Set the initial x, s and z.
+/// @param central use the start that was computed for all columns together, if there is one.
+void InteriorPoint::set_start(bool central)
+{
+  const auto& matrices = this->matrices_;
+  if (central && this->start_.mu > 0.0)
+  {
+    this->x_ = this->start_.x;
+    this->s_ = (this->apply(this->x_) + this->h_).cwiseMax(1e-12);
+    this->z_ = this->start_.mu * this->s_.cwiseInverse();
+    return;
+  }
+  const VectorXd& guess = this->column_.start.size() ? this->column_.start : this->unconstrained_;
+  this->x_ = this->problem_.nearest(matrices, guess);
+  double energy = this->column_.energy > 0.0
+    ? this->column_.energy
+    : 0.5 * this->unconstrained_.dot(matrices.q.transpose() * this->unconstrained_);
+  const VectorXd within = this->problem_.whole(matrices, this->x_);
+  const double energy_within = 0.5 * within.dot(matrices.q.transpose() * within);
+  if (!(energy > 1e-9 * energy_within))
+  {
+    // Without its own bounds and pins the column would be constant, and its minimum energy would be
+    // zero.
+    energy = energy_within;
+  }
+  // The values of `least` and of the factor 10 below were measured on boxes and on real shapes.
+  // With them, half as many iterations are needed as with mu = E / n.
+  constexpr double least = 1e-2;
+  this->s_ = this->apply(this->x_) + this->h_;
+  this->raise_slacks(least);
+  const double mu = 10.0 * energy / static_cast<double>(this->s_.size());
+  this->z_ = mu * this->s_.cwiseInverse();
+}
+
+/// Correct a start that is far from the central path. If a column had not converged after all
+/// splitting steps (splitting_start.h), its multipliers are too small, and the following step
+/// lengths are short. Larger multipliers and slacks halve the number of iterations.
+void InteriorPoint::balance_start()
+{
+  const double gap = this->result_.certificate.relative_gap;
+  // Relative gap above which a start is corrected; good starts have 1e-3 to 0.5.
+  constexpr double far = 1.0;
+  constexpr double least_slack = 1e-3;
+  // Factor of mu = factor * energy / number of slacks; 1 to 10 are equally good (measured).
+  constexpr double mu_of_energy = 3.0;
+  if (this->start_.mu > 0.0 && gap > far)
+  {
+    this->raise_slacks(least_slack);
+    const double mu =
+      mu_of_energy * this->result_.certificate.energy / static_cast<double>(this->s_.size());
+    this->z_ = std::max(mu, this->start_.mu) * this->s_.cwiseInverse();
+  }
+}
+
+/// Raise all slacks to a minimum.
+/// @param least the minimum. For a vertex whose bounds are less than 1 apart, the minimum is
+/// `least` times the distance between its bounds.
+void InteriorPoint::raise_slacks(double least)
+{
+  VectorXd floor = VectorXd::Constant(this->h_.size(), least);
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  for (Index i = 0; i < nb; ++i)
+  {
+    const Index at = this->bounded_[i];
+    floor[i] = floor[nb + i] =
+      least * std::min(1.0, this->problem_.upper[at] - this->problem_.lower[at]);
+  }
+  this->s_ = this->s_.cwiseMax(floor);
+}
+
+/// Change values as little as necessary to satisfy the order of the pairs. Given values do not
+/// change.
+void InteriorPoint::order_pairs(VectorXd& w) const
+{
+  if (this->upwards_.empty())
+  {
+    return;
+  }
+  VectorXd highest(w.size());
+  for (Index v = 0; v < w.size(); ++v)
+  {
+    highest[v] = this->column_.bounds.high(v);
+  }
+  order_values(this->upwards_, this->problem_.free_here, highest, w);
+}
+
+/// Project the iterate and compute its certificate.
+/// @param second_bound compute the second bound in any case (see Certificate).
+void InteriorPoint::certify_iterate(bool second_bound)
+{
+  const auto& matrices = this->matrices_;
+  this->result_.w = this->problem_.whole(matrices, this->x_);
+  this->order_pairs(this->result_.w);
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  this->result_.multipliers = VectorXd::Zero(static_cast<Index>(this->column_.pairs.size()));
+  for (std::size_t r = 0; r < this->rows_.size(); ++r)
+  {
+    this->result_.multipliers[this->rows_[r].pair] = this->z_[2 * nb + static_cast<Index>(r)];
+  }
+  const BoundedEnergy problem{ matrices.q, this->problem_.free_here, this->column_.bounds };
+  Certificate& certificate = this->result_.certificate;
+  const bool bounds_everywhere = this->bounded_.size() == this->unpinned_.size();
+  certificate = certify(problem, this->result_.w, this->column_.pairs, this->result_.multipliers,
+    second_bound || !bounds_everywhere ? this->inverse_ : InverseForm());
+  // If the iterate is near the optimum and only the first bound is too large, the cause is
+  // round-off, and the second bound is needed.
+  const double tolerance = this->options_.tolerance;
+  if (!second_bound && bounds_everywhere && certificate.relative_gap > tolerance &&
+    certificate.kkt_residual <= tolerance &&
+    this->s_.dot(this->z_) <= tolerance * certificate.energy)
+  {
+    certificate = certify(
+      problem, this->result_.w, this->column_.pairs, this->result_.multipliers, this->inverse_);
+  }
+}
+
+/// Continue from the iterate with a projected Newton method. The iterate itself does not change.
+/// @param enough largest change of a weight in one round that counts as converged.
+/// @return the largest change in the last round. If it is at most `enough`, result_ contains the
+/// new point and its certificate.
+double InteriorPoint::finish(double enough)
+{
+  constexpr int rounds = 6;
+  VectorXd x = this->x_;
+  for (const Index i : this->unpinned_)
+  {
+    x[i] = std::clamp(x[i], this->problem_.lower[i], this->problem_.upper[i]);
+  }
+  const double moved = projected_newton(
+    this->matrices_, this->problem_,
+    [this](const VectorXd& r, VectorXd& z)
+    {
+      if (this->in_single_)
+      {
+        this->workspace_.single.solve(r, z);
+      }
+      else
+      {
+        this->workspace_.solver.solve(r, z);
+      }
+    },
+    rounds, enough, this->context_, x);
+  if (moved <= enough)
+  {
+    std::swap(x, this->x_);
+    this->certify_iterate(true);
+    std::swap(x, this->x_);
+  }
+  return moved;
+}
+
+BoxQpSolution InteriorPoint::run()
+{
+  const Stopwatch watch;
+  const auto worst = [](const Certificate& c) { return std::max(c.relative_gap, c.kkt_residual); };
+  const double tolerance = this->options_.tolerance;
+  Status status = this->set_up();
+  if (status.ok())
+  {
+    this->set_start(true);
+    this->certify_iterate();
+    this->best_ = this->result_;
+    this->balance_start();
+  }
+  // After certification, a few more iterations let the weights converge. They do not affect the
+  // status.
+  constexpr int most_settling = 6;
+  const double settled = settled_move(tolerance);
+  int settling = 0;
+  // The projected Newton method is tried if no weight changed by more than `near` in the last
+  // iteration. It converges many times faster than the central path and requires only solves with
+  // the current factor. For larger changes it fails too often (measured). It is also tried once for
+  // the first certified iterate.
+  double near = 4e-5;
+  int tries = 0;
+  // 5 to 15 iterations are usual. If the form is very ill-conditioned (triharmonic energies of fine
+  // meshes), all step lengths can be too short if the iteration begins at the start that was
+  // computed for all columns together. Then the solve is restarted without that start, and later
+  // switches to double precision if it still has not converged.
+  constexpr int begin_anew_after = 25;
+  constexpr int double_after = 60;
+  // With ordered pairs, the method stalls near the end if its factors are in single precision.
+  // After this number of iterations without an improvement, double precision is used.
+  constexpr int most_stalled = 3;
+  int stalled = 0;
+  double moved = this->h_.size() == 0 ? 0.0 : 1.0;
+  const auto done = [&]
+  {
+    return worst(this->best_.certificate) <= tolerance &&
+      (moved <= settled || settling > most_settling);
+  };
+  while (status.ok() && !done() && this->result_.iterations < this->options_.maximum_iterations)
+  {
+    if (this->context_.canceled())
+    {
+      status = Status::canceled();
+      break;
+    }
+    if (this->result_.iterations == begin_anew_after && this->start_.mu > 0.0 &&
+      worst(this->best_.certificate) > tolerance)
+    {
+      this->set_start(false);
+    }
+    this->single_is_enough_ = this->single_is_enough_ && this->result_.iterations < double_after;
+    this->rp_ = this->apply(this->x_) + this->h_ - this->s_;
+    this->rd_ = this->matrices_.a.transpose() * this->x_ + this->problem_.c -
+      this->apply_transposed(this->z_);
+    this->mu_ = this->s_.dot(this->z_) / static_cast<double>(this->s_.size());
+    this->quotient_ = this->z_.cwiseQuotient(this->s_);
+    status = this->factor(this->quotient_);
+    if (!status.ok() || this->context_.canceled())
+    {
+      continue;
+    }
+    const Direction d = this->find_direction();
+    if (!this->failure_.ok())
+    {
+      status = this->failure_;
+      break;
+    }
+    double primal;
+    double dual;
+    this->step_lengths(d, primal, dual);
+    const double back = 0.995;
+    primal = primal < 1.0 ? back * primal : 1.0;
+    dual = dual < 1.0 ? back * dual : 1.0;
+    this->x_ += primal * d.x;
+    this->s_ += primal * d.s;
+    this->z_ += dual * d.z;
+    this->result_.iterations += 1;
+    const VectorXd previous = this->result_.w;
+    this->certify_iterate();
+    moved = (this->result_.w - previous).cwiseAbs().maxCoeff();
+    settling += worst(this->best_.certificate) <= tolerance;
+    if (!(worst(this->result_.certificate) >= worst(this->best_.certificate)))
+    {
+      this->best_ = this->result_;
+      stalled = 0;
+    }
+    else if (++stalled >= most_stalled && !this->rows_.empty())
+    {
+      this->single_is_enough_ = false;
+    }
+    if (!done() && this->rows_.empty() &&
+      (moved <= near || (tries == 0 && worst(this->best_.certificate) <= tolerance)))
+    {
+      const BoxQpSolution iterate = this->result_;
+      const double enough = settled_newton_move(tolerance);
+      const double left = this->finish(enough);
+      if (left <= enough && worst(this->result_.certificate) <= tolerance)
+      {
+        this->best_ = this->result_;
+        moved = 0.0;
+      }
+      this->result_ = iterate;
+      // If the last attempt nearly converged, make the next attempt soon; otherwise wait until the
+      // changes are smaller.
+      near = moved * std::clamp(enough / left, 0.2, 0.8);
+      ++tries;
+    }
+  }
+  this->best_.iterations = this->result_.iterations;
+  this->best_.factorizations = this->result_.factorizations;
+  this->best_.factor_seconds = this->result_.factor_seconds;
+  this->best_.solve_seconds = watch.seconds() - this->result_.factor_seconds;
+  this->best_.status = status;
+  if (status.ok() && worst(this->best_.certificate) > tolerance)
+  {
+    this->best_.status.code = StatusCode::not_converged;
+  }
+  return this->best_;
+}
+} // namespace
+
+BoxQpSolution interior_point(const SplitForm& matrices, const BoxQpOptions& options,
+  const BoxQpColumn& column, const VectorXd& unconstrained, const ColumnStart& start,
+  const InverseForm& inverse, BoxQpWorkspace& workspace, ExecutionContext& context)
+{
+  const auto run = [&](bool in_single)
+  {
+    return InteriorPoint(
+      matrices, options, column, unconstrained, start, inverse, workspace, context, in_single)
+      .run();
+  };
+  BoxQpSolution solution = run(true);
+  // With ordered pairs, a column that fails in single precision is solved again in double
+  // precision.
+  if (!column.pairs.empty() && workspace.single.analyzed() && !solution.status.ok() &&
+    solution.status.code != StatusCode::canceled)
+  {
+    BoxQpSolution exact = run(false);
+    exact.factorizations += solution.factorizations;
+    exact.factor_seconds += solution.factor_seconds;
+    exact.solve_seconds += solution.solve_seconds;
+    return exact;
+  }
+  return solution;
+}
+
+} // namespace bindpose

@@ -1,0 +1,155 @@
+// Ordered pairs of vertices: constraints that exclude extrema (see ordered_pairs.h).
+#include "qp/ordered_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+SparseMatrix positive_stiffness(
+  const SparseMatrix& stiffness, const VertexGraph& graph, const std::vector<char>& pulls)
+{
+  // Minimum edge weight as a fraction of the diagonal entries. It is small enough that the harmonic
+  // function still follows the geometry of the mesh, and large enough to keep rounding errors of
+  // the solution small.
+  constexpr double least_weight = 1e-3;
+  const Eigen::VectorXd diagonal = stiffness.diagonal();
+  const auto n = static_cast<int>(stiffness.rows());
+  std::vector<Eigen::Triplet<double, int>> entries;
+  entries.reserve(graph.neighbors.size() + static_cast<std::size_t>(n));
+  for (int v = 0; v < n; ++v)
+  {
+    double degree = 0;
+    for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
+    {
+      const Index other = graph.neighbors[k];
+      if (pulls[v] && pulls[other])
+      {
+        const double least = least_weight * std::sqrt(diagonal[v] * diagonal[other]);
+        const double w = std::max(-stiffness.coeff(v, other), least);
+        entries.emplace_back(v, static_cast<int>(other), -w);
+        degree += w;
+      }
+    }
+    entries.emplace_back(v, v, degree);
+  }
+  SparseMatrix laplacian(n, n);
+  laplacian.setFromTriplets(entries.begin(), entries.end());
+  return laplacian;
+}
+
+void sort_pairs(std::vector<OrderedPair>& pairs)
+{
+  std::sort(pairs.begin(), pairs.end(),
+    [](const OrderedPair& x, const OrderedPair& y)
+    { return x.low != y.low ? x.low < y.low : x.high < y.high; });
+  pairs.erase(std::unique(pairs.begin(), pairs.end(),
+                [](const OrderedPair& x, const OrderedPair& y)
+                { return x.low == y.low && x.high == y.high; }),
+    pairs.end());
+}
+
+std::vector<Index> upward_order(const std::vector<OrderedPair>& pairs, Index count)
+{
+  std::vector<std::vector<Index>> above(static_cast<std::size_t>(count));
+  // For each vertex, the number of pairs of which it is the `high` vertex and whose `low` vertex is
+  // not in the order yet.
+  std::vector<Index> open(static_cast<std::size_t>(count), 0);
+  for (const OrderedPair& pair : pairs)
+  {
+    above[pair.low].push_back(pair.high);
+    open[pair.high] += 1;
+  }
+  std::vector<Index> order;
+  order.reserve(above.size());
+  for (Index v = 0; v < count; ++v)
+  {
+    if (open[v] == 0)
+    {
+      order.push_back(v);
+    }
+  }
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    for (const Index v : above[order[i]])
+    {
+      if (--open[v] == 0)
+      {
+        order.push_back(v);
+      }
+    }
+  }
+  return order;
+}
+
+std::vector<OrderedPair> upward_pairs(
+  const std::vector<OrderedPair>& pairs, const std::vector<Index>& order)
+{
+  std::vector<Index> rank(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    rank[order[i]] = static_cast<Index>(i);
+  }
+  std::vector<OrderedPair> upwards = pairs;
+  std::stable_sort(upwards.begin(), upwards.end(),
+    [&](const OrderedPair& a, const OrderedPair& b) { return rank[a.low] < rank[b.low]; });
+  return upwards;
+}
+
+void order_values(const std::vector<OrderedPair>& upwards, const std::vector<char>& is_free,
+  const Eigen::VectorXd& highest, Eigen::VectorXd& values)
+{
+  // The upper limit of each vertex: the smallest of its own limit and the limits of all vertices
+  // that must be above it, each reduced by the minimum differences of the pairs between them.
+  Eigen::VectorXd cap = highest;
+  for (Index v = 0; v < values.size(); ++v)
+  {
+    cap[v] = is_free[v] ? highest[v] : values[v];
+  }
+  for (auto pair = upwards.rbegin(); pair != upwards.rend(); ++pair)
+  {
+    cap[pair->low] = std::min(cap[pair->low], cap[pair->high] - pair->least);
+  }
+  for (Index v = 0; v < values.size(); ++v)
+  {
+    values[v] = is_free[v] ? std::min(values[v], cap[v]) : values[v];
+  }
+  for (const OrderedPair& pair : upwards)
+  {
+    if (is_free[pair.high])
+    {
+      values[pair.high] = std::max(values[pair.high], values[pair.low] + pair.least);
+    }
+  }
+}
+
+Index without_room(const BoxQpColumn& column, const std::vector<Index>& fixed, Index count)
+{
+  std::vector<double> least(static_cast<std::size_t>(count));
+  std::vector<double> most(static_cast<std::size_t>(count));
+  for (Index u = 0; u < count; ++u)
+  {
+    least[u] = column.bounds.low(u);
+    most[u] = column.bounds.high(u);
+  }
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+  {
+    least[fixed[i]] = most[fixed[i]] = column.fixed_values[static_cast<Index>(i)];
+  }
+  for (std::size_t i = 0; i < column.pinned.size(); ++i)
+  {
+    least[column.pinned[i]] = most[column.pinned[i]] = column.pinned_values[static_cast<Index>(i)];
+  }
+  const std::vector<Index> order = upward_order(column.pairs, count);
+  for (const OrderedPair& pair : upward_pairs(column.pairs, order))
+  {
+    least[pair.high] = std::max(least[pair.high], least[pair.low] + pair.least);
+  }
+  constexpr double round_off = 1e-12;
+  const auto tight = std::find_if(
+    order.begin(), order.end(), [&](Index u) { return least[u] > most[u] + round_off; });
+  return tight == order.end() ? Index(-1) : *tight;
+}
+
+} // namespace bindpose

@@ -1,0 +1,40 @@
+#ifndef bindpose_qp_projected_newton_h
+#define bindpose_qp_projected_newton_h
+
+#include "base/execution.h"
+#include "qp/column_problem.h"
+
+#include <functional>
+#include <vector>
+
+namespace bindpose
+{
+
+/// The map r -> z, where z approximates A^-1 r. It is symmetric and positive definite.
+using Preconditioner = std::function<void(const Eigen::VectorXd& r, Eigen::VectorXd& z)>;
+
+/// Return the held vertices: vertices whose value is kept at a bound during a Newton step. A vertex
+/// is held if a Newton step of this vertex alone, starting from x, would reach or cross a bound.
+/// Pinned vertices are included.
+/// @param gradient Ax + c.
+/// @return one entry per free vertex: 1 for held vertices.
+std::vector<char> held_vertices(const SplitForm& matrices, const ColumnProblem& problem,
+  const Eigen::VectorXd& gradient, const Eigen::VectorXd& x);
+
+/// Improve a point that is already close to the minimizer of 1/2 x'Ax + c'x, l <= x <= u, by a
+/// projected Newton method. Its linear systems are solved by a few iterations of conjugate
+/// gradients. No factorization is computed: the cost is 5 to 20 calls of the preconditioner.
+/// Optimality is not tested; the caller computes the certificate for that purpose.
+///
+/// Bertsekas 1982, Projected Newton methods for optimization problems with simple constraints.
+/// @param rounds maximum number of Newton rounds.
+/// @param enough stop if no entry changes by more than this in a round.
+/// @param x one entry per free vertex, within the bounds before and after.
+/// @return the largest change of an entry in the last round.
+double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
+  const Preconditioner& preconditioner, int rounds, double enough, const ExecutionContext& context,
+  Eigen::VectorXd& x);
+
+} // namespace bindpose
+
+#endif

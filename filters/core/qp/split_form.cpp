@@ -1,0 +1,111 @@
+// Split a quadratic form into free and fixed vertices (see split_form.h).
+#include "qp/split_form.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+SplitForm::SplitForm(const SparseMatrix& form, std::vector<Index> given)
+  : q(form), fixed(std::move(given))
+{
+  this->q.makeCompressed();
+  this->is_free.assign(static_cast<std::size_t>(form.rows()), 1);
+  std::vector<Index> fixed_of_vertex(static_cast<std::size_t>(form.rows()), -1);
+  for (std::size_t i = 0; i < this->fixed.size(); ++i)
+  {
+    this->is_free[this->fixed[i]] = 0;
+    fixed_of_vertex[this->fixed[i]] = static_cast<Index>(i);
+  }
+  this->free_of_vertex.assign(static_cast<std::size_t>(form.rows()), -1);
+  for (Index v = 0; v < form.rows(); ++v)
+  {
+    if (this->is_free[v])
+    {
+      this->free_of_vertex[v] = static_cast<Index>(this->free_vertices.size());
+      this->free_vertices.push_back(v);
+    }
+  }
+  const auto n = static_cast<int>(this->free_vertices.size());
+  std::vector<Eigen::Triplet<double, int>> inner;
+  std::vector<Eigen::Triplet<double, int>> outer;
+  for (Index v = 0; v < form.cols(); ++v)
+  {
+    for (SparseMatrix::InnerIterator entry(this->q, static_cast<int>(v)); entry; ++entry)
+    {
+      const auto i = static_cast<int>(this->free_of_vertex[entry.row()]);
+      const auto j = static_cast<int>(this->free_of_vertex[v]);
+      if (i >= 0 && j >= 0)
+      {
+        inner.emplace_back(i, j, entry.value());
+      }
+      else if (i >= 0)
+      {
+        outer.emplace_back(i, static_cast<int>(fixed_of_vertex[v]), entry.value());
+      }
+    }
+  }
+  for (int i = 0; i < n; ++i)
+  {
+    inner.emplace_back(i, i, 0.0); // store every diagonal entry
+  }
+  this->a.resize(n, n);
+  this->a.setFromTriplets(inner.begin(), inner.end());
+  this->to_fixed.resize(n, static_cast<int>(this->fixed.size()));
+  this->to_fixed.setFromTriplets(outer.begin(), outer.end());
+  this->lower = this->a.triangularView<Eigen::Lower>();
+  this->lower.makeCompressed();
+  for (int i = 0; i < n; ++i)
+  {
+    this->diagonal.push_back(this->lower.outerIndexPtr()[i]);
+  }
+}
+
+Eigen::MatrixXd SplitForm::free_rows(const Eigen::MatrixXd& all) const
+{
+  return all(this->free_vertices, Eigen::all);
+}
+
+Eigen::MatrixXd SplitForm::whole(
+  const Eigen::MatrixXd& free_rows, const Eigen::MatrixXd& fixed_values) const
+{
+  Eigen::MatrixXd all(this->q.rows(), fixed_values.cols());
+  all(this->free_vertices, Eigen::all) = free_rows;
+  all(this->fixed, Eigen::all) = fixed_values;
+  return all;
+}
+
+void SplitForm::decouple(const std::vector<char>& held, SparseMatrix& matrix)
+{
+  for (Index j = 0; j < matrix.cols(); ++j)
+  {
+    for (int k = matrix.outerIndexPtr()[j]; k < matrix.outerIndexPtr()[j + 1]; ++k)
+    {
+      const Index i = matrix.innerIndexPtr()[k];
+      if (i != j && (held[i] || held[j]))
+      {
+        matrix.valuePtr()[k] = 0.0;
+      }
+    }
+  }
+}
+
+int SplitForm::position(Index i, Index j) const
+{
+  const int* begin = this->lower.innerIndexPtr() + this->lower.outerIndexPtr()[j];
+  const int* end = this->lower.innerIndexPtr() + this->lower.outerIndexPtr()[j + 1];
+  const int* at = std::lower_bound(begin, end, static_cast<int>(i));
+  return at != end && *at == i ? static_cast<int>(at - this->lower.innerIndexPtr()) : -1;
+}
+
+Status without_minimum(Status of_factor)
+{
+  if (of_factor.code == StatusCode::invalid_input)
+  {
+    of_factor.message = "the energy of the mesh has no unique minimum in double precision (" +
+      of_factor.message + "), perhaps because some elements are almost flat";
+  }
+  return of_factor;
+}
+
+} // namespace bindpose

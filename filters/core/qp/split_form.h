@@ -1,0 +1,57 @@
+#ifndef bindpose_qp_split_form_h
+#define bindpose_qp_split_form_h
+
+#include "base/status.h"
+#include "geometry/laplacian.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// A quadratic form, split into blocks of free vertices, which are solved for, and of fixed
+/// vertices, whose values are given.
+struct SplitForm
+{
+  SplitForm() = default;
+  /// @param q symmetric, #V x #V, both triangular halves stored.
+  /// @param fixed ids of the fixed vertices, each once.
+  SplitForm(const SparseMatrix& q, std::vector<Index> fixed);
+
+  SparseMatrix q; ///< the whole form, #V x #V, both triangular halves stored
+  std::vector<Index> fixed;
+  std::vector<char> is_free; ///< #V: 1 for free vertices
+  std::vector<Index> free_vertices;
+  std::vector<Index> free_of_vertex; ///< #V: index in free_vertices; -1: fixed
+  SparseMatrix a; ///< block of the free vertices, both triangular halves stored
+  SparseMatrix lower; ///< lower triangle of a; every diagonal entry is stored
+  SparseMatrix to_fixed; ///< free x fixed
+  std::vector<int> diagonal; ///< indices of the diagonal entries in the values of `lower`
+
+  /// Return the rows of the free vertices.
+  /// @param all #V x m.
+  /// @return free x m.
+  Eigen::MatrixXd free_rows(const Eigen::MatrixXd& all) const;
+  /// Combine the rows of free and fixed vertices.
+  /// @param free_rows free x m.
+  /// @param fixed_values fixed x m.
+  /// @return #V x m.
+  Eigen::MatrixXd whole(
+    const Eigen::MatrixXd& free_rows, const Eigen::MatrixXd& fixed_values) const;
+  /// Set the off-diagonal entries of a free x free matrix to 0 in the rows and columns of held
+  /// vertices.
+  /// @param held one entry per free vertex: 1 for held vertices.
+  static void decouple(const std::vector<char>& held, SparseMatrix& matrix);
+  /// Return the index of entry (i, j), i > j, in the values of `lower`; -1 if there is no such
+  /// entry.
+  int position(Index i, Index j) const;
+};
+
+/// Replace the message of a factorization that failed with invalid_input: the block of free
+/// vertices is not positive definite, so the form has no unique minimum. Return any other status
+/// unchanged.
+Status without_minimum(Status of_factor);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,86 @@
+#ifndef bindpose_segmentation_region_boundary_h
+#define bindpose_segmentation_region_boundary_h
+
+#include "base/execution.h"
+#include "geometry/mesh.h"
+#include "winding/winding_number.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// The region {winding number >= threshold} in the surface's box, and the parts of the surface that
+/// bound it. Triangles that have the region on both sides or on neither side do not bound it, for
+/// example the parts of crossing solids that are inside each other. All functions are thread-safe.
+/// The surface and the winding number must outlive this object.
+class RegionBoundary
+{
+public:
+  RegionBoundary(
+    PointsView points, TrianglesView triangles, const WindingNumber& winding, double threshold);
+
+  const Box& box() const { return this->box_; }
+  bool holds(const Vec3& p) const;
+  /// Report whether the triangles alone bound the region, because the surface is closed and all
+  /// winding numbers are integers.
+  bool closed() const { return this->closed_; }
+  /// Report whether the region is on exactly one side of triangle f at p, a point of the triangle.
+  /// The test evaluates points 1e-6 of the diagonal in front of p and behind it.
+  bool bounded_at(Index f, const Vec3& p) const;
+  /// Report whether the region is on exactly one side of triangle f near its corner k.
+  bool bounded_at_corner(Index f, int k) const;
+  /// Return the thickness of the region at p, where triangle f bounds it, along the normal. The gap
+  /// on the other side of the triangle is measured too, and the smaller value is returned. The
+  /// search starts at the distance `smallest` and ends at `largest`, which is the maximum result.
+  double thickness(Index f, const Vec3& p, double smallest, double largest) const;
+  /// Move p along the unit vector n onto the boundary of the region, by at most `reach` in either
+  /// direction. The error is 2^-20 times `reach`. n points outwards. @return true if the search
+  /// line starts inside and ends outside, otherwise false.
+  bool onto_boundary(Vec3& p, const Vec3& n, double reach) const;
+  /// Return the unit normal, or zero for a triangle without area.
+  Vec3 normal(Index f) const;
+  Vec3 corner(Index f, int k) const { return this->points_.row(this->triangles_(f, k)); }
+
+  PointsView points() const { return this->points_; }
+  TrianglesView triangles() const { return this->triangles_; }
+
+private:
+  PointsView points_;
+  TrianglesView triangles_;
+  const WindingNumber& winding_;
+  double threshold_;
+  Box box_;
+  double step_;
+  bool closed_;
+};
+
+/// Options of sample_boundary().
+struct BoundarySampling
+{
+  double smallest = 0.0; ///< length of the shortest requested edges, > 0
+  double largest = 0.0; ///< length of the longest requested edges, >= smallest
+  /// Maximum of the difference of two edge lengths divided by the distance of their sites.
+  double growth = 0.3;
+};
+
+/// Sample points ("sites") on the boundary of a region, with requested edge lengths.
+struct BoundarySites
+{
+  Points points; ///< #S x 3: input vertices on the boundary, then points inside triangles
+  /// Requested lengths, #S: for a vertex the mean of the shortest edges of its triangles, for a
+  /// point the shortest edge of its triangle. A length is at most the thickness of the region (or
+  /// of the gap next to it) and within the bounds.
+  Eigen::VectorXd lengths;
+  Eigen::VectorXd areas; ///< #S: area that the site represents, 0 for vertices
+  std::vector<Index> vertices; ///< input ids of the sites that are vertices; these sites come first
+};
+
+/// Compute sites on every triangle, about `largest` apart. Cost: about 5 us per triangle.
+/// @return false when canceled.
+bool sample_boundary(const RegionBoundary& region, const BoundarySampling& options,
+  BoundarySites& sites, ExecutionContext& context);
+
+} // namespace bindpose
+
+#endif

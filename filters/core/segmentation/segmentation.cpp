@@ -1,0 +1,107 @@
+// Labels of tets from their winding numbers, by a threshold or by a graph cut (Jacobson, Kavan,
+// Sorkine-Hornung 2013; graph_cut.h).
+#include "segmentation/segmentation.h"
+
+#include "geometry/tet_facets.h"
+#include "segmentation/graph_cut.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+double area(PointsView points, const TetFacet& facet)
+{
+  const Vec3 a = points.row(facet.vertices[0]);
+  const Vec3 b = points.row(facet.vertices[1]);
+  const Vec3 c = points.row(facet.vertices[2]);
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+CutEnergy energy_of(
+  PointsView points, TetsView tets, const Eigen::VectorXd& w, const SegmentationOptions& options)
+{
+  CutEnergy energy;
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    const double shifted = w[t] - options.winding_threshold + 0.5;
+    energy.outside_costs.push_back(std::max(shifted, 0.0));
+    energy.inside_costs.push_back(std::max(1.0 - shifted, 0.0));
+  }
+  const std::vector<TetFacet> facets = tet_facets(tets);
+  double sum = 0.0;
+  for (std::size_t f = 1; f < facets.size(); ++f)
+  {
+    if (facets[f].vertices == facets[f - 1].vertices)
+    {
+      const Index i = facets[f - 1].tet;
+      const Index j = facets[f].tet;
+      const double size = area(points, facets[f]);
+      const double jump = (w[i] - w[j]) / options.cut_sigma;
+      sum += size;
+      energy.edges.push_back(
+        { i, j, options.cut_smoothness * size * std::exp(-0.5 * jump * jump) });
+    }
+  }
+  const double mean = sum / static_cast<double>(std::max<std::size_t>(1, energy.edges.size()));
+  for (CutEnergy::Edge& edge : energy.edges)
+  {
+    edge.cost = mean > 0.0 ? edge.cost / mean : 0.0;
+  }
+  return energy;
+}
+} // namespace
+
+const char* to_string(SegmentationMethod method)
+{
+  return method == SegmentationMethod::graph_cut ? "graph-cut" : "threshold";
+}
+
+Status segment_tets(PointsView points, TetsView tets, const Eigen::VectorXd& winding_numbers,
+  const SegmentationOptions& options, Segmentation& result, ExecutionContext& context)
+{
+  result = Segmentation();
+  if (!(options.cut_smoothness >= 0.0) || !std::isfinite(options.cut_smoothness))
+  {
+    return Status::invalid_input("cut_smoothness must be 0 or more");
+  }
+  if (!(options.cut_sigma > 0.0) || !std::isfinite(options.cut_sigma))
+  {
+    return Status::invalid_input("cut_sigma must be positive");
+  }
+  std::vector<char> above(static_cast<std::size_t>(tets.rows()));
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    above[t] = winding_numbers[t] >= options.winding_threshold;
+  }
+  result.inside = above;
+  if (options.method == SegmentationMethod::threshold)
+  {
+    return {};
+  }
+  const CutEnergy energy = energy_of(points, tets, winding_numbers, options);
+  Status status = minimize(energy, result.inside, context);
+  if (!status.ok())
+  {
+    return status;
+  }
+  result.threshold_energy = energy.of(above);
+  result.energy = energy.of(result.inside);
+  if (result.energy >= result.threshold_energy)
+  {
+    // If both energies are equal, the labels of the threshold are used, because they follow
+    // directly from the winding numbers.
+    result.inside = above;
+    result.energy = result.threshold_energy;
+  }
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    result.changed += result.inside[t] != above[t];
+  }
+  return {};
+}
+
+} // namespace bindpose

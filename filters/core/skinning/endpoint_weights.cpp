@@ -1,0 +1,151 @@
+// Endpoint weights of bones. This file solves no optimization problem itself. The methods `joints`
+// and `bounded` use bounded biharmonic weights of auxiliary handles: the ends of all bones as
+// points, or the two ends of one bone joined by a cage edge.
+#include "skinning/endpoint_weights.h"
+
+#include "handles/bone_projection.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Weight of the projection relative to the weights of the joints (method `joints`).
+constexpr double share_of_projection = 1e-4;
+
+Handle end_of_bone(const std::string& name, HandleKind kind, const Vec3& at)
+{
+  Handle handle;
+  handle.name = name;
+  handle.kind = kind;
+  handle.head = handle.tail = at;
+  return handle;
+}
+
+/// Merge the status of one solve into the total status: add new warnings, and copy the code and
+/// message if all previous solves were ok.
+void add_words(const Status& step, Status& status)
+{
+  if (status.ok())
+  {
+    status.code = step.code;
+    status.message = step.message;
+  }
+  for (const std::string& warning : step.warnings)
+  {
+    if (std::find(status.warnings.begin(), status.warnings.end(), warning) == status.warnings.end())
+    {
+      status.warnings.push_back(warning);
+    }
+  }
+}
+
+/// The ends of all bones without duplicate positions.
+struct Joints
+{
+  Handles handles;
+  std::map<std::array<double, 3>, Index> by_place;
+
+  Index add(const Vec3& at)
+  {
+    const auto [entry, fresh] = this->by_place.emplace(
+      std::array<double, 3>{ at[0], at[1], at[2] }, static_cast<Index>(this->handles.size()));
+    if (fresh)
+    {
+      this->handles.push_back(
+        end_of_bone("joint " + std::to_string(entry->second), HandleKind::point, at));
+    }
+    return entry->second;
+  }
+};
+} // namespace
+
+const char* to_string(EndpointMethod method)
+{
+  constexpr const char* names[] = { "projection", "joints", "bounded" };
+  return names[static_cast<int>(method)];
+}
+
+Status endpoint_weights(PointsView points, const Handles& handles, EndpointMethod method,
+  const BoundedSolve& solve, ExecutionContext& context, Weights& endpoints)
+{
+  endpoints = Weights::Constant(
+    points.rows(), static_cast<Index>(handles.size()), std::numeric_limits<double>::quiet_NaN());
+  std::vector<Index> bones;
+  for (std::size_t j = 0; j < handles.size(); ++j)
+  {
+    if (handles[j].kind == HandleKind::bone)
+    {
+      bones.push_back(static_cast<Index>(j));
+      for (Index v = 0; v < points.rows(); ++v)
+      {
+        endpoints(v, static_cast<Index>(j)) =
+          projected_endpoint(points.row(v), handles[j].head, handles[j].tail - handles[j].head);
+      }
+    }
+  }
+  if (bones.empty())
+  {
+    return Status::invalid_input("the handles contain no bone");
+  }
+  Status status;
+  Index problems = 0;
+  if (method == EndpointMethod::joints)
+  {
+    Joints joints;
+    std::vector<std::array<Index, 2>> ends;
+    for (const Index j : bones)
+    {
+      const Handle& bone = handles[static_cast<std::size_t>(j)];
+      ends.push_back({ joints.add(bone.head), joints.add(bone.tail) });
+    }
+    Weights w;
+    const Status solved = solve(joints.handles, context, w);
+    if (!solved.usable())
+    {
+      return solved;
+    }
+    problems = 1;
+    add_words(solved, status);
+    for (std::size_t i = 0; i < bones.size(); ++i)
+    {
+      const auto head = w.col(ends[i][0]).array().max(0.0);
+      const auto tail = w.col(ends[i][1]).array().max(0.0);
+      endpoints.col(bones[i]) = (tail + share_of_projection * endpoints.col(bones[i]).array()) /
+        (head + tail + share_of_projection);
+    }
+  }
+  else if (method == EndpointMethod::bounded)
+  {
+    for (std::size_t i = 0; i < bones.size(); ++i)
+    {
+      const Handle& bone = handles[static_cast<std::size_t>(bones[i])];
+      Handles ends = { end_of_bone("head of " + bone.name, HandleKind::cage_vertex, bone.head),
+        end_of_bone("tail of " + bone.name, HandleKind::cage_vertex, bone.tail) };
+      ends[0].cage.push_back({ 0, 1, -1 });
+      const double step = 1.0 / static_cast<double>(bones.size());
+      const ProgressRange range(
+        context, static_cast<double>(i) * step, static_cast<double>(i + 1) * step);
+      Weights w;
+      const Status solved = solve(ends, context, w);
+      if (!solved.usable())
+      {
+        return solved;
+      }
+      ++problems;
+      add_words(solved, status);
+      endpoints.col(bones[i]) = w.col(1).array().max(0.0).min(1.0);
+    }
+  }
+  status.report.set("method", to_string(method));
+  status.report.set("counts.bones", static_cast<Index>(bones.size()));
+  status.report.set("counts.problems", problems);
+  return status;
+}
+
+} // namespace bindpose

@@ -1,0 +1,49 @@
+#ifndef bindpose_skinning_endpoint_weights_h
+#define bindpose_skinning_endpoint_weights_h
+
+// Endpoint weights of bones, which are 0 at the head and 1 at the tail, for stretchable, twistable
+// bones (Jacobson and Sorkine 2011).
+
+#include "base/execution.h"
+#include "handles/handles.h"
+
+#include <functional>
+
+namespace bindpose
+{
+
+/// Method that extends a bone's endpoint weight, 0 at its head and 1 at its tail, over the shape.
+/// The integers are those of vtkBoneEndpointWeights.
+enum class EndpointMethod : int
+{
+  /// Projection onto the bone, clamped (projected_endpoint); independent of the shape.
+  projection = 0,
+  /// W_tail / (W_head + W_tail), where W are bounded biharmonic weights of point handles at the
+  /// ends of all bones. One problem is solved for all bones.
+  joints = 1,
+  /// The function with values from 0 to 1 that is linear along the bone and has the minimum
+  /// biharmonic energy. It is the weight of the tail in an open cage of one edge. One problem is
+  /// solved per bone.
+  bounded = 2
+};
+
+/// Return "projection", "joints" or "bounded".
+const char* to_string(EndpointMethod method);
+
+/// Function that computes bounded biharmonic weights of handles at the points. The rows must sum to
+/// one.
+using BoundedSolve = std::function<Status(const Handles&, ExecutionContext&, Weights&)>;
+
+/// Compute endpoint weights of stretchable, twistable bones (Jacobson and Sorkine 2011), see
+/// Skinning. In the method `joints`, the projection is blended in with a weight of 1e-4. Therefore
+/// the result changes continuously to the projection where the weights of both ends vanish.
+/// @param endpoints #V x #handles, values from 0 to 1; NaN in the columns of handles that are not
+/// bones.
+/// @return invalid_input if there is no bone; otherwise the status of `solve`, with each warning
+/// once. The report contains method, counts.bones and counts.problems (number of solved problems).
+Status endpoint_weights(PointsView points, const Handles& handles, EndpointMethod method,
+  const BoundedSolve& solve, ExecutionContext& context, Weights& endpoints);
+
+} // namespace bindpose
+
+#endif

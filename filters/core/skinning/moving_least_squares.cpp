@@ -1,0 +1,358 @@
+// Rigid moving least squares (Schaefer et al. 2006) with analytic weights for points and integrals
+// for bones.
+//
+// At a vertex v each position p of a handle has the weight w = (r / |p - v|)^(2 exponent), where r
+// is the distance of the nearest handle. The factor r avoids overflow and underflow. Let p* and q*
+// be the weighted means of rest and posed positions. The rotation R maximizes the sum of w (q - q*)
+// . R (p - p*), and v' = R (v - p*) + q*.
+//
+// Along a bone p(t) and q(t) are linear, so a warp needs only three integrals of w(t): its amount
+// (total weight), mean and variance. They depend only on the rest pose and are computed by bind().
+// Near the bone w has a sharp peak. The integral is therefore split at the position nearest to v
+// into pieces. The first piece on either side is as long as the distance between v and the bone,
+// and each next piece is twice as long. Each piece has eight Gauss points, which gives nine correct
+// digits for any distance between v and the bone.
+//
+// If a vertex is on a handle, its distance from the handle is set to 1e-12 of the handles' extent.
+// Then the vertex moves with this handle to twelve digits, and no division by zero occurs.
+#include "skinning/moving_least_squares.h"
+
+#include "base/parallel.h"
+#include "pose/rotation_fit.h"
+#include "skinning/skinning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr Index points_per_block = 512;
+/// Smallest distance used, as a fraction of the handles' extent.
+constexpr double nearest_distance = 1e-12;
+/// Points are in one plane if their z coordinates differ by less than this fraction of the
+/// bounding-box diagonal.
+constexpr double flat_tolerance = 1e-9;
+
+constexpr double gauss_at[4] = { 0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+  0.9602898564975363 };
+constexpr double gauss_weight[4] = { 0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+  0.1012285362903763 };
+
+/// Return the parameter of the segment's point that is nearest to v; 0 if the handle is a point.
+double nearest_parameter(const Handle& handle, const Vec3& v)
+{
+  const Vec3 along = handle.tail - handle.head;
+  const double length2 = along.squaredNorm();
+  return length2 > 0.0 ? std::clamp(along.dot(v - handle.head) / length2, 0.0, 1.0) : 0.0;
+}
+
+bool is_bone(const Handle& handle)
+{
+  return handle.kind == HandleKind::bone;
+}
+
+double falloff(double squared_ratio, double exponent)
+{
+  return exponent == 1.0 ? squared_ratio : std::pow(squared_ratio, exponent);
+}
+
+/// Compute the integrals of w(t), t w(t), t^2 w(t) over a bone, as amount, mean and variance. In
+/// the integrals, t is counted from the bone's point nearest to v, so that t is small where the
+/// weight is large. The amount is scaled so that a bone as long as the handles' extent has the same
+/// weight as a point handle.
+/// @param nearest distance of v to the nearest handle.
+/// @param own distance of v to this bone.
+MovingLeastSquares::Share bone_share(const Handle& bone, const Vec3& v, double nearest, double own,
+  double floor, double exponent, double extent)
+{
+  const Vec3 along = bone.tail - bone.head;
+  const double length = along.norm();
+  const double at = nearest_parameter(bone, v);
+  const Vec3 offset = bone.head + at * along - v;
+  double sums[3] = { 0.0, 0.0, 0.0 };
+  for (const double direction : { -1.0, 1.0 })
+  {
+    const double end = direction < 0.0 ? at : 1.0 - at;
+    double width = own / length;
+    for (double from = 0.0; from < end; width *= 2.0)
+    {
+      const double half = 0.5 * std::min(width, end - from);
+      const double middle = from + half;
+      for (int k = 0; k < 8; ++k)
+      {
+        const double s = direction * (middle + (k % 2 ? half : -half) * gauss_at[k / 2]);
+        const double distance2 = std::max((offset + s * along).squaredNorm(), floor * floor);
+        const double w =
+          half * gauss_weight[k / 2] * falloff(nearest * nearest / distance2, exponent);
+        sums[0] += w;
+        sums[1] += w * s;
+        sums[2] += w * s * s;
+      }
+      // The last piece ends exactly at `end`, because rounding could otherwise leave a remaining
+      // piece of length zero.
+      from = width >= end - from ? end : from + width;
+    }
+  }
+  const double mean = sums[1] / sums[0];
+  return { length / extent * sums[0], at + mean, std::max(0.0, sums[2] / sums[0] - mean * mean) };
+}
+
+/// Report whether the points are in a plane z = const up to the tolerance.
+bool is_flat(PointsView points, double tolerance)
+{
+  return points.rows() == 0 || points.col(2).maxCoeff() - points.col(2).minCoeff() <= tolerance;
+}
+
+/// Return the heads of all handles, then the tails, 2 #handles x 3.
+Points places(const Handles& handles, const std::vector<Affine>* transforms)
+{
+  const auto count = static_cast<Index>(handles.size());
+  Points result(2 * count, 3);
+  for (Index j = 0; j < count; ++j)
+  {
+    const Handle& handle = handles[static_cast<std::size_t>(j)];
+    result.row(j) = handle.head.transpose();
+    result.row(count + j) = (is_bone(handle) ? handle.tail : handle.head).transpose();
+    if (transforms)
+    {
+      const Affine& t = (*transforms)[static_cast<std::size_t>(j)];
+      for (const Index row : { j, count + j })
+      {
+        result.row(row) = (t.leftCols<3>() * result.row(row).transpose() + t.col(3)).transpose();
+      }
+    }
+  }
+  return result;
+}
+
+/// Return the largest distance between two points. It is invariant under rotation, unlike the
+/// diagonal of a bounding box.
+double largest_distance(const Points& points)
+{
+  double squared = 0.0;
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    squared =
+      std::max(squared, (points.rowwise() - points.row(i)).rowwise().squaredNorm().maxCoeff());
+  }
+  return std::sqrt(squared);
+}
+
+/// Return the rows of `places` for the handles in `counting`: head, tail, head, tail, …
+Points rows_of(const Points& places, const std::vector<Index>& counting)
+{
+  const Index count = places.rows() / 2;
+  Points result(2 * static_cast<Index>(counting.size()), 3);
+  for (std::size_t i = 0; i < counting.size(); ++i)
+  {
+    result.row(2 * static_cast<Index>(i)) = places.row(counting[i]);
+    result.row(2 * static_cast<Index>(i) + 1) = places.row(count + counting[i]);
+  }
+  return result;
+}
+} // namespace
+
+Status MovingLeastSquares::bind(ExecutionContext& context, const MovingLeastSquaresOptions& options,
+  PointsView rest, const Handles& handles)
+{
+  *this = MovingLeastSquares();
+  if (!(options.exponent >= 1.0 && options.exponent <= 8.0))
+  {
+    return Status::invalid_input("the exponent of moving least squares must be from 1 to 8");
+  }
+  Status status = check_handles(handles);
+  if (!status.ok())
+  {
+    return status;
+  }
+  // Lengths are relative to the extent of the handles, so that the motion of a vertex does not
+  // depend on other vertices.
+  const double extent = largest_distance(places(handles, nullptr));
+  const double floor = std::max(nearest_distance * extent, 1e-150);
+  const double exponent = options.exponent;
+  const std::size_t count = handles.size();
+  this->shares_.resize(static_cast<std::size_t>(rest.rows()) * count);
+  const bool done = parallel_for(context, rest.rows(), points_per_block,
+    [&](Index begin, Index end)
+    {
+      std::vector<double> distance(count);
+      for (Index i = begin; i < end; ++i)
+      {
+        const Vec3 v = rest.row(i).transpose();
+        for (std::size_t j = 0; j < count; ++j)
+        {
+          const Handle& h = handles[j];
+          const double at = is_bone(h) ? nearest_parameter(h, v) : 0.0;
+          distance[j] = std::max((h.head + at * (h.tail - h.head) - v).norm(), floor);
+        }
+        const double nearest = *std::min_element(distance.begin(), distance.end());
+        Share* shares = this->shares_.data() + static_cast<std::size_t>(i) * count;
+        for (std::size_t j = 0; j < count; ++j)
+        {
+          const double ratio = nearest / distance[j];
+          shares[j] = is_bone(handles[j])
+            ? bone_share(handles[j], v, nearest, distance[j], floor, exponent, extent)
+            : Share{ falloff(ratio * ratio, exponent), 0.0, 0.0 };
+        }
+      }
+    });
+  if (!done)
+  {
+    *this = MovingLeastSquares();
+    return Status::canceled();
+  }
+  this->handles_ = static_cast<Index>(count);
+  this->rest_ = rest;
+  this->flat_ = is_flat(rest, flat_tolerance * std::max(bounding_box(rest).diagonal(), extent));
+  return {};
+}
+
+Status MovingLeastSquares::warp(
+  ExecutionContext& context, const Handles& handles, const Pose& pose, Points& posed) const
+{
+  const auto count = static_cast<Index>(handles.size());
+  if (count != this->handles_ || pose.size() != handles.size())
+  {
+    return Status::invalid_input("the pose has " + std::to_string(pose.size()) + " handles, but " +
+      std::to_string(this->handles_) + " handles are bound");
+  }
+  std::vector<Affine> transforms;
+  std::vector<Index> counting;
+  for (Index j = 0; j < count; ++j)
+  {
+    if (pose[static_cast<std::size_t>(j)].mode != HandleMode::free)
+    {
+      counting.push_back(j);
+    }
+  }
+  Status status = skinning_transforms(handles, pose, transforms);
+  if (!status.ok())
+  {
+    return status;
+  }
+  // Remove the warnings about free handles: in this method free handles have no effect.
+  status.warnings.clear();
+  if (counting.empty())
+  {
+    posed = this->rest_;
+    status.warnings.emplace_back("all handles are free, so the mesh does not move");
+    return status;
+  }
+  const Points rest_places = places(handles, nullptr);
+  const Points posed_places = places(handles, &transforms);
+  const Points rest_rows = rows_of(rest_places, counting);
+  const Points posed_rows = rows_of(posed_places, counting);
+  const double tolerance = flat_tolerance *
+    std::max({ bounding_box(this->rest_).diagonal(), bounding_box(rest_rows).diagonal(),
+      bounding_box(posed_rows).diagonal() });
+  const bool planar =
+    this->flat_ && is_flat(rest_rows, tolerance) && is_flat(posed_rows, tolerance);
+
+  posed.resize(this->rest_.rows(), 3);
+  const bool done = parallel_for(context, this->rest_.rows(), points_per_block,
+    [&](Index begin, Index end)
+    {
+      const Index size = end - begin;
+      Points rest_means(size, 3);
+      Points posed_means(size, 3);
+      // Matrices are stored in planes, as fit_rotations() requires. The fits start from the
+      // identity.
+      Eigen::MatrixXd s = Eigen::MatrixXd::Zero(size, 9);
+      Eigen::MatrixXd rotations = Eigen::MatrixXd::Zero(size, 9);
+      rotations.col(0).setOnes();
+      rotations.col(4).setOnes();
+      rotations.col(8).setOnes();
+      for (Index i = 0; i < size; ++i)
+      {
+        const Share* shares = this->shares_.data() + (begin + i) * count;
+        const auto rest_at = [&](Index j)
+        {
+          return Vec3(((1.0 - shares[j].mean) * rest_places.row(j) +
+            shares[j].mean * rest_places.row(count + j))
+                        .transpose());
+        };
+        const auto posed_at = [&](Index j)
+        {
+          return Vec3(((1.0 - shares[j].mean) * posed_places.row(j) +
+            shares[j].mean * posed_places.row(count + j))
+                        .transpose());
+        };
+        // Means are computed relative to the position with the largest weight. If no other handle
+        // has an effect, the means equal this position exactly, and rounding causes no rotation.
+        Index main = counting[0];
+        double amount = 0.0;
+        for (const Index j : counting)
+        {
+          main = shares[j].amount > shares[main].amount ? j : main;
+          amount += shares[j].amount;
+        }
+        const Vec3 rest_main = rest_at(main);
+        const Vec3 posed_main = posed_at(main);
+        Vec3 p = Vec3::Zero();
+        Vec3 q = Vec3::Zero();
+        for (const Index j : counting)
+        {
+          const double share = shares[j].amount / amount;
+          p += share * (rest_at(j) - rest_main);
+          q += share * (posed_at(j) - posed_main);
+        }
+        Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+        for (const Index j : counting)
+        {
+          const double share = shares[j].amount / amount;
+          moment +=
+            share * (rest_at(j) - rest_main - p) * (posed_at(j) - posed_main - q).transpose();
+          if (shares[j].variance > 0.0)
+          {
+            moment += share * shares[j].variance *
+              (rest_places.row(count + j) - rest_places.row(j)).transpose() *
+              (posed_places.row(count + j) - posed_places.row(j));
+          }
+        }
+        for (int k = 0; k < 9; ++k)
+        {
+          s(i, k) = moment(k / 3, k % 3);
+        }
+        rest_means.row(i) = (rest_main + p).transpose();
+        posed_means.row(i) = (posed_main + q).transpose();
+      }
+      if (!planar)
+      {
+        fit_rotations(size, size, s.data(), rotations.data());
+      }
+      for (Index i = 0; i < size; ++i)
+      {
+        const Vec3 offset = (this->rest_.row(begin + i) - rest_means.row(i)).transpose();
+        Vec3 turned;
+        if (planar)
+        {
+          const double cosine = s(i, 0) + s(i, 4);
+          const double sine = s(i, 1) - s(i, 3);
+          const double length = std::hypot(cosine, sine);
+          const double c = length > 0.0 ? cosine / length : 1.0;
+          const double n = length > 0.0 ? sine / length : 0.0;
+          turned = Vec3(c * offset[0] - n * offset[1], n * offset[0] + c * offset[1], offset[2]);
+        }
+        else
+        {
+          for (int r = 0; r < 3; ++r)
+          {
+            turned[r] = rotations(i, 3 * r) * offset[0] + rotations(i, 3 * r + 1) * offset[1] +
+              rotations(i, 3 * r + 2) * offset[2];
+          }
+        }
+        posed.row(begin + i) = posed_means.row(i) + turned.transpose();
+      }
+    });
+  if (!done)
+  {
+    return Status::canceled();
+  }
+  status.report.set("planar", planar ? 1 : 0);
+  return status;
+}
+
+} // namespace bindpose

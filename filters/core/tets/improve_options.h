@@ -1,0 +1,43 @@
+#ifndef bindpose_tets_improve_options_h
+#define bindpose_tets_improve_options_h
+
+#include "geometry/mesh.h"
+
+#include <functional>
+
+namespace bindpose
+{
+
+/// Options of improve_tets().
+struct ImproveOptions
+{
+  /// Tets whose smallest dihedral angle is below this are improved, degrees.
+  double angle = 12.0;
+  /// Held (constrained) vertices may move if a tet at them remains below this angle, degrees.
+  double least_angle = 8.5;
+  Index passes = 20; ///< maximum number of passes over the tets that are too flat
+  /// Whether boundary triangles stay unchanged, except as `coplanar` allows.
+  bool keep_boundary = false;
+  /// With keep_boundary: a boundary edge may be swapped if its two triangles are coplanar within
+  /// this length. 0: no boundary edge is swapped.
+  double coplanar = 0.0;
+  /// Whether vertices may be inserted near tets whose smallest angle is below insert_angle, if no
+  /// other step improves them.
+  bool insert = false;
+  double insert_angle = 8.0; ///< degrees
+  /// A step may reduce the smallest angle of the tets that it touches by this factor if it improves
+  /// enough other tets, 0 … 1. 1: no step may reduce it.
+  double slack = 1.0;
+  /// Approximate maximum number of computed tet qualities per tet; each takes 40 ns. The total is
+  /// at most 25 million plus 400 per tet.
+  double effort = 2000.0;
+};
+
+/// Move p along the unit vector n, at most `reach` in either direction, onto the surface that must
+/// contain the boundary. Called from several threads. @return false if the line does not cross the
+/// surface there.
+using OntoSurface = std::function<bool(Vec3& p, const Vec3& n, double reach)>;
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,204 @@
+// Cavities for the insertion of a vertex: the tets whose circumspheres contain it, reduced until
+// all new tets are good enough.
+#include "tets/tet_cavity.h"
+
+#include "geometry/tet_facets.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+Index fill_cavity(TetComplex& tets, const Vec3& p, const TetCavity& cavity)
+{
+  const Index v = tets.add_vertex(p, false);
+  for (const Index t : cavity.tets)
+  {
+    tets.remove(t);
+  }
+  for (const TetComplex::Facet& f : cavity.facets)
+  {
+    tets.add({ f[0], f[1], f[2], v });
+  }
+  return v;
+}
+
+bool CavitySearch::find(const Vec3& p, Index start, double least, TetCavity& cavity)
+{
+  const auto tets = static_cast<std::size_t>(this->tets_.tet_ids());
+  this->cavity_.resize(tets, 0);
+  this->site_ids_.resize(tets, 0);
+  this->collect_sphere(p, start);
+  if (!this->shrink(p, start, least))
+  {
+    return false;
+  }
+  this->collect_connected(start, cavity);
+  return this->keeps_all(p, cavity);
+}
+
+bool CavitySearch::in_sphere(const Tet& tet, const Vec3& p) const
+{
+  const Vec3& a = this->tets_.point(tet[0]);
+  const Vec3 u = this->tets_.point(tet[1]) - a, v = this->tets_.point(tet[2]) - a,
+             w = this->tets_.point(tet[3]) - a, q = p - a;
+  const Vec3 vw = v.cross(w);
+  const Vec3 center = u.squaredNorm() * vw + v.squaredNorm() * w.cross(u) +
+    // Circumcenter relative to a, multiplied by 2 det(u, v, w).
+    w.squaredNorm() * u.cross(v);
+  return q.squaredNorm() * u.dot(vw) < q.dot(center);
+}
+
+void CavitySearch::add_site(Index t)
+{
+  this->cavity_[t] = this->searches_;
+  this->site_ids_[t] = static_cast<Index>(this->sites_.size());
+  this->sites_.emplace_back();
+  this->queue_.push_back(t);
+}
+
+/// Return the tet beyond facet k of a tet of the cavity.
+Index CavitySearch::beyond_of_site(Index t, int k)
+{
+  Index& next = this->site_of(t).beyond[k];
+  if (next == Site::unknown)
+  {
+    const Tet& tet = this->tets_.tet(t);
+    const auto& f = facet_corners[k];
+    next = this->tets_.beyond(t, tet[f[0]], tet[f[1]], tet[f[2]]);
+  }
+  return next;
+}
+
+void CavitySearch::collect_sphere(const Vec3& p, Index start)
+{
+  ++this->searches_;
+  this->sites_.clear();
+  this->queue_.clear();
+  this->add_site(start);
+  for (std::size_t i = 0; i < this->queue_.size(); ++i)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      const Index next = this->beyond_of_site(this->queue_[i], k);
+      if (next >= 0 && !this->joins(next) && this->in_sphere(this->tets_.tet(next), p))
+      {
+        this->add_site(next);
+        ++this->evaluations_;
+      }
+    }
+  }
+}
+
+bool CavitySearch::facet_fits(const Vec3& p, Index t, int k, double least)
+{
+  double& fit = this->site_of(t).fits[k];
+  if (std::isnan(fit))
+  {
+    ++this->evaluations_;
+    const Facet f = this->facet_inwards(t, k);
+    fit = TetComplex::quality(
+      this->tets_.point(f[0]), this->tets_.point(f[1]), this->tets_.point(f[2]), p);
+  }
+  return fit >= least;
+}
+
+/// Return facet k of a tet, oriented as seen from inside the tet.
+CavitySearch::Facet CavitySearch::facet_inwards(Index t, int k) const
+{
+  const Tet& tet = this->tets_.tet(t);
+  const auto& f = facet_corners[k];
+  return { tet[f[0]], tet[f[2]], tet[f[1]] };
+}
+
+/// Remove each tet of the cavity that has a facet with which p would form too flat a tet. After
+/// each removal, check the neighbors of the removed tet again. @return false if `start` is removed.
+bool CavitySearch::shrink(const Vec3& p, Index start, double least)
+{
+  for (std::size_t next = 0; next < this->queue_.size(); ++next)
+  {
+    const Index t = this->queue_[next];
+    if (!this->joins(t))
+    {
+      continue;
+    }
+    for (int k = 0; k < 4; ++k)
+    {
+      if (this->joins(this->beyond_of_site(t, k)) || this->facet_fits(p, t, k, least))
+      {
+        continue;
+      }
+      if (t == start)
+      {
+        return false;
+      }
+      this->cavity_[t] = 0;
+      for (int other = 0; other < 4; ++other)
+      {
+        const Index neighbor = this->beyond_of_site(t, other);
+        if (this->joins(neighbor))
+        {
+          this->queue_.push_back(neighbor);
+        }
+      }
+      break;
+    }
+  }
+  return true;
+}
+
+/// Collect the tets of the cavity that are connected to the start.
+void CavitySearch::collect_connected(Index start, TetCavity& cavity)
+{
+  const Index reached = -this->searches_;
+  cavity.tets.assign(1, start);
+  cavity.facets.clear();
+  this->cavity_[start] = reached;
+  for (std::size_t i = 0; i < cavity.tets.size(); ++i)
+  {
+    const Index t = cavity.tets[i];
+    for (int k = 0; k < 4; ++k)
+    {
+      const Index next = this->beyond_of_site(t, k);
+      if (this->joins(next))
+      {
+        this->cavity_[next] = reached;
+        cavity.tets.push_back(next);
+      }
+      else if (next < 0 || this->cavity_[next] != reached)
+      {
+        cavity.facets.push_back(this->facet_inwards(t, k));
+      }
+    }
+  }
+}
+
+/// Report whether the new tets fill the same volume as the cavity and use all its vertices.
+bool CavitySearch::keeps_all(const Vec3& p, const TetCavity& cavity) const
+{
+  double new_volume = 0.0;
+  std::vector<Index> kept;
+  for (const Facet& f : cavity.facets)
+  {
+    new_volume +=
+      tet_volume(this->tets_.point(f[0]), this->tets_.point(f[1]), this->tets_.point(f[2]), p);
+    kept.insert(kept.end(), f.begin(), f.end());
+  }
+  std::sort(kept.begin(), kept.end());
+  double old_volume = 0.0;
+  for (const Index t : cavity.tets)
+  {
+    old_volume += this->tets_.volume(this->tets_.tet(t));
+    for (const Index w : this->tets_.tet(t))
+    {
+      if (!std::binary_search(kept.begin(), kept.end(), w))
+      {
+        return false;
+      }
+    }
+  }
+  constexpr double rounding = 1e-9;
+  return std::abs(new_volume - old_volume) <= rounding * old_volume;
+}
+
+} // namespace bindpose

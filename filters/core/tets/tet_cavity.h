@@ -1,0 +1,78 @@
+#ifndef bindpose_tets_tet_cavity_h
+#define bindpose_tets_tet_cavity_h
+
+// Cavities: sets of tets that a new vertex replaces, bounded by facets that the vertex can see.
+
+#include "geometry/mesh.h"
+#include "tets/tet_complex.h"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Tets that will be replaced by tets from a new vertex, and the facets that bound them. A facet is
+/// oriented such that (facet, point) is a positive tet if the point is inside the cavity.
+struct TetCavity
+{
+  std::vector<Index> tets;
+  std::vector<TetComplex::Facet> facets;
+};
+
+/// Replace the tets of the cavity. @return the new vertex.
+Index fill_cavity(TetComplex& tets, const Vec3& p, const TetCavity& cavity);
+
+/// Finds cavities. Each thread needs a separate object. The tets may be edited between two
+/// searches.
+class CavitySearch
+{
+public:
+  explicit CavitySearch(const TetComplex& tets) : tets_(tets) {}
+
+  /// Find the tets around tet `start`, connected by facets, whose circumspheres contain p. A tet is
+  /// removed from the cavity if p cannot be joined to one of its facets by a tet of quality
+  /// `least`. p must be inside `start`.
+  /// @return false if no cavity remains.
+  bool find(const Vec3& p, Index start, double least, TetCavity& cavity);
+  /// Return the work so far: number of computed tet qualities plus number of collected tets.
+  Index evaluations() const { return this->evaluations_; }
+
+private:
+  using Tet = TetComplex::Tet;
+  using Facet = TetComplex::Facet;
+  /// A tet of a cavity, with cached values of its facets while the cavity shrinks.
+  struct Site
+  {
+    static constexpr Index unknown = -2;
+    std::array<Index, 4> beyond{ unknown, unknown, unknown, unknown };
+    /// Qualities of the new tets on the four facets; NAN: not yet computed.
+    std::array<double, 4> fits{ NAN, NAN, NAN, NAN };
+  };
+  bool in_sphere(const Tet& tet, const Vec3& p) const;
+  Site& site_of(Index t) { return this->sites_[this->site_ids_[t]]; }
+  void add_site(Index t);
+  bool joins(Index t) const { return t >= 0 && this->cavity_[t] == this->searches_; }
+  Index beyond_of_site(Index t, int k);
+  Facet facet_inwards(Index t, int k) const;
+  bool facet_fits(const Vec3& p, Index t, int k, double least);
+  void collect_sphere(const Vec3& p, Index start);
+  bool shrink(const Vec3& p, Index start, double least);
+  void collect_connected(Index start, TetCavity& cavity);
+  bool keeps_all(const Vec3& p, const TetCavity& cavity) const;
+
+  const TetComplex& tets_;
+  /// Per tet: the index of the last search whose cavity contained the tet. The index is negative if
+  /// the tet is connected to the start.
+  std::vector<Index> cavity_;
+  std::vector<Site> sites_; ///< tets of the cavity in the current search
+  std::vector<Index> site_ids_; ///< per tet: its index in sites_, if it is in the cavity
+  std::vector<Index> queue_; ///< tets that the current search will visit
+  Index searches_ = 0;
+  Index evaluations_ = 0;
+};
+
+} // namespace bindpose
+
+#endif

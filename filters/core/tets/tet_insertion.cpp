@@ -1,0 +1,546 @@
+// Splitting of long boundary edges and insertion of vertices into a tet mesh, by replacing cavities
+// (tet_cavity.h).
+#include "tets/tet_insertion.h"
+
+#include "base/parallel.h"
+#include "base/per_thread.h"
+#include "geometry/point_order.h"
+#include "geometry/simplex_locator.h"
+#include "geometry/tet_facets.h"
+#include "surface/triangle_predicates.h"
+#include "tets/tet_cavity.h"
+#include "tets/tet_complex.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+namespace bindpose
+{
+
+namespace
+{
+using Tet = TetComplex::Tet;
+
+/// Number of insertions between two checks for a cancel request.
+constexpr Index insertions_per_check = 256;
+
+struct LongEdge
+{
+  double length;
+  Index a, b;
+
+  /// Order by length, longest first, then by ids.
+  bool operator<(const LongEdge& other) const
+  {
+    return std::tie(this->length, other.a, other.b) < std::tie(other.length, this->a, this->b);
+  }
+};
+
+std::vector<Vec3> as_vectors(const Points& points)
+{
+  std::vector<Vec3> vectors(static_cast<std::size_t>(points.rows()));
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    vectors[i] = points.row(i);
+  }
+  return vectors;
+}
+
+constexpr Index first_round = 64; // number of places in the first round
+
+/// Return the order in which places (positions of new vertices) are inserted. The order consists of
+/// rounds. Each round is twice as long as the previous one and samples all places, so that cavities
+/// soon become small (Amenta, Choi, Rote, Incremental Constructions con BRIO, 2003). `near` is an
+/// order in which consecutive places are near each other. Each round is divided into `tracks`
+/// pieces of this order and takes one place of each piece in turn. Therefore places that are
+/// inserted in parallel are far apart. Each place is also near a place that was inserted shortly
+/// before, so that the tets there are still in the processor's caches.
+std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Index tracks)
+{
+  const auto count = static_cast<Index>(near.size());
+  // Every second place is in the last round, every second one of the remaining places in the round
+  // before, and so on.
+  std::vector<std::vector<Index>> rounds(1);
+  for (Index size = first_round; size < count; size *= 2)
+  {
+    rounds.emplace_back();
+  }
+  for (Index rank = 0; rank < count; ++rank)
+  {
+    std::size_t round = rounds.size() - 1;
+    for (Index rest = rank; round > 0 && rest % 2 == 0; rest /= 2)
+    {
+      --round;
+    }
+    rounds[round].push_back(near[rank]);
+  }
+  std::vector<Index> order;
+  order.reserve(near.size());
+  for (const std::vector<Index>& round : rounds)
+  {
+    const auto size = static_cast<Index>(round.size());
+    const Index length = (size + tracks - 1) / tracks;
+    for (Index i = 0; i < length; ++i)
+    {
+      for (Index k = i; k < size; k += length)
+      {
+        order.push_back(round[k]);
+      }
+    }
+  }
+  return order;
+}
+
+/// Return the fraction of the total work for the first `done` of `count` places. About half of the
+/// work is the same for every round, because the few places of the first rounds have large
+/// cavities.
+double share_of_insertion(std::size_t done, std::size_t count)
+{
+  const auto rounds = [](std::size_t places)
+  { return std::log2(1.0 + static_cast<double>(places) / static_cast<double>(first_round)); };
+  return 0.5 *
+    (static_cast<double>(done) / static_cast<double>(count) + rounds(done) / rounds(count));
+}
+
+/// Finds the tets that contain places while tets are being replaced. The search starts in a tree
+/// over the initial tets, continues with the tets that replaced the one found, and then walks from
+/// tet to tet.
+class PlaceFinder
+{
+public:
+  explicit PlaceFinder(const TetComplex& tets) : tets_(tets) {}
+
+  /// Locate all places in the current tets. Must be called before all other functions. `near`: an
+  /// order in which consecutive places are usually near each other. @return false if canceled.
+  bool look_for(const TetMesh& mesh, const Points& places, const std::vector<std::int32_t>& near,
+    ExecutionContext& context)
+  {
+    const SimplexLocator locator(mesh.points, mesh.tets);
+    this->first_.resize(static_cast<std::size_t>(places.rows()));
+    constexpr Index block = 64;
+    return parallel_for(context, places.rows(), block,
+      [&](Index begin, Index end)
+      {
+        Index t = -1;
+        for (Index i = begin; i < end; ++i)
+        {
+          const Vec3 p = places.row(near[i]);
+          t = this->walk(t, p, few);
+          t = t >= 0 ? t : locator.locate(p).element;
+          this->first_[near[i]] = t;
+        }
+      });
+  }
+
+  /// Return the tet that contains the position p of place i, or -1 if no tet is found. Thread-safe.
+  Index find(Index i, const Vec3& p) const
+  {
+    Index t = this->first_[i];
+    while (t >= 0 && !this->tets_.alive(t))
+    {
+      const Range& range = this->replaced_[t];
+      if (range.end - range.begin > many)
+      {
+        const Index found = this->walk_from(range, p);
+        if (found >= 0)
+        {
+          return found;
+        }
+      }
+      t = range.begin < range.end ? range.begin : -1;
+      for (Index other = range.begin; other < range.end; ++other)
+      {
+        if (this->side_toward(other, p) < 0)
+        {
+          t = other;
+          break;
+        }
+      }
+    }
+    return this->walk(t, p, few); // because of rounding, the tet may be a neighbor of the right one
+  }
+
+  /// Locate the pending places in the current tets, so that the ids of replaced tets are no longer
+  /// needed. After that the tets get new ids: see renumber(). @return false if canceled.
+  bool find_again(
+    const Points& places, const std::vector<Index>& pending, ExecutionContext& context)
+  {
+    constexpr Index block = 64;
+    return parallel_for(context, static_cast<Index>(pending.size()), block,
+      [&](Index begin, Index end)
+      {
+        for (Index i = begin; i < end; ++i)
+        {
+          this->first_[pending[i]] = this->find(pending[i], places.row(pending[i]));
+        }
+      });
+  }
+
+  /// Replace the stored tet ids by their new values, indexed by old id.
+  void renumber(const std::vector<Index>& ids)
+  {
+    for (Index& t : this->first_)
+    {
+      t = t >= 0 ? ids[t] : -1;
+    }
+    this->replaced_.clear();
+  }
+
+  /// Record that `tets` have been replaced by the tets with ids from `begin` to the last id.
+  void replace(const std::vector<Index>& tets, Index begin)
+  {
+    this->replaced_.resize(static_cast<std::size_t>(this->tets_.tet_ids()));
+    for (const Index t : tets)
+    {
+      this->replaced_[t] = { begin, this->tets_.tet_ids() };
+    }
+  }
+
+private:
+  static constexpr int few = 50; // maximum number of tets in a short walk
+  static constexpr int many = 500;
+  struct Range
+  {
+    Index begin = 0;
+    Index end = 0;
+  };
+
+  /// Return the side of tet t that separates it from p, as an index into facet_corners, or -1 if p
+  /// is in the tet.
+  int side_toward(Index t, const Vec3& p, int first = 0) const
+  {
+    const Tet& tet = this->tets_.tet(t);
+    for (int k = 0; k < 4; ++k)
+    {
+      const int side = (first + k) % 4;
+      const auto& f = facet_corners[side];
+      if (orientation_3d(this->tets_.point(tet[f[0]]), this->tets_.point(tet[f[1]]),
+            this->tets_.point(tet[f[2]]), p) > 0)
+      {
+        return side;
+      }
+    }
+    return -1;
+  }
+
+  /// Walk to p, starting at a tet of the vertex for which the tets of `range` were created. The
+  /// straight line from that vertex to p was inside the cavity.
+  Index walk_from(const Range& range, const Vec3& p) const
+  {
+    const std::vector<Index>& around = this->tets_.tets_at(this->tets_.tet(range.begin)[3]);
+    return around.empty() ? -1 : this->walk(around.front(), p, many);
+  }
+
+  /// Return the tet that contains p, or -1 if a walk of `longest` steps from t does not find it.
+  Index walk(Index t, const Vec3& p, int longest) const
+  {
+    for (int step = 0; step < longest && t >= 0; ++step)
+    {
+      // Each step tests the sides in a different order, so that the walk does not cycle.
+      const int side = this->side_toward(t, p, step);
+      if (side < 0)
+      {
+        return t;
+      }
+      const Tet& tet = this->tets_.tet(t);
+      const auto& f = facet_corners[side];
+      t = this->tets_.beyond(t, tet[f[0]], tet[f[1]], tet[f[2]]);
+    }
+    return -1;
+  }
+
+  const TetComplex& tets_;
+  std::vector<Index> first_; ///< per place: the initial tet that contained it, or the nearest tet
+  std::vector<Range> replaced_; ///< per replaced tet: the range of the new tet ids
+};
+
+/// Inserts vertices. Cavities for up to 64 places are searched in parallel while the mesh does not
+/// change. Then they are filled in order. A place is searched again if a tet of its cavity has been
+/// replaced.
+class Inserter
+{
+public:
+  Inserter(TetComplex& tets, ExecutionContext& context)
+    : tets_(tets), finder_(tets), context_(context),
+      quiet_({}, [&context] { return context.canceled(); })
+  {
+    this->quiet_.set_threads(context.threads());
+  }
+
+  /// Insert vertices at the places. `mesh` contains the current tets.
+  bool insert(const TetMesh& mesh, const Points& places, std::vector<Index>& vertices)
+  {
+    const std::vector<std::int32_t> near = order_by_place(as_vectors(places));
+    constexpr double looked = 0.2; // fraction of the total time for locating the places
+    {
+      const ProgressRange range(this->context_, 0.0, looked);
+      if (!this->finder_.look_for(mesh, places, near, this->context_))
+      {
+        return false;
+      }
+    }
+    const ProgressRange range(this->context_, looked, 1.0);
+    const std::vector<Index> order = order_of_insertion(near, most_at_once);
+    std::vector<Index> now;
+    std::vector<Index> later;
+    // If all vertices are on one sphere, the first cavities are large and overlap. Therefore the
+    // number of places that are searched in parallel is adapted.
+    std::size_t at_once = 1;
+    for (std::size_t next = 0; next < order.size() || !later.empty();)
+    {
+      const auto again = static_cast<std::ptrdiff_t>(std::min(at_once, later.size()));
+      now.assign(later.begin(), later.begin() + again);
+      later.erase(later.begin(), later.begin() + again);
+      for (; now.size() < at_once && next < order.size(); ++next)
+      {
+        now.push_back(order[next]);
+      }
+      const std::size_t waiting = later.size();
+      if (this->tets_.tet_ids() > this->most_ids_)
+      {
+        std::vector<Index> pending(order.begin() + static_cast<std::ptrdiff_t>(next), order.end());
+        pending.insert(pending.end(), now.begin(), now.end());
+        pending.insert(pending.end(), later.begin(), later.end());
+        if (!this->drop_replaced(places, pending))
+        {
+          return false;
+        }
+      }
+      if (!this->look_at(places, now))
+      {
+        return false;
+      }
+      for (std::size_t i = 0; i < now.size(); ++i)
+      {
+        const Site& site = this->sites_[i];
+        if (std::all_of(site.tets().begin(), site.tets().end(),
+              [&](Index t) { return this->tets_.alive(t); }))
+        {
+          vertices[now[i]] = this->take(site, places.row(now[i]));
+        }
+        else
+        {
+          later.push_back(now[i]);
+        }
+      }
+      // The number of places that are searched in parallel is reduced if more than one in four
+      // places must be searched again.
+      constexpr std::size_t seldom = 4;
+      const bool overlap = seldom * (later.size() - waiting) > now.size();
+      at_once =
+        overlap ? std::max<std::size_t>(1, at_once / 2) : std::min(most_at_once, 2 * at_once);
+      this->context_.progress(share_of_insertion(next, order.size()));
+    }
+    return true;
+  }
+
+private:
+  static constexpr std::size_t most_at_once = 64;
+  static constexpr Index per_task = 4;
+
+  /// The tets or the edge that a new vertex would replace.
+  struct Site
+  {
+    enum class Kind
+    {
+      none,
+      cavity,
+      edge
+    };
+    Kind kind = Kind::none;
+    TetCavity cavity;
+    std::array<Index, 2> edge{};
+    TetComplex::Ring ring;
+
+    const std::vector<Index>& tets() const
+    {
+      return this->kind == Kind::edge ? this->ring.tets : this->cavity.tets;
+    }
+  };
+
+  /// Remove replaced tets to free memory. pending: the places that are not yet inserted. @return
+  /// false if canceled.
+  bool drop_replaced(const Points& places, const std::vector<Index>& pending)
+  {
+    if (!this->finder_.find_again(places, pending, this->quiet_))
+    {
+      return false;
+    }
+    this->most_ids_ = most_ids_of(this->tets_.tet_count());
+    this->finder_.renumber(this->tets_.compact(this->most_ids_));
+    return true;
+  }
+
+  /// Return the number of tet ids above which replaced tets are removed, for this number of tets.
+  /// Memory for up to half as many replaced tets is allowed.
+  static Index most_ids_of(Index tets)
+  {
+    // Number of ids of replaced tets that is always allowed, because they take little memory.
+    constexpr Index few = 100000;
+    return few + tets + tets / 2;
+  }
+
+  /// Search the sites of these places in parallel. @return false if canceled.
+  bool look_at(const Points& places, const std::vector<Index>& now)
+  {
+    return parallel_for(this->quiet_, static_cast<Index>(now.size()), per_task,
+      [&](Index begin, Index end)
+      {
+        this->searches_.with([&] { return std::make_unique<CavitySearch>(this->tets_); },
+          [&](CavitySearch& search)
+          {
+            for (Index i = begin; i < end; ++i)
+            {
+              this->look_at(now[i], places.row(now[i]), search, this->sites_[i]);
+            }
+          });
+      });
+  }
+
+  /// Search the tets that the vertex of place i at p replaces. The first try is a cavity with tets
+  /// of at least 1 degree. The second try is a split of an edge that contains p up to rounding
+  /// (points of a bone are collinear). The last try is a cavity with any positive tets.
+  void look_at(Index i, const Vec3& p, CavitySearch& search, Site& site) const
+  {
+    site.kind = Site::Kind::none;
+    site.cavity.tets.clear();
+    const Index t = this->finder_.find(i, p);
+    if (t < 0)
+    {
+      return;
+    }
+    if (search.find(p, t, this->thick_, site.cavity))
+    {
+      site.kind = Site::Kind::cavity;
+    }
+    else if (this->find_edge(p, t, site))
+    {
+      site.kind = Site::Kind::edge;
+    }
+    else if (search.find(p, t, 0.0, site.cavity))
+    {
+      site.kind = Site::Kind::cavity;
+    }
+    else
+    {
+      site.cavity.tets.clear();
+    }
+  }
+
+  bool find_edge(const Vec3& p, Index t, Site& site) const
+  {
+    const Tet& tet = this->tets_.tet(t);
+    // Maximum distance of p from the edge, relative to the length of the edge.
+    constexpr double rounding = 1e-9;
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = 0; j < i; ++j)
+      {
+        const Vec3& a = this->tets_.point(tet[i]);
+        const Vec3 edge = this->tets_.point(tet[j]) - a;
+        const double off = edge.cross(p - a).norm() / edge.squaredNorm();
+        if (off < rounding && this->tets_.find_ring(tet[i], tet[j], site.ring) &&
+          site.ring.closed && this->tets_.may_split_edge(tet[i], tet[j], site.ring.tets, p))
+        {
+          site.edge = { tet[i], tet[j] };
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Insert the vertex into its site. @return the new vertex, or -1 if the site is not valid.
+  Index take(const Site& site, const Vec3& p)
+  {
+    const Index begin = this->tets_.tet_ids();
+    Index v = -1;
+    if (site.kind == Site::Kind::cavity)
+    {
+      v = fill_cavity(this->tets_, p, site.cavity);
+    }
+    else if (site.kind == Site::Kind::edge)
+    {
+      v = this->tets_.split_edge(site.edge[0], site.edge[1], p);
+    }
+    if (v >= 0)
+    {
+      this->finder_.replace(site.tets(), begin);
+    }
+    return v;
+  }
+
+  TetComplex& tets_;
+  PlaceFinder finder_;
+  ExecutionContext& context_;
+  ExecutionContext quiet_; ///< context of the parallel loops; it reports no progress
+  PerThread<CavitySearch> searches_;
+  std::array<Site, most_at_once> sites_;
+  const double thick_ = TetComplex::quality_of_angle(1.0);
+  /// Number of tet ids above which replaced tets are removed.
+  Index most_ids_ = most_ids_of(tets_.tet_count());
+};
+} // namespace
+
+bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionContext& context)
+{
+  TetComplex tets(mesh);
+  std::priority_queue<LongEdge> queue;
+  const auto push = [&](Index a, Index b)
+  {
+    const double length = (tets.point(a) - tets.point(b)).norm();
+    if (length > longest)
+    {
+      queue.push({ length, std::min(a, b), std::max(a, b) });
+    }
+  };
+  for (const Edge& edge : mesh_edges(boundary_triangles(mesh.tets)))
+  {
+    push(edge.a, edge.b);
+  }
+  bool whole = true;
+  for (Index count = 0; whole && !queue.empty() && tets.tet_count() < most_tets; ++count)
+  {
+    const LongEdge edge = queue.top();
+    queue.pop();
+    if (!tets.has_edge(edge.a, edge.b))
+    {
+      continue; // the edge was in the queue twice
+    }
+    const Index v =
+      tets.split_edge(edge.a, edge.b, 0.5 * (tets.point(edge.a) + tets.point(edge.b)));
+    if (v >= 0)
+    {
+      for (const TetComplex::Facet& f : tets.skin_at(v))
+      {
+        for (const Index w : f)
+        {
+          if (w != v)
+          {
+            push(v, w);
+          }
+        }
+      }
+    }
+    whole = count % insertions_per_check != 0 || !context.canceled();
+  }
+  tets.write(mesh);
+  return whole;
+}
+
+bool insert_vertices(
+  TetMesh& mesh, const Points& places, std::vector<Index>& vertices, ExecutionContext& context)
+{
+  TetComplex tets(mesh);
+  vertices.assign(static_cast<std::size_t>(places.rows()), -1);
+  const bool whole = Inserter(tets, context).insert(mesh, places, vertices);
+  tets.write(mesh);
+  return whole;
+}
+
+} // namespace bindpose

@@ -1,0 +1,33 @@
+#ifndef bindpose_tets_tet_insertion_h
+#define bindpose_tets_tet_insertion_h
+
+// Insertion of vertices into a tet mesh and splitting of long boundary edges.
+
+#include "base/execution.h"
+#include "geometry/mesh.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// Split edges of the boundary that are longer than `longest` (a length > 0) at their midpoints,
+/// longest first, until there are `most_tets` tets. The tets must be positive and conforming.
+/// Vertices keep their ids; new vertices are appended.
+/// @return false if canceled; the mesh is also valid in this case.
+bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionContext& context);
+
+/// Insert vertices at #P x 3 positions inside. Each vertex replaces the tets whose circumspheres
+/// contain it, except tets that are not visible from the vertex (Shewchuk, Constrained Delaunay
+/// Tetrahedralizations and Provably Good Boundary Recovery, 2002). The boundary does not change.
+/// The requirements are those of split_long_edges(). vertices: #P, the id of the new vertex, or -1
+/// if it could not be inserted. The result is the same for any number of threads. Cost: about 1 us
+/// per tet, and 30 us of one thread per vertex; many times that if all vertices are on one sphere
+/// or ellipsoid.
+/// @return false if canceled; the mesh is also valid in this case.
+bool insert_vertices(
+  TetMesh& mesh, const Points& places, std::vector<Index>& vertices, ExecutionContext& context);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,137 @@
+#ifndef bindpose_tets_tet_steps_h
+#define bindpose_tets_tet_steps_h
+
+#include "geometry/mesh.h"
+#include "tets/improve_options.h"
+#include "tets/tet_cavity.h"
+#include "tets/tet_complex.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace bindpose
+{
+
+/// A local modification (step) of a tet mesh, which replaces a few tets and lowers their cost.
+struct TetStep
+{
+  enum class Kind
+  {
+    none,
+    swap, ///< the tets `removed` are replaced by `fresh`
+    contract, ///< a swap after which one vertex is no longer used
+    move, ///< `vertex` moves to `place`
+    insert ///< the tets of `cavity` are replaced by tets from a new vertex at `place`
+  };
+  Kind kind = Kind::none;
+  std::vector<Index> removed;
+  std::vector<TetComplex::Tet> fresh;
+  Index vertex = -1;
+  Vec3 place = Vec3::Zero();
+  TetCavity cavity;
+  /// Vertices of the tet for which the search found no better position.
+  std::vector<Index> stay;
+
+  void clear();
+};
+
+/// Limits that apply to all steps.
+struct TetStepRules
+{
+  TetStepRules(const ImproveOptions& improve_options, const OntoSurface& onto)
+    : options(improve_options), surface(onto)
+  {
+  }
+
+  const ImproveOptions& options;
+  const OntoSurface& surface;
+  std::vector<char> held; ///< #V: 1 for held (constrained) vertices
+  /// #V: value of TetComplex::stamp() for each vertex at the last search that found no better
+  /// position for the vertex. 0: no such search.
+  std::vector<std::uint64_t> stays;
+  bool release = false; ///< whether held vertices may move
+  bool insert = false; ///< whether vertices may be inserted
+};
+
+/// Report whether a better position for vertex v may be searched, which requires that a tet at v is
+/// too flat.
+bool may_move(const TetComplex& tets, const TetStepRules& rules, Index v);
+
+/// Searches steps. Each thread needs a separate object. The tets and the rules may change between
+/// two searches.
+class TetStepSearch
+{
+public:
+  TetStepSearch(const TetComplex& tets, const TetStepRules& rules);
+
+  /// Find the first step that improves tet t. If there is no such step, step.kind is `none`.
+  void find(Index t, TetStep& step);
+  /// Return the number of computed tet qualities.
+  Index evaluations() const { return this->evaluations_ + this->cavities_.evaluations(); }
+
+private:
+  using Tet = TetComplex::Tet;
+  using Facet = TetComplex::Facet;
+  using Ring = TetComplex::Ring;
+  /// Cost of a set of tets: 0 if all tets are good enough.
+  struct Cost
+  {
+    /// Sum over the tets of log(required sine / sine of the smallest dihedral angle).
+    double sum = 0.0;
+    double worst = 1.0; ///< smallest tet quality
+  };
+  /// The boundary triangles around a vertex.
+  struct Patch
+  {
+    bool smooth = true;
+    Vec3 normal = Vec3::Zero();
+  };
+  /// The link of a vertex. The vertices of each simplex are sorted, and so are the lists of
+  /// simplices.
+  struct Link
+  {
+    std::vector<Index> vertices;
+    std::vector<std::array<Index, 2>> edges;
+    std::vector<std::array<Index, 3>> triangles;
+  };
+
+  const Vec3& point(Index v) const { return this->tets_.point(v); }
+  double quality(const Tet& tet);
+  double penalty(double quality) const;
+  Cost cost(const std::vector<Index>& tets) const;
+  double least_after(const Cost& cost) const;
+
+  bool remove_edge(Index a, Index b, TetStep& step);
+  bool may_swap_boundary(Index a, Index b, const Ring& ring) const;
+  bool remove_facet(Index t, Index a, Index b, Index c, TetStep& step);
+
+  bool move(Index v, TetStep& step);
+  template <typename Items, typename QualityOf>
+  double sum_of(const Items& items, const QualityOf& quality_of, double least, double most);
+  double sum_of_star(Index v, const Vec3& p, double least, double most);
+  Patch patch_of(const std::vector<Facet>& skin, Index moved, const Vec3& p) const;
+
+  bool insert_near(Index t, TetStep& step);
+  bool insert(Index t, Vec3 p, TetStep& step);
+  double sum_of_cavity(const TetCavity& cavity, const Vec3& p, double least, double most);
+
+  bool contract_any(const Tet& tet, double share, TetStep& step);
+  bool contract(Index a, Index b, TetStep& step);
+  bool keeps_shape(const std::vector<Facet>& skin, Index a, Index b) const;
+  bool keeps_topology(const std::vector<Facet>& skin, Index a, Index b) const;
+  Link link_of(Index v, const std::vector<Facet>& skin) const;
+
+  const TetComplex& tets_;
+  const TetStepRules& rules_;
+  const double good_; ///< tets whose quality is at least this are not improved
+  const double bad_; ///< vertices may be inserted near tets whose quality is below this
+  CavitySearch cavities_;
+  Ring ring_;
+  std::vector<Index> star_;
+  Index evaluations_ = 0;
+};
+
+} // namespace bindpose
+
+#endif

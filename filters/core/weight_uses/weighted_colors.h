@@ -1,0 +1,59 @@
+#ifndef bindpose_weight_uses_weighted_colors_h
+#define bindpose_weight_uses_weighted_colors_h
+
+#include "base/execution.h"
+#include "geometry/mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Red, green and blue in sRGB, each 0 to 1: one row per handle or vertex.
+using Colors = Points;
+using ColorsView = PointsView;
+
+/// Options of weighted_colors(), which blends one color per handle with the weights.
+struct WeightedColorsOptions
+{
+  /// Blend linear light instead of encoded sRGB values. Mixtures of saturated colors then are not
+  /// darkened (red and green make yellow, not brown), and the middle between black and white is
+  /// lighter.
+  bool linear_light = true;
+  /// Clamp the result to [0, 1].
+  bool clamp = true;
+};
+
+/// The result of weighted_colors().
+struct WeightedColors
+{
+  Colors colors; ///< #V x 3
+  /// #V: 1 if the blended color was outside of [0, 1] by more than 1e-6 before clamping.
+  std::vector<std::uint8_t> out_of_gamut;
+};
+
+/// Compute the blended colors c_i = sum_j w_ij c_j, and two measures of the quality of the weights:
+/// the number of vertices whose color cannot be displayed, and the number of vertices at which a
+/// primary is larger or smaller than in all handle colors (a new hue). Both numbers are zero if
+/// weights are at least 0 and sum to one.
+/// Report: counts.out_of_gamut and largest_gamut_violation (distance of the blended values from [0,
+/// 1], before clamping), counts.beyond_handles and largest_overshoot (distance from the range of
+/// each primary over the handles), row_sum_error.
+/// @param weights #V x #handles, finite
+/// @param handle_colors #handles x 3, each 0 to 1
+Status weighted_colors(WeightsView weights, ColorsView handle_colors,
+  const WeightedColorsOptions& options, ExecutionContext& context, WeightedColors& result);
+
+/// Convert an sRGB value to linear light (IEC 61966-2-1), or back. Both functions are odd, so
+/// negative values stay negative.
+double to_linear_light(double encoded);
+double from_linear_light(double linear);
+
+/// Return default colors for handles: eight colors that color-blind people can distinguish (Okabe
+/// and Ito), then the same colors again, lighter.
+Colors categorical_colors(Index count);
+
+} // namespace bindpose
+
+#endif

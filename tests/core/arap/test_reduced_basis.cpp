@@ -1,0 +1,246 @@
+// Basis of the reduced space that satisfies the constraints. A fast and a robust construction give
+// the same space. The fast construction fails if the rank of the constraints is in doubt.
+#include "arap/reduced_basis.h"
+
+#include "support/bars.h"
+#include "support/meshes.h"
+
+#include <Eigen/QR>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+
+namespace
+{
+/// Return a box with scattered handles and weights that decrease with distance.
+test::Rig many_handles()
+{
+  test::Rig rig;
+  rig.mesh = test::tet_box(5, 5, 5);
+  const Index n = rig.mesh.points.rows(), step = 9;
+  rig.weights.resize(n, n / step);
+  for (Index h = 0; h < rig.weights.cols(); ++h)
+  {
+    Handle handle;
+    handle.name = "h" + std::to_string(h);
+    handle.head = handle.tail = rig.mesh.points.row(step * h + h % 5);
+    rig.handles.push_back(handle);
+    rig.weights.col(h) = (rig.mesh.points.rowwise() - handle.head.transpose())
+                           .rowwise()
+                           .squaredNorm()
+                           .unaryExpr([](double d2) { return 1.0 / (d2 * d2 + 1e-6); });
+  }
+  rig.weights =
+    (rig.weights.array().colwise() / rig.weights.rowwise().sum().array()).matrix().eval();
+  return rig;
+}
+
+/// The reduced space of a rig, with the constraints for one choice of modes.
+struct BasisCase
+{
+  explicit BasisCase(const test::Rig& rig)
+  {
+    ReducedArapOptions options;
+    options.mass = true;
+    ExecutionContext context;
+    EXPECT_TRUE(
+      this->space
+        .bind(context, rig.mesh.points, TetsView(rig.mesh.tets), rig.weights, rig.handles, options)
+        .usable());
+    this->choose({}, {});
+  }
+
+  /// Choose which handles have mode full, and which ends of handles are constrained (rows of
+  /// pivot_rows).
+  void choose(const std::vector<Index>& full, const std::vector<Index>& held_rows)
+  {
+    this->given = Coordinates::Zero(4 * this->space.columns, 3);
+    this->open.clear();
+    for (Index j = 0; j < this->space.columns; ++j)
+    {
+      const bool is_full = std::find(full.begin(), full.end(), j) != full.end();
+      for (Index i = 4 * j; i < 4 * j + 4; ++i)
+      {
+        if (is_full)
+        {
+          this->given.row(i) = this->random.in_box(-Vec3::Ones(), Vec3::Ones()).transpose();
+        }
+        else
+        {
+          this->open.push_back(i);
+        }
+      }
+    }
+    this->held = this->space.pivot_rows(held_rows, Eigen::all);
+    this->missing.resize(this->held.rows(), 3);
+    for (Index r = 0; r < this->held.rows(); ++r)
+    {
+      this->missing.row(r) = this->random.in_box(-Vec3::Ones(), Vec3::Ones()).transpose();
+    }
+  }
+
+  /// Modify the space as if the third coordinate of all points were constant. Some unknowns then
+  /// have no effect.
+  void flatten()
+  {
+    for (Index i = 2; i < 4 * this->space.columns; i += 4)
+    {
+      this->space.basis_scale[i] = 0.0;
+      this->space.stiffness.col(i).setZero();
+      this->space.stiffness.row(i).setZero();
+      this->space.mass.col(i).setZero();
+      this->space.mass.row(i).setZero();
+      this->space.covariance.col(i).setZero();
+      this->space.pivot_rows.col(i).setZero();
+    }
+  }
+
+  bool quickly(const Eigen::MatrixXd& stiffness, ReducedBasis& basis) const
+  {
+    return basis.make_quickly(this->space, stiffness, this->open, this->held);
+  }
+  bool quickly(ReducedBasis& basis) const { return this->quickly(this->space.stiffness, basis); }
+
+  /// Return the columns of the basis B, without the particular solution D*.
+  Eigen::MatrixXd columns(const Eigen::MatrixXd& stiffness, const ReducedBasis& basis) const
+  {
+    const Coordinates nothing = Coordinates::Zero(4 * this->space.columns, 3);
+    const ReducedBasis::Unturned rest = basis.unturned(
+      this->space, stiffness, nothing, nothing, Coordinates::Zero(this->held.rows(), 3));
+    Eigen::MatrixXd b(4 * this->space.columns, basis.coordinates());
+    for (Index c = 0; c < b.cols(); ++c)
+    {
+      Coordinates unit = Coordinates::Zero(b.cols(), 3);
+      unit(c, 0) = 1.0;
+      b.col(c) = basis.displacement(rest, unit).col(0);
+    }
+    return b;
+  }
+
+  /// Check the defining properties of one basis. Return C, its covariance matrix.
+  Eigen::MatrixXd check(const Eigen::MatrixXd& stiffness, ReducedBasis& basis) const
+  {
+    const Eigen::MatrixXd b = this->columns(stiffness, basis);
+    const Index size = basis.coordinates();
+    EXPECT_LT(
+      (b.transpose() * stiffness * b - Eigen::MatrixXd::Identity(size, size)).cwiseAbs().maxCoeff(),
+      1e-10);
+    EXPECT_LT((this->held * b).cwiseAbs().sum(), 1e-11 * b.cwiseAbs().maxCoeff());
+    Eigen::MatrixXd c(this->space.covariance.rows(), size);
+    basis.take_covariance(c);
+    EXPECT_LT((c - this->space.covariance * b).norm(), 1e-10 * c.norm());
+    return c;
+  }
+
+  /// Compare the results of the fast and the robust construction.
+  void compare(const Eigen::MatrixXd& stiffness, const Coordinates& load) const
+  {
+    ReducedBasis quick, sturdy;
+    ASSERT_TRUE(this->quickly(stiffness, quick));
+    sturdy.make_sturdily(this->space, stiffness, this->open, this->held);
+    EXPECT_TRUE(quick.redundant().empty() && sturdy.redundant().empty());
+    ASSERT_EQ(quick.coordinates(), sturdy.coordinates());
+    const Eigen::MatrixXd a = this->check(stiffness, quick), b = this->check(stiffness, sturdy);
+    // Two bases of the same space differ by a rotation.
+    EXPECT_LT((a * a.transpose() - b * b.transpose()).norm(), 1e-10 * (a * a.transpose()).norm());
+
+    const auto still = [&](const ReducedBasis& basis)
+    { return basis.unturned(this->space, stiffness, load, this->given, this->missing); };
+    const ReducedBasis::Unturned first = still(quick), second = still(sturdy);
+    const Coordinates zero = Coordinates::Zero(quick.coordinates(), 3);
+    const Coordinates d = quick.displacement(first, zero), e = sturdy.displacement(second, zero);
+    EXPECT_LT((d - e).norm(), 1e-9 * e.norm());
+    EXPECT_NEAR(first.energy, second.energy, 1e-10 * std::abs(second.energy) + 1e-12);
+    const double direct =
+      0.5 * (d.array() * (stiffness * d).array()).sum() - (d.array() * load.array()).sum();
+    EXPECT_NEAR(first.energy, direct, 1e-10 * std::abs(direct) + 1e-12);
+    EXPECT_LT(
+      (first.covariance - second.covariance).norm(), 1e-9 * second.covariance.norm() + 1e-12);
+    EXPECT_LT((this->held * (d - this->given) - this->missing).norm(), 1e-11);
+  }
+
+  ReducedSpace space;
+  test::Random random{ 5 };
+  std::vector<Index> open;
+  Eigen::MatrixXd held;
+  Coordinates given, missing;
+};
+} // namespace
+
+TEST(ReducedBasis, BothWaysLeadToTheSame)
+{
+  for (const bool flat : { false, true })
+  {
+    BasisCase one(many_handles());
+    if (flat)
+    {
+      one.flatten();
+    }
+    const Coordinates nothing = Coordinates::Zero(4 * one.space.columns, 3);
+    const Eigen::MatrixXd with_mass = one.space.stiffness + 0.1 * one.space.mass;
+    Coordinates load = nothing;
+    for (Index i = 0; i < load.rows(); ++i)
+    {
+      load.row(i) = one.random.in_box(-Vec3::Ones(), Vec3::Ones()).transpose();
+    }
+    const std::vector<std::vector<Index>> full{ {}, {}, { 1 }, { 0, 2 }, { 0 } };
+    const std::vector<std::vector<Index>> held{ { 1 }, { 0, 1, 2, 7, 9 }, {}, { 1 }, { 1, 2, 20 } };
+    for (std::size_t i = 0; i < full.size(); ++i)
+    {
+      one.choose(full[i], held[i]);
+      one.compare(one.space.stiffness, nothing);
+      one.compare(with_mass, load);
+    }
+    // Without constraints the system is nonsingular only if it contains the mass.
+    one.choose({}, {});
+    one.compare(with_mass, load);
+    ReducedBasis basis;
+    EXPECT_FALSE(one.quickly(basis));
+  }
+}
+
+TEST(ReducedBasis, TheQuickWayDeclinesWhatIsInDoubt)
+{
+  const test::Rig rig = many_handles();
+  ReducedBasis basis;
+  BasisCase same(rig);
+  same.choose({}, { 0, 1 });
+  ASSERT_TRUE(same.quickly(basis));
+  const Eigen::RowVectorXd other = same.held.row(1);
+  for (const double apart : { 0.0, 1e-12, 1e-8, 1e-4 })
+  {
+    same.held.row(1) = same.held.row(0) + apart * other;
+    EXPECT_FALSE(same.quickly(basis)) << apart;
+  }
+  same.held.row(1) *= 0.0;
+  EXPECT_FALSE(same.quickly(basis));
+  same.held(1, 3) = std::nan("");
+  EXPECT_FALSE(same.quickly(basis));
+
+  // make() finds the same redundant constraints as the robust construction.
+  same.held.row(1) = same.held.row(0);
+  basis.make(same.space, same.space.stiffness, same.open, same.held);
+  EXPECT_EQ(basis.redundant().size(), 1u);
+  // After the failure the fast construction works again.
+  same.choose({}, { 0, 1 });
+  EXPECT_TRUE(same.quickly(basis));
+  EXPECT_TRUE(basis.redundant().empty());
+
+  // There are too many constraints for the fast construction.
+  BasisCase many(rig);
+  many.choose({ 0, 1, 2, 3, 4 }, { 5, 6, 7, 8, 9 });
+  ReducedBasis few;
+  EXPECT_FALSE(many.quickly(few));
+
+  // The weights have two almost equal columns.
+  test::Rig doubled = rig;
+  for (const double apart : { 0.0, 1e-12, 1e-6 })
+  {
+    doubled.weights.col(0) = 0.5 * (rig.weights.col(0) + (1.0 - apart) * rig.weights.col(1));
+    doubled.weights.col(1) = rig.weights.col(0) + rig.weights.col(1) - doubled.weights.col(0);
+    BasisCase ill(doubled);
+    ill.choose({}, { 0 });
+    ReducedBasis none;
+    EXPECT_FALSE(ill.quickly(none)) << apart;
+  }
+}

@@ -16,7 +16,7 @@ if(BINDPOSE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 # Deterministic across machines: no -march=native, no contraction of a*b+c into fused operations, but for the iterations
-# of pose time (filters/core/pose/CMakeLists.txt), which they make a fifth faster.
+# of pose time (bindpose_fused in filters/core/CMakeLists.txt), which they make a fifth faster.
 add_compile_options(-ffp-contract=off)
 
 # bindpose_warnings(TARGET): the warnings every target of ours is compiled with.

@@ -3,9 +3,9 @@
 
 // A picture that a test has drawn, and functions that examine its pixels.
 
+#include "pictures/picture.h"
 #include "render/harness.h"
 #include "scene/colors.h"
-#include "scene/picture.h"
 
 #include <functional>
 

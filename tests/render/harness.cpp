@@ -4,8 +4,8 @@
 // --bless: the picture becomes the new baseline.
 #include "render/harness.h"
 
-#include "scene/display.h"
-#include "scene/picture.h"
+#include "pictures/display.h"
+#include "pictures/picture.h"
 
 #include "vtkImageData.h"
 #include "vtkNew.h"

@@ -3,7 +3,7 @@
 
 // Datasets for pictures. All of them are given by closed-form expressions.
 
-#include "scene/picture.h"
+#include "pictures/picture.h"
 
 #include "vtkSmartPointer.h"
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Check that the includes of the project respect its layers. Fail for an include in the wrong direction.
 
-The library core includes no VTK header. Inside of core, a folder includes only from itself and from the folders that
-CORE_ARROWS lists for it; there is no cycle. Filters include
-nothing from the viewer. Nothing outside of the tests includes a header of the tests. The ParaView plugin has no
-sources, and has a proxy for every filter that can be instantiated. No two units (a header and its source) include each
-other.
+The library core includes no VTK header. A folder of core or of the window includes only from itself and from the
+folders that CORE_ARROWS or APP_ARROWS list for it; there are no cycles. Filters include nothing from the viewer. Nothing
+outside of the tests includes a header of the tests. The ParaView plugin has no sources, and has a proxy for every filter
+that can be instantiated. No two units (a header and its source) include each other. No folder has more than 30 source
+files, except the flat list of VTK classes in filters.
 """
 
 import pathlib
@@ -45,7 +45,21 @@ CORE_ARROWS = {
     "mesher": {"base", "helper", "segmentation", "inside", "mesher"},
 }
 
+# The same for the folders of viewer/app.
+APP_ARROWS = {
+    "parts": {"parts"},
+    "view": {"parts", "view"},
+    "volume": {"parts", "view", "volume"},
+    "tets": {"parts", "view", "tets"},
+    "posing": {"parts", "view", "posing"},
+    "handles": {"parts", "view", "posing", "handles"},
+    "weights": {"parts", "view", "handles", "weights"},
+    "window": {"parts", "view", "volume", "tets", "posing", "handles", "weights", "window"},
+    "tour": {"parts", "view", "volume", "tets", "posing", "handles", "weights", "window", "tour"},
+}
+
 PLUGIN = "filters/paraview"
+LARGEST_FOLDER = 30
 
 
 def without_proxy():
@@ -66,7 +80,8 @@ def sources(folder):
 
 def mutual_includes():
     """Return the pairs of units that include each other, as sorted pairs of paths without endings."""
-    roots = [ROOT / folder for folder in ("filters/core", "filters", "viewer", "viewer/widgets")]
+    roots = [ROOT / folder for folder in ("filters/core", "filters", "filters/handles", "filters/support", "viewer",
+                                          "viewer/widgets", "viewer/widgets/handles")]
     used = {}
     for folder in ("filters", "viewer"):
         for path, includes in sources(folder):
@@ -79,21 +94,43 @@ def mutual_includes():
     return {tuple(path.relative_to(ROOT).as_posix() for path in pair) for pair in pairs}
 
 
-def main():
+def against_arrows(folder, prefix, arrows):
+    """Return sentences for the includes that the arrows do not allow. Headers of the folder are included by `prefix`, the
+    name of the room and the name of the file.
+    """
     wrong = []
-    core = {path.relative_to(ROOT / "filters/core").as_posix() for path, _ in sources("filters/core")}
-    for path, includes in sources("filters/core"):
-        stage = path.relative_to(ROOT / "filters/core").parts[0]
+    for path, includes in sources(folder):
+        room = path.relative_to(ROOT / folder).parts[0]
         for include in includes:
-            if pathlib.PurePath(include).name.startswith("vtk"):
-                wrong.append(f"{path.relative_to(ROOT)} names the VTK header {include}")
-            if include not in core:
-                continue
-            other = include.split("/")[0]
-            if other not in CORE_ARROWS[stage]:
-                wrong.append(f"{path.relative_to(ROOT)} ({stage}) includes {include} ({other})")
+            inside = include.removeprefix(prefix)
+            if include.startswith(prefix) and (ROOT / folder / inside).is_file():
+                other = inside.split("/")[0]
+                if other not in arrows[room]:
+                    wrong.append(f"{path.relative_to(ROOT)} ({room}) includes {include} ({other})")
+    return wrong
+
+
+def large_folders():
+    """Return sentences for the folders with too many source files."""
+    counts = {}
+    for folder in ("filters", "viewer", "python", "tests", "examples"):
+        for path, _ in sources(folder):
+            if path.parent != ROOT / "filters":
+                counts[path.parent] = counts.get(path.parent, 0) + 1
+    return [f"{path.relative_to(ROOT)} has {count} source files, of at most {LARGEST_FOLDER}"
+            for path, count in counts.items() if count > LARGEST_FOLDER]
+
+
+def main():
+    core = list(sources("filters/core"))
+    wrong = [f"{path.relative_to(ROOT)} names the VTK header {include}" for path, includes in core for include in includes
+             if pathlib.PurePath(include).name.startswith("vtk")]
+    wrong += against_arrows("filters/core", "", CORE_ARROWS)
+    wrong += against_arrows("viewer/app", "app/", APP_ARROWS)
+    wrong += large_folders()
     for folder, forbidden in (
-        ("filters", ("viewer/", "scene/", "app/", "cli/", "widgets/", "vtkHandleSet", "Q", "support/")),
+        ("filters", ("viewer/", "scene/", "shapes/", "pictures/", "posing/", "poses/", "document/", "app/", "cli/", "widgets/",
+                     "vtkHandleSet", "Q", "support/")),
         ("viewer", ("support/",)),
     ):
         for path, includes in sources(folder):

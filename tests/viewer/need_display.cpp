@@ -1,6 +1,6 @@
 // Test environment for tests that draw. Without a display they fail instead of being skipped, and
 // VTK must not terminate the process.
-#include "scene/display.h"
+#include "pictures/display.h"
 
 #include <gtest/gtest.h>
 

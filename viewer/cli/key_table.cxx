@@ -2,7 +2,7 @@
 // app/window_keys.h, which the window itself uses.
 #include "cli/key_table.h"
 
-#include "app/window_keys.h"
+#include "app/parts/window_keys.h"
 
 #include <cctype>
 

@@ -7,7 +7,7 @@
 
 #include "file_kind.h"
 #include "io/atomic_file.h"
-#include "scene/sequence_file.h"
+#include "pictures/sequence_file.h"
 #include "vtkFullARAP.h"
 #include "vtkMovingLeastSquaresWarp.h"
 #include "vtkPoseHandles.h"

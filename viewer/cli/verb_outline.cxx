@@ -3,7 +3,7 @@
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"
-#include "scene/picture_file.h"
+#include "pictures/picture_file.h"
 
 #include "vtkNew.h"
 #include "vtkPlanarShape.h"

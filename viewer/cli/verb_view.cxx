@@ -7,11 +7,11 @@
 #include "cli/verbs.h"
 
 #include "file_kind.h"
-#include "scene/display.h"
-#include "scene/picture_file.h"
+#include "pictures/display.h"
+#include "pictures/picture_file.h"
 
 #ifdef BINDPOSE_HAS_QT
-#include "viewer.h"
+#include "app/tour/viewer.h"
 #endif
 
 namespace bindpose::cli

@@ -5,11 +5,11 @@
 #include "file_kind.h"
 #include "io/atomic_file.h"
 #include "io/dmat.h"
+#include "pictures/picture_file.h"
 #include "pose/pose_file.h"
+#include "report_field_data.h"
 #include "scene/categories.h"
 #include "scene/curves.h"
-#include "scene/picture_file.h"
-#include "report_field_data.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"

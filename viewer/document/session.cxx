@@ -12,7 +12,7 @@
 #include "conversion.h"
 #include "io/atomic_file.h"
 #include "io/text_scanner.h"
-#include "scene/picture_file.h"
+#include "pictures/picture_file.h"
 #include "scene/volume.h"
 
 #include "vtkNew.h"

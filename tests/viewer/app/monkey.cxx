@@ -1,17 +1,17 @@
 #include "monkey.h"
 
-#include "binding.h"
-#include "body_motion.h"
+#include "app/handles/side_panel.h"
+#include "app/posing/body_motion.h"
+#include "app/posing/pose_panel.h"
+#include "app/posing/posing.h"
+#include "app/posing/sequence_export.h"
+#include "app/tets/inspection.h"
+#include "app/view/viewport.h"
+#include "app/volume/winding_volume.h"
+#include "app/weights/binding.h"
+#include "app/weights/weight_inspection.h"
+#include "app/window/main_window.h"
 #include "document/document.h"
-#include "inspection.h"
-#include "main_window.h"
-#include "pose_panel.h"
-#include "posing.h"
-#include "sequence_export.h"
-#include "side_panel.h"
-#include "viewport.h"
-#include "weight_inspection.h"
-#include "winding_volume.h"
 
 #include <QAbstractButton>
 #include <QAction>

@@ -3,14 +3,14 @@
 #include "opened_folders.h"
 #include "window_test.h"
 
+#include "app/handles/handle_commands.h"
+#include "app/handles/handle_editing.h"
+#include "app/parts/notice_bar.h"
+#include "app/posing/key_strip.h"
+#include "app/posing/posing.h"
+#include "app/posing/sequence_export.h"
+#include "app/window/exports.h"
 #include "document/document.h"
-#include "exports.h"
-#include "handle_commands.h"
-#include "handle_editing.h"
-#include "key_strip.h"
-#include "notice_bar.h"
-#include "posing.h"
-#include "sequence_export.h"
 
 #include "weights_arrays.h"
 

@@ -2,13 +2,13 @@
 // the panel apply to all selected handles. The list is a tree with a search field.
 #include "window_test.h"
 
+#include "app/handles/handle_commands.h"
+#include "app/handles/handle_editing.h"
+#include "app/handles/handle_selection.h"
+#include "app/handles/side_panel.h"
+#include "app/posing/handle_fields.h"
+#include "app/weights/weight_panel.h"
 #include "document/document.h"
-#include "handle_commands.h"
-#include "handle_editing.h"
-#include "handle_selection.h"
-#include "handle_fields.h"
-#include "side_panel.h"
-#include "weight_panel.h"
 
 #include "weights_arrays.h"
 

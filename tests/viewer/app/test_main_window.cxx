@@ -1,19 +1,19 @@
 // The main window as a user operates it: open, bind, drag, undo, cancel. Drags are synthetic events
 // on VTK's interactor. The tests assert the positions of vertices.
-#include "binding.h"
+#include "app/weights/binding.h"
 #include "columns.h"
 #include "unclipped.h"
 #include "window_test.h"
 
+#include "app/handles/edit_tools.h"
+#include "app/handles/side_panel.h"
+#include "app/parts/style.h"
+#include "app/tour/viewer.h"
+#include "app/view/viewport.h"
+#include "app/volume/volume_view.h"
+#include "app/window/main_window.h"
+#include "app/window/panel_column.h"
 #include "document/document.h"
-#include "edit_tools.h"
-#include "main_window.h"
-#include "panel_column.h"
-#include "side_panel.h"
-#include "style.h"
-#include "viewer.h"
-#include "viewport.h"
-#include "volume_view.h"
 
 #include "conversion.h"
 

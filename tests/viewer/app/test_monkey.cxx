@@ -2,11 +2,11 @@
 // dialog stays open. Undoing all steps restores the initial state bit by bit.
 #include "monkey.h"
 
-#include "main_window.h"
-#include "viewport.h"
+#include "app/view/viewport.h"
+#include "app/window/main_window.h"
 
-#include "viewer/document/work_test.h"
 #include "support/sanitized.h"
+#include "viewer/document/work_test.h"
 
 #include "vtkHandleSetWidget.h"
 #include "vtkRenderWindow.h"

@@ -4,12 +4,12 @@
 #include "unclipped.h"
 #include "window_test.h"
 
-#include "exports.h"
-#include "picture_dialog.h"
+#include "app/window/exports.h"
+#include "app/window/picture_dialog.h"
 
 #include "document/document.h"
 #include "document/user_settings.h"
-#include "scene/window_picture.h"
+#include "pictures/window_picture.h"
 
 #include "support/files.h"
 #include "support/meshes.h"

@@ -1,10 +1,10 @@
 // The 2D mode of the window: image files and planar shapes, in any plane, and weights over a
 // texture.
-#include "binding.h"
+#include "app/weights/binding.h"
 #include "window_test.h"
 
-#include "notice_bar.h"
-#include "posing.h"
+#include "app/parts/notice_bar.h"
+#include "app/posing/posing.h"
 
 #include "document/document.h"
 #include "handle_edit_cells.h"

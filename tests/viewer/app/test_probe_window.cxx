@@ -2,16 +2,16 @@
 // the reported position.
 #include "window_test.h"
 
-#include "deformation.h"
-#include "inspection.h"
-#include "posing.h"
-#include "probe.h"
-#include "tet_view.h"
-#include "weight_inspection.h"
-#include "weight_view.h"
+#include "app/posing/deformation.h"
+#include "app/posing/posing.h"
+#include "app/tets/inspection.h"
+#include "app/tets/tet_view.h"
+#include "app/weights/weight_inspection.h"
+#include "app/weights/weight_view.h"
+#include "app/window/probe.h"
 
 #include "document/document.h"
-#include "scene/ray_cast.h"
+#include "shapes/ray_cast.h"
 #include "tets/tet_quality.h"
 
 #include "support/meshes.h"

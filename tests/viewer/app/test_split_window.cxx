@@ -2,12 +2,12 @@
 // halves. The handles belong to the left half.
 #include "window_test.h"
 
+#include "app/handles/handle_editing.h"
+#include "app/handles/side_panel.h"
+#include "app/posing/pose_ghost.h"
+#include "app/posing/pose_panel.h"
+#include "app/posing/posing.h"
 #include "document/document.h"
-#include "handle_editing.h"
-#include "pose_ghost.h"
-#include "pose_panel.h"
-#include "posing.h"
-#include "side_panel.h"
 
 #include "weights_arrays.h"
 

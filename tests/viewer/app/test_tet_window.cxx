@@ -3,12 +3,12 @@
 #include "unclipped.h"
 #include "window_test.h"
 
+#include "app/handles/side_panel.h"
+#include "app/parts/value_row.h"
+#include "app/posing/posing.h"
+#include "app/tets/inspection.h"
+#include "app/tets/tet_panel.h"
 #include "document/document.h"
-#include "inspection.h"
-#include "posing.h"
-#include "side_panel.h"
-#include "tet_panel.h"
-#include "value_row.h"
 
 #include "conversion.h"
 #include "scene/categories.h"

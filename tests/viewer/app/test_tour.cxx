@@ -1,6 +1,6 @@
 // Tours (scripted demonstrations of the window) as text: the parsed content, and the error messages
 // for invalid texts.
-#include "tour.h"
+#include "app/tour/tour.h"
 
 #include "support/files.h"
 

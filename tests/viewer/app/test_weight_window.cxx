@@ -1,13 +1,13 @@
 // Weights in the window, as a user inspects them. The tests assert values that are known at every
 // point, counts, positions in the view, and kernel results for other weight methods.
-#include "binding.h"
+#include "app/weights/binding.h"
 #include "unclipped.h"
 #include "window_test.h"
 
-#include "side_panel.h"
-#include "value_row.h"
-#include "weight_inspection.h"
-#include "weight_panel.h"
+#include "app/handles/side_panel.h"
+#include "app/parts/value_row.h"
+#include "app/weights/weight_inspection.h"
+#include "app/weights/weight_panel.h"
 #include "document/opened_file.h"
 
 #include "conversion.h"

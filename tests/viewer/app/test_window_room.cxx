@@ -2,15 +2,15 @@
 // timeline appears with the first key, and domains and winding numbers are available.
 #include "window_test.h"
 
+#include "app/handles/side_panel.h"
+#include "app/parts/error_bar.h"
+#include "app/parts/notice_bar.h"
+#include "app/posing/key_strip.h"
+#include "app/posing/posing.h"
+#include "app/volume/volume_panel.h"
+#include "app/volume/volume_view.h"
+#include "app/volume/winding_volume.h"
 #include "document/document.h"
-#include "error_bar.h"
-#include "key_strip.h"
-#include "notice_bar.h"
-#include "posing.h"
-#include "side_panel.h"
-#include "volume_panel.h"
-#include "volume_view.h"
-#include "winding_volume.h"
 
 #include "document/session.h"
 

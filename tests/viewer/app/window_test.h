@@ -4,10 +4,10 @@
 // Functions that operate the window like a user: Qt mouse events on the view, and buttons found by
 // their texts.
 
-#include "main_window.h"
-#include "panel_column.h"
-#include "viewport.h"
-#include "window_hand.h"
+#include "app/tour/window_hand.h"
+#include "app/view/viewport.h"
+#include "app/window/main_window.h"
+#include "app/window/panel_column.h"
 
 #include "conversion.h"
 

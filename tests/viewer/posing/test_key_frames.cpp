@@ -1,8 +1,8 @@
 // Stored poses and key frames: poses are restored exactly, and interpolation between keys follows
 // the documented paths.
-#include "posing/key_frames.h"
-#include "posing/pose_blend.h"
-#include "posing/pose_library.h"
+#include "poses/key_frames.h"
+#include "poses/pose_blend.h"
+#include "poses/pose_library.h"
 #include "rigs.h"
 
 #include "pose/pose_file.h"

@@ -1,7 +1,7 @@
 // MovedSurfaceMapper: after any change the picture equals that of a new VTK mapper. If only points
 // have moved, only points and normals are sent to the graphics card.
-#include "scene/moved_surface_mapper.h"
-#include "scene/shaded_surface.h"
+#include "shapes/moved_surface_mapper.h"
+#include "shapes/shaded_surface.h"
 
 #include "conversion.h"
 #include "support/meshes.h"

@@ -1,7 +1,7 @@
 // Requests for pictures that cannot be drawn, and their error messages. Picture files are written
 // completely or not at all.
 #include "conversion.h"
-#include "scene/picture.h"
+#include "pictures/picture.h"
 #include "support/files.h"
 #include "support/meshes.h"
 

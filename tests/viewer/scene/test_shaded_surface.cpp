@@ -1,7 +1,7 @@
 // ShadedSurface computes normals for shading. Sharp edges stay sharp, smooth regions stay smooth,
 // and a moved surface equals a new one.
 #include "conversion.h"
-#include "scene/shaded_surface.h"
+#include "shapes/shaded_surface.h"
 #include "support/meshes.h"
 
 #include "vtkCellData.h"

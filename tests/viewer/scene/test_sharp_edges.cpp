@@ -1,6 +1,6 @@
 // Vertices are doubled along the same edges as by vtkPolyDataNormals.
 #include "conversion.h"
-#include "scene/sharp_edges.h"
+#include "shapes/sharp_edges.h"
 #include "support/meshes.h"
 
 #include "vtkCellArray.h"

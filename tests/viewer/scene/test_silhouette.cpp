@@ -1,9 +1,9 @@
 // Silhouettes are compared with the known results for convex shapes, and with a brute-force twin
 // that tests every pair of triangles.
-#include "scene/silhouette.h"
+#include "shapes/silhouette.h"
 
-#include "scene/outline.h"
-#include "scene/shaded_surface.h"
+#include "shapes/outline.h"
+#include "shapes/shaded_surface.h"
 
 #include "conversion.h"
 #include "support/meshes.h"

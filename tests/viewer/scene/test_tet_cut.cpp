@@ -1,5 +1,5 @@
 // Cut and shrunk tets are compared with their definitions.
-#include "scene/tet_cut.h"
+#include "shapes/tet_cut.h"
 
 #include "support/meshes.h"
 

@@ -1,0 +1,189 @@
+#include "app/handles/edit_tools.h"
+
+#include "app/parts/panel_parts.h"
+
+#include <QAction>
+#include <QCheckBox>
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QToolButton>
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+constexpr int row_margin = 5;
+constexpr int gap = 6; // pixels between groups of buttons
+constexpr int between = 2; // pixels between buttons of a group
+
+/// Range of the logarithmic slider for the radius of the brush, as fractions of the shape's
+/// diagonal.
+constexpr double least_radius = 0.002;
+constexpr double most_radius = 0.5;
+constexpr int radius_steps = 200;
+
+int step_of(double radius)
+{
+  const double part = std::log(radius / least_radius) / std::log(most_radius / least_radius);
+  return static_cast<int>(std::lround(radius_steps * std::clamp(part, 0.0, 1.0)));
+}
+} // namespace
+
+// ---- The row of tools --------------------------------------------------------------------------
+
+EditTools::EditTools(const QList<QList<QAction*>>& groups, QWidget* parent) : QFrame(parent)
+{
+  this->setObjectName("tools");
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(row_margin, 5, row_margin, 5);
+  row->setSpacing(between);
+  for (const QList<QAction*>& group : groups)
+  {
+    if (!this->buttons_.empty())
+    {
+      row->addSpacing(gap);
+    }
+    QList<QToolButton*> buttons;
+    for (QAction* action : group)
+    {
+      auto* button = new QToolButton(this);
+      button->setDefaultAction(action);
+      button->setAutoRaise(true);
+      button->setIconSize(QSize(20, 20));
+      button->setFocusPolicy(Qt::TabFocus);
+      button->setAccessibleName(action->toolTip());
+      row->addWidget(button);
+      buttons << button;
+    }
+    this->buttons_ << buttons;
+  }
+  row->addStretch(1);
+  this->show_words(0);
+}
+
+void EditTools::show_words(int groups)
+{
+  for (int group = 0; group < this->buttons_.size(); ++group)
+  {
+    for (QToolButton* button : this->buttons_[group])
+    {
+      button->setToolButtonStyle(
+        group < groups ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
+    }
+  }
+}
+
+int EditTools::width_with_words(int groups) const
+{
+  int width = 2 * row_margin + (this->buttons_.size() - 1) * gap;
+  for (int group = 0; group < this->buttons_.size(); ++group)
+  {
+    for (const QToolButton* button : this->buttons_[group])
+    {
+      // Width of a button: spacing, padding of the style sheet, icon, and text with its gap.
+      const int text = button->fontMetrics().horizontalAdvance(button->text()) + 8;
+      width += between + 20 + 14 + 4 + (group < groups ? text : 0);
+    }
+  }
+  return width;
+}
+
+QSize EditTools::minimumSizeHint() const
+{
+  return { this->width_with_words(0), this->QFrame::minimumSizeHint().height() };
+}
+
+void EditTools::fit()
+{
+  int groups = this->buttons_.size();
+  while (groups > 0 && this->width_with_words(groups) > this->width())
+  {
+    --groups;
+  }
+  this->show_words(groups);
+}
+
+void EditTools::resizeEvent(QResizeEvent* event)
+{
+  QFrame::resizeEvent(event);
+  this->fit();
+}
+
+bool EditTools::event(QEvent* event)
+{
+  const bool other_font =
+    event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange;
+  const bool result = QFrame::event(event);
+  if (other_font)
+  {
+    this->fit();
+  }
+  return result;
+}
+
+// ---- The bar of a mode -------------------------------------------------------------------------
+
+ModeBar::ModeBar(QAction* inside, QWidget* parent) : QFrame(parent)
+{
+  this->setObjectName("mode");
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(12, 5, 6, 5);
+  row->setSpacing(10);
+  this->title_ = new QLabel(this);
+  this->title_->setObjectName("heading");
+  row->addWidget(this->title_);
+  this->inside_ = new QCheckBox(tr("Inside the shape"), this);
+  this->inside_->setToolTip(inside->toolTip());
+  this->inside_->setFocusPolicy(Qt::TabFocus);
+  this->inside_->setChecked(inside->isChecked());
+  QObject::connect(this->inside_, &QCheckBox::clicked, inside, &QAction::trigger);
+  QObject::connect(inside, &QAction::toggled, this->inside_, &QCheckBox::setChecked);
+  row->addWidget(this->inside_);
+  this->end_cage_ = button(tr("Leave cage open"), this);
+  this->end_cage_->setToolTip(tr("End the cage without closing it (Enter or double click)"));
+  row->addWidget(this->end_cage_);
+  this->brush_ = new QLabel(tr("Brush"), this);
+  row->addWidget(this->brush_);
+  this->radius_ = new QSlider(Qt::Horizontal, this);
+  this->radius_->setRange(0, radius_steps);
+  this->radius_->setFixedWidth(110);
+  this->radius_->setFocusPolicy(Qt::TabFocus);
+  this->radius_->setToolTip(tr("Radius of the brush ([ and ], or Shift + wheel)"));
+  row->addWidget(this->radius_);
+  this->new_region_ = button(tr("New region"), this);
+  this->new_region_->setToolTip(tr("Start a new region with the next stroke"));
+  row->addWidget(this->new_region_);
+  QPushButton* done = button(tr("Done"), this);
+  done->setToolTip(tr("Back to posing (Esc)"));
+  row->addWidget(done);
+  QObject::connect(this->end_cage_, &QPushButton::clicked, this, &ModeBar::end_cage_wanted);
+  QObject::connect(this->new_region_, &QPushButton::clicked, this, &ModeBar::new_region_wanted);
+  QObject::connect(this->radius_, &QSlider::valueChanged, this,
+    [this](int step)
+    {
+      Q_EMIT this->radius_chosen(
+        least_radius * std::pow(most_radius / least_radius, step / double{ radius_steps }));
+    });
+  QObject::connect(done, &QPushButton::clicked, this, &ModeBar::done_wanted);
+  this->hide();
+}
+
+void ModeBar::show_state(const State& state)
+{
+  this->title_->setText(state.title);
+  this->inside_->setVisible(state.places);
+  this->end_cage_->setVisible(state.cage);
+  this->end_cage_->setEnabled(state.making_cage);
+  this->brush_->setVisible(state.paints);
+  this->radius_->setVisible(state.paints);
+  this->new_region_->setVisible(state.paints);
+  this->new_region_->setEnabled(state.has_region);
+  const QSignalBlocker quiet(this->radius_);
+  this->radius_->setValue(step_of(state.radius));
+  this->setVisible(!state.title.isEmpty());
+}

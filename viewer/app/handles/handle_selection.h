@@ -1,0 +1,69 @@
+#ifndef app_handles_handle_selection_h
+#define app_handles_handle_selection_h
+
+#include "base/status.h"
+#include "handle_edit_cells.h"
+
+#include <QObject>
+
+#include <string>
+#include <vector>
+
+class Document;
+class Viewport;
+class vtkDataArray;
+class vtkHandleSetRepresentation;
+
+/// The selected handles and edits of them. Each edit is one undo step of the document. Handles are
+/// selected in the 3D view or in the list. The selection is stored by name, so handles stay
+/// selected if an edit changes their indices.
+class HandleSelection : public QObject
+{
+  Q_OBJECT
+
+public:
+  HandleSelection(Document* document, Viewport* viewport);
+
+  /// Return the indices of the selected handles, in the order of their selection.
+  std::vector<int> selected() const;
+  /// Select only these handles.
+  void select(const std::vector<int>& handles);
+  void select_names(const std::vector<std::string>& names);
+
+  /// Edit the handles in one undo step and select the new handles. If that is impossible, emit
+  /// refused() and return false. `labels`, if not null, become the region labels of the surface in
+  /// the same step.
+  bool edit(
+    const QString& step, const bindpose::HandleListEdit& edit, vtkDataArray* labels = nullptr);
+  /// Commit, as one undo step, changes that are already in the cells of the document's handles.
+  bool commit(const QString& step, vtkDataArray* labels = nullptr);
+  /// Rename a handle. Return false, and emit refused(), if the name is empty or belongs to another
+  /// handle.
+  bool rename(int handle, const QString& name);
+  /// Return the name of an undo step for these handles: it contains the name of the only handle, or
+  /// the number of handles.
+  QString named(const QString& step, const std::vector<int>& handles) const;
+
+  /// Update after the document's handles have changed.
+  void handles_changed();
+  /// Store the selection of the 3D view, which the user has changed.
+  void read_view();
+
+Q_SIGNALS:
+  /// Emitted before an edit. Interactions with the mouse must end.
+  void about_to_edit();
+  void changed();
+  void refused(const QString& sentence);
+
+private:
+  vtkHandleSetRepresentation* drawn() const;
+  void show();
+  void refuse(const bindpose::Status& status);
+
+  Document* document_;
+  Viewport* viewport_;
+  std::vector<std::string> names_; ///< names of the selected handles
+  bool is_committing_ = false;
+};
+
+#endif

@@ -1,0 +1,169 @@
+#include "app/handles/shape_handles.h"
+
+#include "app/parts/notice_bar.h"
+#include "app/parts/tool_icons.h"
+#include "app/parts/window_keys.h"
+#include "conversion.h"
+#include "document/document.h"
+
+#include "vtkPolyData.h"
+
+#include <QAction>
+#include <QInputDialog>
+#include <QMenu>
+
+#include <algorithm>
+
+using namespace bindpose;
+
+namespace
+{
+/// Number of triangles from which auto_rig() computes the skeleton. The computation then takes half
+/// as long as with the default number, but the skeleton may miss fingers.
+constexpr Index quick_triangles = 5000;
+} // namespace
+
+ShapeHandles::ShapeHandles(Document* document, NoticeBar* bar, QWidget* window)
+  : QObject(window), document_(document), bar_(bar), window_(window),
+    auto_rig_(new QAction(tool_icon("auto_rig"), tr("Auto-&rig"), this))
+{
+  this->auto_rig_->setObjectName("auto_rig");
+  const QString keys = QString::fromStdString(keys_of("auto_rig"));
+  this->auto_rig_->setShortcut(QKeySequence(keys));
+  this->auto_rig_->setToolTip(tr("Create bones along the shape and bind it (%1)").arg(keys));
+  QObject::connect(this->auto_rig_, &QAction::triggered, this, &ShapeHandles::auto_rig);
+  QObject::connect(bar, &NoticeBar::closed, this, &ShapeHandles::cancel);
+  QObject::connect(&this->job_, &KernelJob::finished, this, &ShapeHandles::finish);
+}
+
+void ShapeHandles::fill_menu(QMenu* menu)
+{
+  menu->addAction(this->auto_rig_);
+  this->menu_ = menu->addMenu(tr("From the &shape"));
+  QAction* bones = this->menu_->addAction(tr("&Bones along it"));
+  bones->setObjectName("handles.bones_along_it");
+  QObject::connect(
+    bones, &QAction::triggered, this, [this] { this->start(AutomaticMethod::skeleton, 0); });
+  QAction* points = this->menu_->addAction(tr("&Points spread over it…"));
+  points->setObjectName("handles.points_spread_over_it");
+  QObject::connect(points, &QAction::triggered, this, &ShapeHandles::ask_for_count);
+}
+
+void ShapeHandles::update()
+{
+  const bool can = this->document_->surface() && !this->is_running();
+  if (this->menu_)
+  {
+    this->menu_->setEnabled(can);
+  }
+  this->auto_rig_->setEnabled(can);
+}
+
+void ShapeHandles::ask_for_count()
+{
+  auto* dialog = new QInputDialog(this->window_);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setWindowTitle(tr("Points spread over the shape"));
+  dialog->setLabelText(tr("Number of points"));
+  dialog->setInputMode(QInputDialog::IntInput);
+  dialog->setIntRange(1, 500);
+  dialog->setIntValue(static_cast<int>(SpreadPointsOptions().count));
+  QObject::connect(dialog, &QInputDialog::intValueSelected, this,
+    [this](int count) { this->start(AutomaticMethod::points, count); });
+  dialog->open();
+}
+
+void ShapeHandles::auto_rig()
+{
+  if (!this->is_running())
+  {
+    this->rigging_ = true;
+    AutomaticHandlesOptions options;
+    options.skeleton.triangles = quick_triangles;
+    this->make(options);
+  }
+}
+
+void ShapeHandles::start(AutomaticMethod method, Index count)
+{
+  if (!this->is_running())
+  {
+    this->rigging_ = false;
+    AutomaticHandlesOptions options;
+    options.method = method;
+    options.bones.maximum_bones = count;
+    options.points.count = count;
+    this->make(options);
+  }
+}
+
+void ShapeHandles::make(AutomaticHandlesOptions options)
+{
+  if (!this->document_->surface())
+  {
+    return;
+  }
+  auto surface = std::make_shared<SurfaceInput>();
+  const Status status = to_surface(this->document_->surface(), *surface);
+  if (!status.ok())
+  {
+    Q_EMIT this->failed(QString::fromStdString(status.message));
+    return;
+  }
+  this->method_ = options.method;
+  this->surface_ = this->document_->surface();
+  this->made_ = std::make_shared<Handles>();
+  this->bar_->offer(options.method == AutomaticMethod::points
+      ? tr("Spreading points over the shape …")
+      : tr("Finding bones along the shape …"),
+    {}, tr("Cancel"));
+  this->job_.start(
+    [surface, options, made = this->made_](ExecutionContext& context)
+    {
+      return automatic_handles(
+        surface->points.view(), surface->triangles.view(), options, *made, context);
+    });
+  this->update();
+}
+
+void ShapeHandles::finish()
+{
+  const Status& status = this->job_.status();
+  this->bar_->hide();
+  this->update();
+  if (status.code == StatusCode::canceled || this->surface_ != this->document_->surface())
+  {
+    return; // canceled, or another shape was opened meanwhile
+  }
+  const bool points = this->method_ == AutomaticMethod::points;
+  const bool has_bones = std::any_of(this->made_->begin(), this->made_->end(),
+    [](const Handle& handle) { return handle.kind == HandleKind::bone; });
+  if (this->rigging_ && !points && !(status.usable() && has_bones))
+  {
+    AutomaticHandlesOptions instead;
+    instead.method = AutomaticMethod::points;
+    this->make(instead);
+    return;
+  }
+  Status committed = status;
+  if (status.usable())
+  {
+    this->document_->editable_handles()->ShallowCopy(to_polydata(*this->made_));
+    committed = this->document_->commit_handles(
+      points ? tr("points spread over the shape") : tr("bones along the shape"));
+  }
+  if (!committed.usable())
+  {
+    Q_EMIT this->failed(
+      tr("Cannot create handles: %1.").arg(QString::fromStdString(committed.message)));
+    return;
+  }
+  if (this->rigging_)
+  {
+    Q_EMIT this->rigged();
+  }
+  else if (!status.warnings.empty())
+  {
+    this->bar_->offer(QString::fromStdString(status.warnings.front()) + '.', {}, tr("Close"));
+  }
+}

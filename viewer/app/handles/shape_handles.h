@@ -1,0 +1,62 @@
+#ifndef app_handles_shape_handles_h
+#define app_handles_shape_handles_h
+
+#include "app/parts/kernel_job.h"
+
+#include "automatic/automatic_handles.h"
+
+#include <QObject>
+
+class Document;
+class NoticeBar;
+class QAction;
+class QMenu;
+class QWidget;
+
+/// Creates handles that fit the shape, in the background: bones along its curve skeleton, or points
+/// spread over it. They replace the existing handles in one undo step of the document.
+class ShapeHandles : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// `bar` shows which handles are being created, and has a button to cancel.
+  ShapeHandles(Document* document, NoticeBar* bar, QWidget* window);
+
+  QAction* auto_rig_action() const { return this->auto_rig_; }
+  void fill_menu(QMenu* menu);
+  /// Update which actions are enabled, depending on whether there is a surface.
+  void update();
+
+  /// Create bones along the shape, or points spread over it if no bones are found, and emit
+  /// rigged().
+  void auto_rig();
+  /// Create handles.
+  /// @param count  number of points, or maximum number of bones; 0: the shape determines the number
+  void start(bindpose::AutomaticMethod method, bindpose::Index count);
+  void cancel() { this->job_.cancel(); }
+  bool is_running() const { return this->job_.is_running(); }
+
+Q_SIGNALS:
+  /// Emitted when auto_rig() has created its handles, which can now be bound.
+  void rigged();
+  void failed(const QString& sentence);
+
+private:
+  void ask_for_count();
+  void make(bindpose::AutomaticHandlesOptions options);
+  void finish();
+
+  Document* document_;
+  NoticeBar* bar_;
+  QWidget* window_;
+  QAction* auto_rig_;
+  QMenu* menu_ = nullptr;
+  bindpose::AutomaticMethod method_ = bindpose::AutomaticMethod::skeleton;
+  bool rigging_ = false;
+  std::shared_ptr<bindpose::Handles> made_;
+  const void* surface_ = nullptr; ///< the surface for which handles are being created
+  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
+};
+
+#endif

@@ -1,0 +1,365 @@
+#include "app/handles/side_panel.h"
+
+#include "app/parts/panel_parts.h"
+#include "app/posing/handle_fields.h"
+#include "app/posing/pose_list.h"
+#include "app/posing/pose_panel.h"
+#include "app/view/section.h"
+
+#include "pose/pose.h"
+
+#include <QComboBox>
+#include <QCoreApplication>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QSignalBlocker>
+#include <QStandardItemModel>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace
+{
+struct DomainChoice
+{
+  bindpose::WeightsDomain domain;
+  const char* name;
+};
+constexpr DomainChoice domain_choices[] = {
+  { bindpose::WeightsDomain::automatic, QT_TRANSLATE_NOOP("SidePanel", "Automatic") },
+  { bindpose::WeightsDomain::volume, QT_TRANSLATE_NOOP("SidePanel", "Tets of the inside") },
+  { bindpose::WeightsDomain::embedding, QT_TRANSLATE_NOOP("SidePanel", "Embedding lattice") },
+  { bindpose::WeightsDomain::cage, QT_TRANSLATE_NOOP("SidePanel", "Cage of the handles") },
+  { bindpose::WeightsDomain::surface, QT_TRANSLATE_NOOP("SidePanel", "Surface") },
+};
+
+/// Return a combo box whose width does not depend on its items, because names of handles may be
+/// long.
+QComboBox* combo(QWidget* parent)
+{
+  auto* box = new QComboBox(parent);
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box->setMinimumContentsLength(8);
+  return box;
+}
+} // namespace
+
+SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
+  : QFrame(parent), handles_(handles_of_all)
+{
+  this->setObjectName("panel");
+  this->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(16, 14, 16, 14);
+  column->setSpacing(7);
+
+  column->addWidget(heading(tr("Bind"), this));
+  this->kind_ = combo(this);
+  this->kind_->setObjectName("bind.method");
+  for (const bindpose::WeightMethod& method : bindpose::weight_methods())
+  {
+    if (method.constrained)
+    {
+      this->kind_->addItem(
+        tr("%1 weights").arg(QCoreApplication::translate("WeightPanel", method.label)));
+    }
+  }
+  // This combo box determines the width of the panel, in any font.
+  this->kind_->setMinimumContentsLength(0);
+  this->kind_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  this->kind_->setToolTip(
+    tr("Bounded: smooth functions between 0 and 1.\n"
+       "Monotone: in addition, no local maxima or minima away from the handles."));
+  QObject::connect(this->kind_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    &SidePanel::bind_method_changed);
+  column->addWidget(this->kind_);
+  auto* domain_row = new QHBoxLayout;
+  domain_row->addWidget(new QLabel(tr("Domain"), this));
+  this->domain_ = combo(this);
+  this->domain_->setObjectName("bind.domain");
+  for (const DomainChoice& choice : domain_choices)
+  {
+    this->domain_->addItem(tr(choice.name));
+  }
+  this->domain_->setToolTip(
+    tr("Mesh on which the weights are solved.\n"
+       "Automatic: the surface of flat shapes; tets of the inside of closed and clean shapes if\n"
+       "that is fast; a lattice for all others.\n"
+       "Tets of the inside: keep the triangles of the surface.\n"
+       "Embedding lattice: cubes that contain the surface, even if it has defects.\n"
+       "Cage: the inside of the closed cage of the handles.\n"
+       "Surface: the triangles; near but unconnected parts do not influence each other."));
+  domain_row->addWidget(this->domain_, 1);
+  column->addLayout(domain_row);
+  auto* buttons = new QHBoxLayout;
+  this->bind_ = button(tr("Bind"), this);
+  this->bind_->setObjectName("primary");
+  this->bind_->setToolTip(tr("Compute the weights of all handles (Ctrl+B)"));
+  this->cancel_ = button(tr("Cancel"), this);
+  this->cancel_->setToolTip(tr("Cancel the bind; the weights are unchanged"));
+  buttons->addWidget(this->bind_, 1);
+  buttons->addWidget(this->cancel_);
+  column->addLayout(buttons);
+  this->bar_ = new QProgressBar(this);
+  this->bar_->setRange(0, 1000);
+  this->bar_->setTextVisible(false);
+  column->addWidget(this->bar_);
+  this->note_ = new QLabel(this);
+  this->note_->setObjectName("note");
+  this->note_->setWordWrap(true);
+  this->note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  // Keep the space of the text when it is empty, so that nothing below it moves.
+  this->note_->setFixedHeight(2 * this->note_->fontMetrics().lineSpacing() + 2);
+  QSizePolicy keeps_place = this->bar_->sizePolicy();
+  keeps_place.setRetainSizeWhenHidden(true);
+  this->bar_->setSizePolicy(keeps_place);
+  column->addWidget(this->note_);
+
+  auto* shown_row = new QHBoxLayout;
+  this->shown_label_ = new QLabel(tr("Show"), this);
+  shown_row->addWidget(this->shown_label_);
+  this->shown_ = combo(this);
+  this->shown_->setObjectName("show.column");
+  this->shown_->setToolTip(tr("Show the shaded surface, or the weights of one handle on it"));
+  shown_row->addWidget(this->shown_, 1);
+  column->addLayout(shown_row);
+
+  // Put the widgets for posing into a scroll area, because a small window cannot show all of them.
+  column->addSpacing(6);
+  auto* scroll = new QScrollArea(this);
+  scroll->setObjectName("scroll");
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  auto* content = new QWidget(scroll);
+  content->setObjectName("scrolled");
+  auto* parts = new QVBoxLayout(content);
+  parts->setContentsMargins(0, 0, scroll->verticalScrollBar()->sizeHint().width() + 2, 0);
+  parts->setSpacing(6);
+  this->pose_ = new PosePanel(content);
+  auto* poses =
+    new Section(tr("Poses"), tr("Stored poses, which can be applied again"), false, content);
+  this->poses_ = new PoseList(content);
+  poses->column()->addWidget(this->poses_);
+
+  auto* handles = new QWidget(content);
+  auto* list = new QVBoxLayout(handles);
+  list->setContentsMargins(0, 4, 0, 0);
+  list->setSpacing(6);
+  list->addWidget(heading(tr("Selected handle"), handles));
+  auto* mode_row = new QHBoxLayout;
+  this->mode_label_ = new QLabel(tr("Fixes"), handles);
+  mode_row->addWidget(this->mode_label_);
+  this->mode_ = combo(handles);
+  using bindpose::HandleMode;
+  const std::pair<HandleMode, QString> modes[] = { { HandleMode::automatic, tr("automatic") },
+    { HandleMode::full, tr("position and rotation") },
+    { HandleMode::position, tr("position only") }, { HandleMode::free, tr("nothing") },
+    { HandleMode::tail, tr("a bone's tail") }, { HandleMode::ends, tr("a bone's ends") } };
+  for (const auto& [mode, text] : modes)
+  {
+    this->mode_->addItem(text, static_cast<int>(mode));
+  }
+  this->mode_->setToolTip(
+    tr("Constraints of the selected handle; as-rigid-as-possible (ARAP) methods compute the rest.\n"
+       "Automatic: its position if it was only moved; rotation and scale as well\n"
+       "if it was rotated, scaled, stretched or twisted, or is a bone at rest."));
+  mode_row->addWidget(this->mode_, 1);
+  list->addLayout(mode_row);
+  this->fields_ = new HandleFields(handles);
+  list->addWidget(this->fields_);
+  this->rest_ = button(tr("Back to rest"), handles);
+  this->rest_->setToolTip(tr("Move all handles back to their rest positions (Ctrl+R)"));
+  list->addWidget(this->rest_);
+
+  this->pose_->insert(handles);
+  parts->addWidget(this->pose_);
+  parts->addWidget(poses);
+  parts->addStretch(1);
+  scroll->setWidget(content);
+  // Use the minimum width instead of the width that long sentences prefer.
+  scroll->setMinimumWidth(
+    std::max(content->minimumSizeHint().width(), 36 * this->fontMetrics().horizontalAdvance('0')));
+  scroll->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
+  column->addWidget(scroll, 1);
+
+  QObject::connect(this->bind_, &QPushButton::clicked, this, &SidePanel::bind_wanted);
+  QObject::connect(this->cancel_, &QPushButton::clicked, this,
+    [this]
+    {
+      this->stopping_ = true;
+      this->set_note(tr("Stopping …"));
+      Q_EMIT this->cancel_wanted();
+    });
+  QObject::connect(this->rest_, &QPushButton::clicked, this, &SidePanel::rest_wanted);
+  QObject::connect(this->pose_, &PosePanel::method_chosen, this, &SidePanel::method_chosen);
+  QObject::connect(this->shown_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    [this](int index) { Q_EMIT this->column_chosen(index - 1); });
+  QObject::connect(this->handles_, &HandleTree::chosen, this,
+    [this]
+    {
+      this->show_mode();
+      Q_EMIT this->handles_chosen();
+    });
+  QObject::connect(this->mode_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    [this](int entry)
+    {
+      if (!this->selected_handles().empty())
+      {
+        Q_EMIT this->mode_chosen(this->mode_->itemData(entry).toInt());
+      }
+    });
+  this->set_handles({});
+  this->set_state(false, false, false);
+}
+
+void SidePanel::set_handles(const std::vector<HandleTree::Row>& handles)
+{
+  const QSignalBlocker quiet(this->shown_);
+  const QString shown = this->shown_->currentIndex() > 0
+    ? this->shown_->currentData(Qt::ToolTipRole).toString()
+    : QString();
+  this->handles_->set_rows(handles);
+  this->shown_->clear();
+  this->shown_->addItem(tr("Shaded surface"));
+  int index = 0;
+  for (const HandleTree::Row& handle : handles)
+  {
+    this->shown_->addItem(
+      tr("Weights of %1")
+        .arg(this->fontMetrics().elidedText(handle.name, Qt::ElideMiddle, this->room_for_names())));
+    const int item = this->shown_->count() - 1;
+    this->shown_->setItemData(item, handle.name, Qt::ToolTipRole);
+    index = !shown.isEmpty() && handle.name == shown ? item : index;
+  }
+  this->shown_->setCurrentIndex(index);
+  this->show_mode();
+}
+
+/// Return the width in pixels that is available for a handle's name in the combo box, after the
+/// text before the name.
+int SidePanel::room_for_names() const
+{
+  const int field = this->kind_->sizeHint().width() - this->shown_label_->sizeHint().width() -
+    60; // width of frame, arrow, padding and spacing
+  return field - this->fontMetrics().horizontalAdvance(tr("Weights of %1").arg(QString()));
+}
+
+/// Show the mode of the first selected handle. A mode can be chosen only if all selected handles
+/// support it.
+void SidePanel::show_mode()
+{
+  const QSignalBlocker quiet(this->mode_);
+  const int handle = this->selected_handle();
+  const std::vector<HandleTree::Row>& rows = this->handles_->rows();
+  const auto is_bone = [&rows](int k)
+  { return rows[static_cast<std::size_t>(k)].kind == bindpose::HandleKind::bone; };
+  const bool bones =
+    std::all_of(this->selected_handles().begin(), this->selected_handles().end(), is_bone);
+  this->mode_label_->setEnabled(handle >= 0);
+  this->mode_->setEnabled(handle >= 0);
+  const int mode = handle >= 0 ? rows[static_cast<std::size_t>(handle)].mode : -1;
+  this->mode_->setCurrentIndex(handle >= 0 ? this->mode_->findData(mode) : 0);
+  auto* items = qobject_cast<QStandardItemModel*>(this->mode_->model());
+  for (int entry = 0; entry < this->mode_->count(); ++entry)
+  {
+    const auto of_entry = static_cast<bindpose::HandleMode>(this->mode_->itemData(entry).toInt());
+    const bool of_bones = bindpose::holds_tail(of_entry);
+    items->item(entry)->setEnabled(!of_bones || (handle >= 0 && bones));
+  }
+}
+
+void SidePanel::set_mode(int handle, int mode)
+{
+  this->handles_->set_mode(handle, mode);
+  if (handle == this->selected_handle())
+  {
+    this->show_mode();
+  }
+}
+
+void SidePanel::select_handle(int handle)
+{
+  this->select_handles(handle < 0 ? std::vector<int>() : std::vector<int>{ handle });
+}
+
+void SidePanel::select_handles(const std::vector<int>& handles)
+{
+  this->handles_->select(handles);
+}
+
+void SidePanel::set_state(bool ready, bool binding, bool bound)
+{
+  this->stopping_ = false;
+  // After Bind was pressed with the keyboard, the focus moves to Cancel, and after the bind back to
+  // Bind. Other widgets lose the keyboard focus before they are disabled. Otherwise Qt would move
+  // the focus to the list, which would select a handle.
+  const bool keyboard = this->bind_->hasFocus() || this->cancel_->hasFocus();
+  const auto enable = [](QWidget* widget, bool on)
+  {
+    if (!on)
+    {
+      widget->clearFocus();
+    }
+    widget->setEnabled(on);
+  };
+  this->bind_->setText(bound ? tr("Bind again") : tr("Bind"));
+  enable(this->bind_, ready && !binding);
+  enable(this->cancel_, binding);
+  this->cancel_->setVisible(binding);
+  if (keyboard)
+  {
+    (binding ? this->cancel_ : this->bind_)->setFocus();
+  }
+  enable(this->kind_, ready && !binding);
+  enable(this->domain_, ready && !binding);
+  this->bar_->setValue(0);
+  this->bar_->setVisible(binding);
+  enable(this->shown_, bound);
+  enable(this->rest_, bound);
+}
+
+void SidePanel::set_progress(double fraction, const QString& phase)
+{
+  this->bar_->setValue(static_cast<int>(1000.0 * fraction));
+  if (!this->stopping_)
+  {
+    this->set_note(progress_note(fraction, phase));
+  }
+}
+
+void SidePanel::set_note(const QString& text)
+{
+  this->note_->setText(text);
+}
+
+void SidePanel::set_method(int method)
+{
+  this->pose_->set_method(method);
+}
+
+const bindpose::WeightMethod& SidePanel::method() const
+{
+  // The constrained methods come first in the registry, in the order of the combo box.
+  return bindpose::weight_methods()[static_cast<std::size_t>(this->kind_->currentIndex())];
+}
+
+bindpose::WeightsDomain SidePanel::domain() const
+{
+  return domain_choices[this->domain_->currentIndex()].domain;
+}
+
+int SidePanel::shown_column() const
+{
+  return this->shown_->currentIndex() - 1;
+}
+
+void SidePanel::show_column(int column)
+{
+  this->shown_->setCurrentIndex(column + 1);
+}

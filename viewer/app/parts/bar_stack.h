@@ -1,0 +1,31 @@
+#ifndef app_parts_bar_stack_h
+#define app_parts_bar_stack_h
+
+#include <QWidget>
+
+class QVBoxLayout;
+
+/// A stack of bars over the upper edge of the 3D view. The view keeps its position and size when a
+/// bar appears or disappears, so that nothing moves under the mouse.
+class BarStack : public QWidget
+{
+public:
+  explicit BarStack(QWidget* picture);
+
+  /// Add a bar below the existing ones. A hidden bar takes no space.
+  void add(QWidget* bar);
+  /// Set a child widget of the 3D view; while the child is visible, the stack begins below it.
+  void begin_below(QWidget* widget);
+
+protected:
+  bool event(QEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+  void arrange();
+
+  QVBoxLayout* column_;
+  QWidget* above_ = nullptr;
+};
+
+#endif

@@ -1,0 +1,44 @@
+#include "app/parts/error_bar.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+
+ErrorBar::ErrorBar(QWidget* parent) : QFrame(parent), text_(new QLabel(this))
+{
+  this->setObjectName("error");
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(14, 8, 8, 8);
+  this->text_->setWordWrap(true);
+  // Let the text be narrower than a long word such as a path, which would otherwise make the window
+  // wider.
+  this->text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  this->text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  auto* close = new QPushButton(tr("Close"), this);
+  close->setFocusPolicy(Qt::TabFocus);
+  QObject::connect(close, &QPushButton::clicked, this, &QWidget::hide);
+  row->addWidget(this->text_, 1);
+  row->addWidget(close, 0, Qt::AlignTop);
+  this->hide();
+}
+
+void ErrorBar::show_sentence(const QString& sentence, ErrorKind kind, const QString& tool_tip)
+{
+  this->kind_ = kind;
+  this->text_->setText(sentence);
+  this->text_->setToolTip(tool_tip);
+  this->show();
+}
+
+void ErrorBar::succeeded(ErrorKind kind)
+{
+  if (kind == this->kind_)
+  {
+    this->hide();
+  }
+}
+
+QString ErrorBar::sentence() const
+{
+  return this->isHidden() ? QString() : this->text_->text();
+}

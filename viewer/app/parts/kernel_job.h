@@ -1,0 +1,47 @@
+#ifndef app_parts_kernel_job_h
+#define app_parts_kernel_job_h
+
+#include "base/execution.h"
+#include "base/status.h"
+
+#include <QObject>
+
+#include <atomic>
+#include <functional>
+#include <thread>
+
+/// Runs kernels on a separate thread. One job runs at a time. Destroying the object cancels the job
+/// and waits for its end.
+class KernelJob : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// The function that runs on the thread. It owns copies of its input, and uses shared pointers to
+  /// its output.
+  using Work = std::function<bindpose::Status(bindpose::ExecutionContext&)>;
+
+  explicit KernelJob(QObject* parent = nullptr);
+  ~KernelJob() override;
+
+  /// Start a job. Do nothing if a job is running.
+  void start(Work work);
+  /// Request cancellation of the job. finished() is still emitted, with the status canceled.
+  void cancel();
+  bool is_running() const { return this->running_; }
+  /// Return the status of the last job, with seconds.* in its report; valid after finished().
+  const bindpose::Status& status() const { return this->status_; }
+
+Q_SIGNALS:
+  /// Emitted on the thread of this object. `fraction` is the progress of the whole job in [0, 1].
+  void progress(double fraction, const QString& phase);
+  void finished();
+
+private:
+  std::thread thread_;
+  std::atomic<bool> cancel_{ false };
+  bool running_ = false;
+  bindpose::Status status_;
+};
+
+#endif

@@ -1,0 +1,47 @@
+#ifndef app_parts_notice_bar_h
+#define app_parts_notice_bar_h
+
+#include <QFrame>
+#include <QList>
+
+#include <functional>
+
+class QHBoxLayout;
+class QLabel;
+class QPushButton;
+
+/// A sentence over the 3D view with buttons for actions. It is shown until an action is chosen or
+/// the bar is closed. It never blocks the window.
+class NoticeBar : public QFrame
+{
+  Q_OBJECT
+
+public:
+  struct Choice
+  {
+    QString text;
+    std::function<void()> action; ///< called after the bar was hidden
+  };
+
+  explicit NoticeBar(QWidget* parent);
+
+  /// Show a sentence with buttons, in place of the current ones. `close` is the text of the button
+  /// that only hides the bar; empty: no such button.
+  void offer(const QString& sentence, const QList<Choice>& choices, const QString& close);
+  /// Replace the sentence and keep the buttons.
+  void set_sentence(const QString& sentence, const QString& tool_tip = QString());
+  /// Return the sentence; empty if the bar is hidden.
+  QString sentence() const;
+
+Q_SIGNALS:
+  void closed();
+
+private:
+  QPushButton* add_button(const QString& text);
+
+  QLabel* text_;
+  QHBoxLayout* row_;
+  QList<QPushButton*> buttons_;
+};
+
+#endif

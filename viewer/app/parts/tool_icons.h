@@ -1,0 +1,10 @@
+#ifndef app_parts_tool_icons_h
+#define app_parts_tool_icons_h
+
+#include <QIcon>
+
+/// Return the icon of a tool or edit mode, by its action's name in window_keys.h. It is drawn in
+/// the colors of its button, and is sharp on every screen.
+QIcon tool_icon(const char* action);
+
+#endif

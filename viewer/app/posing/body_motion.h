@@ -1,0 +1,79 @@
+#ifndef app_posing_body_motion_h
+#define app_posing_body_motion_h
+
+#include "app/parts/kernel_job.h"
+
+#include "posing/body.h"
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QTimer>
+
+#include <functional>
+#include <memory>
+
+class PosePanel;
+
+/// Moves the shape as a body with mass, with the options of the panel. The body is bound in the
+/// background if that takes long. Its time steps are computed in real time.
+class BodyMotion : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// @param pose  returns the pose of the handles. If `for_step` is true it returns the pose that
+  /// constrains the body, in which a handle in mode free is constrained only while it is dragged.
+  BodyMotion(
+    PosePanel* panel, std::function<bindpose::Pose(bool for_step)> pose, QObject* parent = nullptr);
+
+  /// Set the source to move; null: no source. The body is created by begin().
+  void set_source(std::shared_ptr<const bindpose::PoseSource> source);
+  /// Create a new body with the panel's options, at rest in the pose of the handles.
+  void begin();
+  void end();
+  /// Apply changed options of the panel. If they need another bind, create a new body.
+  void options_changed();
+  void cancel_bind() { this->job_.cancel(); }
+
+  void play(bool play);
+  bool is_playing() const { return this->playing_.isActive(); }
+  void step(int steps);
+  /// Restart the simulation at time zero.
+  void restart();
+
+  /// Return the body; null before begin(). It must not be used while it is being bound.
+  bindpose::Body* body() const { return this->body_.get(); }
+  bool has_started() const
+  {
+    return this->body_ && !this->job_.is_running() && this->body_->has_started();
+  }
+  /// Return the surface's points after the last step; empty before the body has started.
+  const bindpose::Points& points() const { return this->points_; }
+  /// Return the status of the last step.
+  const bindpose::Status& status() const { return this->status_; }
+
+Q_SIGNALS:
+  /// Emitted when the shape has moved.
+  void moved();
+  void played();
+  void failed(const QString& sentence);
+
+private:
+  void bound();
+  void fail(const bindpose::Status& status);
+  void tick();
+  void show_time();
+
+  PosePanel* panel_;
+  std::function<bindpose::Pose(bool)> pose_;
+  std::shared_ptr<const bindpose::PoseSource> source_;
+  std::shared_ptr<bindpose::Body> body_;
+  bindpose::Points points_;
+  bindpose::Status status_;
+  QTimer playing_;
+  QElapsedTimer clock_;
+  double due_ = 0.0; ///< seconds of clock_ up to which time steps were computed
+  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
+};
+
+#endif

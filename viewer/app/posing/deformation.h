@@ -1,0 +1,121 @@
+#ifndef app_posing_deformation_h
+#define app_posing_deformation_h
+
+#include "app/parts/kernel_job.h"
+#include "posing/poser.h"
+
+#include <QObject>
+
+#include <map>
+#include <memory>
+
+/// Poses the surface of the window with one method, fast or slow, without blocking the window.
+/// - Long binds run in the background.
+/// - After the bind, skinning and reduced as-rigid-as-possible pose immediately.
+/// - The slow methods solve in slices, a few iterations at a time, in the background. Every new
+///   pose begins with a short slice, which a drag does not interrupt, so that the shape follows
+///   the mouse. While the mouse rests, slices become longer until the solve has converged. When
+///   the handle moves again, a long slice is canceled, and the solve continues from its current
+///   state with the new pose.
+class Deformation : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit Deformation(QObject* parent = nullptr);
+  ~Deformation() override;
+
+  /// Set the source to pose; null: no source. Binds of another source are discarded.
+  void set_source(std::shared_ptr<const bindpose::PoseSource> source);
+  const bindpose::PoseSource* source() const { return this->source_.get(); }
+  void set_options(const bindpose::PoseOptions& options);
+  const bindpose::PoseOptions& options() const { return this->options_; }
+  /// Report whether there is a source, and weights if the method needs them.
+  bool can_pose() const;
+
+  /// Request the surface in this pose. It is computed immediately if the method is fast and its
+  /// bind has ended.
+  void set_pose(const bindpose::Pose& pose);
+  /// Cancel a running bind. A change of source or options, or bind(), starts the bind again.
+  void cancel();
+  bool is_canceled() const { return this->canceled_; }
+  /// Start a bind again that cancel() has stopped.
+  void bind();
+
+  /// Return the newest points: those of the last computed pose, or the source at rest before any
+  /// pose.
+  const bindpose::Points& points() const { return this->points_; }
+  /// Return the status of points(), with the kernel's report.
+  const bindpose::Status& status() const { return this->status_; }
+  /// Return the transforms that a fast method computed for points(); null if it computes none.
+  const std::vector<bindpose::Affine>* found();
+  /// Return the rotations that the method fitted for points().
+  const bindpose::PoseRotations* rotations();
+  bool is_binding() const { return this->binding_; }
+  /// Report whether points() are final: the solve for the current pose has ended.
+  bool is_settled() const { return this->settled_; }
+  /// Return the reason why the current pose could not be computed: one sentence, or empty.
+  const QString& error() const { return this->error_; }
+  /// Return the number of binds for the source.
+  bindpose::Index binds() const;
+  /// Return how often a running solve was canceled because a handle had moved again.
+  int restarts() const { return this->restarts_; }
+
+Q_SIGNALS:
+  /// Emitted when new points were computed in the background. Not emitted for points that
+  /// set_pose() computes immediately.
+  void arrived();
+  void bind_progress(double fraction, const QString& phase);
+  /// Emitted when a bind has begun or ended.
+  void binding_changed();
+  /// Emitted when posing has failed; error() returns the reason.
+  void failed();
+
+private:
+  bool is_found() const;
+  std::shared_ptr<bindpose::Poser> poser();
+  void advance();
+  void bind_beside(const std::shared_ptr<bindpose::Poser>& poser);
+  void solve_now(bindpose::Poser& poser);
+  void solve_beside(const std::shared_ptr<bindpose::Poser>& poser);
+  void job_finished();
+  void set_binding(bool binding);
+  void fail(const bindpose::Status& status);
+  void take(const bindpose::Status& status);
+
+  std::shared_ptr<const bindpose::PoseSource> source_;
+  bindpose::PoseOptions options_;
+  bindpose::Pose pose_;
+  int pose_number_ = 0;
+  std::map<bindpose::PoseMethod, std::shared_ptr<bindpose::Poser>> posers_;
+  bindpose::Points points_;
+  /// Rotations of points_, if they were computed in the background.
+  bindpose::PoseRotations rotations_;
+  bindpose::Status status_;
+  QString error_;
+  bool binding_ = false;
+  bool settled_ = false;
+  bool canceled_ = false;
+  /// True while set_pose() runs. The signals arrived() and failed() are not emitted then, because
+  /// the caller of set_pose() reads the points itself.
+  bool asked_at_once_ = false;
+  int restarts_ = 0;
+
+  /// The task of the running job.
+  struct Task
+  {
+    std::shared_ptr<bindpose::Poser> poser; ///< poser that the task uses; null: no task
+    bool bind = false;
+    bool stale = false; ///< true: the result of the task must be discarded
+    bindpose::Index slice = 0;
+    int pose_number = 0;
+    std::shared_ptr<bindpose::Points> points;
+    std::shared_ptr<bindpose::PoseRotations> rotations;
+  };
+  Task task_;
+  bindpose::Index slice_ = 0; ///< iterations of the next slice
+  bindpose::Index spent_ = 0; ///< iterations that were computed for the current pose
+  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
+};
+
+#endif

@@ -1,0 +1,36 @@
+#ifndef app_posing_distance_view_h
+#define app_posing_distance_view_h
+
+#include "vtkDoubleArray.h"
+#include "vtkSmartPointer.h"
+
+class Posing;
+class Viewport;
+
+/// Shows the distance between the displayed shape and the shape of the compared method. The
+/// distance is shown as colors on the displayed shape, with a scale in percent of the rest shape's
+/// bounding-box diagonal.
+class DistanceView
+{
+public:
+  DistanceView(Viewport* viewport, Posing* posing);
+
+  /// Set whether the panel is visible. If not, other views determine the colors of the surface.
+  void set_active(bool active);
+  /// Update the colors after a change of the pose, a method, the surface or the panel's choice.
+  void update();
+
+private:
+  Viewport* viewport_;
+  Posing* posing_;
+  bool active_ = true;
+  vtkSmartPointer<vtkDoubleArray> values_; ///< the displayed distances in percent; null: none
+  double scale_ = 0.0; ///< upper end of the color scale, in percent
+};
+
+/// Return the upper end of a color scale that contains this value: 1, 2 or 5 times a power of ten,
+/// at least 0.01. The scale therefore changes rarely while a shape is bent, and coincident shapes
+/// have a single color.
+double distance_scale(double largest);
+
+#endif

@@ -1,0 +1,59 @@
+#ifndef app_posing_handle_fields_h
+#define app_posing_handle_fields_h
+
+#include "poses/pose_blend.h"
+
+#include <QWidget>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+class QDoubleSpinBox;
+class QLabel;
+
+/// Number fields of the selected handle: translation, rotation and scale, and for a bone its
+/// stretch and twist.
+class HandleFields : public QWidget
+{
+  Q_OBJECT
+
+public:
+  explicit HandleFields(QWidget* parent = nullptr);
+
+  /// Show values, without emitting values_chosen(). A field in which the user is typing is not
+  /// changed.
+  /// @param handle  null: no handle is selected
+  /// @param free  true: the handle is in mode free, so the solver computes its position
+  void show_values(const bindpose::Handle* handle, const bindpose::HandleValues& values, bool free);
+  /// Show the layer of a handle in a planar shape. Empty: the shape is not planar, or no handle is
+  /// selected.
+  void show_layer(const std::optional<double>& layer);
+  /// Show the number of selected handles, and the name of the handle whose values are displayed.
+  /// The line is visible only if several handles are selected.
+  void show_count(const QString& name, int count);
+  bindpose::HandleValues values() const;
+  /// Return a field by its index. The order is: translate x y z, rotate x y z, scale, stretch,
+  /// twist at head and tail.
+  QDoubleSpinBox* field(int which) const { return this->fields_[static_cast<std::size_t>(which)]; }
+  QDoubleSpinBox* layer() const { return this->layer_; }
+
+Q_SIGNALS:
+  /// Emitted when the value of a field has changed. A wheel or an arrow key emits it once per
+  /// increment.
+  void values_chosen(int field);
+  /// Emitted when an edit is complete: the field has lost the focus, or Enter was pressed.
+  void edit_ended();
+  void layer_chosen(double layer);
+
+private:
+  QLabel* count_;
+  std::array<QDoubleSpinBox*, 10> fields_;
+  QWidget* bone_rows_;
+  QWidget* layer_row_;
+  QDoubleSpinBox* layer_;
+  QLabel* more_;
+  std::vector<QLabel*> names_; ///< labels of the fields that are always visible
+};
+
+#endif

@@ -1,0 +1,221 @@
+// Draws the ghost, the shape of a second pose method, over the first shape or in the right half of
+// a split view. Both halves share one camera, so that rotating one half rotates the other.
+#include "app/posing/pose_ghost.h"
+
+#include "app/view/viewport.h"
+
+#include "pictures/tile_actors.h"
+#include "scene/colors.h"
+#include "shapes/moved_surface_mapper.h"
+#include "shapes/outline.h"
+#include "shapes/shaded_surface.h"
+
+#include "vtkActor.h"
+#include "vtkBoundingBox.h"
+#include "vtkCommand.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkTexture.h"
+
+namespace
+{
+constexpr bindpose::Rgb ghost_color{ 0.20, 0.50, 0.76 };
+constexpr double ghost_opacity = 0.38;
+/// Distance between both shapes at which the ghost becomes fully opaque, in bounding-box diagonals.
+constexpr double whole_from = 0.02;
+constexpr const char* distance_name = "bindpose.Distance";
+} // namespace
+
+PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
+{
+  this->actor_->SetMapper(this->mapper_);
+  this->actor_->PickableOff();
+  this->mapper_->ScalarVisibilityOff();
+  this->mapper_->SetScalarModeToUsePointFieldData();
+  this->mapper_->SetColorModeToMapScalars();
+  this->mapper_->SelectColorArray(distance_name);
+  this->mapper_->UseLookupTableScalarRangeOn();
+  constexpr int steps = 64;
+  this->fading_->SetNumberOfTableValues(steps);
+  this->fading_->SetTableRange(0.0, whole_from);
+  for (int k = 0; k < steps; ++k)
+  {
+    this->fading_->SetTableValue(
+      k, ghost_color[0], ghost_color[1], ghost_color[2], k / (steps - 1.0));
+  }
+  this->mapper_->SetLookupTable(this->fading_);
+  // Both shapes coincide if points slide within an unchanged surface, although the distances are
+  // not zero. The first shape is then drawn in front.
+  vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
+  this->mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
+  this->distances_->SetName(distance_name);
+  bindpose::use_surface_material(this->actor_);
+  bindpose::add_lights(this->renderer_);
+  vtkRenderer* first = viewport->renderer();
+  this->renderer_->SetActiveCamera(first->GetActiveCamera());
+  this->outline_ = std::make_unique<bindpose::Outline>(this->renderer_);
+  this->renderer_->GradientBackgroundOn();
+  this->renderer_->SetViewport(0.5, 0.0, 1.0, 1.0);
+  for (vtkRenderer* half : { first, this->renderer_.Get() })
+  {
+    half->AddObserver(vtkCommand::ResetCameraClippingRangeEvent, this, &PoseGhost::clipped);
+  }
+}
+
+PoseGhost::~PoseGhost() = default;
+
+void PoseGhost::set_surface(vtkPolyData* surface)
+{
+  this->surface_ = surface;
+  if (surface && this->shaded_ && this->shaded_->is_of(surface))
+  {
+    this->shaded_->take(surface);
+  }
+  else
+  {
+    this->mapper_->SetInputData(nullptr);
+    this->outline_->set_shape(nullptr);
+    this->shaded_ = nullptr;
+    this->make_shape();
+  }
+  this->update();
+}
+
+/// Create the drawn shape when the ghost becomes visible, to save time.
+void PoseGhost::make_shape()
+{
+  if (this->surface_ && !this->shaded_ && this->is_drawn())
+  {
+    this->shaded_ = std::make_unique<bindpose::ShadedSurface>(this->surface_);
+    this->mapper_->SetInputData(this->shaded_->polydata());
+    this->outline_->set_shape(this->shaded_.get());
+  }
+}
+
+void PoseGhost::set_place(Place place, bindpose::PointsView points, bindpose::PointsView first)
+{
+  this->place_ = place;
+  this->make_shape();
+  this->move(points, first); // must precede update(), which fits the view to the moved points
+  this->update();
+}
+
+void PoseGhost::move(bindpose::PointsView points, bindpose::PointsView first)
+{
+  if (this->shaded_ && this->is_drawn() && points.rows() > 0)
+  {
+    if (this->place_ == beside)
+    {
+      this->look_as_beside();
+    }
+    else
+    {
+      this->fade(points, first);
+    }
+    this->viewport_->move_shape(*this->shaded_, points);
+  }
+}
+
+/// Make the ghost transparent where both surfaces coincide. Otherwise round-off would decide for
+/// each pixel which surface is drawn.
+void PoseGhost::fade(bindpose::PointsView points, bindpose::PointsView first)
+{
+  if (points.rows() != first.rows())
+  {
+    return;
+  }
+  const double scale = 1.0 / this->surface_->GetLength();
+  const std::vector<bindpose::Index>& drawn = this->shaded_->input_points();
+  this->distances_->SetNumberOfValues(static_cast<vtkIdType>(drawn.size()));
+  double* distance = this->distances_->GetPointer(0);
+  for (const bindpose::Index point : drawn)
+  {
+    *distance++ = scale * (points.row(point) - first.row(point)).norm();
+  }
+  this->distances_->Modified();
+  this->shaded_->polydata()->GetPointData()->AddArray(this->distances_);
+}
+
+/// In the right half of a split view, draw the ghost like the first shape: with outlines, or with
+/// the same texture.
+void PoseGhost::look_as_beside()
+{
+  vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();
+  const bindpose::Rgb& color = picture ? bindpose::palette::white : bindpose::palette::surface;
+  vtkProperty* property = this->actor_->GetProperty();
+  bindpose::set_color(property, color);
+  property->SetLighting(!picture);
+  this->actor_->SetTexture(picture);
+  this->actor_->SetForceOpaque(picture != nullptr);
+  this->outline_->show(this->viewport_->has_outlines() && !picture,
+    bindpose::outline_width * this->viewport_->devicePixelRatioF());
+}
+
+void PoseGhost::update()
+{
+  const Place place = this->shaded_ && this->is_drawn() ? this->place_ : hidden;
+  vtkRenderWindow* window = this->viewport_->renderWindow();
+  this->viewport_->renderer()->RemoveActor(this->actor_);
+  this->renderer_->RemoveActor(this->actor_);
+  this->mapper_->SetScalarVisibility(place == over);
+  vtkProperty* property = this->actor_->GetProperty();
+  if (place == over)
+  {
+    bindpose::set_color(property, ghost_color);
+    property->SetOpacity(ghost_opacity);
+    property->LightingOn();
+    this->actor_->SetTexture(nullptr);
+    this->actor_->ForceOpaqueOff();
+    this->viewport_->renderer()->AddActor(this->actor_);
+  }
+  else if (place == beside)
+  {
+    property->SetOpacity(1.0);
+    this->look_as_beside();
+    this->renderer_->AddActor(this->actor_);
+  }
+  const bool beside_it = place == beside;
+  if (beside_it != this->in_window_)
+  {
+    this->in_window_ = beside_it;
+    if (beside_it)
+    {
+      window->AddRenderer(this->renderer_);
+    }
+    else
+    {
+      window->RemoveRenderer(this->renderer_);
+    }
+  }
+  this->viewport_->set_split(
+    beside_it ? this->renderer_.Get() : nullptr, beside_it ? this->shaded_->polydata() : nullptr);
+  this->viewport_->set_ghosted(place == over);
+}
+
+/// Called when one half of the split view has set its clipping range. Set a range for both halves
+/// that contains both shapes.
+void PoseGhost::clipped()
+{
+  if (this->place_ != beside || this->clips_)
+  {
+    return;
+  }
+  this->clips_ = true;
+  vtkBoundingBox both;
+  for (vtkRenderer* half : { this->viewport_->renderer(), this->renderer_.Get() })
+  {
+    double bounds[6];
+    half->ComputeVisiblePropBounds(bounds);
+    both.AddBounds(bounds);
+  }
+  if (both.IsValid())
+  {
+    double bounds[6];
+    both.GetBounds(bounds);
+    this->renderer_->ResetCameraClippingRange(bounds);
+  }
+  this->clips_ = false;
+}

@@ -1,0 +1,78 @@
+#ifndef app_posing_pose_ghost_h
+#define app_posing_pose_ghost_h
+
+#include "geometry/mesh.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkLookupTable.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <memory>
+
+namespace bindpose
+{
+class Outline;
+class MovedSurfaceMapper;
+class ShadedSurface;
+} // namespace bindpose
+class Viewport;
+class vtkActor;
+class vtkRenderer;
+
+/// The ghost is the viewport's surface in a second pose, for comparison. It is drawn
+/// semitransparent over the first shape where both differ, or in the right half of a split view
+/// with the same camera.
+class PoseGhost
+{
+public:
+  enum Place
+  {
+    hidden,
+    over,
+    beside,
+    /// The ghost is not drawn; the colors of the surface show the distance (DistanceView).
+    in_colors
+  };
+
+  explicit PoseGhost(Viewport* viewport);
+  ~PoseGhost();
+
+  /// Set the surface that the ghost shows in another pose; null: no ghost.
+  void set_surface(vtkPolyData* surface);
+  /// Set where the ghost is drawn, the points of the ghost, and the points of the viewport's shape.
+  /// If `points` is empty, the ghost keeps its points.
+  void set_place(Place place, bindpose::PointsView points, bindpose::PointsView first);
+  Place place() const { return this->place_; }
+  void move(bindpose::PointsView points, bindpose::PointsView first);
+  vtkRenderer* renderer() const { return this->renderer_; }
+  /// Return the ghost as drawn; null before the ghost was shown for the first time.
+  const bindpose::ShadedSurface* shaded() const { return this->shaded_.get(); }
+
+private:
+  bool is_drawn() const { return this->place_ == over || this->place_ == beside; }
+  void make_shape();
+  void fade(bindpose::PointsView points, bindpose::PointsView first);
+  void update();
+  void look_as_beside();
+  void clipped();
+
+  Viewport* viewport_;
+  Place place_ = hidden;
+  vtkNew<bindpose::MovedSurfaceMapper> mapper_;
+  vtkNew<vtkActor> actor_;
+  // colors of a ghost over the surface: transparent where both shapes coincide
+  vtkNew<vtkLookupTable> fading_;
+  // distance between both shapes per drawn point, in bounding-box diagonals
+  vtkNew<vtkDoubleArray> distances_;
+  vtkNew<vtkRenderer> renderer_; // renderer of the right half of the split view
+  vtkSmartPointer<vtkPolyData> surface_;
+  std::unique_ptr<bindpose::ShadedSurface> shaded_;
+  /// Outline of the ghost in the right half of the split view.
+  std::unique_ptr<bindpose::Outline> outline_;
+  bool in_window_ = false;
+  bool clips_ = false; // true while clipped() sets the range of both halves
+};
+
+#endif

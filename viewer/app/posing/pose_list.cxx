@@ -1,0 +1,102 @@
+#include "app/posing/pose_list.h"
+
+#include "app/parts/panel_parts.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QListWidget>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QVBoxLayout>
+
+PoseList::PoseList(QWidget* parent) : QWidget(parent)
+{
+  auto* rows = new QVBoxLayout(this);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(6);
+  auto* buttons = new QHBoxLayout;
+  this->store_ = button(tr("Store"), this);
+  this->store_->setToolTip(tr("Store the current pose"));
+  this->apply_ = button(tr("Apply"), this);
+  this->apply_->setToolTip(tr("Apply the selected pose to all handles"));
+  this->remove_ = button(tr("Delete"), this);
+  this->remove_->setToolTip(tr("Delete the selected pose from the list"));
+  for (QPushButton* each : { this->store_, this->apply_, this->remove_ })
+  {
+    buttons->addWidget(each, 1);
+  }
+  rows->addLayout(buttons);
+  this->list_ = new QListWidget(this);
+  this->list_->setObjectName("poses");
+  this->list_->setToolTip(tr("Double-click a pose to rename it"));
+  this->list_->setFixedHeight(5 * this->list_->fontMetrics().lineSpacing());
+  rows->addWidget(this->list_);
+  auto* blend = new QHBoxLayout;
+  blend->addWidget(new QLabel(tr("Blend"), this));
+  this->slider_ = new QSlider(Qt::Horizontal, this);
+  this->slider_->setRange(0, 100);
+  this->slider_->setToolTip(tr("Blend from the current pose toward the selected pose"));
+  blend->addWidget(this->slider_, 1);
+  rows->addLayout(blend);
+
+  QObject::connect(this->store_, &QPushButton::clicked, this, &PoseList::store_wanted);
+  QObject::connect(this->apply_, &QPushButton::clicked, this,
+    [this] { Q_EMIT this->apply_wanted(this->chosen()); });
+  QObject::connect(this->remove_, &QPushButton::clicked, this,
+    [this] { Q_EMIT this->remove_wanted(this->chosen()); });
+  QObject::connect(this->list_, &QListWidget::itemChanged, this,
+    [this](QListWidgetItem* item)
+    { Q_EMIT this->renamed(this->list_->row(item), item->text().trimmed()); });
+  QObject::connect(this->list_, &QListWidget::currentRowChanged, this, [this] { this->enable(); });
+  QObject::connect(this->slider_, &QSlider::valueChanged, this,
+    [this](int value) { Q_EMIT this->blended(this->chosen(), 0.01 * value); });
+  QObject::connect(this->slider_, &QSlider::sliderReleased, this,
+    [this]
+    {
+      const QSignalBlocker quiet(this->slider_);
+      // the next blend starts at the current pose, which is 0 on the slider
+      this->slider_->setValue(0);
+      Q_EMIT this->blend_ended();
+    });
+  this->enable();
+}
+
+void PoseList::set_names(const QStringList& names)
+{
+  const QSignalBlocker quiet(this->list_);
+  const int row = this->chosen();
+  this->list_->clear();
+  for (const QString& name : names)
+  {
+    auto* item = new QListWidgetItem(name, this->list_);
+    item->setFlags(item->flags() | Qt::ItemIsEditable);
+  }
+  this->list_->setCurrentRow(std::min(row, static_cast<int>(names.size()) - 1));
+  this->enable();
+}
+
+int PoseList::chosen() const
+{
+  return this->list_->currentRow();
+}
+
+void PoseList::choose(int entry)
+{
+  this->list_->setCurrentRow(entry);
+}
+
+void PoseList::set_ready(bool ready)
+{
+  this->ready_ = ready;
+  this->enable();
+}
+
+void PoseList::enable()
+{
+  const bool some = this->ready_ && this->chosen() >= 0;
+  this->store_->setEnabled(this->ready_);
+  this->apply_->setEnabled(some);
+  this->remove_->setEnabled(this->chosen() >= 0);
+  this->slider_->setEnabled(some);
+}

@@ -1,0 +1,591 @@
+#include "app/posing/pose_panel.h"
+
+#include "app/parts/panel_parts.h"
+#include "app/parts/value_row.h"
+#include "app/view/section.h"
+
+#include <QButtonGroup>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QCoreApplication>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSlider>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+using bindpose::PoseMethod;
+using bindpose::PoseOptions;
+
+namespace
+{
+const struct
+{
+  PoseMethod method;
+  const char* button;
+  const char* name;
+  const char* purpose;
+} methods[] = {
+  { PoseMethod::linear_blend, QT_TRANSLATE_NOOP("PosePanel", "Linear"),
+    QT_TRANSLATE_NOOP("PosePanel", "Linear blend"),
+    QT_TRANSLATE_NOOP(
+      "PosePanel", "Blends the transforms of the handles. Fastest; strong twists become thin.") },
+  { PoseMethod::dual_quaternion, QT_TRANSLATE_NOOP("PosePanel", "Dual q."),
+    QT_TRANSLATE_NOOP("PosePanel", "Dual quaternions"),
+    QT_TRANSLATE_NOOP(
+      "PosePanel", "Blends rigid transforms. Twists keep their thickness; bends bulge.") },
+  { PoseMethod::stretchable_bones, QT_TRANSLATE_NOOP("PosePanel", "Stretch"),
+    QT_TRANSLATE_NOOP("PosePanel", "Stretchable bones"),
+    QT_TRANSLATE_NOOP(
+      "PosePanel", "Bones stretch and twist along their length, without bulges at their ends.") },
+  { PoseMethod::rotation_centers, QT_TRANSLATE_NOOP("PosePanel", "Centers"),
+    QT_TRANSLATE_NOOP("PosePanel", "Centers of rotation"),
+    QT_TRANSLATE_NOOP("PosePanel",
+      "Rotates every vertex about its own center: twists stay thick, bends do not bulge.") },
+  { PoseMethod::reduced_arap, QT_TRANSLATE_NOOP("PosePanel", "ARAP"),
+    QT_TRANSLATE_NOOP("PosePanel", "Reduced ARAP"),
+    QT_TRANSLATE_NOOP(
+      "PosePanel", "As rigid as possible, restricted to the weights; solves in microseconds.") },
+  { PoseMethod::full_arap, QT_TRANSLATE_NOOP("PosePanel", "Full ARAP"),
+    QT_TRANSLATE_NOOP("PosePanel", "Full ARAP"),
+    QT_TRANSLATE_NOOP("PosePanel",
+      "As rigid as possible, with every vertex free to move. Needs no weights; slower.") },
+  { PoseMethod::variational, QT_TRANSLATE_NOOP("PosePanel", "Fair"),
+    QT_TRANSLATE_NOOP("PosePanel", "Fair surface"),
+    QT_TRANSLATE_NOOP(
+      "PosePanel", "The smoothest surface through the constrained vertices. Needs no weights.") },
+};
+
+/// The methods that fit rotations (as-rigid-as-possible).
+const std::vector<PoseMethod> rigid = { PoseMethod::reduced_arap, PoseMethod::full_arap };
+
+QString translated(const char* text)
+{
+  return QCoreApplication::translate("PosePanel", text);
+}
+
+QComboBox* combo(QWidget* parent, const char* key, const QStringList& items)
+{
+  auto* box = new QComboBox(parent);
+  box->setObjectName(key);
+  box->addItems(items);
+  box->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  return box;
+}
+} // namespace
+
+std::vector<PoseMethod> method_order()
+{
+  std::vector<PoseMethod> order;
+  for (const auto& entry : methods)
+  {
+    order.push_back(entry.method);
+  }
+  return order;
+}
+
+QString method_name(PoseMethod method)
+{
+  return translated(std::find_if(std::begin(methods), std::end(methods),
+    [&](const auto& entry) {
+      return entry.method == method;
+    })->name);
+}
+
+QString method_purpose(PoseMethod method)
+{
+  return translated(std::find_if(std::begin(methods), std::end(methods),
+    [&](const auto& entry) {
+      return entry.method == method;
+    })->purpose);
+}
+
+PosePanel::PosePanel(QWidget* parent) : QWidget(parent)
+{
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(6);
+  this->add_methods(column);
+  this->add_options(column);
+  this->middle_ = new QVBoxLayout;
+  column->addLayout(this->middle_);
+  this->add_comparison(column);
+  this->add_motion(column);
+  this->show_options();
+  this->set_state({});
+}
+
+void PosePanel::add_methods(QVBoxLayout* column)
+{
+  column->addWidget(heading(tr("Pose"), this));
+  this->methods_ = new QButtonGroup(this);
+  this->methods_->setObjectName("pose.method");
+  QHBoxLayout* row = nullptr;
+  for (std::size_t k = 0; k < std::size(methods); ++k)
+  {
+    const bool first = k == 0 || k == 4;
+    const bool last = k == 3 || k + 1 == std::size(methods);
+    if (first)
+    {
+      row = new QHBoxLayout;
+      row->setSpacing(0);
+      column->addLayout(row);
+    }
+    QPushButton* segment = button(translated(methods[k].button), this);
+    segment->setObjectName("segment");
+    segment->setProperty("place", first ? "first" : last ? "last" : k == 1 ? "second" : "middle");
+    segment->setCheckable(true);
+    const auto number = static_cast<int>(methods[k].method);
+    segment->setToolTip(QString("%1 (%2)\n%3")
+                          .arg(method_name(methods[k].method))
+                          .arg(k + 1)
+                          .arg(method_purpose(methods[k].method)));
+    this->methods_->addButton(segment, number);
+    row->addWidget(segment, 1);
+  }
+  this->methods_->button(0)->setChecked(true);
+  this->note_ = new QLabel(this);
+  this->note_->setObjectName("note");
+  this->note_->setWordWrap(true);
+  this->note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  this->note_->setMinimumHeight(2 * this->note_->fontMetrics().lineSpacing() + 2);
+  column->addWidget(this->note_);
+  QObject::connect(this->methods_, &QButtonGroup::idClicked, this,
+    [this](int method)
+    {
+      this->show_options();
+      Q_EMIT this->method_chosen(method);
+    });
+
+  this->bind_row_ = new QWidget(this);
+  auto* bind = new QHBoxLayout(this->bind_row_);
+  bind->setContentsMargins(0, 0, 0, 0);
+  this->bar_ = new QProgressBar(this->bind_row_);
+  this->bar_->setRange(0, 1000);
+  this->bar_->setTextVisible(false);
+  this->cancel_ = button(tr("Stop"), this->bind_row_);
+  this->cancel_->setToolTip(
+    tr("Cancel the preparation of this method; choose the method again to prepare it"));
+  bind->addWidget(this->bar_, 1);
+  bind->addWidget(this->cancel_);
+  column->addWidget(this->bind_row_);
+  this->bind_row_->hide();
+  QObject::connect(this->cancel_, &QPushButton::clicked, this, &PosePanel::cancel_wanted);
+}
+
+/// Add a line with a name and a widget for an option. The line is shown only for the methods `of`.
+QWidget* PosePanel::option(QVBoxLayout* column, const QString& name, QWidget* widget,
+  const QString& tip, std::vector<PoseMethod> of)
+{
+  QWidget* row = widget;
+  widget->setToolTip(tip);
+  if (!name.isEmpty())
+  {
+    row = new QWidget(this);
+    auto* line = new QHBoxLayout(row);
+    line->setContentsMargins(0, 0, 0, 0);
+    line->setSpacing(8);
+    auto* label = new QLabel(name, row);
+    label->setToolTip(tip);
+    line->addWidget(label);
+    line->addWidget(widget, 1);
+  }
+  column->addWidget(row);
+  if (!of.empty())
+  {
+    this->options_.push_back({ row, std::move(of) });
+  }
+  const auto changed = [this]
+  {
+    this->show_options();
+    Q_EMIT this->options_changed();
+  };
+  if (auto* box = qobject_cast<QComboBox*>(widget))
+  {
+    QObject::connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), this, changed);
+  }
+  else if (auto* check = qobject_cast<QCheckBox*>(widget))
+  {
+    QObject::connect(check, &QCheckBox::toggled, this, changed);
+  }
+  else if (auto* value = qobject_cast<ValueRow*>(widget))
+  {
+    QObject::connect(value, &ValueRow::value_chosen, this, changed);
+  }
+  return row;
+}
+
+void PosePanel::add_options(QVBoxLayout* column)
+{
+  const std::vector<PoseMethod> skinning = { PoseMethod::linear_blend, PoseMethod::dual_quaternion,
+    PoseMethod::stretchable_bones, PoseMethod::rotation_centers };
+  const std::vector<PoseMethod> reduced = { PoseMethod::reduced_arap };
+  const std::vector<PoseMethod> smooth = { PoseMethod::variational };
+  const auto value = [this](const char* key, double lowest, double highest, double at)
+  {
+    auto* row = new ValueRow(this);
+    row->setObjectName(key);
+    row->set_range(lowest, highest);
+    row->set_value(at);
+    row->slider()->setMinimumWidth(50); // the slider is in a row with its name
+    return row;
+  };
+  const auto check = [this](const char* key, const QString& text)
+  {
+    auto* box = new QCheckBox(text, this);
+    box->setObjectName(key);
+    return box;
+  };
+
+  this->endpoints_ =
+    combo(this, "pose.endpoints", { tr("nearest point"), tr("joints"), tr("bounded") });
+  this->option(column, tr("Along bones"), this->endpoints_,
+    tr("Position of a vertex along a bone, from head to tail.\n"
+       "Nearest point: available immediately. Joints and bounded: follow the shape,\n"
+       "computed when they are chosen. An array EndpointWeights takes precedence."),
+    { PoseMethod::stretchable_bones });
+  this->pseudo_edges_ =
+    combo(this, "pose.pseudo_edges", { tr("none"), tr("file's edges"), tr("automatic edges") });
+  this->pseudo_edges_->setCurrentIndex(1);
+  this->option(column, tr("Pseudo-edges"), this->pseudo_edges_,
+    tr("Point handles that are only moved rotate with the edges between them:\n"
+       "pseudo-edges of the handle file, or automatic edges along the shape."),
+    skinning);
+  this->single_ = check("pose.single_precision", tr("Single precision"));
+  this->option(column, QString(), this->single_,
+    tr("Half the memory and twice the speed; accurate to a millionth of the size of the shape"),
+    skinning);
+
+  this->in_tets_ = check("pose.in_tets", tr("Keep the volume"));
+  this->option(column, QString(), this->in_tets_,
+    tr("Use the energy of the tets on which the weights were solved, instead of the energy of the "
+       "surface"),
+    rigid);
+  this->energy_ = combo(
+    this, "pose.energy", { tr("automatic"), tr("spokes and rims"), tr("elements"), tr("spokes") });
+  this->option(column, tr("Rigid parts"), this->energy_,
+    tr("Parts that keep their shape: the neighborhood of each vertex (spokes and rims; spokes:\n"
+       "only the edges at the vertex), or each triangle or tet (elements)"),
+    rigid);
+  this->extra_ = value("pose.extra_weights", 0.0, 30.0, 0.0);
+  this->extra_->field()->setDecimals(0);
+  this->option(column, tr("Extra weights"), this->extra_,
+    tr("Number of extra weights, which let the shape bend where there is no handle; 15 is a good "
+       "value"),
+    reduced);
+  this->extra_kind_ = combo(this, "pose.extra_kind", { tr("bumps"), tr("eigenmodes") });
+  this->extra_kind_row_ = this->option(column, tr("Extra type"), this->extra_kind_,
+    tr("Type of the extra weights: bumps around points that are far apart, or the smoothest "
+       "functions that vanish at handles"),
+    reduced);
+  this->iterations_ = value("pose.iterations", 1.0, 200.0, 100.0);
+  this->iterations_->field()->setDecimals(0);
+  this->option(column, tr("Iterations"), this->iterations_,
+    tr("Maximum number of iterations per frame; the solver stops when it has converged"), reduced);
+  this->budget_ = value("pose.budget_us", 0.0, 5000.0, 0.0);
+  this->budget_->field()->setDecimals(0);
+  this->budget_->field()->setSpecialValueText(tr("no limit"));
+  this->option(column, tr("Budget, µs"), this->budget_,
+    tr("Time limit of the solve per frame, in microseconds; 0: no limit"), reduced);
+
+  this->rotations_ =
+    combo(this, "pose.rotations", { tr("not shown"), tr("clusters"), tr("angles") });
+  this->option(column, tr("Rotations"), this->rotations_,
+    tr(
+      "Color the shape by rotation angles, or by rotation clusters: vertices with similar weights\n"
+      "that share a rotation in reduced ARAP, single vertices in full ARAP"),
+    rigid);
+
+  this->order_ = combo(this, "pose.order", { tr("membrane"), tr("thin plate"), tr("smoother") });
+  this->order_->setCurrentIndex(1);
+  this->option(column, tr("Model"), this->order_,
+    tr("Membrane: only positions continue at constrained vertices.\n"
+       "Thin plate: tangents continue, too. Smoother: curvatures continue, too."),
+    smooth);
+  this->boundary_ = combo(this, "pose.boundary", { tr("smooth"), tr("hinged"), tr("clamped") });
+  this->option(column, tr("Boundary"), this->boundary_,
+    tr("Smooth: continues smoothly into the constrained region.\n"
+       "Hinged: only positions are constrained. Clamped: positions and slopes are constrained."),
+    smooth);
+}
+
+void PosePanel::add_comparison(QVBoxLayout* column)
+{
+  auto* section =
+    new Section(tr("Compare"), tr("Compare with the shape of a second method"), false, this);
+  column->addSpacing(4);
+  column->addWidget(section);
+  QStringList names = { tr("nothing") };
+  for (int k = 0; k < bindpose::pose_method_count; ++k)
+  {
+    names << method_name(static_cast<PoseMethod>(k));
+  }
+  this->compared_ = combo(this, "pose.compared", names);
+  this->compared_->setToolTip(
+    tr("Second method for the same pose, to show where both shapes differ"));
+  auto* line = new QHBoxLayout;
+  line->addWidget(new QLabel(tr("With"), this));
+  line->addWidget(this->compared_, 1);
+  section->column()->addLayout(line);
+  this->place_row_ = new QWidget(this);
+  auto* places = new QVBoxLayout(this->place_row_);
+  places->setContentsMargins(0, 0, 0, 0);
+  this->place_ =
+    add_segments(places, this->place_row_, { tr("Over it"), tr("Beside it"), tr("Distance") },
+      { tr("Draw the second shape in see-through blue where both shapes differ"),
+        tr("Draw each shape in one half of the picture, from the same view"),
+        tr("Color the shape by its distance from the second shape,\n"
+           "in percent of the bounding-box diagonal of the rest shape") });
+  // Default: Distance, which shows the size of the differences.
+  this->place_->button(2)->setChecked(true);
+  this->place_->setObjectName("pose.ghost");
+  this->difference_ = new QLabel(this->place_row_);
+  this->difference_->setObjectName("note");
+  this->difference_->setWordWrap(true);
+  this->difference_->setMinimumHeight(2 * this->difference_->fontMetrics().lineSpacing() + 2);
+  this->difference_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  places->addWidget(this->difference_);
+  section->column()->addWidget(this->place_row_);
+  this->place_row_->hide();
+  QObject::connect(this->compared_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    [this](int index)
+    {
+      this->place_row_->setVisible(index > 0);
+      Q_EMIT this->comparison_changed();
+    });
+  QObject::connect(
+    this->place_, &QButtonGroup::idClicked, this, [this] { Q_EMIT this->comparison_changed(); });
+}
+
+void PosePanel::add_motion(QVBoxLayout* column)
+{
+  auto* section = new Section(tr("Motion"),
+    tr("Simulate the shape as a body with mass: its free parts swing and fall"), false, this);
+  column->addWidget(section);
+  this->moves_ = new QCheckBox(tr("Simulate motion"), this);
+  this->moves_->setObjectName("pose.moves");
+  this->moves_->setToolTip(
+    tr("Handles lead the motion; everything else follows inertia and gravity.\n"
+       "A free handle can be pulled and released."));
+  section->column()->addWidget(this->moves_);
+  this->motion_ = new QWidget(this);
+  auto* rows = new QVBoxLayout(this->motion_);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(6);
+  auto* buttons = new QHBoxLayout;
+  this->play_ = button(tr("Play"), this->motion_);
+  this->step_ = button(tr("Step"), this->motion_);
+  this->restart_ = button(tr("Restart"), this->motion_);
+  this->play_->setToolTip(tr("Run or pause the simulation"));
+  this->step_->setToolTip(tr("Advance the simulation by 1/60 s"));
+  this->restart_->setToolTip(
+    tr("Restart at time 0, with the shape at rest at the current handles"));
+  for (QPushButton* each : { this->play_, this->step_, this->restart_ })
+  {
+    buttons->addWidget(each, 1);
+    // The layout takes the height that a note with line breaks lacks from widgets that can shrink.
+    each->ensurePolished();
+    each->setMinimumHeight(each->sizeHint().height());
+  }
+  rows->addLayout(buttons);
+  this->time_ = new QLabel(this->motion_);
+  this->time_->setObjectName("note");
+  rows->addWidget(this->time_);
+  const auto row =
+    [&](const char* key, const QString& name, double highest, double at, const QString& tip)
+  {
+    auto* value = new ValueRow(this->motion_);
+    value->setObjectName(key);
+    value->set_range(0.0, highest);
+    value->set_value(at);
+    value->slider()->setMinimumWidth(50);
+    value->setToolTip(tip);
+    auto* line = new QHBoxLayout;
+    line->setSpacing(8);
+    auto* label = new QLabel(name, this->motion_);
+    label->setToolTip(tip);
+    line->addWidget(label);
+    line->addWidget(value, 1);
+    rows->addLayout(line);
+    QObject::connect(value, &ValueRow::value_chosen, this, &PosePanel::body_changed);
+    return value;
+  };
+  const bindpose::BodyOptions usual;
+  this->gravity_ = row("motion.gravity", tr("Gravity"), 5.0, usual.gravity,
+    tr("Gravitational acceleration in bounding-box diagonals of the shape per s²"));
+  this->down_ = combo(this->motion_, "motion.down", { tr("-x"), tr("-y"), tr("-z") });
+  this->down_->setToolTip(tr("World direction in which gravity acts"));
+  this->down_->setCurrentIndex(usual.down);
+  auto* line = new QHBoxLayout;
+  line->setSpacing(8);
+  line->addWidget(new QLabel(tr("Direction"), this->motion_));
+  line->addWidget(this->down_, 1);
+  rows->addLayout(line);
+  this->stiffness_ = row("motion.stiffness", tr("Stiffness"), 5.0, std::log10(usual.stiffness),
+    tr("Exponent of ten; at 2, waves cross the shape ten times per second"));
+  this->damping_ = row("motion.damping", tr("Damping"), 20.0, usual.damping,
+    tr("Damping rate of the velocity in 1/s"));
+  section->column()->addWidget(this->motion_);
+  this->motion_->hide();
+  QObject::connect(this->down_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    [this] { Q_EMIT this->body_changed(); });
+  QObject::connect(this->moves_, &QCheckBox::toggled, this,
+    [this](bool moves)
+    {
+      this->motion_->setVisible(moves);
+      Q_EMIT this->moves_changed();
+    });
+  QObject::connect(this->play_, &QPushButton::clicked, this,
+    [this] { Q_EMIT this->play_wanted(this->play_->text() == tr("Play")); });
+  QObject::connect(this->step_, &QPushButton::clicked, this, &PosePanel::step_wanted);
+  QObject::connect(this->restart_, &QPushButton::clicked, this, &PosePanel::restart_wanted);
+}
+
+void PosePanel::insert(QWidget* widget)
+{
+  this->middle_->addWidget(widget);
+}
+
+PoseMethod PosePanel::method() const
+{
+  return static_cast<PoseMethod>(this->methods_->checkedId());
+}
+
+void PosePanel::show_options()
+{
+  this->note_->setText(method_purpose(this->method()));
+  enable_all_but(this->compared_, 1 + static_cast<int>(this->method()),
+    tr("The shape already uses this method"));
+  for (const Option& option : this->options_)
+  {
+    option.row->setVisible(std::find(option.methods.begin(), option.methods.end(),
+                             this->method()) != option.methods.end());
+    option.row->setEnabled(this->state_.ready);
+  }
+  this->extra_kind_row_->setVisible(
+    this->method() == PoseMethod::reduced_arap && this->extra_->value() >= 1.0);
+  this->endpoints_->setEnabled(this->state_.bones && !this->state_.endpoints);
+  this->in_tets_->setEnabled(
+    this->state_.ready && (this->state_.tets || this->in_tets_->isChecked()));
+}
+
+PoseOptions PosePanel::options() const
+{
+  PoseOptions options;
+  options.method = this->method();
+  options.single_precision = this->single_->isChecked();
+  options.pseudo_edges =
+    static_cast<bindpose::PseudoEdgeChoice>(this->pseudo_edges_->currentIndex());
+  options.endpoints = static_cast<bindpose::EndpointMethod>(this->endpoints_->currentIndex());
+  options.energy = static_cast<bindpose::ArapEnergy>(this->energy_->currentIndex());
+  options.in_tets = this->in_tets_->isChecked() && this->state_.tets;
+  options.extra_weights = std::lround(this->extra_->value());
+  options.extra_kind = static_cast<bindpose::ExtraWeights>(this->extra_kind_->currentIndex());
+  options.iterations = std::lround(this->iterations_->value());
+  options.budget_microseconds = std::round(this->budget_->value());
+  options.order = this->order_->currentIndex() + 1;
+  options.boundary = static_cast<bindpose::PatchBoundary>(this->boundary_->currentIndex());
+  return options;
+}
+
+void PosePanel::set_method(int method)
+{
+  this->methods_->button(method)->setChecked(true);
+  this->show_options();
+}
+
+int PosePanel::compared_method() const
+{
+  return this->compared_->currentIndex() - 1;
+}
+
+bool PosePanel::compares_itself() const
+{
+  return this->compared_method() == static_cast<int>(this->method());
+}
+
+PoseGhost::Place PosePanel::ghost_place() const
+{
+  constexpr PoseGhost::Place places[] = { PoseGhost::over, PoseGhost::beside,
+    PoseGhost::in_colors };
+  return this->compared_method() < 0 || this->compares_itself() ? PoseGhost::hidden
+                                                                : places[this->place_->checkedId()];
+}
+
+bool PosePanel::moves() const
+{
+  return this->moves_->isChecked() && this->state_.bound;
+}
+
+PosePanel::Rotations PosePanel::shown_rotations() const
+{
+  return std::count(rigid.begin(), rigid.end(), this->method()) > 0
+    ? static_cast<Rotations>(this->rotations_->currentIndex())
+    : no_rotations;
+}
+
+bindpose::BodyOptions PosePanel::body_options() const
+{
+  bindpose::BodyOptions options;
+  options.gravity = this->gravity_->value();
+  options.down = this->down_->currentIndex();
+  options.stiffness = std::pow(10.0, this->stiffness_->value());
+  options.damping = this->damping_->value();
+  return options;
+}
+
+void PosePanel::set_state(const State& state)
+{
+  this->state_ = state;
+  for (QAbstractButton* each : this->methods_->buttons())
+  {
+    if (!state.ready)
+    {
+      each->clearFocus();
+    }
+    each->setEnabled(state.ready);
+  }
+  this->moves_->setEnabled(state.bound);
+  this->moves_->setToolTip(state.bound
+      ? tr("Handles lead the motion; everything else follows inertia and gravity.\n"
+           "A free handle can be pulled and released.")
+      : tr("Bind first: the simulation requires weights"));
+  this->in_tets_->setToolTip(state.tets
+      ? tr("Use the energy of the tets on which the weights were solved, instead of the energy of "
+           "the surface")
+      : tr("There are no tets with weights: bind with a volume domain first"));
+  this->show_options();
+}
+
+void PosePanel::set_binding(bool binding)
+{
+  this->bar_->setValue(0);
+  this->bind_row_->setVisible(binding);
+}
+
+void PosePanel::set_progress(double fraction, const QString& phase)
+{
+  this->bar_->setValue(static_cast<int>(1000.0 * fraction));
+  this->bar_->setToolTip(phase);
+}
+
+void PosePanel::set_difference(const QString& text)
+{
+  this->difference_->setText(text);
+}
+
+void PosePanel::set_playing(bool playing)
+{
+  this->play_->setText(playing ? tr("Pause") : tr("Play"));
+  this->step_->setEnabled(!playing);
+}
+
+void PosePanel::set_time(const QString& text)
+{
+  this->time_->setText(text);
+}

@@ -1,0 +1,172 @@
+#ifndef app_posing_posing_h
+#define app_posing_posing_h
+
+#include "app/posing/deformation.h"
+#include "app/posing/pose_ghost.h"
+#include "app/posing/pose_keeper.h"
+
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <QObject>
+
+#include <memory>
+#include <optional>
+
+class BodyMotion;
+class HandleFields;
+class KeyStrip;
+class PoseList;
+class PosePanel;
+class SequenceExport;
+class Viewport;
+
+/// Posing in the window: the current method and the method for comparison, the simulated body,
+/// playback of key frames, the stored poses, and the texts of the panels about them.
+///
+/// This class reads the pose from the handle dataset, which the widget edits in place. It changes
+/// the pose only by pose_changed() and pose_done(), so that the owner of the undo history receives
+/// every change.
+class Posing : public QObject
+{
+  Q_OBJECT
+
+public:
+  struct Panels
+  {
+    PosePanel* pose;
+    HandleFields* fields;
+    PoseList* poses;
+    KeyStrip* strip;
+  };
+  Posing(Viewport* viewport, const Panels& panels);
+  ~Posing() override;
+
+  /// Set the data to pose; null: no data. The surface's weights are used only if `use_weights` is
+  /// true.
+  void set_data(
+    vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights);
+  bool has_weights() const;
+  /// Set the normal, toward the eye, of a planar surface; empty: the surface is not planar. Where a
+  /// pose makes a planar surface overlap itself, the layers of its handles determine which part is
+  /// in front. Must be called before set_data().
+  void set_plane(const std::optional<bindpose::Vec3>& normal) { this->plane_ = normal; }
+  /// Report whether the method has all data that it needs.
+  bool can_pose() const { return this->main_->can_pose(); }
+
+  /// Update after the pose arrays of the handles have changed.
+  void handles_moved();
+  /// Update after the layers of the handles have changed.
+  void layers_changed();
+  /// Set the selected handles. The number fields show the values of the first one.
+  void select_handles(const std::vector<int>& handles);
+  /// Stop playback, because a drag begins.
+  void drag_began();
+
+  /// Return the surface at rest, from set_data().
+  vtkPolyData* surface() const { return this->surface_; }
+  /// Return the visible shape, posed or at rest. The object is the same until another surface is
+  /// set.
+  vtkPolyData* shape();
+  /// Return the shape that draw() draws: shape(), or the surface at rest while data that belongs to
+  /// it is inspected.
+  vtkPolyData* seen() { return this->inspected_ ? this->surface_.Get() : this->shape(); }
+  /// Update the viewport's surface and its ghost to seen().
+  void draw();
+  /// Set whether the 3D view shows data that belongs to the shape at rest (tets, slices). draw()
+  /// then draws the shape at rest, without a comparison. Posing continues.
+  void inspect_at_rest(bool inspects);
+  /// Report whether the 3D view shows the shape at rest, regardless of the pose.
+  bool shows_rest() const { return this->inspected_ || this->at_rest_ || this->edits_at_rest_; }
+  /// Report whether the pose moves a handle, or the simulated body moves.
+  bool is_posed() const;
+  /// Show the shape at rest, regardless of the pose. The next drag ends this.
+  void look_at_rest(bool rest);
+  bool looks_at_rest() const { return this->at_rest_; }
+  bool edits_at_rest() const { return this->edits_at_rest_; }
+  /// Show the shape at rest while handles are edited at rest, so that the mouse can drag them.
+  void edit_at_rest(bool edits);
+  /// Return a line about the last pose: its computing time and its result.
+  QString reading() const;
+
+  Deformation* deformation() const { return this->main_; }
+  Deformation* compared() const { return this->compared_; }
+  /// Return the points of the current method's shape, even if the 3D view shows another shape.
+  const bindpose::Points& points() const;
+  /// Return the rotations of the current method's shape; null if the method fits none.
+  const bindpose::PoseRotations* rotations();
+  /// Return the diagonal of the box around the shape at rest.
+  double rest_diagonal() const { return this->surface_ ? this->surface_->GetLength() : 0.0; }
+  PoseGhost* ghost() const { return this->ghost_.get(); }
+  BodyMotion* motion() const { return this->motion_; }
+  PoseKeeper* keeper() const { return this->keeper_; }
+  SequenceExport* sequence_export() const { return this->export_; }
+  /// Report whether there are key frames or a recorded motion of the body.
+  bool has_animation() const;
+  /// Export the recorded motion of the body or, if there is none, the key frames. sequence_export()
+  /// reports progress and result.
+  void export_to(const QString& path);
+
+  const bindpose::PoseShelf& shelf() const { return this->keeper_->shelf(); }
+
+Q_SIGNALS:
+  /// Emitted to request this pose of the handles.
+  void pose_changed(const bindpose::Pose& pose);
+  /// Emitted to request an undo step, named `step`, for all changes since the first pose_changed().
+  /// Consecutive steps with the same `merge` text become one step, until edit_ended().
+  void pose_done(const QString& step, const QString& merge = {});
+  void edit_ended();
+  void shelf_changed(const QString& step);
+  /// Emitted when the cell arrays of the handles have changed, to make an undo step.
+  void handles_changed(const QString& step);
+  /// Emitted when the shape or the text about it has changed; the window must call draw().
+  void moved();
+  void failed(const QString& sentence);
+  /// Emitted when a pose was applied without errors.
+  void succeeded();
+
+private:
+  void connect_panel();
+  void connect_keeper();
+  bindpose::Pose pose() const;
+  void show_what_is_held();
+  bindpose::PoseOptions compared_options() const;
+  void options_changed();
+  void comparison_changed();
+  void show_comparison();
+  void show_state();
+  void show_difference();
+  void follow_free_handles();
+  void values_typed(int field);
+  void layer_typed(double layer);
+  void order_layers();
+  void show_values();
+  void change_pose(const bindpose::Pose& pose, const QString& step, const QString& merge = {});
+  bindpose::Pose holding_pose() const;
+  void moves_changed();
+  bool has_motion() const;
+
+  Viewport* viewport_;
+  Panels panels_;
+  Deformation* main_;
+  Deformation* compared_;
+  std::unique_ptr<PoseGhost> ghost_;
+  PoseKeeper* keeper_;
+  BodyMotion* motion_;
+  SequenceExport* export_;
+  std::shared_ptr<const bindpose::PoseSource> source_;
+  vtkSmartPointer<vtkPolyData> surface_, handles_, shape_;
+  std::vector<bindpose::Index> cells_;
+  int selected_ = -1; ///< the first selected handle; -1: none
+  int selected_count_ = 0;
+  std::optional<bindpose::Vec3> plane_;
+  bool at_rest_ = false;
+  bool edits_at_rest_ = false;
+  bool inspected_ = false; ///< true: data that belongs to the shape at rest is inspected
+  /// The way of comparison that the panel requested at the last update.
+  PoseGhost::Place chosen_ = PoseGhost::hidden;
+  double drawing_microseconds_ = 0.0; ///< time that draw() took for points and normals
+};
+
+#endif

@@ -1,0 +1,156 @@
+// Shows the rotations of as-rigid-as-possible methods as colors. The colors of clusters are valid
+// until the next bind. For every pose, angles are written into the array that is already drawn,
+// with one look-up per point.
+#include "app/posing/rotation_view.h"
+
+#include "app/posing/pose_panel.h"
+#include "app/posing/posing.h"
+#include "app/view/viewport.h"
+
+#include "pose/transform_parts.h"
+#include "scene/coloring.h"
+#include "scene/rotation_colors.h"
+
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+
+using namespace bindpose;
+
+RotationView::RotationView(Viewport* viewport, const PosePanel* panel, Posing* posing)
+  : viewport_(viewport), panel_(panel), posing_(posing)
+{
+}
+
+void RotationView::set_active(bool active)
+{
+  this->active_ = active;
+  this->update();
+}
+
+void RotationView::update()
+{
+  // The colors of distances between methods have priority (DistanceView).
+  const bool free = this->active_ && this->posing_->ghost()->place() != PoseGhost::in_colors;
+  const PosePanel::Rotations wanted =
+    free ? this->panel_->shown_rotations() : PosePanel::no_rotations;
+  const PoseRotations* found = wanted ? this->posing_->rotations() : nullptr;
+  if (!found || !this->viewport_->drawn() ||
+    static_cast<Index>(found->of_point->size()) != this->posing_->points().rows())
+  {
+    if (this->viewport_->shows(this->values_))
+    {
+      this->viewport_->show_values(nullptr, true);
+    }
+    this->values_ = nullptr;
+    return;
+  }
+  this->turns_.clear();
+  for (const Eigen::Matrix3d& rotation : found->rotations)
+  {
+    this->turns_.push_back(
+      this->posing_->shows_rest() ? Vec3::Zero().eval() : rotation_vector(rotation));
+  }
+  if (!this->viewport_->shows(this->values_) || this->of_point_ != found->of_point)
+  {
+    this->values_ = nullptr; // another surface was set, or other values were shown meanwhile
+    this->of_point_ = found->of_point;
+  }
+  if (wanted == PosePanel::clusters)
+  {
+    this->show_clusters(*found);
+  }
+  else
+  {
+    this->show_angles(*found);
+  }
+}
+
+void RotationView::show_clusters(const PoseRotations& found)
+{
+  if (this->values_ && this->scale_ == 0.0)
+  {
+    return;
+  }
+  vtkNew<vtkPolyData> drawn;
+  drawn->CopyStructure(this->viewport_->drawn());
+  vtkNew<vtkIntArray> clusters;
+  clusters->SetName("RotationCluster");
+  for (const Index point : this->viewport_->drawn_points())
+  {
+    clusters->InsertNextValue(static_cast<int>((*found.of_point)[static_cast<std::size_t>(point)]));
+  }
+  drawn->GetPointData()->AddArray(clusters);
+  PictureOptions options;
+  options.color_by = ColorBy::rotation_cluster;
+  Coloring coloring;
+  if (choose_coloring({ { drawn.Get(), nullptr, "" } }, options, coloring).ok())
+  {
+    bool on_points = false;
+    this->scale_ = 0.0;
+    this->values_ = color_values(drawn, coloring, on_points);
+    this->viewport_->show_values(
+      this->values_, on_points, QString::fromStdString(coloring.legend_name()), coloring.map);
+  }
+}
+
+void RotationView::show_angles(const PoseRotations& found)
+{
+  std::vector<double> degrees;
+  for (const Vec3& turn : this->turns_)
+  {
+    degrees.push_back(turn.norm());
+  }
+  const double scale =
+    angle_scale(degrees.empty() ? 0.0 : *std::max_element(degrees.begin(), degrees.end()));
+  const bool anew = !this->values_ || this->scale_ != scale;
+  const std::vector<Index>& points = this->viewport_->drawn_points();
+  if (anew)
+  {
+    this->values_ = vtkSmartPointer<vtkDoubleArray>::New();
+    this->values_->SetNumberOfValues(static_cast<vtkIdType>(points.size()));
+  }
+  double* value = this->values_->GetPointer(0);
+  for (const Index point : points)
+  {
+    const Index cluster = (*found.of_point)[static_cast<std::size_t>(point)];
+    *value++ = cluster < 0 ? 0.0 : degrees[static_cast<std::size_t>(cluster)];
+  }
+  this->values_->Modified();
+  if (anew)
+  {
+    Coloring named;
+    named.by = ColorBy::rotation;
+    this->scale_ = scale;
+    this->viewport_->show_values(this->values_, true, QString::fromStdString(named.legend_name()),
+      sequential_map(0.0, scale, 0));
+  }
+}
+
+QString RotationView::reading(Index point) const
+{
+  if (!this->viewport_->shows(this->values_) ||
+    point >= static_cast<Index>(this->of_point_->size()))
+  {
+    return {};
+  }
+  const Index cluster = (*this->of_point_)[static_cast<std::size_t>(point)];
+  if (cluster < 0)
+  {
+    return Posing::tr("No rotation cluster");
+  }
+  const Vec3& turn = this->turns_[static_cast<std::size_t>(cluster)];
+  const double degrees = turn.norm();
+  constexpr double least = 0.05; // smaller angles would be displayed as 0.0, so they are omitted
+  const Vec3 axis = turn.normalized();
+  const auto number = [](double x) { return QString::number(x, 'f', 2); };
+  return Posing::tr("Rotation cluster %1 of %2: %3°%4")
+    .arg(cluster)
+    .arg(this->turns_.size())
+    .arg(degrees, 0, 'f', 1)
+    .arg(degrees < least ? QString()
+                         : Posing::tr(" about %1, %2, %3")
+                             .arg(number(axis.x()), number(axis.y()), number(axis.z())));
+}

@@ -1,0 +1,50 @@
+#ifndef app_posing_rotation_view_h
+#define app_posing_rotation_view_h
+
+#include "geometry/mesh.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkSmartPointer.h"
+
+#include <QString>
+
+#include <memory>
+
+namespace bindpose
+{
+struct PoseRotations;
+}
+class PosePanel;
+class Posing;
+class Viewport;
+
+/// Shows the rotations of as-rigid-as-possible methods as colors on the shape: the clusters that
+/// share a rotation, or the angle of each rotation, as selected in the panel.
+class RotationView
+{
+public:
+  RotationView(Viewport* viewport, const PosePanel* panel, Posing* posing);
+
+  /// Set whether the panel is visible. If not, other views determine the colors of the surface.
+  void set_active(bool active);
+  /// Update the colors after a change of the pose, the method, the surface or the panel's choice.
+  void update();
+  /// Return a line of text about a point of the surface; empty if the colors do not show rotations.
+  QString reading(bindpose::Index point) const;
+
+private:
+  void show_clusters(const bindpose::PoseRotations& found);
+  void show_angles(const bindpose::PoseRotations& found);
+
+  Viewport* viewport_;
+  const PosePanel* panel_;
+  Posing* posing_;
+  bool active_ = true;
+  vtkSmartPointer<vtkDoubleArray> values_; ///< the displayed values; null: none
+  /// The array PoseRotations::of_point from which values_ was computed.
+  std::shared_ptr<const std::vector<bindpose::Index>> of_point_;
+  double scale_ = 0.0; ///< upper end of the angle scale in degrees; 0: clusters are shown
+  std::vector<bindpose::Vec3> turns_; ///< axis times angle in degrees, one per rotation
+};
+
+#endif

@@ -1,0 +1,315 @@
+#include "app/posing/sequence_export.h"
+
+#include "app/view/viewport.h"
+
+#include "document/opened_file.h"
+#include "file_kind.h"
+#include "helper/scratch_folder.h"
+#include "io/atomic_file.h"
+#include "pictures/sequence_file.h"
+#include "pictures/video_file.h"
+
+#include "conversion.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkGLTFSkinWriter.h"
+#include "vtkHandleSetWidget.h"
+#include "vtkMeshFileWriter.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkRenderWindow.h"
+
+#include <QApplication>
+#include <QImage>
+#include <QPainter>
+
+#include <deque>
+#include <memory>
+
+using namespace bindpose;
+
+namespace
+{
+constexpr const char* mesh_endings = "vtp ply obj off stl";
+constexpr const char* rig_endings = "glb gltf";
+constexpr std::size_t most_tiles = 12;
+constexpr int tile_width = 400; // width in pixels of each frame in a strip of frames
+
+Status cannot_write(const std::string& path)
+{
+  return Status::invalid_input(path + " cannot be written");
+}
+} // namespace
+
+SequenceExport::SequenceExport(Viewport* viewport) : QObject(viewport), viewport_(viewport)
+{
+  QObject::connect(&this->job_, &KernelJob::progress, this,
+    [this](double fraction) { Q_EMIT this->progress(0.7 * fraction); });
+  QObject::connect(&this->job_, &KernelJob::finished, this, &SequenceExport::frames_made);
+  QObject::connect(&this->encoder_, &KernelJob::progress, this,
+    [this](double fraction) { Q_EMIT this->progress(0.9 + 0.1 * fraction); });
+  QObject::connect(
+    &this->encoder_, &KernelJob::finished, this, [this] { this->end(this->encoder_.status()); });
+}
+
+SequenceExport::~SequenceExport() = default;
+
+QString SequenceExport::patterns()
+{
+  QString endings =
+    QString("json %1 %2 png %3").arg(mesh_endings).arg(rig_endings).arg(video_extensions);
+  return "*." + endings.replace(' ', " *.");
+}
+
+void SequenceExport::cancel()
+{
+  this->job_.cancel();
+  this->encoder_.cancel();
+}
+
+void SequenceExport::start(const Input& input, const QString& path)
+{
+  if (this->is_running())
+  {
+    return;
+  }
+  this->input_ = input;
+  this->path_ = path;
+  this->error_.clear();
+  this->said_.clear();
+  this->frames_ = std::make_shared<PosedFrames>();
+  this->frames_->frames_per_second = input.frames_per_second;
+  const std::string ending = file_extension(path.toStdString());
+  Status known = check_extension(path.toStdString(),
+    std::string("json png ") + mesh_endings + " " + rig_endings + " " + video_extensions);
+  if (known.ok() && is_listed(ending, video_extensions))
+  {
+    known = check_ffmpeg(); // check before the frames are computed
+  }
+  if (known.ok() && ending == "json" && input.run.start)
+  {
+    known = Status::invalid_input(
+      "a motion cannot be exported as a pose file (.json): choose datasets, glTF or pictures");
+  }
+  if (!known.ok())
+  {
+    this->error_ = QString::fromStdString(known.message);
+    Q_EMIT this->finished();
+    return;
+  }
+  const bool poses_only = ending == "json";
+  Q_EMIT this->progress(0.0);
+  this->job_.start(
+    [frames = this->frames_, input, poses_only](ExecutionContext& context)
+    {
+      return poses_only   ? Status()
+        : input.run.start ? make_frames(context, input.source, input.options, input.run, *frames)
+                          : make_frames(context, input.source, input.options, input.poses, *frames);
+    });
+}
+
+void SequenceExport::frames_made()
+{
+  Status status = this->job_.status();
+  if (status.usable())
+  {
+    status = this->write();
+    Q_EMIT this->pictures_taken();
+  }
+  if (!this->encoder_.is_running())
+  {
+    this->end(status);
+  }
+}
+
+void SequenceExport::end(const Status& status)
+{
+  if (!status.usable() && status.code != StatusCode::canceled)
+  {
+    this->error_ = QString::fromStdString(status.message);
+  }
+  else if (status.code != StatusCode::canceled)
+  {
+    this->said_ = tr("%1 frames")
+                    .arg(this->frames_->points.empty() ? this->input_.poses.size()
+                                                       : this->frames_->points.size());
+  }
+  this->frames_.reset();
+  this->input_ = Input();
+  Q_EMIT this->finished();
+}
+
+Status SequenceExport::write()
+{
+  const std::string path = this->path_.toStdString();
+  const std::string ending = file_extension(path);
+  if (ending == "json")
+  {
+    return write_poses(
+      this->input_.poses, this->input_.source->handles, path, this->input_.frames_per_second);
+  }
+  return is_listed(ending, rig_endings) ? this->write_rig(path)
+    : is_listed(ending, mesh_endings)   ? this->write_datasets(path)
+    : ending == "png"                   ? this->write_strip(path)
+                                        : this->write_moving(path);
+}
+
+vtkSmartPointer<vtkPolyData> SequenceExport::posed(std::size_t frame) const
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->ShallowCopy(this->input_.surface);
+  vtkNew<vtkFieldData> own;
+  own->ShallowCopy(this->input_.surface->GetFieldData());
+  result->SetFieldData(own);
+  result->SetPoints(to_vtk_points(this->frames_->points[frame]));
+  result->GetPointData()->SetNormals(nullptr); // remove the normals of the rest shape
+  if (frame < this->frames_->transforms.size())
+  {
+    vtkNew<vtkDoubleArray> transforms;
+    transforms->SetName("HandleTransforms");
+    transforms->SetNumberOfComponents(12);
+    for (const Affine& transform : this->frames_->transforms[frame])
+    {
+      transforms->InsertNextTuple(transform.data());
+    }
+    own->AddArray(transforms);
+  }
+  return result;
+}
+
+Status SequenceExport::write_datasets(const std::string& path)
+{
+  const std::size_t count = this->frames_->points.size();
+  std::deque<AtomicFile> files(count);
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    names.push_back(numbered_file(path, static_cast<int>(k)));
+    Status status = files[k].open(names[k], true);
+    if (status.ok())
+    {
+      status = write_shape(this->posed(k), files[k].temporary());
+    }
+    if (!status.ok())
+    {
+      return status;
+    }
+    Q_EMIT this->progress(0.7 + 0.3 * static_cast<double>(k) / static_cast<double>(count));
+  }
+  // Replace existing files only after all new files are complete.
+  for (AtomicFile& file : files)
+  {
+    const Status status = file.commit();
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  return write_whole_file(
+    collection_file(path), format_collection(names, this->frames_->frames_per_second), true);
+}
+
+Status SequenceExport::write_rig(const std::string& path)
+{
+  vtkNew<vtkGLTFSkinWriter> writer;
+  // keeps VTK from printing the errors, which the writer's status also contains
+  vtkNew<vtkCallbackCommand> nothing;
+  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  writer->AddObserver(vtkCommand::ErrorEvent, nothing);
+  writer->AddObserver(vtkCommand::WarningEvent, nothing);
+  const bool joints = !this->frames_->transforms.empty() && this->input_.source->has_weights();
+  writer->SetInputData(0, this->input_.surface);
+  if (this->input_.source->has_weights())
+  {
+    writer->SetHandlesData(this->input_.handles);
+  }
+  for (std::size_t k = 0; k < this->frames_->points.size(); ++k)
+  {
+    writer->AddFrameData(this->posed(k));
+  }
+  writer->SetFramesPerSecond(this->frames_->frames_per_second);
+  writer->SetAnimation(joints ? vtkGLTFSkinWriter::JOINTS : vtkGLTFSkinWriter::MORPH);
+  writer->SetFileName(path.c_str());
+  writer->OverwriteOn();
+  return writer->Write() == 1 ? Status() : Status::invalid_input(writer->GetStatusMessage());
+}
+
+QImage SequenceExport::picture(std::size_t frame)
+{
+  this->viewport_->move_surface(PointsView(this->frames_->points[frame]));
+  this->viewport_->renderWindow()->Render();
+  return this->viewport_->grabFramebuffer();
+}
+
+/// Write an image file of up to twelve evenly spaced frames, four per row.
+Status SequenceExport::write_strip(const std::string& path)
+{
+  vtkHandleSetWidget* handles = this->viewport_->handle_widget();
+  const bool shown = handles->GetEnabled();
+  // hide the handles: they have the current pose, which is not the pose of the frame
+  handles->SetEnabled(false);
+  QImage strip;
+  const std::vector<std::size_t> taken = evenly(this->frames_->points.size(), most_tiles);
+  const int columns = static_cast<int>(std::min<std::size_t>(taken.size(), 4));
+  for (std::size_t k = 0; k < taken.size(); ++k)
+  {
+    const QImage tile = this->picture(taken[k]).scaledToWidth(tile_width, Qt::SmoothTransformation);
+    if (strip.isNull())
+    {
+      const int rows = (static_cast<int>(taken.size()) + columns - 1) / columns;
+      strip = QImage(columns * tile.width(), rows * tile.height(), QImage::Format_RGB32);
+      strip.fill(Qt::white);
+    }
+    const int at = static_cast<int>(k);
+    QPainter(&strip).drawImage(at % columns * tile.width(), at / columns * tile.height(), tile);
+  }
+  handles->SetEnabled(shown);
+  AtomicFile file;
+  Status status = file.open(path, true);
+  if (status.ok())
+  {
+    status = strip.save(QString::fromStdString(file.temporary()), "PNG") ? file.commit()
+                                                                         : cannot_write(path);
+  }
+  return status;
+}
+
+Status SequenceExport::write_moving(const std::string& path)
+{
+  const auto folder = std::make_shared<const ScratchFolder>("frames");
+  if (folder->path().empty())
+  {
+    return Status::failure(StatusCode::unavailable, folder->error());
+  }
+  vtkHandleSetWidget* handles = this->viewport_->handle_widget();
+  const bool shown = handles->GetEnabled();
+  handles->SetEnabled(false);
+  bool written = true;
+  const std::size_t count = this->frames_->points.size();
+  for (std::size_t k = 0; k < count && written; ++k)
+  {
+    written = this->picture(k).save(
+      QString::fromStdString(frame_file(folder->path(), static_cast<int>(k))), "PNG");
+    Q_EMIT this->progress(0.7 + 0.2 * static_cast<double>(k) / static_cast<double>(count));
+  }
+  handles->SetEnabled(shown);
+  if (!written)
+  {
+    return cannot_write(folder->path());
+  }
+  this->encoder_.start(
+    [folder, path, frames_per_second = this->frames_->frames_per_second](ExecutionContext& context)
+    {
+      AtomicFile file;
+      Status status = file.open(path, true);
+      if (status.ok())
+      {
+        status = write_video(folder->path(), frames_per_second, file.temporary(), context);
+      }
+      return status.ok() ? file.commit() : status;
+    });
+  return {};
+}

@@ -1,0 +1,79 @@
+#ifndef app_posing_sequence_export_h
+#define app_posing_sequence_export_h
+
+#include "app/parts/kernel_job.h"
+#include "posing/sequence_maker.h"
+
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <QObject>
+
+class QImage;
+class Viewport;
+
+/// Writes an animation in the format of the file name's extension. The extension .json gives a pose
+/// file; extensions of mesh files give numbered datasets with a .pvd file; .glb and .gltf give one
+/// animated file; .png gives one image with several frames; .gif, .webm, .mp4 and .apng give films,
+/// which ffmpeg encodes. Frames are posed and films are encoded in the background. Images are
+/// rendered by the viewport. Files are written completely or not at all. They replace existing
+/// files, because the file dialog has asked for confirmation.
+class SequenceExport : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit SequenceExport(Viewport* viewport);
+  ~SequenceExport() override;
+
+  struct Input
+  {
+    std::shared_ptr<const bindpose::PoseSource> source;
+    vtkSmartPointer<vtkPolyData> surface; ///< the surface at rest
+    vtkSmartPointer<vtkPolyData> handles; ///< the handles at rest
+    bindpose::PoseOptions options;
+    std::vector<bindpose::Pose> poses; ///< one per frame; not used if `run` is not empty
+    bindpose::BodyRun run; ///< the recorded motion of a body
+    double frames_per_second = 24.0;
+  };
+  /// Return the file name patterns for the file dialog: "*.json *.vtp …".
+  static QString patterns();
+  void start(const Input& input, const QString& path);
+  void cancel();
+  bool is_running() const { return this->job_.is_running() || this->encoder_.is_running(); }
+  /// Return the error: one sentence, or empty.
+  const QString& error() const { return this->error_; }
+  /// Return a description of the written data, such as "24 frames"; empty after a cancel.
+  const QString& said() const { return this->said_; }
+  /// Return the file that is being written, or was written last.
+  const QString& path() const { return this->path_; }
+
+Q_SIGNALS:
+  void progress(double fraction);
+  /// Emitted when all images were rendered. The window must then draw its own shape again.
+  void pictures_taken();
+  void finished();
+
+private:
+  void frames_made();
+  bindpose::Status write();
+  bindpose::Status write_datasets(const std::string& path);
+  bindpose::Status write_rig(const std::string& path);
+  bindpose::Status write_strip(const std::string& path);
+  /// Begin to encode a film, or return the reason why that is impossible.
+  bindpose::Status write_moving(const std::string& path);
+  void end(const bindpose::Status& status);
+  vtkSmartPointer<vtkPolyData> posed(std::size_t frame) const;
+  QImage picture(std::size_t frame);
+
+  Viewport* viewport_;
+  Input input_;
+  QString path_;
+  std::shared_ptr<bindpose::PosedFrames> frames_;
+  QString error_;
+  QString said_;
+  KernelJob encoder_;
+  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
+};
+
+#endif

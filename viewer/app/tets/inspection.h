@@ -1,0 +1,85 @@
+#ifndef app_tets_inspection_h
+#define app_tets_inspection_h
+
+#include "app/parts/kernel_job.h"
+#include "app/tets/defect_view.h"
+#include "app/tets/tet_view.h"
+
+#include <QObject>
+
+#include <memory>
+
+class TetPanel;
+class Viewport;
+
+/// Inspection of a surface's tets and defects. Tets and defects are computed in the background.
+/// While the panel is visible, the class shows them as the panel requests.
+class Inspection : public QObject
+{
+  Q_OBJECT
+
+public:
+  Inspection(Viewport* viewport, TetPanel* panel);
+
+  /// Set the surface at rest, and the tets whose boundary it is (null: no tets yet).
+  void set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets);
+  /// Set whether the panel is visible. If not, the surface has its normal look.
+  void set_active(bool active);
+  void make_tets(int method); ///< compute tets with a meshing method, one of TetPanel::Method
+  void cancel();
+  /// Look for defects in the background after the surface was drawn, and emit defects_found() if
+  /// there are any.
+  void look_for_defects();
+  void show_defects();
+  bool is_busy() const
+  {
+    return this->tet_job_.is_running() || this->defect_job_.is_running() || this->waiting_;
+  }
+  /// Return how the surface is drawn (Viewport::SurfaceLook): hidden while tets are shown,
+  /// see-through while defects are shown, otherwise solid.
+  int surface_look() const;
+
+  TetView* tet_view() const { return this->tets_; }
+  const DefectView& defect_view() const { return this->defects_; }
+
+Q_SIGNALS:
+  void surface_look_changed();
+  /// Emitted when the first tets of the surface were computed, before they are shown.
+  void tets_made();
+  /// Emitted when the search of look_for_defects() has found defects. `counts` is a text with the
+  /// counts per type.
+  void defects_found(const QString& counts);
+  /// Emitted with one sentence if tets or their colors cannot be computed; the display is
+  /// unchanged.
+  void failed(const QString& sentence);
+  /// Emitted when tets were computed, or are shown as requested.
+  void succeeded();
+  /// Emitted with a message for the user after tets were computed.
+  void noticed(const QString& sentence);
+
+private:
+  void tets_finished();
+  void defects_finished();
+  void update_defects();
+  void start_looking();
+  void picture_drawn();
+  void choose_colors(int colors);
+  void show_position();
+  void update_panel();
+
+  Viewport* viewport_;
+  TetPanel* panel_;
+  TetView* tets_;
+  DefectView defects_;
+  vtkSmartPointer<vtkPolyData> surface_;
+  bool active_ = false;
+  bool looking_ = false; // true: emit defects_found() if the search finds defects
+  bool waiting_ = false; // true: the search begins after the surface was drawn for the first time
+  int colors_ = 0; // the displayed values, one of TetPanel::Colors
+  std::shared_ptr<vtkSmartPointer<vtkUnstructuredGrid>> made_tets_;
+  std::shared_ptr<vtkSmartPointer<vtkPolyData>> made_defects_;
+  KernelJob tet_job_;
+  KernelJob defect_job_;
+};
+
+#endif

@@ -1,0 +1,94 @@
+#ifndef app_tets_tet_panel_h
+#define app_tets_tet_panel_h
+
+#include <QFrame>
+
+class QButtonGroup;
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class ValueRow;
+
+/// The panel to the right of the 3D view for tets and defects of a surface: compute tets, cut them
+/// open, inspect them. Like SidePanel it emits signals when the user requests something, and has no
+/// state of the work.
+class TetPanel : public QFrame
+{
+  Q_OBJECT
+
+public:
+  /// The meshing methods, in the order of the list in the panel.
+  enum Method
+  {
+    automatic,
+    constrained,
+    remesh,
+    embed,
+    wrap,
+    ftetwild,
+    whole_hull
+  };
+  /// The values that are displayed as colors of the tets, in the order of the list in the panel.
+  enum Colors
+  {
+    plain,
+    winding_number,
+    label,
+    quality,
+    rung
+  };
+
+  explicit TetPanel(QWidget* parent = nullptr);
+
+  void set_state(bool has_surface, bool making, bool has_tets);
+  void set_progress(double fraction, const QString& phase);
+  /// Set the one or two lines under the button that computes tets.
+  void set_note(const QString& text);
+  void set_position(double position, double lowest, double highest);
+  /// Set the line under the cut: the number of displayed tets and of all tets.
+  void set_count(qlonglong shown, qlonglong all);
+  void set_defects_note(const QString& text);
+
+  bool wants_tets() const;
+  void show_tets(bool shown);
+  bool wants_defects() const;
+  void show_defects(bool shown);
+  void set_colors(int colors);
+
+Q_SIGNALS:
+  void make_wanted(int method);
+  void cancel_wanted();
+  void tets_wanted(bool shown);
+  void cut_wanted(bool cut);
+  void other_side_wanted(bool other);
+  void orientation_chosen(int orientation); ///< orientation: one of PlaneHandle::Orientation
+  void position_chosen(double position);
+  void shrink_chosen(double factor);
+  void colors_chosen(int colors);
+  void defects_wanted(bool shown);
+
+private:
+  void enable();
+
+  QComboBox* method_;
+  QPushButton* make_;
+  QPushButton* cancel_;
+  QProgressBar* bar_;
+  QLabel* note_;
+  QCheckBox* tets_;
+  QComboBox* colors_;
+  QCheckBox* cut_;
+  QCheckBox* other_side_;
+  QButtonGroup* orientations_;
+  ValueRow* position_;
+  QLabel* count_;
+  QLabel* shrink_label_;
+  ValueRow* shrink_;
+  QCheckBox* defects_;
+  QLabel* defects_note_;
+  bool has_tets_ = false;
+};
+
+#endif

@@ -1,0 +1,518 @@
+// Reads tours, the scripted demonstrations of the window. A step is a JSON object with one verb and
+// further fields that the verb allows. The value of the verb's key is its argument. A table lists
+// verbs and fields; all other words are errors, so that a misspelled word is not ignored.
+#include "app/tour/tour.h"
+
+#include "pictures/window_picture.h"
+#include "poses/json_fields.h"
+#include "widgets/gizmo.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr int schema = 1;
+constexpr std::size_t most_steps = 10000;
+constexpr std::size_t most_bytes = 16 << 20;
+constexpr double any = std::numeric_limits<double>::max();
+const char* const buttons[] = { "left", "middle", "right" };
+
+/// The type of the argument of a verb.
+enum class About
+{
+  text,
+  place,
+  wait,
+  seconds,
+  size
+};
+
+struct VerbInfo
+{
+  TourVerb verb;
+  const char* word;
+  About about;
+  const char* fields; ///< allowed fields, in addition to "say"
+};
+const VerbInfo verb_table[] = {
+  { TourVerb::open, "open", About::text, "" },
+  { TourVerb::action, "action", About::text, "answer" },
+  { TourVerb::push, "push", About::text, "answer" },
+  { TourVerb::option, "option", About::text, "value" },
+  { TourVerb::panel, "panel", About::text, "" },
+  { TourVerb::select, "select", About::text, "" },
+  { TourVerb::type, "type", About::text, "into" },
+  { TourVerb::mode, "mode", About::text, "" },
+  { TourVerb::click, "click", About::place, "button held" },
+  { TourVerb::double_click, "double_click", About::place, "button held" },
+  { TourVerb::press, "press", About::place, "button held" },
+  { TourVerb::move, "move", About::place, "held" },
+  { TourVerb::release, "release", About::place, "button held" },
+  { TourVerb::drag, "drag", About::place, "to moves button held" },
+  { TourVerb::wheel, "wheel", About::place, "turns held" },
+  { TourVerb::scrub, "scrub", About::seconds, "" },
+  { TourVerb::key, "key", About::text, "" },
+  { TourVerb::resize, "resize", About::size, "" },
+  { TourVerb::wait, "wait", About::wait, "" },
+  { TourVerb::film, "film", About::text, "of width" },
+  { TourVerb::screenshot, "screenshot", About::text, "of width scale transparent" },
+  { TourVerb::check, "check", About::text, "is at_least at_most as_at tolerance" },
+};
+
+const VerbInfo* find_verb(const std::string& word)
+{
+  const auto* found = std::find_if(std::begin(verb_table), std::end(verb_table),
+    [&](const VerbInfo& info) { return word == info.word; });
+  return found == std::end(verb_table) ? nullptr : found;
+}
+
+bool has_word(const std::string& words, const std::string& word)
+{
+  std::istringstream list(words);
+  for (std::string one; list >> one;)
+  {
+    if (one == word)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool finite_number(const Json& json)
+{
+  return json.is_number() && std::isfinite(json.get<double>());
+}
+
+/// Read two numbers. Return false if the value is not a list of two numbers.
+bool read_pair(const Json& json, std::array<double, 2>& pair)
+{
+  if (!json.is_array() || json.size() != 2 || !finite_number(json[0]) || !finite_number(json[1]))
+  {
+    return false;
+  }
+  pair = { json[0].get<double>(), json[1].get<double>() };
+  return true;
+}
+
+Status read_place(const Json& json, const std::string& who, TourPlace& place)
+{
+  if (json.is_array())
+  {
+    return read_pair(json, place.at)
+      ? Status()
+      : Status::invalid_input(
+          who + ": a position must be two fractions of the view size, for example [0.5, 0.5]");
+  }
+  const bool of_gizmo = json.is_object() && json.contains("gizmo");
+  if (!of_gizmo && (!json.is_object() || !json.contains("handle")))
+  {
+    return Status::invalid_input(who +
+      ": a position must be [0.5, 0.5], {\"handle\": \"NAME\", \"offset\": [0, 0]} or {\"gizmo\": "
+      "\"move_x\", \"offset\": [0, 0]}");
+  }
+  for (const auto& [key, value] : json.items())
+  {
+    if (!has_word(of_gizmo ? "gizmo offset" : "handle along offset", key))
+    {
+      return Status::invalid_input(who + ": a position cannot have the field \"" + key + "\"");
+    }
+  }
+  JsonFields fields(json, who);
+  fields.read("handle", place.handle);
+  fields.read("along", place.along, -any, any);
+  fields.read("offset", place.at.data(), 2);
+  std::string part;
+  fields.read("gizmo", part);
+  if (!fields.status().ok())
+  {
+    return fields.status();
+  }
+  for (const GizmoPartWord& each : gizmo_part_words)
+  {
+    place.gizmo_part = part == each.word ? each.part : place.gizmo_part;
+  }
+  if (of_gizmo && place.gizmo_part == no_part)
+  {
+    return Status::invalid_input(who + ": unknown gizmo part \"" + part + "\"");
+  }
+  return !of_gizmo && place.handle.empty()
+    ? Status::invalid_input(who + ": a position must contain the name of a handle")
+    : Status();
+}
+
+/// Read the new value of an option, or the expected value of a check: a number, a list of numbers,
+/// a word, or true or false.
+Status read_wanted(const Json& json, const std::string& who, TourStep& step)
+{
+  if (json.is_string())
+  {
+    step.wants_text = true;
+    step.wanted_text = json.get<std::string>();
+    return {};
+  }
+  if (json.is_boolean())
+  {
+    step.wants_truth = true;
+    step.wanted = { json.get<bool>() ? 1.0 : 0.0 };
+    return {};
+  }
+  const Json list = json.is_array() ? json : Json::array({ json });
+  for (const Json& number : list)
+  {
+    if (!finite_number(number))
+    {
+      return Status::invalid_input(
+        who + ": a value must be a number, a list of numbers, a word, true or false");
+    }
+    step.wanted.push_back(number.get<double>());
+  }
+  return step.wanted.empty()
+    ? Status::invalid_input(who + ": the list of numbers must not be empty")
+    : Status();
+}
+
+Status read_check(const Json& json, const std::string& who, TourStep& step)
+{
+  int relations = 0;
+  for (const auto& [word, relation] :
+    { std::pair("is", TourRelation::is), std::pair("at_least", TourRelation::at_least),
+      std::pair("at_most", TourRelation::at_most), std::pair("as_at", TourRelation::as_at) })
+  {
+    if (json.contains(word))
+    {
+      ++relations;
+      step.relation = relation;
+      if (const Status status = read_wanted(json[word], who, step); !status.ok())
+      {
+        return status;
+      }
+    }
+  }
+  if (relations != 1)
+  {
+    return Status::invalid_input(
+      who + ": a check must have exactly one of is, at_least, at_most, as_at");
+  }
+  const bool bound =
+    step.relation == TourRelation::at_least || step.relation == TourRelation::at_most;
+  if (bound && (step.wanted.size() != 1 || step.wants_truth))
+  {
+    return Status::invalid_input(who + ": at_least and at_most must be numbers");
+  }
+  if (step.relation == TourRelation::as_at && !step.wants_text)
+  {
+    return Status::invalid_input(who + ": \"as_at\" must be the name of a screenshot");
+  }
+  return {};
+}
+
+Status read_about(const Json& value, About about, const std::string& who, TourStep& step)
+{
+  switch (about)
+  {
+    case About::text:
+      if (!value.is_string() || value.get<std::string>().empty())
+      {
+        return Status::invalid_input(who + ": the value of the verb must be a nonempty string");
+      }
+      step.text = value.get<std::string>();
+      return {};
+    case About::place:
+      return read_place(value, who, step.place);
+    case About::size:
+    {
+      std::array<double, 2> size{};
+      if (!read_pair(value, size) || !(size[0] >= 200 && size[0] <= 8000) ||
+        !(size[1] >= 200 && size[1] <= 8000))
+      {
+        return Status::invalid_input(who + ": a size must be two numbers from 200 to 8000");
+      }
+      step.size = { static_cast<int>(size[0]), static_cast<int>(size[1]) };
+      return {};
+    }
+    default:
+      if (about == About::wait && value.is_string() && (value == "bind" || value == "idle"))
+      {
+        step.text = value.get<std::string>();
+        return {};
+      }
+      if (finite_number(value) && value.get<double>() >= 0.0 && value.get<double>() <= 3600.0)
+      {
+        step.seconds = value.get<double>();
+        return {};
+      }
+      return Status::invalid_input(who +
+        (about == About::wait ? ": expected \"bind\", \"idle\" or 0 to 3600 seconds"
+                              : ": expected 0 to 3600 seconds"));
+  }
+}
+
+constexpr const char* plain_names =
+  " must be 1 to 60 letters, digits, '_', '-' and '.', and must not start with '.'";
+
+/// Report whether a name is allowed for a file that the tour writes.
+bool is_plain_name(const std::string& name)
+{
+  return name.size() <= 60 && name.find_first_not_of('.') == 0 &&
+    std::all_of(name.begin(), name.end(),
+      [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '.'; });
+}
+
+Status read_step(const Json& json, std::size_t index, TourStep& step)
+{
+  std::string who = "step " + std::to_string(index + 1);
+  if (!json.is_object())
+  {
+    return Status::invalid_input(who + " must be a JSON object");
+  }
+  const VerbInfo* info = nullptr;
+  for (const auto& [key, value] : json.items())
+  {
+    if (const VerbInfo* verb = find_verb(key))
+    {
+      if (info)
+      {
+        return Status::invalid_input(
+          who + " has two verbs, \"" + info->word + "\" and \"" + verb->word + "\"");
+      }
+      info = verb;
+    }
+  }
+  if (!info)
+  {
+    const std::string first = json.empty() ? std::string() : json.begin().key();
+    return Status::invalid_input(
+      who + (json.empty() ? " is empty" : " must have a verb: \"" + first + "\" is not a verb"));
+  }
+  step.verb = info->verb;
+  who = step_name(index, step);
+  for (const auto& [key, value] : json.items())
+  {
+    if (key != info->word && key != "say" && !has_word(info->fields, key))
+    {
+      return Status::invalid_input(who + ": the verb cannot have the field \"" + key + "\"");
+    }
+  }
+  if (const Status status = read_about(json[info->word], info->about, who, step); !status.ok())
+  {
+    return status;
+  }
+  JsonFields fields(json, who);
+  fields.read("say", step.say);
+  fields.read("into", step.field);
+  fields.read("answer", step.answer);
+  fields.read("button", step.button, buttons);
+  fields.read("moves", step.moves, 1, 1000);
+  fields.read("turns", step.turns, -100.0, 100.0);
+  fields.read("tolerance", step.tolerance, 0.0, any);
+  fields.read("width", step.width, 16, 8000);
+  const char* const parts[] = { "window", "view", "dialog" };
+  fields.read("of", step.part, parts);
+  fields.read("scale", step.scale, 1, largest_scale_factor);
+  fields.read("transparent", step.transparent);
+  if (!fields.status().ok())
+  {
+    return fields.status();
+  }
+  if (step.part != TourPart::view && (step.scale > 1 || step.transparent))
+  {
+    return Status::invalid_input(who + ": \"scale\" and \"transparent\" require \"of\": \"view\"");
+  }
+  if (json.contains("held"))
+  {
+    for (const Json& key : json["held"].is_array() ? json["held"] : Json::array({ json["held"] }))
+    {
+      step.shift = step.shift || key == "shift";
+      step.ctrl = step.ctrl || key == "ctrl";
+      step.alt = step.alt || key == "alt";
+      if (key != "shift" && key != "ctrl" && key != "alt")
+      {
+        return Status::invalid_input(
+          who + ": \"held\" must be shift, ctrl or alt, or a list of these");
+      }
+    }
+  }
+  if (json.contains("answer") && !is_plain_name(step.answer))
+  {
+    return Status::invalid_input(who + ": the answer" + plain_names);
+  }
+  switch (step.verb)
+  {
+    case TourVerb::type:
+      return step.field.empty() ? Status::invalid_input(who + ": \"into\" is missing") : Status();
+    case TourVerb::drag:
+      return json.contains("to") ? read_place(json["to"], who, step.to)
+                                 : Status::invalid_input(who + ": \"to\" is missing");
+    case TourVerb::wheel:
+      return json.contains("turns") ? Status()
+                                    : Status::invalid_input(who + ": \"turns\" is missing");
+    case TourVerb::option:
+      return json.contains("value") ? read_wanted(json["value"], who, step)
+                                    : Status::invalid_input(who + ": \"value\" is missing");
+    case TourVerb::check:
+      return read_check(json, who, step);
+    case TourVerb::screenshot:
+    case TourVerb::film:
+      return is_plain_name(step.text) ? Status()
+                                      : Status::invalid_input(who + ": a name" + plain_names);
+    default:
+      return {};
+  }
+}
+
+/// Check that screenshots have unique names, and that `as_at` names an earlier screenshot.
+Status check_names(const Tour& tour)
+{
+  std::vector<std::string> names;
+  bool filming = false;
+  for (std::size_t k = 0; k < tour.steps.size(); ++k)
+  {
+    const TourStep& step = tour.steps[k];
+    const auto known = [&](const std::string& name)
+    { return std::find(names.begin(), names.end(), name) != names.end(); };
+    const std::string who = step_name(k, step);
+    if (step.verb == TourVerb::film)
+    {
+      if (filming != (step.text == "end"))
+      {
+        return Status::invalid_input(
+          who + (filming ? ": the previous film must end first" : ": no film was started"));
+      }
+      filming = !filming;
+    }
+    const bool named =
+      step.verb == TourVerb::screenshot || (step.verb == TourVerb::film && filming);
+    if (named && known(step.text))
+    {
+      return Status::invalid_input(
+        who + ": the name \"" + step.text + "\" is already used by an earlier step");
+    }
+    if (named)
+    {
+      names.push_back(step.text);
+    }
+    if (step.verb == TourVerb::check && step.relation == TourRelation::as_at &&
+      !known(step.wanted_text))
+    {
+      return Status::invalid_input(
+        who + ": no earlier screenshot is named \"" + step.wanted_text + "\"");
+    }
+  }
+  return filming ? Status::invalid_input("the last film must end: add the step {\"film\": \"end\"}")
+                 : Status();
+}
+} // namespace
+
+const char* to_string(TourVerb verb)
+{
+  return verb_table[static_cast<std::size_t>(verb)].word;
+}
+
+std::string step_name(std::size_t index, const TourStep& step)
+{
+  return "step " + std::to_string(index + 1) + " (" + to_string(step.verb) + ")";
+}
+
+Status parse_tour(const std::string& text, Tour& tour)
+{
+  tour = {};
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded() || !json.is_object())
+  {
+    return Status::invalid_input("expected a JSON object");
+  }
+  if (!json.contains("tour") || !json["tour"].is_object())
+  {
+    return Status::invalid_input("expected a tour: {\"tour\": {\"schema\": 1}, \"steps\": […]}");
+  }
+  for (const auto& [key, value] : json.items())
+  {
+    if (!has_word("tour steps", key))
+    {
+      return Status::invalid_input("a tour cannot have the field \"" + key + "\"");
+    }
+  }
+  const Json& head = json["tour"];
+  for (const auto& [key, value] : head.items())
+  {
+    if (!has_word("schema name size view seconds", key))
+    {
+      return Status::invalid_input("the head of a tour cannot have the field \"" + key + "\"");
+    }
+  }
+  int found = 0;
+  JsonFields fields(head, "the head of the tour");
+  fields.read("schema", found, 0, 1000000);
+  fields.read("name", tour.name);
+  fields.read("seconds", tour.seconds, 0.001, 86400.0);
+  if (!fields.status().ok())
+  {
+    return fields.status();
+  }
+  if (found != schema)
+  {
+    return Status::invalid_input("the schema of the tour is " + std::to_string(found) +
+      "; expected " + std::to_string(schema));
+  }
+  for (const auto& [key, size] : { std::pair("size", &tour.size), { "view", &tour.view } })
+  {
+    if (head.contains(key))
+    {
+      TourStep read;
+      const Status status = read_about(head[key], About::size, "the head of the tour", read);
+      if (!status.ok())
+      {
+        return status;
+      }
+      *size = read.size;
+    }
+  }
+  if (!json.contains("steps") || !json["steps"].is_array() || json["steps"].empty() ||
+    json["steps"].size() > most_steps)
+  {
+    return Status::invalid_input("\"steps\" must be a list of 1 to 10000 steps");
+  }
+  tour.steps.resize(json["steps"].size());
+  for (std::size_t k = 0; k < tour.steps.size(); ++k)
+  {
+    if (const Status status = read_step(json["steps"][k], k, tour.steps[k]); !status.ok())
+    {
+      return status;
+    }
+  }
+  return check_names(tour);
+}
+
+Status read_tour(const std::string& path, Tour& tour)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  text.resize(most_bytes);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.gcount() == 0 || !file.eof())
+  {
+    return Status::invalid_input("tour '" + path + "' cannot be read");
+  }
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  Status status = parse_tour(text, tour);
+  if (!status.ok())
+  {
+    status = Status::invalid_input("tour '" + path + "': " + status.message);
+  }
+  if (tour.name.empty())
+  {
+    const std::size_t slash = path.find_last_of('/');
+    tour.name = path.substr(slash == std::string::npos ? 0 : slash + 1);
+    tour.name = tour.name.substr(0, tour.name.rfind('.'));
+  }
+  return status;
+}
+
+} // namespace bindpose

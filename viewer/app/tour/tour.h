@@ -1,0 +1,134 @@
+#ifndef app_tour_tour_h
+#define app_tour_tour_h
+
+#include "base/status.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace bindpose
+{
+
+/// A position of the mouse in the 3D view. It is computed when the step is played.
+struct TourPlace
+{
+  std::string handle; ///< name of a handle; empty: the position is relative to the view
+  double along = 0.0; ///< position on a bone, from its head (0) to its tail (1)
+  /// A part of the selected handle's gizmo, one of bindpose::GizmoPart, at the position where it is
+  /// best grabbed; 0: no part.
+  int gizmo_part = 0;
+  /// For the view: the position from its upper left corner, as fractions of its width and height.
+  /// For a handle or a gizmo: an offset to the right and down, in pixels.
+  std::array<double, 2> at{ 0.0, 0.0 };
+};
+
+/// The actions of a step. The words in a tour file have the same names.
+enum class TourVerb
+{
+  open, ///< open a file
+  action, ///< trigger an entry of the menus, by its object name
+  push, ///< click a button, by its text
+  option, ///< set an option, by its key (document/options.h)
+  panel, ///< show a panel to the right of the 3D view: pose, weights, tets or volume
+  select, ///< select a handle in the list
+  type, ///< type a text into a field, as with the keyboard
+  mode, ///< set the mode of the selected handle: full, position, free, tail or ends
+  click,
+  double_click,
+  press,
+  move,
+  release,
+  drag,
+  wheel,
+  scrub, ///< drag the time of the key frames with the mouse; the argument is in seconds
+  key, ///< press a key, in the notation of menus: "Ctrl+Z", "Esc"
+  resize,
+  wait, ///< wait for "bind", "idle", or a number of seconds
+  film, ///< begin to record every motion as numbered images; the argument "end" stops the recording
+  screenshot,
+  check
+};
+/// Return the word for a verb in a tour file.
+const char* to_string(TourVerb verb);
+
+enum class TourButton
+{
+  left,
+  middle,
+  right
+};
+
+/// How a check compares a value with the expected value.
+enum class TourRelation
+{
+  is,
+  at_least,
+  at_most,
+  as_at ///< equal to the value at an earlier screenshot
+};
+
+enum class TourPart
+{
+  window,
+  view, ///< the 3D view in the window
+  dialog ///< a non-modal dialog in front of the window
+};
+
+struct TourStep
+{
+  TourVerb verb = TourVerb::wait;
+  std::string text; ///< file, name, key or sentence, depending on the verb
+  std::string field; ///< accessible name of the field to type into
+  /// Name of a file in the folder of screenshots, for the file dialog that the step opens. With an
+  /// empty name, the step fails if it opens any dialog.
+  std::string answer;
+  std::string say; ///< text about the step for a tutorial
+
+  TourPlace place; ///< position of the mouse; start of a drag
+  TourPlace to; ///< end of a drag
+  int moves = 8; ///< number of mouse moves of a drag
+  TourButton button = TourButton::left;
+  bool shift = false, ctrl = false, alt = false;
+  double turns = 0.0; ///< notches of the mouse wheel; positive: away from the user
+
+  double seconds = -1.0; ///< seconds to wait, or time to scrub to
+  std::array<int, 2> size{ 0, 0 }; ///< window size to resize to
+  TourPart part = TourPart::window; ///< the part that a screenshot shows
+  int width = 0; ///< maximum width of a screenshot in pixels; 0: no limit
+  int scale = 1; ///< Pixels of a screenshot of the view per pixel of the window, in each direction.
+  bool transparent = false; ///< true: a screenshot of the view has a transparent background
+
+  TourRelation relation = TourRelation::is;
+  std::string wanted_text; ///< expected word, or the name of the screenshot for `as_at`
+  /// Expected numbers, one per component. For the verb `option`: the new value of the option.
+  std::vector<double> wanted;
+  bool wants_text = false, wants_truth = false;
+  double tolerance = 0.0;
+};
+
+/// A sequence of user actions in the window, played by TourPlayer.
+struct Tour
+{
+  std::string name;
+  std::array<int, 2> size{ 1280, 800 }; ///< size of the window, in pixels
+  /// Size of the 3D view in pixels. The window is resized until the view has this size, for any
+  /// font; 0: no fixed size.
+  std::array<int, 2> view{ 0, 0 };
+  double seconds = 300.0; ///< maximum duration
+  std::vector<TourStep> steps;
+};
+
+/// Read a tour from JSON: {"tour": {"schema": 1, …}, "steps": [{"open": "a.off"}, …]}.
+/// viewer/sessions_and_tours.md documents the format. Return invalid_input, with one sentence that
+/// names the step, for anything that is not part of the format, including unknown fields.
+Status parse_tour(const std::string& text, Tour& tour);
+/// Read a tour from a file. Messages begin with the name of the file.
+Status read_tour(const std::string& path, Tour& tour);
+
+/// Return the name of a step for messages, such as "step 3 (drag)".
+std::string step_name(std::size_t index, const TourStep& step);
+
+} // namespace bindpose
+
+#endif

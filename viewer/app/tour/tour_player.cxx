@@ -1,0 +1,651 @@
+#include "app/tour/tour_player.h"
+
+#include "app/tour/tour_values.h"
+#include "app/view/viewport.h"
+#include "app/weights/binding.h"
+#include "app/window/main_window.h"
+#include "widgets/gizmo.h"
+
+#include "io/atomic_file.h"
+
+#include "vtkImageData.h"
+#include "vtkRenderWindow.h"
+
+#include <QAbstractButton>
+#include <QApplication>
+#include <QDialog>
+#include <QDir>
+#include <QEventLoop>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QLineEdit>
+#include <QMessageBox>
+#include <QPointer>
+#include <QTimer>
+
+#include <algorithm>
+
+using namespace bindpose;
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+// frames per second that are recorded while the shape moves without user input
+constexpr double film_rate = 20.0;
+// A pixel belongs to the background if its color differs by at most this value, from 0 to 255, from
+// the background color of its row. Within a row the background itself differs by less.
+constexpr int drawn_level = 12;
+
+Qt::MouseButton button_of(const TourStep& step)
+{
+  return step.button == TourButton::left ? Qt::LeftButton
+    : step.button == TourButton::middle  ? Qt::MiddleButton
+                                         : Qt::RightButton;
+}
+
+Qt::KeyboardModifiers held_in(const TourStep& step)
+{
+  Qt::KeyboardModifiers held;
+  held.setFlag(Qt::ShiftModifier, step.shift);
+  held.setFlag(Qt::ControlModifier, step.ctrl);
+  held.setFlag(Qt::AltModifier, step.alt);
+  return held;
+}
+
+/// Convert an image to a QImage, with alpha if the image has alpha.
+QImage to_image(vtkImageData* picture)
+{
+  const int* size = picture->GetDimensions();
+  const int components = picture->GetNumberOfScalarComponents();
+  return QImage(static_cast<const uchar*>(picture->GetScalarPointer()), size[0], size[1],
+    components * size[0], components == 4 ? QImage::Format_RGBA8888 : QImage::Format_RGB888)
+    .mirrored();
+}
+
+/// Return the image scaled down to this width if it is wider; 0: no limit.
+QImage at_most(const QImage& picture, int width)
+{
+  return width > 0 && width < picture.width()
+    ? picture.scaledToWidth(width, Qt::SmoothTransformation)
+    : picture;
+}
+
+/// Return the fraction of pixels that differ from the background. The background has one color per
+/// row.
+double drawn_share(const QImage& picture)
+{
+  long long drawn = 0;
+  for (int y = 0; y < picture.height(); ++y)
+  {
+    const QRgb back = picture.pixel(picture.width() - 1, y);
+    for (int x = 0; x < picture.width(); ++x)
+    {
+      const QRgb here = picture.pixel(x, y);
+      drawn += std::max({ std::abs(qRed(here) - qRed(back)), std::abs(qGreen(here) - qGreen(back)),
+                 std::abs(qBlue(here) - qBlue(back)) }) > drawn_level;
+    }
+  }
+  const double all = static_cast<double>(picture.width()) * picture.height();
+  return all > 0.0 ? static_cast<double>(drawn) / all : 0.0;
+}
+
+QString json_text(const Json& value)
+{
+  return QString::fromStdString(value.dump());
+}
+
+/// Ignores the display's own mouse and keyboard events, because the real mouse may be over the
+/// window.
+class HandsOff : public QObject
+{
+public:
+  bool eventFilter(QObject* /*object*/, QEvent* event) override
+  {
+    switch (event->type())
+    {
+      case QEvent::MouseButtonPress:
+      case QEvent::MouseButtonRelease:
+      case QEvent::MouseButtonDblClick:
+      case QEvent::MouseMove:
+      case QEvent::Wheel:
+      case QEvent::Enter:
+      case QEvent::Leave:
+      case QEvent::KeyPress:
+      case QEvent::KeyRelease:
+        return event->spontaneous();
+      default:
+        return false;
+    }
+  }
+};
+
+void wait_seconds(double seconds)
+{
+  QEventLoop loop; // a nested event loop, which sleeps between events
+  QTimer::singleShot(static_cast<int>(1e3 * seconds), Qt::PreciseTimer, &loop, &QEventLoop::quit);
+  loop.exec();
+}
+} // namespace
+
+TourPlayer::TourPlayer(MainWindow* window, const Tour& tour, const std::string& folder)
+  : window_(window), tour_(tour), tour_folder_(folder), hand_(window),
+    hands_off_(std::make_unique<HandsOff>())
+{
+  QApplication::instance()->installEventFilter(this->hands_off_.get());
+  QObject::connect(window->viewport(), &QOpenGLWidget::frameSwapped, &this->context_,
+    [this]
+    {
+      if (this->first_picture_ < 0.0 && !this->window_->is_empty())
+      {
+        this->first_picture_ = seconds_since_start();
+        this->first_picture_cpu_ = own_cpu_seconds();
+      }
+    });
+}
+
+Status TourPlayer::play(const TourRequest& request)
+{
+  this->folder_ = request.folder;
+  this->overwrite_ = request.overwrite;
+  this->seconds_ = request.seconds > 0.0 ? request.seconds : this->tour_.seconds;
+  this->record_ = { { "tour", { { "schema", 1 }, { "name", this->tour_.name } } },
+    { "steps", Json::array() }, { "screenshots", Json::object() } };
+  Status status;
+  if (!this->folder_.empty())
+  {
+    if (!QDir().mkpath(QString::fromStdString(this->folder_)))
+    {
+      return Status::invalid_input("folder '" + this->folder_ + "' cannot be created");
+    }
+    for (const TourStep& step : this->tour_.steps)
+    {
+      AtomicFile file; // check before the tour that the file can be written
+      const std::string name = step.verb == TourVerb::screenshot ? step.text + ".png"
+        : step.answer.empty()                                    ? "tour.json"
+                                                                 : step.answer;
+      status = file.open(this->folder_ + "/" + name, this->overwrite_);
+      if (!status.ok())
+      {
+        return status;
+      }
+    }
+  }
+  this->clock_.start();
+  // under Xvfb there is no window manager that activates the window
+  QApplication::setActiveWindow(this->window_);
+  this->let_draw();
+  this->fit_view();
+  for (std::size_t k = 0; k < this->tour_.steps.size() && status.ok(); ++k)
+  {
+    const TourStep& step = this->tour_.steps[k];
+    const double begin = 1e-9 * static_cast<double>(this->clock_.nsecsElapsed());
+    const double cpu_begin = cpu_seconds();
+    QString sentence = this->answer_dialogs([&] { return this->perform(step); }, step.answer);
+    this->let_draw();
+    if (sentence.isEmpty())
+    {
+      sentence = this->fit_view();
+    }
+    const double seconds = 1e-9 * static_cast<double>(this->clock_.nsecsElapsed()) - begin;
+    const double cpu = cpu_seconds() - cpu_begin;
+    if (sentence.isEmpty() && this->left() <= 0.0)
+    {
+      sentence = this->out_of_time();
+    }
+    if (step.verb != TourVerb::check)
+    {
+      this->last_seconds_ = seconds;
+      this->last_cpu_seconds_ = cpu;
+    }
+    this->record_["steps"].push_back({ { "step", k + 1 }, { "verb", to_string(step.verb) },
+      { "about", step.text }, { "seconds", seconds }, { "cpu_seconds", cpu } });
+    if (!sentence.isEmpty())
+    {
+      const std::string about = step.text.empty() ? "" : " '" + step.text + "'";
+      status =
+        Status::invalid_input("tour '" + this->tour_.name + "', step " + std::to_string(k + 1) +
+          " (" + to_string(step.verb) + about + "): " + sentence.toStdString());
+    }
+  }
+  this->record_["passed"] = status.ok();
+  this->record_["message"] = status.message;
+  this->record_["seconds"] = 1e-3 * static_cast<double>(this->clock_.elapsed());
+  if (this->first_picture_ >= 0.0)
+  {
+    this->record_["first_picture_seconds"] = this->first_picture_;
+    // CPU time of the window's thread, which does not depend on other load of the machine.
+    this->record_["first_picture_cpu_seconds"] = this->first_picture_cpu_;
+  }
+  const Status written = this->write_record(request);
+  return status.ok() ? written : status;
+}
+
+Status TourPlayer::write_record(const TourRequest& request) const
+{
+  if (request.folder.empty())
+  {
+    return {};
+  }
+  // Names may contain bytes that are not valid UTF-8.
+  return write_whole_file(request.folder + "/tour.json",
+    this->record_.dump(2, ' ', false, Json::error_handler_t::replace) + '\n', request.overwrite);
+}
+
+double TourPlayer::left() const
+{
+  return this->seconds_ - 1e-3 * static_cast<double>(this->clock_.elapsed());
+}
+
+QString TourPlayer::out_of_time() const
+{
+  return QString("the tour exceeded its time limit of %1 s").arg(this->seconds_);
+}
+
+/// Let the window process all requests to draw, without waiting for other work.
+void TourPlayer::let_draw()
+{
+  // Three rounds of events are needed: for a change, for the rendering that the change requests,
+  // and for the buffer swap.
+  for (int round = 0; round < 3; ++round)
+  {
+    QApplication::processEvents();
+  }
+}
+
+/// Run a part of a step and answer the dialogs that it opens. If `answer` is not empty, a file
+/// dialog gets it as the name of its file, and every dialog except a message box is accepted once.
+/// All other dialogs are closed, and a sentence about them is returned.
+QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const std::string& answer)
+{
+  const QString file =
+    QDir(QString::fromStdString(this->folder_)).absoluteFilePath(QString::fromStdString(answer));
+  if (!answer.empty() && this->folder_.empty())
+  {
+    return QString("an answer that names a file requires --screenshot-dir");
+  }
+  QString title;
+  bool answered = false;
+  QPointer<QDialog> accepted;
+  QTimer watch; // this timer also runs in the event loop of a dialog
+  QObject::connect(&watch, &QTimer::timeout, &watch,
+    [&]
+    {
+      QWidget* dialog = QApplication::activeModalWidget();
+      auto* form = qobject_cast<QDialog*>(dialog);
+      if (form && form != accepted && !answer.empty() && !qobject_cast<QMessageBox*>(form))
+      {
+        if (auto* files = qobject_cast<QFileDialog*>(form))
+        {
+          // No confirmation is necessary, because play() has already checked the file.
+          files->setOption(QFileDialog::DontConfirmOverwrite);
+          auto* name = files->findChild<QLineEdit*>();
+          name->setText(file); // selectFile() does not change a field that has the keyboard focus
+          answered = true;
+        }
+        accepted = form;
+        // Queue the call, so that this timer also runs for a dialog that the answer opens.
+        QMetaObject::invokeMethod(form, "accept", Qt::QueuedConnection);
+      }
+      else if (dialog)
+      {
+        title = dialog->windowTitle();
+        title = title.isEmpty() ? QString("without a title") : QString("'%1'").arg(title);
+        dialog->close();
+      }
+    });
+  watch.start(50);
+  const QString sentence = what();
+  if (!answer.empty() && !answered && sentence.isEmpty())
+  {
+    return QString("expected a file dialog, but none was opened");
+  }
+  return title.isEmpty()
+    ? sentence
+    : QString("the step opened the dialog %1, which needs an answer").arg(title);
+}
+
+QString TourPlayer::perform(const TourStep& step)
+{
+  const QString word = QString::fromStdString(step.text);
+  switch (step.verb)
+  {
+    case TourVerb::open:
+      return this->open(step.text);
+    case TourVerb::action:
+      return this->hand_.trigger(word);
+    case TourVerb::push:
+      return this->hand_.push(word);
+    case TourVerb::option:
+      return this->choose(step);
+    case TourVerb::panel:
+      return this->hand_.show_panel(word);
+    case TourVerb::select:
+      return this->hand_.select(word);
+    case TourVerb::scrub:
+      this->hand_.scrub(step.seconds);
+      return {};
+    case TourVerb::type:
+      return this->hand_.type(word, QString::fromStdString(step.field));
+    case TourVerb::mode:
+      return this->hand_.set_mode(word);
+    case TourVerb::key:
+      return this->hand_.press_key(word);
+    case TourVerb::resize:
+      this->window_->resize(step.size[0], step.size[1]);
+      this->let_draw();
+      return this->window_->width() == step.size[0] && this->window_->height() == step.size[1]
+        ? QString()
+        : QString("cannot resize the window: its size is %1 x %2")
+            .arg(this->window_->width())
+            .arg(this->window_->height());
+    case TourVerb::wait:
+      return this->wait(step);
+    case TourVerb::film:
+      this->film_ = step.text == "end" ? TourStep() : step;
+      this->frames_ = 0;
+      return {};
+    case TourVerb::screenshot:
+      return this->screenshot(step);
+    case TourVerb::check:
+      return this->check(step);
+    default:
+      return this->use_mouse(step);
+  }
+}
+
+// ---- User actions ------------------------------------------------------------------------------
+
+QString TourPlayer::open(const std::string& file)
+{
+  const QString name = QString::fromStdString(file);
+  const QString beside = QDir(QString::fromStdString(this->tour_folder_)).filePath(name);
+  const QString before = this->window_->error();
+  const QString sentence = this->hand_.drop(QFileInfo::exists(beside) ? beside : name);
+  const QString error = this->window_->error();
+  return sentence.isEmpty() || error.isEmpty() || error == before ? sentence : error;
+}
+
+QString TourPlayer::choose(const TourStep& step)
+{
+  const QString key = QString::fromStdString(step.text);
+  if (step.wants_text)
+  {
+    return this->hand_.choose(key, QString::fromStdString(step.wanted_text));
+  }
+  if (step.wanted.size() != 1)
+  {
+    return QString("the value of an option must be a word, a number, true or false");
+  }
+  return this->hand_.choose(
+    key, step.wants_truth ? QVariant(step.wanted[0] != 0.0) : QVariant(step.wanted[0]));
+}
+
+QString TourPlayer::find(const TourPlace& place, QPoint& at) const
+{
+  const bool of_gizmo = place.gizmo_part != no_part;
+  if (place.handle.empty() && !of_gizmo)
+  {
+    at = this->hand_.place(place.at[0], place.at[1]);
+    return {};
+  }
+  const QString sentence = of_gizmo
+    ? this->hand_.place_of_gizmo(place.gizmo_part, at)
+    : this->hand_.place_of(QString::fromStdString(place.handle), place.along, at);
+  at += QPoint(static_cast<int>(place.at[0]), static_cast<int>(place.at[1]));
+  return sentence;
+}
+
+QString TourPlayer::use_mouse(const TourStep& step)
+{
+  const Qt::MouseButton button = button_of(step);
+  const Qt::KeyboardModifiers held = held_in(step);
+  QPoint at, to;
+  QString sentence = this->find(step.place, at);
+  if (sentence.isEmpty() && step.verb == TourVerb::drag)
+  {
+    sentence = this->find(step.to, to);
+  }
+  if (!sentence.isEmpty())
+  {
+    return sentence;
+  }
+  const auto move = [&](const QPoint& place)
+  {
+    this->hand_.move(place, held);
+    this->let_draw();
+    return this->film_frame();
+  };
+  switch (step.verb)
+  {
+    case TourVerb::press:
+      // move the mouse there first, because a user's press follows a move
+      this->hand_.move(at, held);
+      this->hand_.press(at, button, held);
+      return {};
+    case TourVerb::move:
+      return move(at);
+    case TourVerb::release:
+      this->hand_.release(at, button, held);
+      return {};
+    case TourVerb::click:
+      this->hand_.move(at, held);
+      this->hand_.press(at, button, held);
+      this->let_draw();
+      this->hand_.release(at, button, held);
+      return {};
+    case TourVerb::double_click:
+      this->hand_.move(at, held);
+      this->hand_.double_click(at, button, held);
+      return {};
+    case TourVerb::wheel:
+      this->hand_.wheel(at, step.turns, held);
+      return this->film_frame();
+    default:
+      this->hand_.move(at, held);
+      this->let_draw();
+      this->hand_.press(at, button, held);
+      for (int k = 1; k <= step.moves && sentence.isEmpty(); ++k)
+      {
+        sentence = move(at + (to - at) * k / step.moves);
+      }
+      this->hand_.release(to, button, held);
+      return sentence;
+  }
+}
+
+QString TourPlayer::wait(const TourStep& step)
+{
+  if (step.text == "bind")
+  {
+    return wait_until([this] { return !this->window_->binding()->is_running(); }, this->left())
+      ? QString()
+      : QString("the bind did not end within the time limit");
+  }
+  if (step.text == "idle")
+  {
+    return wait_until([this] { return is_idle(this->window_); }, this->left())
+      ? QString()
+      : QString("the window was still busy at the time limit of the tour");
+  }
+  // The timeout of the tour may shorten a wait. Report the timeout here, because timers may end a
+  // millisecond too early.
+  const double left = std::max(0.0, this->left());
+  const double seconds = std::min(step.seconds, left);
+  const QString sentence = step.seconds > left ? this->out_of_time() : QString();
+  if (this->film_.text.empty())
+  {
+    wait_seconds(seconds);
+    return sentence;
+  }
+  QElapsedTimer clock;
+  clock.start();
+  for (int frame = 1; frame <= seconds * film_rate; ++frame)
+  {
+    const double due = frame / film_rate - 1e-3 * static_cast<double>(clock.elapsed());
+    wait_seconds(std::max(0.0, due));
+    const QString failed = this->film_frame();
+    if (!failed.isEmpty())
+    {
+      return failed;
+    }
+  }
+  return sentence;
+}
+
+// ---- Values and images -----------------------------------------------------------------------
+
+Json TourPlayer::values() const
+{
+  Json values = tour_values(this->window_);
+  values["step.seconds"] = this->last_seconds_;
+  values["step.cpu_share"] =
+    this->last_seconds_ > 0.0 ? this->last_cpu_seconds_ / this->last_seconds_ : 0.0;
+  if (this->first_picture_ >= 0.0)
+  {
+    values["first_picture.seconds"] = this->first_picture_;
+  }
+  return values;
+}
+
+QString TourPlayer::check(const TourStep& step)
+{
+  const Json values = this->values();
+  const auto found = values.find(step.text);
+  if (found == values.end())
+  {
+    return QString("the value does not exist at this step");
+  }
+  Json wanted = step.wants_truth ? Json(step.wanted[0] != 0.0)
+    : step.wants_text            ? Json(step.wanted_text)
+    : step.wanted.size() == 1    ? Json(step.wanted[0])
+                                 : Json(step.wanted);
+  QString where;
+  if (step.relation == TourRelation::as_at)
+  {
+    const Json& then = this->record_["screenshots"][step.wanted_text]["values"];
+    if (!then.contains(step.text))
+    {
+      return QString("the value did not exist at the screenshot '%1'")
+        .arg(QString::fromStdString(step.wanted_text));
+    }
+    wanted = then[step.text];
+    where = QString(" as at the screenshot '%1'").arg(QString::fromStdString(step.wanted_text));
+  }
+  if (step.relation == TourRelation::at_least || step.relation == TourRelation::at_most)
+  {
+    const bool least = step.relation == TourRelation::at_least;
+    const double limit = step.wanted[0];
+    const double value = found->is_number() ? found->get<double>() : std::nan("");
+    const bool kept = least ? value >= limit : value <= limit;
+    return kept ? QString()
+                : QString("the value is %1, expected at %2 %3")
+                    .arg(json_text(*found), least ? "least" : "most")
+                    .arg(limit);
+  }
+  if (distance(*found, wanted) <= step.tolerance)
+  {
+    return {};
+  }
+  const QString within =
+    step.tolerance > 0.0 ? QString(" within %1").arg(step.tolerance) : QString();
+  return QString("the value is %1, expected %2%3%4")
+    .arg(json_text(*found), json_text(wanted), where, within);
+}
+
+QImage TourPlayer::grab(TourPart part, int width)
+{
+  QWidget* dialog = nullptr;
+  for (auto* candidate : this->window_->findChildren<QDialog*>())
+  {
+    dialog = candidate->isVisible() ? candidate : dialog;
+  }
+  this->let_draw();
+  Viewport* viewport = this->window_->viewport();
+  viewport->renderWindow()->Render();
+  QApplication::processEvents();
+  const QImage picture = part == TourPart::view ? viewport->grabFramebuffer()
+    : part == TourPart::window                  ? this->window_->grab().toImage()
+    : dialog                                    ? dialog->grab().toImage()
+                                                : QImage();
+  return at_most(picture.convertToFormat(QImage::Format_RGB32), width);
+}
+
+QString TourPlayer::write(const QImage& picture, const std::string& name)
+{
+  if (this->folder_.empty())
+  {
+    return {};
+  }
+  AtomicFile file;
+  Status status = file.open(this->folder_ + "/" + name, this->overwrite_);
+  if (status.ok())
+  {
+    status = picture.save(QString::fromStdString(file.temporary()), "PNG")
+      ? file.commit()
+      : Status::invalid_input("'" + name + "' cannot be written");
+  }
+  return QString::fromStdString(status.message);
+}
+
+/// Resize the window until the 3D view has the tour's size. Several attempts are needed, because
+/// the sizes of other widgets depend on the fonts, and some widgets appear and disappear.
+QString TourPlayer::fit_view()
+{
+  const QSize wanted(this->tour_.view[0], this->tour_.view[1]);
+  if (wanted.width() == 0)
+  {
+    return {};
+  }
+  const auto missing = [&] { return wanted - this->window_->viewport()->size(); };
+  for (int tries = 0; tries < 3 && missing() != QSize(0, 0); ++tries)
+  {
+    this->window_->resize(this->window_->size() + missing());
+    this->let_draw();
+  }
+  const QSize now = this->window_->viewport()->size();
+  return now == wanted
+    ? QString()
+    : QString("cannot resize the view: its size is %1 x %2").arg(now.width()).arg(now.height());
+}
+
+QString TourPlayer::screenshot(const TourStep& step)
+{
+  QImage picture;
+  if (step.scale == 1 && !step.transparent)
+  {
+    picture = this->grab(step.part, step.width);
+  }
+  else
+  {
+    vtkSmartPointer<vtkImageData> taken;
+    const Status status =
+      this->window_->viewport()->take_picture(step.scale, step.transparent, taken);
+    if (!status.ok())
+    {
+      return QString::fromStdString(status.message);
+    }
+    picture = at_most(to_image(taken), step.width);
+  }
+  const double drawn = drawn_share(this->window_->viewport()->grabFramebuffer());
+  if (picture.isNull() || (drawn == 0.0 && !this->window_->is_empty()))
+  {
+    return QString("the picture is empty");
+  }
+  this->record_["screenshots"][step.text] = { { "file", step.text + ".png" },
+    { "width", picture.width() }, { "height", picture.height() }, { "drawn_share", drawn },
+    { "values", this->values() } };
+  return this->write(picture, step.text + ".png");
+}
+
+QString TourPlayer::film_frame()
+{
+  if (this->film_.text.empty() || this->folder_.empty())
+  {
+    return {};
+  }
+  const QString number = QString("%1").arg(this->frames_++, 4, 10, QChar('0'));
+  this->record_["films"][this->film_.text] = this->frames_;
+  return this->write(this->grab(this->film_.part, this->film_.width),
+    this->film_.text + "_" + number.toStdString() + ".png");
+}

@@ -1,0 +1,85 @@
+#ifndef app_tour_tour_player_h
+#define app_tour_tour_player_h
+
+#include "app/tour/tour.h"
+#include "app/tour/window_hand.h"
+
+#include <QElapsedTimer>
+#include <QImage>
+#include <QObject>
+
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+class MainWindow;
+
+/// The arguments of `bindpose view --play`.
+struct TourRequest
+{
+  std::string path; ///< path of the tour
+  std::string folder; ///< folder for screenshots and tour.json; empty: only the checks are run
+  double seconds = 0.0; ///< maximum duration; 0: the duration that the tour specifies
+  bool overwrite = false;
+};
+
+/// Plays a tour in a window, as a user would, and reports the first failure: a step that is
+/// impossible, an empty screenshot, a check that fails, a dialog without an answer, or a timeout.
+/// Everything runs in the window's own event loop. The mouse and the keyboard of the display are
+/// ignored, but the window can be closed.
+class TourPlayer
+{
+public:
+  /// @param folder  the folder of the tour. Files to open are searched there first, then in the
+  /// working directory.
+  TourPlayer(MainWindow* window, const bindpose::Tour& tour, const std::string& folder);
+
+  /// Play the tour. Return invalid_input, with one sentence that names the step, on the first
+  /// failure. Files that were already written are kept, and so is tour.json.
+  bindpose::Status play(const TourRequest& request);
+
+  /// Return the contents of tour.json.
+  const nlohmann::ordered_json& record() const { return this->record_; }
+
+private:
+  QString perform(const bindpose::TourStep& step);
+  QString answer_dialogs(const std::function<QString()>& what, const std::string& answer);
+  QString find(const bindpose::TourPlace& place, QPoint& at) const;
+  QString use_mouse(const bindpose::TourStep& step);
+  QString open(const std::string& file);
+  QString choose(const bindpose::TourStep& step);
+  QString wait(const bindpose::TourStep& step);
+  QString check(const bindpose::TourStep& step);
+  QString screenshot(const bindpose::TourStep& step);
+  QString film_frame();
+  QString write(const QImage& picture, const std::string& name);
+  nlohmann::ordered_json values() const;
+  QImage grab(bindpose::TourPart part, int width);
+  void let_draw();
+  QString fit_view();
+  double left() const;
+  QString out_of_time() const;
+  bindpose::Status write_record(const TourRequest& request) const;
+
+  MainWindow* window_;
+  const bindpose::Tour& tour_;
+  std::string tour_folder_;
+  std::string folder_;
+  bool overwrite_ = false;
+  WindowHand hand_;
+  QElapsedTimer clock_;
+  double seconds_ = 0.0;
+  /// Elapsed time and CPU time of the last step, in seconds.
+  double last_seconds_ = 0.0, last_cpu_seconds_ = 0.0;
+  double first_picture_ = -1.0, first_picture_cpu_ = 0.0;
+  /// The step that began the current film. Its text is empty if no film is being recorded.
+  bindpose::TourStep film_;
+  int frames_ = 0;
+  nlohmann::ordered_json record_;
+  QObject context_; ///< context of connections
+  std::unique_ptr<QObject> hands_off_; ///< filters events of the display's own mouse and keyboard
+};
+
+#endif

@@ -1,0 +1,35 @@
+#ifndef app_tour_viewer_h
+#define app_tour_viewer_h
+
+#include "app/tour/tour_player.h"
+#include "document/opened_file.h"
+
+#include <optional>
+
+#include <string>
+#include <vector>
+
+class MainWindow;
+
+/// A file to open at the start. If it has neither data nor an error, the window reads it.
+struct FirstFile
+{
+  std::string path;
+  std::optional<OpenedFile> data;
+  std::string error; ///< reason why it could not be read: one sentence, or empty
+};
+
+/// Run `bindpose view`: open a window with these files (meshes, meshes with weights, handles), and
+/// return the program's exit code. An X server is required.
+/// @param auto_rig  create bones along the mesh and bind it
+int run_viewer(const std::vector<FirstFile>& files, bool auto_rig);
+
+/// Open all files that can be opened. The error bar shows the errors of all others.
+void open_first_files(MainWindow& window, const std::vector<FirstFile>& files);
+
+/// Run `bindpose view --play`: like run_viewer(), with a tour instead of a user. The user's recent
+/// files and recovered work are neither read nor changed.
+bindpose::Status play_tour(
+  const std::vector<FirstFile>& files, bool auto_rig, const TourRequest& request);
+
+#endif

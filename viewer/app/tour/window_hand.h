@@ -1,0 +1,88 @@
+#ifndef app_tour_window_hand_h
+#define app_tour_window_hand_h
+
+#include <QEvent>
+#include <QPoint>
+#include <QSize>
+#include <QString>
+#include <QStringList>
+#include <QVariant>
+
+#include <functional>
+
+class MainWindow;
+class QAction;
+
+/// Simulates a user of the window, for tours and tests: mouse events on the 3D view, keys, menu
+/// entries, buttons and options. Each action uses the widget that a user would use. If a user could
+/// not perform an action, because a widget is disabled or missing, the function returns a sentence
+/// with the reason.
+class WindowHand
+{
+public:
+  explicit WindowHand(MainWindow* window) : window_(window) {}
+
+  // ---- The mouse on the 3D view; positions in pixels from its upper left corner ----
+  QPoint place(double x, double y) const; ///< convert fractions of the view's width and height
+  /// Find the screen position of a posed handle, between its head (`along` is 0) and its tail (1).
+  /// Return a sentence if there is no such handle.
+  QString place_of(const QString& handle, double along, QPoint& at) const;
+  /// Find the position where a part of the selected handle's gizmo is best grabbed. Return a
+  /// sentence if it is not visible.
+  QString place_of_gizmo(int part, QPoint& at) const;
+  void press(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
+  void move(const QPoint& at, Qt::KeyboardModifiers held = {});
+  void release(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
+  void double_click(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
+  void wheel(const QPoint& at, double turns, Qt::KeyboardModifiers held = {});
+  /// Move the mouse off the 3D view, as a user does before using another widget.
+  void leave();
+  /// Drag the mouse on the track of the key frames to this time.
+  void scrub(double seconds);
+  /// Return the buttons that are pressed.
+  Qt::MouseButtons buttons() const { return this->buttons_; }
+
+  // ---- Other actions; they return a sentence on failure, otherwise an empty string ----
+  /// Drop a file on the window.
+  QString drop(const QString& file);
+  /// Replace the text of the visible field that has this accessible name.
+  QString type(const QString& text, const QString& field);
+  /// Send the key to the widget with the keyboard focus, or trigger the menu entry with that
+  /// shortcut.
+  QString press_key(const QString& keys);
+  /// Trigger an action by its object name.
+  QString trigger(const QString& action);
+  /// Click a visible button by its text, without the ampersands of menus and the marks in front of
+  /// section names.
+  QString push(const QString& text);
+  /// Choose a value of an option with the widget whose object name is the option's key.
+  QString choose(const QString& option, const QVariant& value);
+  QString show_panel(const QString& name);
+  QString select(const QString& handle);
+  /// Set the mode of the selected handles; `mode` is one of bindpose::handle_mode_words.
+  QString set_mode(const QString& mode);
+  static const QStringList& panel_names();
+
+  /// Return the object names of all menu entries.
+  QStringList actions() const;
+  QAction* action(const QString& name) const;
+
+private:
+  int number_of(const QString& handle) const; ///< index of a handle by name; -1: no such handle
+  QPoint from_display(const double* pixel) const;
+  void send(QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::MouseButtons held,
+    Qt::KeyboardModifiers keys);
+
+  MainWindow* window_;
+  Qt::MouseButtons buttons_;
+};
+
+/// Report whether nothing runs in the background, nothing plays, and the displayed shape is that of
+/// the current pose.
+bool is_idle(const MainWindow* window);
+
+/// Run the event loop until the condition is true. The condition is checked after every event and
+/// every few milliseconds. Return false if it is not true after this many seconds.
+bool wait_until(const std::function<bool()>& condition, double seconds);
+
+#endif

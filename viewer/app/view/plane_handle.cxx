@@ -1,0 +1,310 @@
+// A plane that the mouse moves and rotates, implemented with VTK's implicit plane widget. The plane
+// that the widget draws is nearly transparent; it exists only so that the mouse can grab it.
+#include "app/view/plane_handle.h"
+
+#include "app/view/viewport.h"
+
+#include "scene/colors.h"
+
+#include "vtkCommand.h"
+#include "vtkImplicitPlaneRepresentation.h"
+#include "vtkImplicitPlaneWidget2.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+#include "vtkWidgetEventTranslator.h"
+
+#include <QKeyEvent>
+
+#include <algorithm>
+#include <cmath>
+
+using bindpose::Vec3;
+
+namespace
+{
+void set_look(vtkProperty* property, const bindpose::Rgb& color, double opacity = 1.0)
+{
+  bindpose::set_color(property, color);
+  property->SetOpacity(opacity);
+}
+} // namespace
+
+PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent), viewport_(viewport)
+{
+  vtkRenderer* renderer = viewport->renderer();
+  this->plane_->SetPlaceFactor(1.0);
+  this->plane_->TubingOff();
+  this->plane_->OutlineTranslationOff();
+  this->plane_->ScaleEnabledOff();
+  this->plane_->CropPlaneToBoundingBoxOn();
+  this->plane_->SetEdgeColor(
+    bindpose::palette::line[0], bindpose::palette::line[1], bindpose::palette::line[2]);
+  set_look(this->plane_->GetOutlineProperty(), bindpose::palette::edges);
+  set_look(this->plane_->GetSelectedOutlineProperty(), bindpose::palette::edges);
+  // Not fully transparent, because the mouse cannot grab a transparent plane.
+  set_look(this->plane_->GetPlaneProperty(), bindpose::palette::white, 0.005);
+  set_look(this->plane_->GetSelectedPlaneProperty(), bindpose::palette::white, 0.005);
+  this->widget_->SetInteractor(viewport->interactor());
+  this->widget_->SetRepresentation(this->plane_);
+  this->widget_->SetCurrentRenderer(renderer);
+  this->widget_->SetDefaultRenderer(renderer);
+  this->widget_->SetPriority(0.4F); // handles have a higher priority
+  // Pass on the other mouse buttons, which move and zoom the camera as elsewhere in the 3D view.
+  for (const unsigned long event :
+    { vtkCommand::MiddleButtonPressEvent, vtkCommand::MiddleButtonReleaseEvent,
+      vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent })
+  {
+    this->widget_->GetEventTranslator()->RemoveTranslation(event);
+  }
+  this->widget_->AddObserver(vtkCommand::StartInteractionEvent, this, &PlaneHandle::widget_caught);
+  this->widget_->AddObserver(vtkCommand::InteractionEvent, this, &PlaneHandle::widget_moved);
+  this->widget_->AddObserver(vtkCommand::EndInteractionEvent, this, &PlaneHandle::widget_let_go);
+  viewport->installEventFilter(this);
+}
+
+PlaneHandle::~PlaneHandle()
+{
+  this->widget_->SetInteractor(nullptr);
+}
+
+void PlaneHandle::set_box(const bindpose::Box& box)
+{
+  this->cancel();
+  this->box_ = box;
+  if (!box.empty())
+  {
+    double bounds[6];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      bounds[2 * axis] = box.lower[axis];
+      bounds[2 * axis + 1] = box.upper[axis];
+    }
+    this->plane_->PlaceWidget(bounds);
+  }
+  this->go_to_place();
+}
+
+void PlaneHandle::draw_box(bool drawn)
+{
+  this->plane_->SetDrawOutline(drawn);
+}
+
+void PlaneHandle::show(bool shown)
+{
+  if (!shown)
+  {
+    this->cancel();
+  }
+  this->shown_ = shown;
+  this->place_widget();
+}
+
+void PlaneHandle::set_orientation(int orientation)
+{
+  this->cancel();
+  this->state_.orientation = orientation;
+  if (orientation != free_plane)
+  {
+    this->state_.free_normal = Vec3::Unit(orientation);
+  }
+  this->go_to_place();
+  Q_EMIT this->moved();
+}
+
+void PlaneHandle::set_free_normal(const Vec3& normal)
+{
+  this->cancel();
+  this->state_.free_normal = normal;
+  if (this->state_.orientation == free_plane)
+  {
+    this->go_to_place();
+    Q_EMIT this->moved();
+  }
+}
+
+void PlaneHandle::set_place(double place)
+{
+  this->cancel();
+  this->state_.place = place;
+  this->go_to_place();
+  Q_EMIT this->moved();
+}
+
+void PlaneHandle::set_position(double position)
+{
+  this->cancel();
+  // Ignore smaller changes: setting the current position again must not change the relative
+  // position by round-off.
+  constexpr double round_off = 1e-12;
+  const double place = this->place_of(position);
+  if (std::abs(place - this->state_.place) > round_off)
+  {
+    this->state_.place = place;
+    this->state_.origin += (position - this->position()) * this->normal();
+    this->place_widget();
+  }
+  Q_EMIT this->moved();
+}
+
+Vec3 PlaneHandle::normal() const
+{
+  return this->state_.orientation == free_plane ? this->state_.free_normal
+                                                : Vec3(Vec3::Unit(this->state_.orientation));
+}
+
+double PlaneHandle::place_of(double position) const
+{
+  const auto [first, last] = this->positions();
+  return last > first ? std::clamp((position - first) / (last - first), 0.0, 1.0)
+                      : this->state_.place;
+}
+
+/// Move the plane to its relative position. Its arrow is drawn at the point of the plane that is
+/// nearest to the center of the box.
+void PlaneHandle::go_to_place()
+{
+  const auto [first, last] = this->positions();
+  const Vec3 middle = this->box_.empty() ? Vec3(Vec3::Zero()) : this->box_.center();
+  const Vec3 normal = this->normal();
+  const double position = first + this->state_.place * (last - first);
+  this->state_.origin = middle + (position - middle.dot(normal)) * normal;
+  this->place_widget();
+}
+
+std::pair<double, double> PlaneHandle::positions() const
+{
+  if (this->box_.empty())
+  {
+    return { 0.0, 1.0 };
+  }
+  std::pair<double, double> range{ 1e300, -1e300 };
+  const Vec3 normal = this->normal();
+  const Vec3 ends[2] = { this->box_.lower, this->box_.upper };
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Vec3 place(ends[corner & 1].x(), ends[corner >> 1 & 1].y(), ends[corner >> 2 & 1].z());
+    range.first = std::min(range.first, place.dot(normal));
+    range.second = std::max(range.second, place.dot(normal));
+  }
+  return range;
+}
+
+/// Update the widget from the plane. The widget can be rotated only if the plane is free.
+void PlaneHandle::place_widget()
+{
+  const int orientation = this->state_.orientation;
+  const bool turns = orientation == free_plane;
+  this->plane_->SetNormalToXAxis(orientation == x_axis);
+  this->plane_->SetNormalToYAxis(orientation == y_axis);
+  this->plane_->SetNormalToZAxis(orientation == z_axis);
+  this->plane_->SetNormal(this->normal().data());
+  this->plane_->SetOrigin(this->state_.origin.data());
+  const bindpose::Rgb arrow{ 0.17, 0.42, 0.66 }; // the accent color of the window
+  set_look(this->plane_->GetNormalProperty(), arrow, turns ? 1.0 : 0.0);
+  set_look(this->plane_->GetSelectedNormalProperty(), bindpose::palette::line, turns ? 1.0 : 0.0);
+  this->widget_->SetEnabled(this->shown_ && !this->box_.empty());
+}
+
+// ---- The mouse ---------------------------------------------------------------------------------
+
+void PlaneHandle::mouse_ray(Vec3& from, Vec3& along) const
+{
+  int at[2];
+  this->viewport_->interactor()->GetEventPosition(at);
+  this->viewport_->ray_at(at[0], at[1], from, along);
+}
+
+void PlaneHandle::widget_caught()
+{
+  this->before_ = this->state_;
+  this->dragged_ = true;
+  const Vec3 normal = this->normal();
+  Vec3 from;
+  Vec3 along;
+  this->mouse_ray(from, along);
+  const double slope = along.dot(normal);
+  this->grip_ = std::abs(slope) > 1e-6
+    ? Vec3(from + (this->position() - from.dot(normal)) / slope * along)
+    : this->state_.origin;
+}
+
+/// Compute the plane from the mouse. The widget would move the plane by the mouse's motion along
+/// the projected normal. This projection is short if the view direction is nearly the normal.
+/// Instead, the grabbed point moves along the plane's normal to the point that is nearest to the
+/// mouse's ray.
+void PlaneHandle::widget_moved()
+{
+  const bool pushed =
+    this->plane_->GetInteractionState() == vtkImplicitPlaneRepresentation::Pushing;
+  const double before = this->position();
+  this->plane_->GetOrigin(this->state_.origin.data());
+  if (this->state_.orientation == free_plane)
+  {
+    this->plane_->GetNormal(this->state_.free_normal.data());
+  }
+  const Vec3 normal = this->normal();
+  const auto [first, last] = this->positions();
+  double position = this->position();
+  if (pushed)
+  {
+    Vec3 from;
+    Vec3 along;
+    this->mouse_ray(from, along);
+    const double slope = along.dot(normal);
+    const double steep = 1.0 - slope * slope;
+    // If the view direction is too near to the normal, keep the widget's result.
+    if (steep > 0.01)
+    {
+      const Vec3 gap = from - this->grip_;
+      position = this->grip_.dot(normal) + (gap.dot(normal) - gap.dot(along) * slope) / steep;
+    }
+  }
+  position = std::isfinite(position) ? std::clamp(position, first, last) : before;
+  this->state_.origin += (position - this->position()) * normal;
+  this->state_.place = this->place_of(position);
+  this->plane_->SetOrigin(this->state_.origin.data());
+  Q_EMIT this->moved();
+}
+
+void PlaneHandle::widget_let_go()
+{
+  if (!this->dragged_)
+  {
+    return; // the drag was canceled
+  }
+  this->dragged_ = false;
+  const bool turned = this->state_.free_normal != this->before_.free_normal;
+  if (turned || this->state_.place != this->before_.place)
+  {
+    Q_EMIT this->dragged(turned);
+  }
+}
+
+void PlaneHandle::cancel()
+{
+  if (this->dragged_)
+  {
+    this->dragged_ = false;
+    this->state_ = this->before_;
+    // The widget has no other function to end a drag.
+    this->viewport_->interactor()->LeftButtonReleaseEvent();
+    this->place_widget();
+    Q_EMIT this->moved();
+  }
+}
+
+bool PlaneHandle::eventFilter(QObject* watched, QEvent* event)
+{
+  const bool key = event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress;
+  if (key && this->dragged_ && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape)
+  {
+    if (event->type() == QEvent::KeyPress)
+    {
+      this->cancel();
+    }
+    event->accept(); // otherwise Esc would also leave the edit mode, as a shortcut of the window
+    return true;
+  }
+  return QObject::eventFilter(watched, event);
+}

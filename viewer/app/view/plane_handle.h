@@ -1,0 +1,111 @@
+#ifndef app_view_plane_handle_h
+#define app_view_plane_handle_h
+
+#include "geometry/mesh.h"
+
+#include "vtkNew.h"
+
+#include <QObject>
+
+#include <utility>
+
+class Viewport;
+class vtkImplicitPlaneRepresentation;
+class vtkImplicitPlaneWidget2;
+
+/// A plane in the 3D view that the mouse moves along its normal. If the plane is free (not bound to
+/// an axis), the mouse also rotates it. This class draws only the outline of the plane; its owner
+/// draws the cut.
+///
+/// Three values determine the plane, independently of the box: its orientation, its normal when it
+/// is free, and its relative position in the box, a fraction from 0 to 1.
+class PlaneHandle : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// The axis to which the plane is perpendicular, or `free` for a normal that the user chooses.
+  enum Orientation
+  {
+    x_axis = 0,
+    y_axis = 1,
+    z_axis = 2,
+    free_plane = 3
+  };
+
+  PlaneHandle(Viewport* viewport, QObject* parent);
+  ~PlaneHandle() override;
+
+  /// Set the box that the plane cuts, without emitting moved(). The plane keeps its relative
+  /// position.
+  void set_box(const bindpose::Box& box);
+  /// Set whether the box is drawn around the plane (default: true).
+  void draw_box(bool drawn);
+  /// Show or hide the plane. The mouse can drag a visible plane.
+  void show(bool shown);
+
+  /// Set the orientation and keep the relative position. If the plane becomes free, its normal is
+  /// that of the last axis.
+  void set_orientation(int orientation);
+  int orientation() const { return this->state_.orientation; }
+  /// Set the unit normal that is used when the plane is free.
+  void set_free_normal(const bindpose::Vec3& normal);
+  /// Set the relative position: 0 is the smallest value of positions(), 1 the largest.
+  void set_place(double place);
+  /// Move the plane along its normal to this position, in world units. If the normal is an axis,
+  /// the position is the coordinate along the axis.
+  void set_position(double position);
+
+  double position() const { return this->state_.origin.dot(this->normal()); }
+  /// Return the smallest and the largest position at which the plane touches the box.
+  std::pair<double, double> positions() const;
+  bindpose::Vec3 origin() const { return this->state_.origin; }
+  bindpose::Vec3 normal() const;
+  /// Return the current free normal and relative position; during a drag, return the values before
+  /// the drag.
+  bindpose::Vec3 kept_free_normal() const { return this->kept().free_normal; }
+  double kept_place() const { return this->kept().place; }
+
+  /// Cancel a drag with the mouse, as Esc does.
+  void cancel();
+  bool is_dragged() const { return this->dragged_; }
+
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+Q_SIGNALS:
+  /// Emitted when the plane has moved, for any reason.
+  void moved();
+  /// Emitted when a drag has ended with another position or another normal. `turned`: the normal
+  /// has changed.
+  void dragged(bool turned);
+
+private:
+  struct State
+  {
+    int orientation = z_axis;
+    bindpose::Vec3 free_normal = bindpose::Vec3::UnitZ();
+    double place = 0.5;
+    bindpose::Vec3 origin = bindpose::Vec3::Zero(); ///< point of the plane where its arrow is drawn
+  };
+  const State& kept() const { return this->dragged_ ? this->before_ : this->state_; }
+  double place_of(double position) const;
+  void go_to_place();
+  void place_widget();
+  /// Return the line of sight through the mouse.
+  void mouse_ray(bindpose::Vec3& from, bindpose::Vec3& along) const;
+  void widget_caught();
+  void widget_moved();
+  void widget_let_go();
+
+  Viewport* viewport_;
+  bindpose::Box box_;
+  bool shown_ = false;
+  State state_;
+  State before_; ///< state before the drag
+  bool dragged_ = false;
+  bindpose::Vec3 grip_ = bindpose::Vec3::Zero(); // point of the plane that the mouse has grabbed
+  vtkNew<vtkImplicitPlaneWidget2> widget_;
+  vtkNew<vtkImplicitPlaneRepresentation> plane_;
+};
+
+#endif

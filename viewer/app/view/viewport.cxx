@@ -1,0 +1,831 @@
+#include "app/view/viewport.h"
+
+#include "app/parts/style.h"
+
+#include "pictures/legend.h"
+#include "pictures/tile_actors.h"
+#include "pictures/window_picture.h"
+#include "scene/camera.h"
+#include "scene/categories.h"
+#include "scene/coloring.h"
+#include "scene/colors.h"
+#include "scene/curves.h"
+#include "shapes/moved_surface_mapper.h"
+#include "shapes/outline.h"
+#include "shapes/shaded_surface.h"
+
+#include "conversion.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkDoubleArray.h"
+#include "vtkGenericOpenGLRenderWindow.h"
+#include "vtkHandleSetRepresentation.h"
+#include "vtkHandleSetWidget.h"
+#include "vtkImageData.h"
+#include "vtkInteractorStyleTrackballCamera.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRegionBrushRepresentation.h"
+#include "vtkRegionBrushWidget.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+#include "vtkTextActor.h"
+#include "vtkTextProperty.h"
+#include "vtkTexture.h"
+
+#include <QApplication>
+#include <QEvent>
+#include <QOpenGLContext>
+#include <QOpenGLFunctions>
+#include <QResizeEvent>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace
+{
+constexpr int smooth_samples = 4; // samples per pixel
+
+bool same_place(vtkCamera* a, vtkCamera* b)
+{
+  const auto same = [](const double* x, const double* y) { return std::equal(x, x + 3, y); };
+  return same(a->GetPosition(), b->GetPosition()) && same(a->GetFocalPoint(), b->GetFocalPoint()) &&
+    same(a->GetViewUp(), b->GetViewUp()) && a->GetParallelScale() == b->GetParallelScale() &&
+    a->GetViewAngle() == b->GetViewAngle() &&
+    a->GetParallelProjection() == b->GetParallelProjection();
+}
+
+/// Trackball camera without VTK's letter keys, because 'e' ends the program and 'w' draws
+/// wireframes.
+class CameraStyle : public vtkInteractorStyleTrackballCamera
+{
+public:
+  static CameraStyle* New();
+  vtkTypeMacro(CameraStyle, vtkInteractorStyleTrackballCamera);
+  void OnChar() override {}
+  void OnLeftButtonDown() override
+  {
+    if (!this->Flat)
+    {
+      this->vtkInteractorStyleTrackballCamera::OnLeftButtonDown();
+      return;
+    }
+    const int* at = this->Interactor->GetEventPosition();
+    this->FindPokedRenderer(at[0], at[1]);
+    this->StartPan();
+  }
+
+  bool Flat = false; ///< true: 2D mode, in which dragging pans the view
+};
+vtkStandardNewMacro(CameraStyle);
+} // namespace
+
+Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
+{
+  this->setRenderWindow(this->window_.Get());
+  this->window_->AddRenderer(this->renderer_);
+  this->window_->SetMultiSamples(smooth_samples);
+  this->setMinimumSize(320, 240);
+  this->settle_.setSingleShot(true);
+  this->settle_.setInterval(250);
+  QObject::connect(&this->settle_, &QTimer::timeout, this, &Viewport::refresh);
+  vtkNew<CameraStyle> style;
+  this->interactor()->SetInteractorStyle(style);
+
+  this->actor_->SetMapper(this->mapper_);
+  this->actor_->VisibilityOff();
+  this->renderer_->AddActor(this->actor_);
+  this->outline_ = std::make_unique<bindpose::Outline>(this->renderer_);
+  const bindpose::ColorMap map = bindpose::weight_map();
+  for (vtkPolyDataMapper* mapper :
+    { static_cast<vtkPolyDataMapper*>(this->mapper_), this->tint_mapper_.Get() })
+  {
+    mapper->ScalarVisibilityOff();
+    mapper->SetScalarModeToUsePointFieldData();
+    mapper->SetColorModeToMapScalars();
+    // sharp borders of color bands, independent of the triangles
+    mapper->InterpolateScalarsBeforeMappingOn();
+    mapper->UseLookupTableScalarRangeOn();
+    mapper->SetLookupTable(map.table);
+  }
+  this->tint_actor_->SetMapper(this->tint_mapper_);
+  this->tint_actor_->VisibilityOff();
+  this->tint_actor_->PickableOff();
+  this->tint_actor_->GetProperty()->LightingOff();
+  // The tint (the colors of values over a texture) has the same depth as the textured surface. Draw
+  // the tint in front of the surface, and isolines in front of both.
+  this->tint_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(-1.0, -1.0);
+  this->renderer_->AddActor(this->tint_actor_);
+  bindpose::use_surface_material(this->actor_);
+  bindpose::add_lights(this->renderer_);
+  this->renderer_->GradientBackgroundOn();
+  this->window_->SetNumberOfLayers(2);
+  this->legend_->SetLayer(1);
+  this->legend_->InteractiveOff();
+  this->legend_->PreserveDepthBufferOn(); // VolumeView reads the depths of the layer below
+  this->window_->AddRenderer(this->legend_);
+  this->handles_->SetInteractor(this->interactor());
+  this->handles_->CreateDefaultRepresentation();
+  this->use_appearance();
+  // Assign the widgets to this renderer. Otherwise they would use the renderer under the mouse when
+  // they are enabled.
+  this->handles_->SetDefaultRenderer(this->renderer_);
+  this->brush_->SetDefaultRenderer(this->renderer_);
+  this->brush_->SetInteractor(this->interactor());
+  this->brush_->CreateDefaultRepresentation();
+  // Disable direct rendering, so that all requests of widgets and camera during one event result in
+  // one rendering after the event.
+  this->interactor()->EnableRenderOff();
+  this->interactor()->AddObserver(vtkCommand::RenderEvent, this, &Viewport::render_wanted);
+  this->since_start_.start();
+  this->renderer_->AddObserver(vtkCommand::EndEvent, this, &Viewport::frame_drawn);
+}
+
+Viewport::~Viewport()
+{
+  // Detach the widgets, because they observe the interactor, which the base class deletes.
+  this->handles_->SetInteractor(nullptr);
+  this->brush_->SetInteractor(nullptr);
+}
+
+void Viewport::set_surface(vtkPolyData* surface)
+{
+  if (surface && this->shaded_ && this->shaded_->is_of(surface))
+  {
+    this->shaded_->take(surface);
+  }
+  else
+  {
+    this->shaded_ = surface ? std::make_unique<bindpose::ShadedSurface>(surface) : nullptr;
+    for (vtkPolyDataMapper* mapper :
+      { static_cast<vtkPolyDataMapper*>(this->mapper_), this->tint_mapper_.Get() })
+    {
+      mapper->SetInputData(surface ? this->shaded_->polydata() : nullptr);
+    }
+    this->outline_->set_shape(this->shaded_.get());
+  }
+  this->depths_.resize(0);
+  this->first_picture_ = true;
+  this->show_values(nullptr, true);
+  this->set_surface_look(this->look_);
+}
+
+void Viewport::set_surface_look(int look)
+{
+  this->look_ = look;
+  vtkProperty* property = this->actor_->GetProperty();
+  this->actor_->SetVisibility(this->shaded_ && look != hidden);
+  property->SetOpacity(look == see_through ? 0.25 : 1.0);
+  property->SetRepresentation(look == edges_only ? VTK_WIREFRAME : VTK_SURFACE);
+  property->SetLighting(look != edges_only && !this->picture_);
+  constexpr bindpose::Rgb white{ 1.0, 1.0, 1.0 };
+  const bindpose::Rgb& color = look == edges_only ? bindpose::palette::edges
+    : this->picture_                              ? white
+                                                  : bindpose::palette::surface;
+  bindpose::set_color(property, color);
+  this->outline_->show(this->outlines_ && !this->picture_ && (look == solid || look == see_through),
+    bindpose::outline_width * this->devicePixelRatioF());
+  this->show_tint();
+  // Sorting translucent triangles by depth requires one sample per pixel.
+  const bool sorts = (look == see_through || this->ghosted_) && this->shaded_;
+  this->renderer_->SetUseDepthPeeling(sorts);
+  this->renderer_->SetMaximumNumberOfPeels(6);
+  this->renderer_->SetUseFXAA(sorts);
+  this->window_->SetMultiSamples(sorts ? 0 : smooth_samples);
+  this->refresh();
+}
+
+void Viewport::show_outlines(bool shown)
+{
+  this->outlines_ = shown;
+  this->set_surface_look(this->look_);
+}
+
+void Viewport::set_picture(vtkImageData* picture)
+{
+  this->picture_ = picture;
+  vtkSmartPointer<vtkTexture> texture;
+  if (picture)
+  {
+    texture = vtkSmartPointer<vtkTexture>::New();
+    texture->SetInputData(picture);
+    texture->InterpolateOn();
+    texture->MipmapOn();
+    texture->SetColorModeToDirectScalars();
+  }
+  this->actor_->SetTexture(texture);
+  // Treat a textured shape as opaque, because it contains only the opaque part of the image. A
+  // translucent shape would need sorting by depth.
+  this->actor_->SetForceOpaque(picture != nullptr);
+  this->mapper_->ScalarVisibilityOff();
+  this->tint_mapper_->ScalarVisibilityOff();
+  if (!this->has_values_)
+  {
+    this->use_column();
+  }
+  this->set_surface_look(this->look_);
+}
+
+void Viewport::set_tint(double share)
+{
+  this->tint_ = share;
+  this->show_tint();
+  this->refresh();
+}
+
+/// Return the mapper that shows values as colors: the mapper of the tint for a textured surface,
+/// otherwise the mapper of the surface.
+vtkPolyDataMapper* Viewport::value_mapper() const
+{
+  return this->picture_ ? this->tint_mapper_.Get()
+                        : static_cast<vtkPolyDataMapper*>(this->mapper_.Get());
+}
+
+void Viewport::show_tint()
+{
+  this->tint_actor_->SetVisibility(this->picture_ && this->shaded_ && this->look_ == solid &&
+    this->tint_ > 0.0 && this->tint_mapper_->GetScalarVisibility());
+  // Sorting by depth is not necessary, because the opaque textured surface hides everything behind
+  // it.
+  this->tint_actor_->GetProperty()->SetOpacity(this->tint_);
+}
+
+void Viewport::set_plane(const std::optional<bindpose::Vec3>& normal)
+{
+  this->plane_ = normal;
+  CameraStyle::SafeDownCast(this->interactor()->GetInteractorStyle())->Flat = normal.has_value();
+  this->renderer_->GetActiveCamera()->SetParallelProjection(normal.has_value());
+}
+
+void Viewport::set_curves(vtkPolyData* curves)
+{
+  for (const auto& actor : this->curves_)
+  {
+    this->renderer_->RemoveActor(actor);
+  }
+  this->curves_.clear();
+  this->curve_data_ = curves;
+  if (curves)
+  {
+    double bounds[6];
+    curves->GetBounds(bounds);
+    bindpose::Box box = this->also_shown_;
+    box.add(bindpose::Vec3(bounds[0], bounds[2], bounds[4]));
+    box.add(bindpose::Vec3(bounds[1], bounds[3], bounds[5]));
+    this->curves_ =
+      bindpose::make_curves(curves, 0.0025 * box.diagonal(), 1.5 * this->devicePixelRatioF());
+    for (const auto& actor : this->curves_)
+    {
+      this->renderer_->AddActor(actor);
+    }
+  }
+  this->refresh();
+}
+
+void Viewport::show_curves(bool shown)
+{
+  for (const auto& actor : this->curves_)
+  {
+    actor->SetVisibility(shown);
+  }
+}
+
+void Viewport::show_legend(LegendPlace place, const QString& name, const bindpose::ColorMap& map)
+{
+  this->legends_.erase(place);
+  if (!name.isEmpty())
+  {
+    this->legends_[place] = { name, map };
+  }
+  this->draw_legend();
+  this->refresh();
+}
+
+QString Viewport::legend(LegendPlace place) const
+{
+  const auto found = this->legends_.find(place);
+  return found == this->legends_.end() ? QString() : found->second.first;
+}
+
+void Viewport::set_also_shown(const bindpose::Box& box)
+{
+  this->also_shown_ = box;
+}
+
+void Viewport::move_surface(vtkPolyData* posed)
+{
+  this->move_surface(bindpose::to_points(posed).view());
+}
+
+void Viewport::move_surface(bindpose::PointsView points)
+{
+  if (this->shaded_)
+  {
+    this->move_shape(*this->shaded_, points);
+  }
+}
+
+void Viewport::move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView points) const
+{
+  if (this->depths_.size() != points.rows())
+  {
+    shape.move(points);
+    return;
+  }
+  bindpose::Points drawn = points;
+  drawn += this->depths_ * this->toward_.transpose();
+  shape.move(drawn);
+}
+
+void Viewport::set_ghosted(bool ghosted)
+{
+  this->ghosted_ = ghosted;
+  this->set_surface_look(this->look_);
+}
+
+void Viewport::set_split(vtkRenderer* beside, vtkPolyData* shape)
+{
+  const double before = this->aspect_of(this->size());
+  this->shape_beside_ = shape;
+  if (beside != this->beside_)
+  {
+    this->beside_ = beside;
+    this->renderer_->SetViewport(0.0, 0.0, beside ? 0.5 : 1.0, 1.0);
+    this->use_appearance();
+    this->draw_legend();
+    // If the user has not moved the camera, restore the camera from before the split.
+    vtkCamera* camera = this->renderer_->GetActiveCamera();
+    if (!beside && same_place(camera, this->split_camera_))
+    {
+      camera->DeepCopy(this->whole_camera_);
+      this->renderer_->ResetCameraClippingRange();
+    }
+    else
+    {
+      this->whole_camera_->DeepCopy(camera);
+      this->keep_in_view(before);
+      this->split_camera_->DeepCopy(camera);
+    }
+  }
+  this->refresh();
+}
+
+void Viewport::name_halves(const QString& left, const QString& right)
+{
+  if (left != this->left_name_ || right != this->right_name_)
+  {
+    this->left_name_ = left;
+    this->right_name_ = right;
+    this->draw_legend();
+    this->refresh();
+  }
+}
+
+void Viewport::name_state(const QString& state)
+{
+  if (state != this->state_name_)
+  {
+    this->state_name_ = state;
+    this->draw_legend();
+    this->refresh();
+  }
+}
+
+/// Return the aspect ratio of the half that shows the surface, or of the whole view if it is not
+/// split.
+double Viewport::aspect_of(const QSize& size) const
+{
+  return (this->beside_ ? 0.5 : 1.0) * size.width() / std::max(size.height(), 1);
+}
+
+void Viewport::keep_in_view(double aspect_before)
+{
+  const std::vector<bindpose::Vec3> places = this->places_to_see();
+  if (!places.empty())
+  {
+    const Eigen::Map<const bindpose::Points> points(
+      places.front().data(), static_cast<bindpose::Index>(places.size()), 3);
+    bindpose::keep_in_view(
+      this->renderer_->GetActiveCamera(), points, aspect_before, this->aspect_of(this->size()));
+    this->renderer_->ResetCameraClippingRange();
+  }
+}
+
+double Viewport::upload_microseconds() const
+{
+  return this->mapper_->upload_microseconds();
+}
+
+void Viewport::frame_drawn()
+{
+  const double now = 1e-9 * static_cast<double>(this->since_start_.nsecsElapsed());
+  const double seconds = now - this->last_drawn_;
+  this->frame_seconds_ = seconds > 0.5 ? 0.0
+    : this->frame_seconds_ > 0.0       ? 0.8 * this->frame_seconds_ + 0.2 * seconds
+                                       : seconds;
+  this->last_drawn_ = now;
+}
+
+double Viewport::frames_per_second() const
+{
+  return this->frame_seconds_ > 0.0 ? 1.0 / this->frame_seconds_ : 0.0;
+}
+
+void Viewport::show_column(int column, const QString& name)
+{
+  this->column_ = column;
+  this->column_name_ = column < 0 ? QString() : name;
+  if (!this->has_values_)
+  {
+    this->use_column();
+  }
+  this->draw_legend();
+  this->refresh();
+}
+
+void Viewport::use_column()
+{
+  vtkPolyDataMapper* mapper = this->value_mapper();
+  mapper->SetScalarVisibility(this->column_ >= 0);
+  if (this->column_ >= 0)
+  {
+    mapper->SetScalarModeToUsePointFieldData();
+    mapper->InterpolateScalarsBeforeMappingOn();
+    mapper->SetLookupTable(bindpose::weight_map().table);
+    mapper->SelectColorArray("Weights");
+    mapper->SetArrayComponent(this->column_);
+    // The mapper uses its array component only if the lookup table is in component mode.
+    mapper->GetLookupTable()->SetVectorModeToComponent();
+    mapper->GetLookupTable()->SetVectorComponent(this->column_);
+  }
+  this->show_tint();
+}
+
+vtkPolyData* Viewport::drawn() const
+{
+  return this->shaded_ ? this->shaded_->polydata() : nullptr;
+}
+
+const std::vector<bindpose::Index>& Viewport::drawn_points() const
+{
+  static const std::vector<bindpose::Index> none;
+  return this->shaded_ ? this->shaded_->input_points() : none;
+}
+
+void Viewport::show_values(
+  vtkDoubleArray* values, bool on_points, const QString& name, const bindpose::ColorMap& map)
+{
+  vtkPolyDataMapper* mapper = this->value_mapper();
+  this->has_values_ = this->shaded_ && !name.isEmpty();
+  if (this->has_values_ && !values)
+  {
+    mapper->ScalarVisibilityOff();
+  }
+  else if (this->has_values_)
+  {
+    vtkPolyData* drawn = this->drawn();
+    drawn->GetPointData()->RemoveArray(bindpose::color_array_name);
+    drawn->GetCellData()->RemoveArray(bindpose::color_array_name);
+    values->SetName(bindpose::color_array_name);
+    if (on_points)
+    {
+      drawn->GetPointData()->AddArray(values);
+      mapper->SetScalarModeToUsePointFieldData();
+    }
+    else
+    {
+      drawn->GetCellData()->AddArray(values);
+      mapper->SetScalarModeToUseCellFieldData();
+    }
+    mapper->SetInterpolateScalarsBeforeMapping(on_points);
+    mapper->SetLookupTable(map.table);
+    mapper->SelectColorArray(bindpose::color_array_name);
+    mapper->SetArrayComponent(0);
+    mapper->ScalarVisibilityOn();
+  }
+  else
+  {
+    this->use_column();
+  }
+  this->show_tint();
+  this->show_legend(weight_legend, this->has_values_ ? name : QString(), map);
+}
+
+bool Viewport::shows(vtkDoubleArray* values) const
+{
+  vtkPolyData* drawn = this->drawn();
+  return values && drawn && this->has_values_ &&
+    (drawn->GetPointData()->GetArray(bindpose::color_array_name) == values ||
+      drawn->GetCellData()->GetArray(bindpose::color_array_name) == values);
+}
+
+void Viewport::use_appearance()
+{
+  using namespace bindpose::palette;
+  const bindpose::Rgb& below = is_dark() ? dark_gradient_bottom : gradient_bottom;
+  const bindpose::Rgb& above = is_dark() ? dark_gradient_top : gradient_top;
+  for (vtkRenderer* renderer : { this->renderer_.Get(), this->beside_ })
+  {
+    if (renderer)
+    {
+      renderer->SetBackground(below[0], below[1], below[2]);
+      renderer->SetBackground2(above[0], above[1], above[2]);
+    }
+  }
+  const bindpose::Rgb& ink = is_dark() ? dark_text : text;
+  const bindpose::Rgb& plate = is_dark() ? dark_gradient_bottom : white;
+  vtkTextProperty* name = this->handles_->GetHandleSetRepresentation()->GetLabelTextProperty();
+  name->SetColor(ink[0], ink[1], ink[2]);
+  name->SetBackgroundColor(plate[0], plate[1], plate[2]);
+}
+
+void Viewport::changeEvent(QEvent* event)
+{
+  QVTKOpenGLNativeWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange)
+  {
+    this->use_appearance();
+    this->draw_legend();
+    this->refresh();
+  }
+}
+
+void Viewport::draw_legend()
+{
+  this->legend_->RemoveAllViewProps();
+  const double scale = this->pixel_scale();
+  const int font = static_cast<int>(13 * scale);
+  bindpose::PixelBox box;
+  box.x = static_cast<int>(20 * scale);
+  box.y = static_cast<int>(24 * scale);
+  // The number of lines determines the height of a legend with texts. If there are too many lines,
+  // the last line states how many are omitted. `line` is the height of a line and `around` the
+  // total margin, both in units of the font size.
+  constexpr double line = 1.7, around = 2.5;
+  const double room = scale * this->height() - 2 * box.y;
+  const int most = std::max(2, static_cast<int>((room / font - around) / line));
+  const auto add = [&](const bindpose::ColorMap& all, const QString& name)
+  {
+    const bindpose::ColorMap map = bindpose::shortened(all, most);
+    box.height = map.texts.empty() && !map.ticks.empty()
+      ? static_cast<int>(240 * scale)
+      : static_cast<int>((around + line * static_cast<double>(map.texts.size())) * font);
+    box.width = bindpose::legend_width(map, name.toStdString(), font);
+    bindpose::add_legend(this->legend_, map, name.toStdString(), box, font,
+      is_dark() ? bindpose::palette::dark_text : bindpose::palette::text);
+    box.x += box.width + 2 * font;
+  };
+  if (!this->column_name_.isEmpty() && !this->has_values_)
+  {
+    add(bindpose::weight_map(), this->column_name_);
+  }
+  for (const auto& [place, legend] : this->legends_)
+  {
+    add(legend.second, legend.first);
+  }
+  if (this->beside_)
+  {
+    // at the lower edge, where the names cover no shape
+    this->add_name(0.25, 14.0, this->left_name_);
+    this->add_name(0.75, 14.0, this->right_name_);
+  }
+  if (!this->state_name_.isEmpty())
+  {
+    constexpr double below_a_bar = 64.0; // pixels from the top, below a bar
+    this->add_name(0.5, this->height() - below_a_bar, this->state_name_);
+  }
+}
+
+/// Add a centered text at a fraction of the width, and `above` Qt pixels above the lower edge.
+void Viewport::add_name(double middle, double above, const QString& name)
+{
+  const double scale = this->pixel_scale();
+  vtkNew<vtkTextActor> text;
+  text->SetInput(name.toUtf8().constData());
+  vtkTextProperty* font = text->GetTextProperty();
+  font->SetFontSize(static_cast<int>(14 * scale));
+  font->SetJustificationToCentered();
+  const bindpose::Rgb& color = is_dark() ? bindpose::palette::dark_text : bindpose::palette::text;
+  font->SetColor(color[0], color[1], color[2]);
+  text->SetPosition(std::round(middle * scale * this->width()), std::round(above * scale));
+  this->legend_->AddViewProp(text);
+}
+
+void Viewport::resizeEvent(QResizeEvent* event)
+{
+  // Set a fixed resolution, because VTK would otherwise also scale texts by the screen's dots per
+  // inch. All sizes here are in Qt pixels.
+  constexpr double text_dpi = 72.0;
+  this->setUnscaledDPI(static_cast<int>(std::lround(text_dpi / this->devicePixelRatioF())));
+  this->resizing_ = true;
+  QVTKOpenGLNativeWidget::resizeEvent(event);
+  this->resizing_ = false;
+  this->update();
+  if (this->beside_ && event->oldSize().isValid())
+  {
+    this->keep_in_view(this->aspect_of(event->oldSize()));
+  }
+  this->set_pixel_scale();
+}
+
+void Viewport::initializeGL()
+{
+  QVTKOpenGLNativeWidget::initializeGL();
+  const auto* name =
+    reinterpret_cast<const char*>(this->context()->functions()->glGetString(GL_RENDERER));
+  const QString renderer = QString::fromLatin1(name ? name : "");
+  this->draws_on_processor_ = renderer.contains("llvmpipe") || renderer.contains("softpipe") ||
+    renderer.contains("Software") || renderer.contains("SWR");
+}
+
+/// Qt paints during every resize, and the layout of a new window resizes the view several times.
+/// Only the last size is painted, together with the window.
+void Viewport::paintGL()
+{
+  if (!this->resizing_)
+  {
+    this->interactor()->EnableRenderOn();
+    QVTKOpenGLNativeWidget::paintGL();
+    this->interactor()->EnableRenderOff();
+  }
+}
+
+void Viewport::render_wanted()
+{
+  // rendering is enabled only in paintGL()
+  if (!this->interactor()->GetEnableRender())
+  {
+    this->refresh();
+  }
+}
+
+/// Return points of everything that the view must contain.
+std::vector<bindpose::Vec3> Viewport::places_to_see() const
+{
+  // The handles are included only if there is nothing else to show.
+  std::vector<vtkPolyData*> shown;
+  for (vtkPolyData* candidate : { this->shaded_ ? this->shaded_->polydata() : nullptr,
+         this->curve_data_.Get(), this->beside_ ? this->shape_beside_.Get() : nullptr })
+  {
+    if (candidate && candidate->GetNumberOfPoints() > 0)
+    {
+      shown.push_back(candidate);
+    }
+  }
+  vtkPolyData* handles = this->handles_->GetHandles();
+  if (shown.empty() && this->also_shown_.empty() && handles && handles->GetNumberOfPoints() > 0)
+  {
+    shown.push_back(handles);
+  }
+  std::vector<bindpose::Vec3> places;
+  for (vtkPolyData* polydata : shown)
+  {
+    const bindpose::SharedMatrix<bindpose::Points> points = bindpose::to_points(polydata);
+    for (bindpose::Index v = 0; v < points.view().rows(); ++v)
+    {
+      places.emplace_back(points.view().row(v).transpose());
+    }
+  }
+  if (!this->also_shown_.empty())
+  {
+    const bindpose::Vec3 ends[2] = { this->also_shown_.lower, this->also_shown_.upper };
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      places.emplace_back(
+        ends[corner & 1].x(), ends[corner >> 1 & 1].y(), ends[corner >> 2 & 1].z());
+    }
+  }
+  return places;
+}
+
+void Viewport::reset_view()
+{
+  const std::vector<bindpose::Vec3> places = this->places_to_see();
+  if (places.empty())
+  {
+    return;
+  }
+  const Eigen::Map<const bindpose::Points> points(
+    places.front().data(), static_cast<bindpose::Index>(places.size()), 3);
+  vtkCamera* camera = this->renderer_->GetActiveCamera();
+  const double aspect = this->aspect_of(this->size());
+  if (this->plane_)
+  {
+    bindpose::fit_parallel_camera(camera, points, *this->plane_, aspect, 0.12);
+    this->renderer_->ResetCameraClippingRange();
+    return;
+  }
+  const bindpose::View view;
+  const bindpose::Frame frame = bindpose::choose_frame(bindpose::bounding_box(points), view.up);
+  bindpose::fit_camera(camera, points, frame, view, aspect, 0.12);
+  this->renderer_->ResetCameraClippingRange();
+}
+
+QPoint Viewport::to_vtk(const QPoint& place) const
+{
+  const double scale = this->devicePixelRatioF();
+  return { static_cast<int>(scale * place.x()),
+    static_cast<int>(scale * (this->height() - 1 - place.y())) };
+}
+
+void Viewport::ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along) const
+{
+  const auto world = [&](double depth)
+  {
+    this->renderer_->SetDisplayPoint(x + 0.5, y + 0.5, depth);
+    this->renderer_->DisplayToWorld();
+    return bindpose::Vec3(
+      Eigen::Map<const Eigen::Vector4d>(this->renderer_->GetWorldPoint()).hnormalized());
+  };
+  from = world(0.0);
+  along = (world(1.0) - from).normalized();
+}
+
+void Viewport::set_handles(vtkPolyData* handles, bool used)
+{
+  this->handles_->SetHandles(handles);
+  this->handles_->SetEnabled(used);
+}
+
+void Viewport::refresh()
+{
+  if (this->refresh_pending_)
+  {
+    return;
+  }
+  this->refresh_pending_ = true;
+  QTimer::singleShot(0, this,
+    [this]
+    {
+      this->refresh_pending_ = false;
+      // During a drag, for example of a slider, a cloud (volume rendering) is drawn coarsely. It is
+      // drawn again when the drag ends.
+      const bool dragging = QApplication::mouseButtons() != Qt::NoButton;
+      this->window_->SetDesiredUpdateRate(dragging ? this->interactor()->GetDesiredUpdateRate()
+                                                   : this->interactor()->GetStillUpdateRate());
+      const int samples = this->window_->GetMultiSamples();
+      const bool coarse = this->draws_on_processor_ && samples > 0 &&
+        (dragging || std::exchange(this->first_picture_, false));
+      this->window_->SetMultiSamples(coarse ? 0 : samples);
+      this->window_->Render();
+      // restore the samples for code that renders without refresh()
+      this->window_->SetMultiSamples(samples);
+      if (dragging || coarse)
+      {
+        this->settle_.start();
+      }
+    });
+}
+
+// ---- Pictures ----------------------------------------------------------------------------------
+
+QSize Viewport::picture_size(int scale) const
+{
+  const int* size = this->window_->GetSize();
+  return scale * QSize(size[0], size[1]);
+}
+
+/// Return the number of rendered pixels per Qt pixel.
+double Viewport::pixel_scale() const
+{
+  return this->picture_scale_ * this->devicePixelRatioF();
+}
+
+void Viewport::set_pixel_scale()
+{
+  this->handles_->GetHandleSetRepresentation()->SetPixelScale(this->pixel_scale());
+  this->brush_->GetRegionBrushRepresentation()->SetPixelScale(this->pixel_scale());
+  this->draw_legend();
+}
+
+bindpose::Status Viewport::take_picture(
+  int scale, bool transparent, vtkSmartPointer<vtkImageData>& picture)
+{
+  const QSize size = this->picture_size(scale);
+  bindpose::WindowPicture wanted;
+  wanted.width = size.width();
+  wanted.height = size.height();
+  wanted.transparent = transparent;
+  this->window_->Render(); // apply all changes since the last rendering
+  const bool smoothed = this->renderer_->GetUseFXAA();
+  // switch off the driver's antialiasing, because samples are averaged instead
+  this->renderer_->UseFXAAOff();
+  this->picture_scale_ = scale * wanted.samples;
+  this->set_pixel_scale();
+  bindpose::Status status;
+  {
+    const bindpose::ScaledLines lines(this->window_, this->picture_scale_);
+    status = bindpose::draw_in_tiles(this->window_, wanted, picture);
+  }
+  this->picture_scale_ = 1.0;
+  this->set_pixel_scale();
+  this->renderer_->SetUseFXAA(smoothed);
+  this->window_->Render();
+  return status;
+}

@@ -1,0 +1,236 @@
+#ifndef app_view_viewport_h
+#define app_view_viewport_h
+
+#include <QElapsedTimer>
+#include <QTimer>
+#include <QVTKOpenGLNativeWidget.h>
+
+#include "base/status.h"
+#include "geometry/mesh.h"
+#include "scene/colors.h"
+
+#include "vtkNew.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkSmartPointer.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace bindpose
+{
+class Outline;
+class MovedSurfaceMapper;
+class ShadedSurface;
+} // namespace bindpose
+class vtkActor;
+class vtkCamera;
+class vtkDoubleArray;
+class vtkGenericOpenGLRenderWindow;
+class vtkHandleSetWidget;
+class vtkImageData;
+class vtkPolyData;
+class vtkRegionBrushWidget;
+class vtkRenderer;
+
+/// The 3D view of the window. It shows one surface, shaded or colored by a column of its weights.
+/// Handles, which the mouse drags, are drawn on top. It also shows curves; VolumeView adds the
+/// parts of a volume.
+class Viewport : public QVTKOpenGLNativeWidget
+{
+  Q_OBJECT
+
+public:
+  enum SurfaceLook
+  {
+    solid = 0,
+    see_through = 1,
+    edges_only = 2,
+    hidden = 3
+  };
+
+  explicit Viewport(QWidget* parent = nullptr);
+  ~Viewport() override;
+
+  /// Set the surface to draw; null: no surface. The camera is unchanged.
+  void set_surface(vtkPolyData* surface);
+  /// Move the points of the surface to those of `posed`, a pose of the same surface.
+  void move_surface(vtkPolyData* posed);
+  void move_surface(bindpose::PointsView points);
+  /// Move the points of another drawn shape with the same points and cells, for example the ghost.
+  void move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView points) const;
+  /// Set the offset of each point along a unit vector toward the eye. In a planar shape the offsets
+  /// determine which parts are in front. They are valid until the next set_surface(); an empty
+  /// vector removes them.
+  void set_depths(const Eigen::VectorXd& depths, const bindpose::Vec3& toward)
+  {
+    this->depths_ = depths;
+    this->toward_ = toward;
+  }
+  /// Set whether a translucent shape is drawn over the surface. Both shapes are then sorted by
+  /// depth.
+  void set_ghosted(bool ghosted);
+  /// Draw the surface only in the left half of the view. The renderer `beside` has the right half
+  /// and the same camera; `shape`, which it shows, is kept in view too. Null, null: use the whole
+  /// view. Everything that was visible in the whole view is visible in the half.
+  void set_split(vtkRenderer* beside, vtkPolyData* shape);
+  bool is_split() const { return this->beside_ != nullptr; }
+  /// Show a text at the top of the view that names the displayed shape, if it is not the posed
+  /// shape; empty: no text.
+  void name_state(const QString& state);
+  QString state_name() const { return this->state_name_; }
+  /// Set the names below the halves.
+  void name_halves(const QString& left, const QString& right);
+  /// Return the microseconds that it took to upload the last drawn change of points to the graphics
+  /// card.
+  double upload_microseconds() const;
+  /// Return the frames per second if the last two frames were drawn within half a second; otherwise
+  /// 0.
+  double frames_per_second() const;
+  /// Set the handles that the mouse moves and edits. The widget is enabled if `used` is true.
+  void set_handles(vtkPolyData* handles, bool used);
+  /// Color the surface by a column of the array Weights, with its name on the scalar bar; -1: plain
+  /// shading.
+  void show_column(int column, const QString& name);
+  /// Color by values of the points or cells of drawn() instead of a column, with a name on the
+  /// scalar bar. With null values only the scalar bar is shown. Without a name the column is shown
+  /// again. set_surface() removes the colors.
+  void show_values(vtkDoubleArray* values, bool on_points, const QString& name = QString(),
+    const bindpose::ColorMap& map = {});
+  /// Report whether the surface is colored by these values.
+  bool shows(vtkDoubleArray* values) const;
+  /// Return the displayed column; -1: none.
+  int shown_column() const { return this->column_; }
+  /// Return the surface as drawn, with the arrays of set_surface(); null without a surface.
+  vtkPolyData* drawn() const;
+  const bindpose::ShadedSurface* shaded() const { return this->shaded_.get(); }
+  /// Return the index of the surface's point for each point of drawn().
+  const std::vector<bindpose::Index>& drawn_points() const;
+  void set_surface_look(int look);
+  int surface_look() const { return this->look_; }
+  /// Show or hide silhouette lines. Textured surfaces have none.
+  void show_outlines(bool shown);
+  bool has_outlines() const { return this->outlines_; }
+  /// Set the image that is the texture of the surface. Colors of weights are drawn over it. Null:
+  /// no texture.
+  void set_picture(vtkImageData* picture);
+  bool has_picture() const { return this->picture_ != nullptr; }
+  /// Set the opacity of the colors over a texture, from 0 (only the texture) to 1 (only the
+  /// colors).
+  void set_tint(double share);
+  double tint() const { return this->tint_; }
+  /// Set the 2D mode: a parallel projection onto the plane perpendicular to this unit vector, which
+  /// points to the eye. Dragging pans the view. An empty value ends the 2D mode, and the view can
+  /// be rotated. The camera is unchanged until reset_view().
+  void set_plane(const std::optional<bindpose::Vec3>& normal);
+  bool is_flat() const { return this->plane_.has_value(); }
+  /// Set curves, which are drawn as tubes; null: no curves.
+  void set_curves(vtkPolyData* curves);
+  /// Show or hide the curves, which belong to the shape at rest.
+  void show_curves(bool shown);
+  /// The positions of the legends that are shown in addition to that of the column. An empty name
+  /// removes a legend.
+  enum LegendPlace
+  {
+    weight_legend,
+    extremum_legend,
+    volume_legend,
+    tet_legend,
+    defect_legend
+  };
+  void show_legend(LegendPlace place, const QString& name, const bindpose::ColorMap& map = {});
+  /// Return the name of the legend at that position; empty: no legend.
+  QString legend(LegendPlace place) const;
+  /// Set a box that reset_view() shows in addition to surface and curves; an empty box removes it.
+  void set_also_shown(const bindpose::Box& box);
+  /// Reset the camera: show everything, seen from the direction in which it appears largest.
+  void reset_view();
+  /// Request that the view is drawn again; several requests result in one rendering. With software
+  /// rendering, moving shapes and new surfaces are drawn without antialiasing, in a fifth of the
+  /// time. A quarter of a second later they are drawn again with antialiasing.
+  void refresh();
+  /// Render an image of the view with `scale` times the number of pixels in each direction, 1 to 8.
+  /// Lines, points, text and scalar bars are scaled, too. A transparent background has no color
+  /// where nothing is drawn.
+  bindpose::Status take_picture(
+    int scale, bool transparent, vtkSmartPointer<vtkImageData>& picture);
+  /// Return the size in pixels of the image that take_picture() returns.
+  QSize picture_size(int scale) const;
+
+  vtkHandleSetWidget* handle_widget() const { return this->handles_; }
+  vtkRegionBrushWidget* brush_widget() const { return this->brush_; }
+  /// Convert a Qt position to VTK's pixels, counted from the lower left corner.
+  QPoint to_vtk(const QPoint& place) const;
+  /// Return the line of sight through a pixel in VTK's coordinates (from the lower left corner):
+  /// its start on the near clipping plane, and its unit direction.
+  void ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along) const;
+  vtkRenderer* renderer() const { return this->renderer_; }
+  vtkActor* surface_actor() const { return this->actor_; }
+
+protected:
+  void resizeEvent(QResizeEvent* event) override;
+  void initializeGL() override;
+  void paintGL() override;
+  void changeEvent(QEvent* event) override;
+
+private:
+  void use_appearance();
+  void draw_legend();
+  void add_name(double middle, double above, const QString& name);
+  double aspect_of(const QSize& size) const;
+  std::vector<bindpose::Vec3> places_to_see() const;
+  void keep_in_view(double aspect_before);
+  void frame_drawn();
+  void render_wanted();
+  void use_column();
+  vtkPolyDataMapper* value_mapper() const;
+  void show_tint();
+  double pixel_scale() const;
+  void set_pixel_scale();
+
+  vtkNew<vtkGenericOpenGLRenderWindow> window_;
+  vtkNew<vtkRenderer> renderer_;
+  vtkNew<bindpose::MovedSurfaceMapper> mapper_;
+  vtkNew<vtkActor> actor_;
+  vtkNew<vtkRenderer> legend_; // renderer of the color scale, in front and on the left
+  // cameras before and after the view was split into halves
+  vtkNew<vtkCamera> whole_camera_, split_camera_;
+  vtkNew<vtkHandleSetWidget> handles_;
+  vtkNew<vtkRegionBrushWidget> brush_;
+  std::unique_ptr<bindpose::ShadedSurface> shaded_;
+  std::unique_ptr<bindpose::Outline> outline_;
+  bool outlines_ = true;
+  Eigen::VectorXd depths_;
+  bindpose::Vec3 toward_ = bindpose::Vec3::UnitZ();
+  std::optional<bindpose::Vec3> plane_;
+  // For a textured surface: draws the same surface again, in the colors of its values.
+  vtkNew<vtkPolyDataMapper> tint_mapper_;
+  vtkNew<vtkActor> tint_actor_;
+  double tint_ = 0.5;
+  vtkSmartPointer<vtkImageData> picture_;
+  std::vector<vtkSmartPointer<vtkActor>> curves_;
+  vtkSmartPointer<vtkPolyData> curve_data_;
+  bindpose::Box also_shown_;
+  int column_ = -1;
+  QString column_name_;
+  bool has_values_ = false; // true: values are displayed instead of the column
+  std::map<LegendPlace, std::pair<QString, bindpose::ColorMap>> legends_;
+  int look_ = solid;
+  bool ghosted_ = false;
+  vtkRenderer* beside_ = nullptr; // renderer of the right half; null: the view is not split
+  vtkSmartPointer<vtkPolyData> shape_beside_;
+  QString left_name_, right_name_, state_name_;
+  QElapsedTimer since_start_;
+  // time of the last frame and smoothed time between frames, in seconds
+  double last_drawn_ = -1e9, frame_seconds_ = 0.0;
+  // Pixels per pixel of the window while take_picture() renders an image; otherwise 1.
+  double picture_scale_ = 1.0;
+  bool refresh_pending_ = false;
+  bool resizing_ = false;
+  bool draws_on_processor_ = false;
+  bool first_picture_ = false; // true: the next frame is the first frame of its surface
+  QTimer settle_; // single-shot timer that starts after a drag
+};
+
+#endif

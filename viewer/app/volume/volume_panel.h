@@ -1,0 +1,73 @@
+#ifndef app_volume_volume_panel_h
+#define app_volume_volume_panel_h
+
+#include <QFrame>
+
+class QButtonGroup;
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class ValueRow;
+
+/// The panel to the right of the 3D view for a volume of winding numbers. With it the user computes
+/// the volume of a surface, and shows the volume as a slice, an isosurface and a cloud (volume
+/// rendering). It also determines how the surface is drawn. Like SidePanel it emits signals when
+/// the user requests something, and has no state of the work.
+class VolumePanel : public QFrame
+{
+  Q_OBJECT
+
+public:
+  explicit VolumePanel(QWidget* parent = nullptr);
+
+  /// Set the state that determines which widgets are enabled.
+  void set_state(bool has_surface, bool computing, bool has_volume);
+  void set_progress(double fraction, const QString& phase);
+  /// Set a line of text about the current or the last computation.
+  void set_note(const QString& text);
+  /// Return the number of samples along the longest side of the next volume.
+  int samples() const;
+  /// Set the range of a new volume's values. The level becomes 0.5, or the nearest value in the
+  /// range.
+  void set_values(double lowest, double highest);
+  void set_position(double position, double lowest, double highest);
+  void set_area(double area);
+  double level() const;
+  int surface_look() const;
+
+Q_SIGNALS:
+  void compute_wanted();
+  void cancel_wanted();
+  void slice_wanted(bool shown);
+  void orientation_chosen(int orientation); ///< orientation: one of PlaneHandle::Orientation
+  void position_chosen(double position);
+  void isosurface_wanted(bool shown);
+  void level_chosen(double level);
+  void cloud_wanted(bool shown);
+  void surface_look_chosen(int look); ///< look: one of Viewport::SurfaceLook
+  void close_wanted();
+
+private:
+  void enable();
+
+  QComboBox* samples_;
+  QPushButton* compute_;
+  QPushButton* cancel_;
+  QProgressBar* bar_;
+  QLabel* note_;
+  QCheckBox* slice_;
+  QButtonGroup* orientations_;
+  ValueRow* position_;
+  QCheckBox* isosurface_;
+  ValueRow* level_;
+  QLabel* area_;
+  QCheckBox* cloud_;
+  QLabel* surface_heading_;
+  QComboBox* surface_;
+  QPushButton* close_;
+  bool has_volume_ = false;
+};
+
+#endif

@@ -1,0 +1,77 @@
+// Computes weights in the background. The kernels run on copies of the data, with one execution
+// context.
+#include "app/weights/bind_job.h"
+
+#include "base/execution.h"
+
+#include <functional>
+#include <memory>
+
+using namespace bindpose;
+
+namespace
+{
+void run_bind(const BindInput& input, const std::function<void(const Weights&)>& preview,
+  ExecutionContext& context, BindResult& result)
+{
+  SurfaceWeightsOptions options;
+  options.keep_raw = true; // the weight panel shows row sums, which need the raw weights
+  options.places = input.handle_places;
+  options.domain = input.domain;
+  if (input.preview)
+  {
+    options.preview = preview;
+  }
+  const WeightsMethod method =
+    [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
+  { return input.method->kernel(problem, {}, of_method, weights); };
+  SurfaceWeights weights;
+  result.status = surface_weights(input.surface.points, input.surface.triangles,
+    input.region_of_vertex, input.handles, options, {}, method, context, weights);
+  result.weights = std::move(weights.weights);
+  result.raw = std::move(weights.raw);
+  result.domain = weights.domain;
+  result.mesh = std::move(weights.problem.mesh.domain);
+  result.solved = std::move(weights.solved);
+}
+} // namespace
+
+BindJob::BindJob(QObject* parent) : QObject(parent)
+{
+  QObject::connect(&this->job_, &KernelJob::progress, this, &BindJob::progress);
+}
+
+void BindJob::start(BindInput input)
+{
+  if (this->is_running())
+  {
+    return;
+  }
+  auto made = std::make_shared<BindResult>();
+  QObject::disconnect(&this->job_, &KernelJob::finished, this, nullptr);
+  QObject::connect(&this->job_, &KernelJob::finished, this,
+    [this, made]
+    {
+      this->result_ = BindResult();
+      if (this->job_.status().code != StatusCode::canceled)
+      {
+        this->result_ = std::move(*made);
+      }
+      this->result_.status = this->job_.status();
+      Q_EMIT this->finished();
+    });
+  this->job_.start(
+    [this, made, input = std::move(input)](ExecutionContext& context)
+    {
+      run_bind(
+        input,
+        [this](const Weights& weights)
+        {
+          const auto copy = std::make_shared<const Weights>(weights);
+          QMetaObject::invokeMethod(
+            this, [this, copy] { Q_EMIT this->preview(*copy); }, Qt::QueuedConnection);
+        },
+        context, *made);
+      return made->status;
+    });
+}

@@ -1,0 +1,60 @@
+#ifndef app_weights_binding_h
+#define app_weights_binding_h
+
+#include "app/weights/bind_job.h"
+
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <QObject>
+
+class Document;
+class NoticeBar;
+class SidePanel;
+
+/// Binds the document's surface to its handles in the background. The bind first returns preview
+/// weights, then certified weights, which become an undo step of the document. After changes of
+/// handles another bind is offered to the user, but never started automatically.
+class Binding : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// `panel` shows the progress and the result; `bar` offers another bind.
+  Binding(Document* document, SidePanel* panel, NoticeBar* bar, QObject* parent);
+
+  /// Start a bind with the panel's method and domain. Does nothing without a surface and handles,
+  /// or while a bind runs.
+  void start();
+  void cancel() { this->job_->cancel(); }
+  bool is_running() const { return this->job_->is_running(); }
+
+  /// Convert surface and handles to the kernels' input. If these are invalid, emit failed() and
+  /// return false.
+  bool make_input(BindInput& input);
+  /// Offer another bind if the handles have changed since the last bind, once for each reason.
+  void offer_again();
+
+Q_SIGNALS:
+  /// Emitted when a bind has begun or ended, before its result is shown.
+  void changed();
+  /// Emitted when the document has new weights.
+  void bound();
+  void failed(const QString& sentence);
+  /// Emitted with a message for the user after a bind has ended.
+  void noticed(const QString& sentence);
+
+private:
+  vtkSmartPointer<vtkPolyData> with_weights(const BindResult& result) const;
+  void show_preview(const bindpose::Weights& weights);
+  void finish();
+
+  Document* document_;
+  SidePanel* panel_;
+  NoticeBar* bar_;
+  BindJob* job_;
+  vtkSmartPointer<vtkPolyData> preview_; ///< preview of the running job
+  QString reason_; ///< the last reason for which a bind was offered
+};
+
+#endif

@@ -1,0 +1,84 @@
+#ifndef app_weights_weight_inspection_h
+#define app_weights_weight_inspection_h
+
+#include "app/weights/bind_job.h"
+#include "app/weights/weight_view.h"
+
+#include <QObject>
+#include <QString>
+
+#include <functional>
+
+class Viewport;
+class WeightPanel;
+
+/// Inspection of a surface's weights. While the panel is visible, the class shows the data that the
+/// panel requests. It also computes weights with another method in the background, for comparison.
+class WeightInspection : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// Sets the input of another bind of the same surface; returns false if handles are missing.
+  using MakeInput = std::function<bool(BindInput&)>;
+
+  WeightInspection(Viewport* viewport, WeightPanel* panel, MakeInput make_input);
+
+  /// Set the data to inspect: the surface at rest (the array Weights is optional), the tets with
+  /// the same weights (null: no tets), and whether the handles of the columns are open.
+  void set_data(vtkPolyData* surface, vtkUnstructuredGrid* volume, bool has_handles);
+  void move_surface(vtkPolyData* shape) { this->view_->move_surface(shape); }
+  void set_active(bool active);
+  /// Show the column of the handle that was chosen in the 3D view.
+  void choose_column(int column);
+
+  void compare(int method); ///< compute weights with another method, an index of weight_methods()
+  void cancel() { this->job_.cancel(); }
+  bool is_busy() const { return this->job_.is_running(); }
+
+  /// Return how the surface is drawn (Viewport::SurfaceLook): see-through around a slice.
+  int surface_look() const;
+  /// Report whether the shape must be at rest, because a slice belongs to it.
+  bool wants_rest() const { return this->view_->is_sliced(); }
+  WeightView* view() const { return this->view_; }
+
+Q_SIGNALS:
+  void surface_look_changed();
+  /// Emitted with one sentence if the requested data cannot be shown; the display is unchanged.
+  void failed(const QString& sentence);
+  /// Emitted when the requested data is shown.
+  void succeeded();
+
+private:
+  void update();
+  void update_facts();
+  void comparison_finished();
+  void show_position();
+  QString certificate(int column) const;
+
+  Viewport* viewport_;
+  WeightPanel* panel_;
+  WeightView* view_;
+  MakeInput make_input_;
+  vtkSmartPointer<vtkPolyData> surface_;
+  vtkSmartPointer<vtkUnstructuredGrid> volume_;
+  bool has_handles_ = false;
+  bool active_ = false;
+  bool sliced_ = false;
+  BindJob job_;
+  QString method_; // the method of the running comparison
+  QString compared_method_;
+  vtkSmartPointer<vtkPolyData> compared_; // the surface with the weights of the other method
+  double compared_seconds_ = 0.0;
+};
+
+/// Add the result of a bind to a surface, as in a file that `bindpose weights --keep-raw` writes:
+/// the point arrays Weights and RawWeights, the columns' certificates, and the seconds in the
+/// report.
+void add_weights(const BindResult& result, const bindpose::Handles& handles, vtkPolyData* surface);
+/// Return the tets on which the weights were solved, with the same arrays; null if the weights were
+/// solved on the surface itself.
+vtkSmartPointer<vtkUnstructuredGrid> make_weighted_tets(
+  const BindResult& result, const bindpose::Handles& handles);
+
+#endif

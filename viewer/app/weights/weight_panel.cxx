@@ -1,0 +1,394 @@
+#include "app/weights/weight_panel.h"
+
+#include "app/parts/panel_parts.h"
+#include "app/parts/value_row.h"
+
+#include "report_field_data.h"
+
+#include "vtkDataSet.h"
+
+#include <QButtonGroup>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+namespace
+{
+/// Enable a widget if `reason` is empty. Otherwise disable it and show the reason as its tooltip.
+void enable_or_say(QWidget* widget, const QString& reason)
+{
+  if (widget->property("tip").isNull())
+  {
+    widget->setProperty("tip", widget->toolTip());
+  }
+  widget->setEnabled(reason.isEmpty());
+  widget->setToolTip(reason.isEmpty() ? widget->property("tip").toString() : reason);
+}
+} // namespace
+
+int method_of_weights(vtkDataSet* surface)
+{
+  const bindpose::WeightMethod* method =
+    surface ? bindpose::find_weight_method(bindpose::read_report(surface).text("method")) : nullptr;
+  return method ? static_cast<int>(method - bindpose::weight_methods().data()) : -1;
+}
+
+WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
+{
+  this->setObjectName("panel");
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(16, 14, 16, 14);
+  column->setSpacing(7);
+  const auto note = [this](int lines)
+  {
+    auto* line = new QLabel(this);
+    line->setObjectName("note");
+    line->setWordWrap(lines > 1);
+    line->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    line->setFixedHeight(lines * line->fontMetrics().lineSpacing() + 2);
+    return line;
+  };
+  const auto box = [this](const QString& text, const QString& tip, bool checked = false)
+  {
+    auto* result = new QCheckBox(text, this);
+    result->setToolTip(tip);
+    result->setChecked(checked);
+    QObject::connect(result, &QCheckBox::toggled, this,
+      [this]
+      {
+        this->enable();
+        Q_EMIT this->look_changed();
+      });
+    return result;
+  };
+
+  column->addWidget(heading(tr("Show"), this));
+  this->column_ = new QComboBox(this);
+  this->column_->setObjectName("weights.column");
+  this->column_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  this->column_->setMinimumContentsLength(8);
+  this->column_->setToolTip(
+    tr("Show the weights of one handle, or color every triangle by its strongest handle"));
+  column->addWidget(this->column_);
+  this->what_ = this->add_choice({ tr("Weights"), tr("Row sums"), tr("Difference") },
+    { tr("Show the weights of the handles"),
+      tr("Show the sum of the raw weights at each point; where it is 1, normalization changes "
+         "nothing"),
+      tr("Show the difference from the weights of the other method below") });
+  this->raw_ = this->add_choice({ tr("Normalized"), tr("Raw") },
+    { tr("Weights divided by their sum at each vertex; these weights deform the shape"),
+      tr("Weights as solved, before normalization; the certificate applies to these weights") });
+  this->what_->setObjectName("weights.what");
+  this->raw_->setObjectName("weights.raw");
+  this->certificate_ = note(3);
+  this->certificate_->setToolTip(
+    tr("Optimality certificate of the column. Gap: its energy exceeds the minimum by at most this "
+       "fraction. Residual: violation of the optimality conditions."));
+  column->addWidget(this->certificate_);
+  auto* lines = new QHBoxLayout;
+  this->bands_ =
+    box(tr("Bands"), tr("Use one color per interval of 0.1 instead of smooth colors"), true);
+  this->isolines_ = box(tr("Isolines"), tr("Draw lines where a weight is 0.1, 0.2, … 0.9"), true);
+  this->bands_->setObjectName("weights.bands");
+  this->isolines_->setObjectName("weights.isolines");
+  lines->addWidget(this->bands_, 1);
+  lines->addWidget(this->isolines_, 1);
+  column->addLayout(lines);
+  this->extrema_ = box(tr("Extrema away from handles"),
+    tr("Draw balls at local maxima (red) and minima (blue) of the displayed values away from "
+       "handles, if they exceed a thousandth of the range of the values"));
+  this->extrema_->setObjectName("weights.extrema");
+  column->addWidget(this->extrema_);
+  this->extrema_note_ = note(1);
+  column->addWidget(this->extrema_note_);
+  this->tint_row_ = new QWidget(this);
+  auto* tint = new QVBoxLayout(this->tint_row_);
+  tint->setContentsMargins(0, 0, 0, 0);
+  tint->setSpacing(4);
+  tint->addWidget(new QLabel(tr("Colors over the picture"), this->tint_row_));
+  this->tint_ = new ValueRow(this->tint_row_);
+  this->tint_->setObjectName("weights.over_picture");
+  this->tint_->setToolTip(tr(
+    "Opacity of the colors: 0 shows only the picture, 1 only the colors; isolines remain visible"));
+  this->tint_->set_range(0.0, 1.0);
+  this->tint_->set_value(0.5);
+  tint->addWidget(this->tint_);
+  column->addWidget(this->tint_row_);
+
+  column->addSpacing(10);
+  column->addWidget(heading(tr("Other method"), this));
+  this->method_ = new QComboBox(this);
+  this->method_->setObjectName("weights.compare_with");
+  for (const bindpose::WeightMethod& method : bindpose::weight_methods())
+  {
+    this->method_->addItem(tr(method.label));
+  }
+  this->method_->setCurrentIndex(1);
+  this->method_->setToolTip(tr("Method to compare with; the weights of the shape do not change"));
+  QObject::connect(
+    this->method_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &WeightPanel::enable);
+  column->addWidget(this->method_);
+  auto* buttons = new QHBoxLayout;
+  this->compare_ = button(tr("Compare"), this);
+  this->compare_->setToolTip(
+    tr("Solve with the other method in the background and show the difference"));
+  this->cancel_ = button(tr("Cancel"), this);
+  this->cancel_->setToolTip(tr("Cancel; the displayed values do not change"));
+  buttons->addWidget(this->compare_, 1);
+  buttons->addWidget(this->cancel_);
+  column->addLayout(buttons);
+  this->bar_ = new QProgressBar(this);
+  this->bar_->setRange(0, 1000);
+  this->bar_->setTextVisible(false);
+  // Hidden widgets keep their space, so that the widgets below them do not move.
+  QSizePolicy keeps_place = this->bar_->sizePolicy();
+  keeps_place.setRetainSizeWhenHidden(true);
+  this->bar_->setSizePolicy(keeps_place);
+  column->addWidget(this->bar_);
+  this->comparison_ = note(2);
+  column->addWidget(this->comparison_);
+
+  column->addSpacing(10);
+  this->inside_ = heading(tr("Inside"), this);
+  column->addWidget(this->inside_);
+  this->slice_ = box(tr("Slice through the volume"),
+    tr("Show the weights on a plane through the rest shape; the mouse can drag the plane"));
+  this->slice_->setObjectName("weights.slice");
+  column->addWidget(this->slice_);
+  this->orientations_ = add_orientations(column, this);
+  this->orientations_->setObjectName("weights.orientation");
+  this->position_ = new ValueRow(this);
+  this->position_->setObjectName("weights.place");
+  this->position_->tell_shares();
+  this->position_->setToolTip(
+    tr("Position of the slice along its normal; the mouse can also drag the slice"));
+  column->addWidget(this->position_);
+  column->addStretch(1);
+
+  QObject::connect(this->column_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    [this](int index)
+    {
+      this->enable();
+      Q_EMIT this->look_changed();
+      Q_EMIT this->column_chosen(index - 1);
+    });
+  QObject::connect(this->compare_, &QPushButton::clicked, this,
+    [this] { Q_EMIT this->comparison_wanted(this->method_->currentIndex()); });
+  QObject::connect(this->cancel_, &QPushButton::clicked, this,
+    [this]
+    {
+      this->set_comparison(tr("Stopping …"));
+      Q_EMIT this->cancel_wanted();
+    });
+  QObject::connect(
+    this->orientations_, &QButtonGroup::idClicked, this, &WeightPanel::orientation_chosen);
+  QObject::connect(this->position_, &ValueRow::value_chosen, this, &WeightPanel::position_chosen);
+  QObject::connect(this->tint_, &ValueRow::value_chosen, this, &WeightPanel::tint_chosen);
+  this->set_columns({});
+  this->set_facts({});
+}
+
+QButtonGroup* WeightPanel::add_choice(const QStringList& names, const QStringList& tips)
+{
+  QButtonGroup* group = add_segments(static_cast<QBoxLayout*>(this->layout()), this, names, tips);
+  QObject::connect(group, &QButtonGroup::idClicked, this,
+    [this]
+    {
+      this->enable();
+      Q_EMIT this->look_changed();
+    });
+  return group;
+}
+
+void WeightPanel::set_columns(const QStringList& names)
+{
+  const QSignalBlocker quiet(this->column_);
+  const QString before = this->column_->currentData(Qt::ToolTipRole).toString();
+  this->column_->clear();
+  this->column_->addItem(tr("All: strongest handle"));
+  for (const QString& name : names)
+  {
+    this->column_->addItem(
+      this->fontMetrics().elidedText(name, Qt::ElideMiddle, this->column_->sizeHint().width()));
+    this->column_->setItemData(this->column_->count() - 1, name, Qt::ToolTipRole);
+  }
+  const int same = names.indexOf(before);
+  this->column_->setCurrentIndex(same >= 0 ? same + 1 : names.isEmpty() ? 0 : 1);
+  this->enable();
+}
+
+void WeightPanel::set_facts(const Facts& facts)
+{
+  this->facts_ = facts;
+  // Data that no longer exists cannot be shown.
+  if ((this->what() == row_sums && !facts.has_raw) ||
+    (this->what() == difference && !facts.compared))
+  {
+    this->what_->button(weights)->setChecked(true);
+  }
+  if (this->raw() && !facts.has_raw)
+  {
+    this->raw_->button(0)->setChecked(true);
+  }
+  this->compare_->setText(facts.compared ? tr("Compare again") : tr("Compare"));
+  this->tint_row_->setVisible(facts.has_picture);
+  for (QWidget* inside : { static_cast<QWidget*>(this->inside_),
+         static_cast<QWidget*>(this->slice_), static_cast<QWidget*>(this->position_) })
+  {
+    // Hide the switch for the inside: a textured planar shape has no inside.
+    inside->setVisible(!facts.has_picture);
+  }
+  for (QAbstractButton* orientation : this->orientations_->buttons())
+  {
+    orientation->setVisible(!facts.has_picture);
+  }
+  this->cancel_->setVisible(facts.comparing);
+  this->bar_->setVisible(facts.comparing);
+  if (!facts.comparing)
+  {
+    this->bar_->setValue(0);
+  }
+  this->enable();
+}
+
+/// Enable the widgets that apply to the available and the displayed data. Tooltips of disabled
+/// widgets state the reason.
+void WeightPanel::enable()
+{
+  const QString none = this->facts_.has_weights
+    ? QString()
+    : tr("There are no weights: bind, or open a mesh with weights");
+  const auto first = [&none](const QString& reason) { return none.isEmpty() ? reason : none; };
+  const QString no_raw = this->facts_.has_raw
+    ? QString()
+    : tr("There are no raw weights: bind here, or write them with bindpose weights --keep-raw");
+  const bool all = this->column() < 0;
+  const bool sums = this->what() == row_sums;
+  const bool differs = this->what() == difference;
+  enable_or_say(this->column_, first(sums ? tr("Row sums include all handles") : QString()));
+  enable_or_say(this->what_->button(weights), none);
+  enable_or_say(this->what_->button(row_sums), first(no_raw));
+  enable_or_say(this->what_->button(difference),
+    first(this->facts_.compared ? QString() : tr("Compare with another method first, below")));
+  const QString of_all = all && !sums
+    ? tr("The strongest handle is the same for raw and normalized weights")
+    : QString();
+  enable_or_say(
+    this->raw_->button(0), first(sums ? tr("Row sums are always sums of raw weights") : of_all));
+  enable_or_say(this->raw_->button(1), first(no_raw.isEmpty() ? of_all : no_raw));
+  const QString not_a_column = sums ? tr("Row sums have their own colors: white is 1")
+    : differs                       ? tr("Differences have their own colors: white is 0")
+    : all ? tr("Choose one handle: this requires the weights of a single handle")
+          : QString();
+  enable_or_say(this->bands_, first(not_a_column));
+  enable_or_say(this->isolines_, first(not_a_column));
+  enable_or_say(this->extrema_,
+    first(all && !sums ? tr("Choose one handle: extrema require the weights of a single handle")
+                       : QString()));
+  this->extrema_note_->setEnabled(this->extrema_->isEnabled());
+  const QString no_comparison = this->facts_.comparing ? tr("A comparison is running")
+    : this->facts_.has_handles
+    ? QString()
+    : tr("Open the handles of these weights: another method requires them");
+  enable_or_say(this->method_, first(no_comparison));
+  const QString same = tr("The weights already come from this method: choose another method");
+  const bool is_same = this->method_->currentIndex() == this->facts_.method;
+  enable_or_say(this->compare_, first(no_comparison.isEmpty() && is_same ? same : no_comparison));
+  enable_all_but(this->method_, this->facts_.method, same);
+  const QString no_slice = differs
+    ? tr("The other method was solved on different tets: the difference exists only on the surface")
+    : this->facts_.has_volume
+    ? QString()
+    : tr("There is no volume: bind here, or open the tets (.vtu) that bindpose weights writes");
+  enable_or_say(this->slice_, first(no_slice));
+  const QString no_plane = this->slice_->isEnabled() && this->slice_->isChecked()
+    ? QString()
+    : tr("There is no slice to move: switch it on above");
+  enable_or_say(this->position_, no_plane);
+  for (QAbstractButton* orientation : this->orientations_->buttons())
+  {
+    enable_or_say(orientation, no_plane);
+  }
+}
+
+void WeightPanel::set_certificate(const QString& text)
+{
+  this->certificate_->setText(text);
+}
+
+void WeightPanel::set_extrema(const QString& text)
+{
+  this->extrema_note_->setText(text);
+}
+
+void WeightPanel::set_progress(double fraction, const QString& phase)
+{
+  this->bar_->setValue(static_cast<int>(1000.0 * fraction));
+  if (this->comparison_->text() != tr("Stopping …"))
+  {
+    this->set_comparison(progress_note(fraction, phase));
+  }
+}
+
+void WeightPanel::set_comparison(const QString& text)
+{
+  this->comparison_->setText(text);
+}
+
+void WeightPanel::set_position(double position, double lowest, double highest)
+{
+  this->position_->set_range(lowest, highest);
+  this->position_->set_value(position);
+}
+
+int WeightPanel::what() const
+{
+  return this->what_->checkedId();
+}
+
+void WeightPanel::show_what(int what)
+{
+  this->what_->button(what)->setChecked(true);
+  this->enable();
+  Q_EMIT this->look_changed();
+}
+
+int WeightPanel::column() const
+{
+  return this->column_->currentIndex() - 1;
+}
+
+void WeightPanel::choose_column(int column)
+{
+  this->column_->setCurrentIndex(column + 1);
+}
+
+bool WeightPanel::raw() const
+{
+  return this->raw_->checkedId() == 1;
+}
+
+bool WeightPanel::bands() const
+{
+  return this->bands_->isChecked();
+}
+
+bool WeightPanel::isolines() const
+{
+  return this->isolines_->isChecked();
+}
+
+bool WeightPanel::extrema() const
+{
+  return this->extrema_->isEnabled() && this->extrema_->isChecked();
+}
+
+bool WeightPanel::slice() const
+{
+  return this->slice_->isEnabled() && this->slice_->isChecked();
+}

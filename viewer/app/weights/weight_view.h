@@ -1,0 +1,92 @@
+#ifndef app_weights_weight_view_h
+#define app_weights_weight_view_h
+
+#include "app/view/plane_handle.h"
+#include "base/status.h"
+#include "pictures/picture.h"
+#include "scene/coloring.h"
+#include "scene/extrema.h"
+
+#include "vtkActor.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <QObject>
+
+#include <array>
+
+class Viewport;
+
+/// Shows weights in the 3D view. They are shown on the surface, posed or at rest, in bands with
+/// isolines and with balls at their extrema. They are also shown on a plane through the inside that
+/// the mouse drags. PictureOptions determine the display, as in `bindpose render`.
+class WeightView : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit WeightView(Viewport* viewport);
+
+  /// Set the surface at rest, which must be the surface of the viewport, and the tets on which the
+  /// weights were solved, both with weights; null: no data.
+  void set_data(vtkPolyData* surface, vtkUnstructuredGrid* volume);
+  /// Move the points to those of `shape`, a pose of the surface.
+  void move_surface(vtkPolyData* shape);
+
+  /// Show the weights. The options that are used are `array`, `component`, `color_by`, `minus`,
+  /// `bands`, `isolines`, `extrema` and `slice`. If the data has no such values, return an error
+  /// and show the plain surface.
+  bindpose::Status show(const bindpose::PictureOptions& options);
+  void hide();
+  bool is_shown() const { return this->shown_; }
+  bool is_sliced() const { return this->shown_ && this->options_.slice; }
+
+  PlaneHandle* plane() const { return this->plane_; }
+
+  const bindpose::Coloring& coloring() const { return this->coloring_; }
+  /// Return statistics of the displayed data; see render_to_png().
+  const bindpose::Report& numbers() const { return this->coloring_.numbers; }
+  /// Return the extrema on the surface. While the tets are sliced, return those of all tets; the
+  /// surface then has no colors.
+  const std::vector<bindpose::Extremum>& extrema() const { return this->extrema_; }
+  vtkPolyData* slice() const { return this->slice_; }
+  /// Return the isolines on the surface.
+  vtkPolyData* isolines() const { return this->isolines_[0]; }
+
+Q_SIGNALS:
+  /// Emitted when the plane has moved, for any reason.
+  void plane_moved();
+
+private:
+  void show_surface();
+  void draw_isolines(int part, vtkPolyData* data);
+  void update_slice();
+  void place_extrema();
+  void before_drawing();
+
+  Viewport* viewport_;
+  PlaneHandle* plane_;
+  vtkSmartPointer<vtkPolyData> surface_; // the surface at rest
+  vtkSmartPointer<vtkPolyData> shape_; // posed
+  vtkSmartPointer<vtkUnstructuredGrid> volume_;
+  // its only array contains the displayed values
+  vtkSmartPointer<vtkUnstructuredGrid> volume_values_;
+  bindpose::PictureOptions options_;
+  bindpose::Coloring coloring_;
+  bool shown_ = false;
+
+  std::vector<bindpose::Extremum> extrema_;
+  bindpose::ExtremumBalls balls_;
+  vtkSmartPointer<vtkPolyData> slice_;
+  vtkNew<vtkPolyDataMapper> slice_mapper_;
+  vtkNew<vtkActor> slice_actor_;
+  // Element 0 contains the isolines on the surface, element 1 those on the slice.
+  std::array<vtkNew<vtkPolyData>, 2> isolines_;
+  std::array<vtkNew<vtkPolyDataMapper>, 2> isoline_mappers_;
+  std::array<vtkNew<vtkActor>, 2> isoline_actors_;
+};
+
+#endif

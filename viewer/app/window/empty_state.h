@@ -1,0 +1,19 @@
+#ifndef app_window_empty_state_h
+#define app_window_empty_state_h
+
+#include <QWidget>
+
+/// Instructions for the first step, in the middle of the 3D view while no file is open.
+class EmptyState : public QWidget
+{
+  Q_OBJECT
+
+public:
+  explicit EmptyState(QWidget* parent);
+
+Q_SIGNALS:
+  /// Emitted when the user wants to open a mesh for which handles are then created automatically.
+  void open_and_rig_wanted();
+};
+
+#endif

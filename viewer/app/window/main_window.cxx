@@ -1,0 +1,1073 @@
+#include "app/window/main_window.h"
+
+#include "app/handles/edit_tools.h"
+#include "app/handles/handle_commands.h"
+#include "app/handles/handle_editing.h"
+#include "app/handles/handle_selection.h"
+#include "app/handles/shape_handles.h"
+#include "app/handles/side_panel.h"
+#include "app/parts/bar_stack.h"
+#include "app/parts/elided_label.h"
+#include "app/parts/field_guard.h"
+#include "app/parts/notice_bar.h"
+#include "app/parts/panel_parts.h"
+#include "app/parts/style.h"
+#include "app/posing/distance_view.h"
+#include "app/posing/key_strip.h"
+#include "app/posing/posing.h"
+#include "app/posing/rotation_view.h"
+#include "app/tets/inspection.h"
+#include "app/view/viewport.h"
+#include "app/volume/volume_panel.h"
+#include "app/volume/volume_view.h"
+#include "app/volume/winding_volume.h"
+#include "app/weights/binding.h"
+#include "app/weights/weight_inspection.h"
+#include "app/weights/weight_panel.h"
+#include "app/window/empty_state.h"
+#include "app/window/exports.h"
+#include "app/window/option_links.h"
+#include "app/window/panel_column.h"
+#include "app/window/plane_options.h"
+#include "app/window/probe.h"
+#include "app/window/window_menus.h"
+#include "app/window/window_sessions.h"
+#include "document/document.h"
+#include "document/opened_file.h"
+#include "document/recent_files.h"
+
+#include "conversion.h"
+#include "handle_geometry.h"
+#include "scene/camera.h"
+#include "scene/volume.h"
+
+#include "vtkCamera.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkMeshFileReader.h"
+#include "vtkRenderer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QGuiApplication>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMimeData>
+#include <QScreen>
+#include <QStatusBar>
+#include <QUndoStack>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+using namespace bindpose;
+
+namespace
+{
+/// Return a file's name for a title or a sentence. Long names, which some other programs create,
+/// are shortened.
+QString short_name(const QString& path)
+{
+  constexpr int longest = 60;
+  return shortened(QFileInfo(path).fileName(), longest);
+}
+QString method_words(const WeightMethod& method)
+{
+  return QCoreApplication::translate("WeightPanel", method.label).toLower();
+}
+/// Return a sentence with the method and, if known, the accuracy of the bound weights. The panel of
+/// weights shows the accuracy per column.
+/// @param chosen  the method of the next bind; the certificate is about the bound method
+QString certificate_note(vtkPolyData* surface, const WeightMethod& chosen)
+{
+  vtkDataArray* gaps = surface->GetFieldData()->GetArray("WeightsRelativeGap");
+  const int bound = method_of_weights(surface);
+  const QString name = bound < 0 ? MainWindow::tr("weights from the mesh file")
+                                 : method_words(weight_methods()[bound]);
+  QString note = gaps && gaps->GetNumberOfTuples() > 0
+    ? MainWindow::tr("Bound: %1. Optimal to within %2.")
+        .arg(name)
+        .arg(gaps->GetRange()[1], 0, 'e', 1)
+    : MainWindow::tr("Bound: %1.").arg(name);
+  if (bound >= 0 && &weight_methods()[bound] != &chosen)
+  {
+    note += ' ' + MainWindow::tr("Bind again for %1.").arg(method_words(chosen));
+  }
+  return note;
+}
+} // namespace
+
+MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Document(this))
+{
+  this->setAcceptDrops(true);
+  new FieldGuard(this, [this] { this->viewport_->setFocus(Qt::OtherFocusReason); });
+  // Fit the whole window on a small screen, including the title bar of the desktop.
+  constexpr int title = 40; // pixels
+  const QSize room = QGuiApplication::primaryScreen()->availableGeometry().size();
+  this->resize(QSize(1280, 800).boundedTo(room - QSize(0, title)));
+  this->make_layout();
+  this->make_inspections();
+  this->links_ = new OptionLinks(this->document_, this->panels_);
+  this->links_->tie(
+    "show.outlines", [this] { return this->viewport_->has_outlines(); },
+    [this](const QVariant& value) { this->show_outlines(value.toBool()); });
+  tie_plane(this->links_, this->document_, "volume", this->volume_view_->plane());
+  tie_plane(this->links_, this->document_, "tets", this->inspection_->tet_view()->plane());
+  tie_plane(this->links_, this->document_, "weights", this->weights_->view()->plane());
+  this->sessions_ = new WindowSessions({ this, this->document_, this->viewport_, this->panels_,
+    this->binding_, this->links_, this->error_bar_, this->recovery_bar_, this->note_bar_ });
+  this->exports_ = new Exports({ this, this->document_, this->viewport_, this->posing_,
+    this->sessions_, this->error_bar_, this->export_bar_ });
+  this->menus_ = new WindowMenus(
+    { this, this->document_, this->viewport_, this->panels_, this->editing_, this->shape_handles_,
+      this->binding_, this->posing_, this->strip_, this->sessions_, this->exports_ });
+  this->connect_menus();
+  this->connect_panel();
+  this->connect_volume();
+  this->connect_handles();
+  this->connect_posing();
+  this->connect_errors();
+  QObject::connect(
+    this->document_, &Document::about_to_change, this->editing_, &HandleEditing::stop);
+  QObject::connect(this->document_, &Document::changed, this, &MainWindow::document_changed);
+  // The history updates its saved state only at the end of a step; update the title then.
+  QObject::connect(this->history(), &QUndoStack::indexChanged, this, &MainWindow::update_title);
+  QObject::connect(this->document_, &Document::option_changed, this, &MainWindow::option_changed);
+  this->update_title();
+  this->update_panel();
+  this->update_pose();
+}
+
+MainWindow::~MainWindow()
+{
+  // The document and its history are destroyed after the views. Disconnect them, because they emit
+  // signals until then.
+  this->document_->disconnect(this);
+  this->history()->disconnect(this);
+}
+
+QUndoStack* MainWindow::history() const
+{
+  return this->document_->history();
+}
+
+// ---- Layout and wiring -------------------------------------------------------------------------
+
+void MainWindow::make_layout()
+{
+  auto* center = new QWidget(this);
+  auto* columns = new QHBoxLayout(center);
+  columns->setContentsMargins(0, 0, 0, 0);
+  columns->setSpacing(0);
+  auto* rows = new QVBoxLayout;
+  rows->setSpacing(0);
+
+  this->viewport_ = new Viewport(center);
+  this->bars_ = new BarStack(this->viewport_);
+  this->error_bar_ = new ErrorBar(this->bars_);
+  this->bars_->add(this->error_bar_);
+  for (NoticeBar** bar :
+    { &this->recovery_bar_, &this->note_bar_, &this->rebind_bar_, &this->export_bar_ })
+  {
+    *bar = new NoticeBar(this->bars_);
+    this->bars_->add(*bar);
+  }
+  auto* over = new QVBoxLayout(this->viewport_);
+  this->empty_ = new EmptyState(this->viewport_);
+  QObject::connect(this->empty_, &EmptyState::open_and_rig_wanted, this,
+    [this]
+    {
+      this->choose_and_open();
+      this->shape_handles_->auto_rig();
+    });
+  over->addWidget(this->empty_);
+  this->panels_ = new PanelColumn(center);
+  this->panel_ = this->panels_->side();
+  rows->addWidget(this->viewport_, 1);
+  this->strip_ = new KeyStrip(center);
+  rows->addWidget(this->strip_);
+  this->posing_ = new Posing(this->viewport_,
+    { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
+  this->shape_handles_ = new ShapeHandles(this->document_, this->note_bar_, this);
+  this->editing_ = new HandleEditing(this->document_, this->viewport_, this->posing_, this->panel_,
+    this->shape_handles_->auto_rig_action());
+  rows->insertWidget(rows->indexOf(this->viewport_), this->editing_->tools());
+  this->bars_->begin_below(this->editing_->mode_bar());
+  this->binding_ = new Binding(this->document_, this->panel_, this->rebind_bar_, this);
+  QObject::connect(
+    this->shape_handles_, &ShapeHandles::rigged, this, [this] { this->binding_->start(); });
+  // This must be the first connection to this signal: painting must end before another panel shows
+  // its own colors.
+  QObject::connect(this->panels_, &PanelColumn::panel_shown, this,
+    [this](int panel)
+    {
+      if (panel != PanelColumn::bind_and_pose &&
+        this->editing_->mode() == HandleEditing::paint_regions)
+      {
+        this->editing_->set_mode(HandleEditing::pose);
+      }
+    });
+  columns->addLayout(rows, 1);
+  columns->addWidget(this->panels_);
+  this->setCentralWidget(center);
+  this->hint_ = new ElidedLabel(this);
+  this->statusBar()->addWidget(this->hint_, 1);
+  this->hint_->setContentsMargins(12, 3, 12, 4);
+  this->statusBar()->setSizeGripEnabled(false);
+}
+
+void MainWindow::make_inspections()
+{
+  this->volume_view_ = new VolumeView(this->viewport_);
+  this->inspection_ = new Inspection(this->viewport_, this->panels_->tet());
+  QObject::connect(this->inspection_, &Inspection::surface_look_changed, this,
+    [this]
+    {
+      this->update_surface_look();
+      this->draw_pose(); // draw the shape at rest: tets and defects belong to it
+    });
+  QObject::connect(this->inspection_, &Inspection::tets_made, this, &MainWindow::face_planes);
+  QObject::connect(this->inspection_, &Inspection::noticed, this, &MainWindow::show_notice);
+  QObject::connect(this->inspection_, &Inspection::defects_found, this, &MainWindow::offer_defects);
+  this->weights_ = new WeightInspection(this->viewport_, this->panels_->weight(),
+    [this](BindInput& input) { return this->is_bound() && this->binding_->make_input(input); });
+  QObject::connect(this->weights_, &WeightInspection::surface_look_changed, this,
+    [this]
+    {
+      this->update_surface_look();
+      this->update_pose(); // draw the shape at rest: a slice belongs to it
+    });
+  this->rotations_ =
+    std::make_unique<RotationView>(this->viewport_, this->panels_->side()->pose(), this->posing_);
+  this->distances_ = std::make_unique<DistanceView>(this->viewport_, this->posing_);
+  this->probe_ = new Probe(
+    { this->viewport_, this->volume_view_, this->inspection_->tet_view(), this->weights_->view(),
+      &this->inspection_->defect_view(), this->posing_, this->rotations_.get(),
+      [this] { return this->document_->surface() ? this->posing_->seen() : nullptr; } });
+  QObject::connect(this->panels_, &PanelColumn::panel_shown, this->inspection_,
+    [this](int panel)
+    {
+      // The old panel removes its coloring before the new panel applies its own.
+      const bool poses = panel == PanelColumn::bind_and_pose;
+      if (!poses)
+      {
+        this->distances_->set_active(false);
+        this->rotations_->set_active(false);
+      }
+      this->inspection_->set_active(panel == PanelColumn::tets);
+      this->weights_->set_active(panel == PanelColumn::weights);
+      this->volume_view_->set_active(panel == PanelColumn::volume_slice);
+      if (poses)
+      {
+        this->distances_->set_active(true);
+        this->rotations_->set_active(true);
+      }
+      if (panel == PanelColumn::weights)
+      {
+        this->show_selected_column();
+      }
+    });
+  QObject::connect(this->panels_->weight(), &WeightPanel::column_chosen, this,
+    [this](int column)
+    {
+      const std::vector<int> selected = this->editing_->selection()->selected();
+      const bool shown = this->panels_->shown_panel() == PanelColumn::weights;
+      const int count = static_cast<int>(this->document_->handles().size());
+      if (shown && this->is_bound() && column >= 0 && column < count &&
+        std::find(selected.begin(), selected.end(), column) == selected.end())
+      {
+        this->panel_->select_handle(column);
+      }
+    });
+  this->winding_volume_ = new WindingVolume(this->document_, this->panels_->volume(), this);
+}
+
+void MainWindow::connect_menus()
+{
+  QObject::connect(this->sessions_, &WindowSessions::open_wanted, this,
+    [this](const QString& path) { this->open(path); });
+  QObject::connect(this->sessions_, &WindowSessions::changed, this, &MainWindow::update_title);
+  QObject::connect(this->sessions_, &WindowSessions::perspective_wanted, this,
+    [this] { this->set_flat_view(false); });
+  QObject::connect(
+    this->exports_, &Exports::timeline_wanted, this, [this] { this->show_timeline(true); });
+  WindowMenus* menus = this->menus_;
+  QObject::connect(menus, &WindowMenus::open_wanted, this, &MainWindow::choose_and_open);
+  QObject::connect(menus, &WindowMenus::flat_view_wanted, this, &MainWindow::set_flat_view);
+  QObject::connect(menus, &WindowMenus::outlines_wanted, this, &MainWindow::show_outlines);
+  QObject::connect(menus, &WindowMenus::timeline_wanted, this, &MainWindow::show_timeline);
+  QObject::connect(menus, &WindowMenus::method_wanted, this, &MainWindow::set_method);
+}
+
+void MainWindow::update_menus()
+{
+  this->menus_->update({ this->is_empty(), this->plane_.has_value(), this->timeline_ });
+}
+
+void MainWindow::connect_panel()
+{
+  QObject::connect(this->panel_, &SidePanel::bind_wanted, this->binding_, &Binding::start);
+  QObject::connect(this->panel_, &SidePanel::cancel_wanted, this->binding_, &Binding::cancel);
+  QObject::connect(this->binding_, &Binding::changed, this,
+    [this]
+    {
+      if (this->binding_->is_running())
+      {
+        this->error_bar_->hide(); // the sentence is about the state before the bind
+      }
+      this->update_panel();
+      this->update_pose();
+    });
+  QObject::connect(this->binding_, &Binding::noticed, this, &MainWindow::show_notice);
+  QObject::connect(
+    this->binding_, &Binding::bound, this->sessions_->autosave(), &Autosave::begin_save);
+  QObject::connect(this->panel_, &SidePanel::bind_method_changed, this,
+    [this]
+    {
+      if (this->is_bound() && !this->binding_->is_running())
+      {
+        this->panel_->set_note(this->bound_note());
+      }
+    });
+  QObject::connect(this->panel_, &SidePanel::method_chosen, this, &MainWindow::set_method);
+  QObject::connect(this->panel_, &SidePanel::mode_chosen, this,
+    [this](int mode) { this->editing_->commands()->fix(static_cast<HandleMode>(mode)); });
+  QObject::connect(this->panel_, &SidePanel::rest_wanted, this, &MainWindow::back_to_rest);
+  QObject::connect(this->panel_, &SidePanel::column_chosen, this, &MainWindow::show_column);
+}
+
+void MainWindow::connect_volume()
+{
+  VolumePanel* panel = this->panels_->volume();
+  VolumeView* view = this->volume_view_;
+  QObject::connect(panel, &VolumePanel::slice_wanted, view, &VolumeView::show_slice);
+  QObject::connect(
+    panel, &VolumePanel::orientation_chosen, view->plane(), &PlaneHandle::set_orientation);
+  QObject::connect(panel, &VolumePanel::position_chosen, view->plane(), &PlaneHandle::set_position);
+  QObject::connect(panel, &VolumePanel::isosurface_wanted, view, &VolumeView::show_isosurface);
+  QObject::connect(panel, &VolumePanel::level_chosen, view, &VolumeView::set_level);
+  QObject::connect(panel, &VolumePanel::cloud_wanted, view, &VolumeView::show_cloud);
+  QObject::connect(
+    panel, &VolumePanel::surface_look_chosen, this, &MainWindow::update_surface_look);
+  QObject::connect(panel, &VolumePanel::close_wanted, this, &MainWindow::close_volume);
+  const auto show_position = [panel, view]
+  {
+    const auto [lowest, highest] = view->positions();
+    panel->set_position(view->position(), lowest, highest);
+  };
+  QObject::connect(view, &VolumeView::slice_moved, panel, show_position);
+  QObject::connect(view, &VolumeView::volume_changed, panel, show_position);
+  QObject::connect(view, &VolumeView::area_changed, panel, &VolumePanel::set_area);
+  QObject::connect(view, &VolumeView::shown_changed, this,
+    [this]
+    {
+      this->update_surface_look();
+      this->draw_pose(); // draw the shape at rest: winding numbers belong to it
+    });
+}
+
+void MainWindow::connect_handles()
+{
+  QObject::connect(this->editing_, &HandleEditing::moved, this, &MainWindow::update_pose);
+  QObject::connect(
+    this->editing_, &HandleEditing::sentence_changed, this, &MainWindow::update_hint);
+  // While regions are painted, the surface shows only the colors of regions.
+  QObject::connect(this->editing_, &HandleEditing::mode_changed, this,
+    [this](int mode)
+    {
+      if (mode == HandleEditing::paint_regions)
+      {
+        this->panels_->show_panel(PanelColumn::bind_and_pose);
+      }
+    });
+  QObject::connect(this->editing_, &HandleEditing::handle_selected, this,
+    [this]
+    {
+      this->posing_->select_handles(this->editing_->selection()->selected());
+      this->show_selected_column();
+    });
+}
+
+/// Show the weights of the handle that was selected last in the weight panel.
+void MainWindow::show_selected_column()
+{
+  const std::vector<int> selected = this->editing_->selection()->selected();
+  if (this->is_bound() && !selected.empty())
+  {
+    this->weights_->choose_column(selected.back());
+  }
+}
+
+/// Connect the error bar. An error is hidden when an operation of the same type succeeds.
+void MainWindow::connect_errors()
+{
+  const auto fails = [this](auto* part, auto signal, ErrorKind kind)
+  {
+    QObject::connect(part, signal, this,
+      [this, kind](const QString& sentence) { this->show_error(sentence, kind); });
+  };
+  const auto succeeds = [this](auto* part, auto signal, ErrorKind kind)
+  { QObject::connect(part, signal, this, [this, kind] { this->error_bar_->succeeded(kind); }); };
+  // an error of a bind is hidden by the next bind
+  fails(this->binding_, &Binding::failed, ErrorKind::other);
+  fails(this->shape_handles_, &ShapeHandles::failed, ErrorKind::edit_handles);
+  fails(this->editing_, &HandleEditing::refused, ErrorKind::edit_handles);
+  fails(this->posing_, &Posing::failed, ErrorKind::pose);
+  succeeds(this->posing_, &Posing::succeeded, ErrorKind::pose);
+  fails(this->inspection_, &Inspection::failed, ErrorKind::tets);
+  succeeds(this->inspection_, &Inspection::succeeded, ErrorKind::tets);
+  fails(this->weights_, &WeightInspection::failed, ErrorKind::weights);
+  succeeds(this->weights_, &WeightInspection::succeeded, ErrorKind::weights);
+  fails(this->winding_volume_, &WindingVolume::failed, ErrorKind::volume);
+  succeeds(this->winding_volume_, &WindingVolume::succeeded, ErrorKind::volume);
+}
+
+// ---- Changes of the document -------------------------------------------------------------------
+
+void MainWindow::document_changed(int parts)
+{
+  if (parts & mesh_part)
+  {
+    this->show_mesh();
+  }
+  if (parts & handles_part)
+  {
+    this->show_handles();
+  }
+  if (parts & (volume_part | curves_part))
+  {
+    this->show_volume();
+  }
+  if (parts & (mesh_part | weights_part | handles_part))
+  {
+    this->connect_weights();
+  }
+  else if (parts & handle_looks_part)
+  {
+    this->posing_->layers_changed(); // no new bind is needed
+  }
+  if (parts & pose_part)
+  {
+    const Pose pose = this->document_->pose();
+    for (std::size_t k = 0; k < pose.size(); ++k)
+    {
+      this->panel_->set_mode(static_cast<int>(k), static_cast<int>(pose[k].mode));
+    }
+  }
+  if (parts & (mesh_part | handles_part))
+  {
+    // If there are no handles, use an empty dataset to which the user can add the first ones.
+    this->viewport_->set_handles(this->document_->editable_handles(),
+      this->document_->surface() || this->document_->handle_data());
+  }
+  if (parts & key_poses_part)
+  {
+    const auto& kept = this->document_->work().key_poses;
+    this->posing_->keeper()->set_shelf(kept ? *kept : PoseShelf());
+    this->keys_changed();
+  }
+  if (parts & (handles_part | handle_looks_part))
+  {
+    this->error_bar_->succeeded(ErrorKind::edit_handles);
+  }
+  this->editing_->document_changed(parts);
+  this->update_title();
+  this->binding_->offer_again();
+  if (parts & ~(options_part | key_poses_part | sources_part))
+  {
+    this->update_panel();
+    this->update_pose();
+  }
+}
+
+/// Show the timeline when the first key is set. After that only the user hides it.
+void MainWindow::keys_changed()
+{
+  const bool has_keys = !this->posing_->shelf().keys.keys().empty();
+  if (has_keys && !this->has_keys_)
+  {
+    this->show_timeline(true);
+  }
+  this->has_keys_ = has_keys;
+}
+
+void MainWindow::show_timeline(bool shown)
+{
+  this->timeline_ = shown;
+  this->strip_->setVisible(shown && this->document_->surface());
+  this->update_menus();
+}
+
+void MainWindow::option_changed(const QString& key, const QVariant& value)
+{
+  if (key == "pose.method")
+  {
+    this->panel_->set_method(value.toInt());
+    this->menus_->show_method(value.toInt());
+    this->update_pose();
+  }
+}
+
+void MainWindow::show_mesh()
+{
+  this->note_bar_->hide(); // the note is about the previous mesh
+  const Work& work = this->document_->work();
+  this->binding_->cancel();
+  this->drawn_ = work.surface;
+  this->viewport_->set_surface(work.surface);
+  this->viewport_->set_picture(work.picture);
+  this->inspection_->set_surface(work.surface, work.mesh_tets);
+  Vec3 normal;
+  const bool planar = work.surface && find_plane(to_points(work.surface).view(), normal);
+  this->plane_ = planar ? std::optional(normal) : std::nullopt;
+  this->flat_wanted_ = true;
+  this->update_plane();
+  this->posing_->set_plane(this->plane_);
+  if (work.surface && !planar)
+  {
+    // for planar shapes the border is not a defect, so do not search
+    this->inspection_->look_for_defects();
+  }
+  if (!work.curves)
+  {
+    const bool has_lines = work.surface && work.surface->GetNumberOfLines() > 0;
+    this->viewport_->set_curves(has_lines ? work.surface.Get() : nullptr);
+  }
+  this->viewport_->reset_view();
+}
+
+/// Switch the viewport to 2D mode if the shape is planar. The mode is off while a volume is open.
+void MainWindow::update_plane()
+{
+  const bool flat = this->flat_wanted_ && !this->document_->work().volume;
+  this->viewport_->set_plane(flat ? this->plane_ : std::nullopt);
+}
+
+void MainWindow::set_flat_view(bool flat)
+{
+  this->flat_wanted_ = flat;
+  this->update_plane();
+  this->update_menus();
+}
+
+void MainWindow::show_handles()
+{
+  if (!this->document_->surface())
+  {
+    this->viewport_->reset_view();
+  }
+  std::vector<HandleTree::Row> rows;
+  const Pose pose = this->document_->pose();
+  for (std::size_t k = 0; k < pose.size(); ++k)
+  {
+    const Handle& handle = this->document_->handles()[k];
+    rows.push_back({ QString::fromStdString(handle.name), handle.kind,
+      static_cast<int>(handle.parent), static_cast<int>(pose[k].mode) });
+  }
+  this->panel_->set_handles(rows);
+}
+
+void MainWindow::show_volume()
+{
+  const Work& work = this->document_->work();
+  if (work.curves)
+  {
+    this->viewport_->set_curves(work.curves);
+  }
+  if (this->volume_view_->volume() == work.volume)
+  {
+    return;
+  }
+  double lowest = 0.0;
+  double highest = 1.0;
+  if (work.volume)
+  {
+    const Status status = check_volume(work.volume, "WindingNumber");
+    lowest = status.report.number("volume.minimum", 0.0);
+    highest = status.report.number("volume.maximum", 1.0);
+    this->panels_->volume()->set_values(lowest, highest);
+    this->volume_view_->set_level(this->panels_->volume()->level());
+  }
+  this->volume_view_->set_volume(work.volume, lowest, highest);
+  this->update_plane();
+  if (work.volume)
+  {
+    this->panels_->set_open(true, !this->is_empty() && work.surface, work.surface);
+    this->panels_->show_panel(PanelColumn::volume_slice);
+    this->viewport_->reset_view();
+  }
+}
+
+/// Use the weights for posing if they belong to the handles.
+void MainWindow::connect_weights()
+{
+  vtkPolyData* surface = this->document_->surface();
+  if (surface != this->drawn_)
+  {
+    this->drawn_ = surface;
+    this->viewport_->set_surface(surface);
+  }
+  this->posing_->set_data(surface, this->document_->weighted_tets(), this->document_->handle_data(),
+    this->document_->is_bound());
+  if (!this->document_->unused_weights().isEmpty())
+  {
+    this->show_error(this->document_->unused_weights());
+  }
+  this->weights_->set_data(surface, this->document_->weighted_tets(), this->is_bound());
+}
+
+void MainWindow::update_title()
+{
+  const QString name = this->sessions_->name();
+  this->setWindowTitle(name.isEmpty() ? "Bindpose" : QString("%1[*] — Bindpose").arg(name));
+  this->setWindowModified(
+    !name.isEmpty() && this->document_->is_changed(!this->sessions_->path().isEmpty()));
+}
+
+void MainWindow::offer_defects(const QString& counts)
+{
+  const QString unclean =
+    tr("The surface has defects (%1). It can still be bound and posed.").arg(counts);
+  this->note_bar_->offer(
+    this->read_notice_.isEmpty() ? unclean : this->read_notice_ + '\n' + unclean,
+    { { tr("Show where"),
+      [this]
+      {
+        this->panels_->show_panel(PanelColumn::tets);
+        this->inspection_->show_defects();
+      } } },
+    tr("Close"));
+}
+
+bool MainWindow::is_empty() const
+{
+  const Work& work = this->document_->work();
+  return !work.surface && !work.handles && !work.volume && !work.curves;
+}
+
+// ---- Opening -----------------------------------------------------------------------------------
+
+bool MainWindow::say(const QString& name, const Status& status)
+{
+  if (!status.ok())
+  {
+    const QString message = QString::fromStdString(status.message);
+    this->show_error(name.isEmpty() ? message : QString("%1: %2").arg(name, message));
+  }
+  return status.ok();
+}
+
+bool MainWindow::open(const QString& path, const OpenedFile* read)
+{
+  // If the user has only opened a file, nothing can be lost by opening another one.
+  const bool unchanged = !this->document_->is_changed(true) && this->sessions_->path().isEmpty();
+  const bool done = this->open_file(path, read);
+  if (done)
+  {
+    RecentFiles::add(path);
+    if (unchanged)
+    {
+      this->document_->set_saved();
+    }
+    this->update_title();
+  }
+  return done;
+}
+
+bool MainWindow::open_file(const QString& path, const OpenedFile* read)
+{
+  const QString name = short_name(path);
+  if (path.endsWith(QString(".") + session_ending, Qt::CaseInsensitive))
+  {
+    this->error_bar_->hide();
+    return this->sessions_->open(path);
+  }
+  OpenedFile here;
+  const Status status = read ? Status() : read_file(path.toStdString(), here);
+  if (!status.ok())
+  {
+    // Show only the file name; the readers report the whole path.
+    this->error_bar_->show_sentence(
+      QString::fromStdString(status.message).replace(path, name), ErrorKind::other, path);
+    return false;
+  }
+  const OpenedFile& file = read ? *read : here;
+  this->read_notice_.clear();
+  for (const std::string& warning : file.warnings)
+  {
+    const QString sentence = QString::fromStdString(warning).replace(path, name) + '.';
+    this->read_notice_ += (this->read_notice_.isEmpty() ? "" : "\n") + sentence;
+  }
+  const bool done = this->show_file(file, path);
+  if (done && !this->read_notice_.isEmpty())
+  {
+    this->show_notice(this->read_notice_);
+  }
+  return done;
+}
+
+bool MainWindow::show_file(const OpenedFile& file, const QString& path)
+{
+  const QString name = short_name(path);
+  const Source source{ QFileInfo(path).absoluteFilePath(), file.checksum.get() };
+  switch (file.kind)
+  {
+    case OpenedFile::Kind::handles:
+      return this->set_handles(vtkPolyData::SafeDownCast(file.data), name, source);
+    case OpenedFile::Kind::volume:
+      return this->set_volume(vtkImageData::SafeDownCast(file.data), name, source);
+    case OpenedFile::Kind::curves:
+      return this->set_curves(vtkPolyData::SafeDownCast(file.data), source);
+    case OpenedFile::Kind::weights:
+      this->error_bar_->hide();
+      return this->say(QString(), this->document_->set_weights(file.weights, name));
+    case OpenedFile::Kind::picture:
+      return this->open_picture(vtkImageData::SafeDownCast(file.data), name, source, false);
+    default:
+      return this->set_mesh(file.data, name, source) &&
+        (!file.handles || this->set_handles(file.handles, name, source));
+  }
+}
+
+/// Open an image file as a textured shape: the region where its alpha is opaque, or the whole
+/// rectangle.
+bool MainWindow::open_picture(
+  vtkImageData* picture, const QString& name, const Source& source, bool whole)
+{
+  this->error_bar_->hide();
+  QApplication::setOverrideCursor(Qt::WaitCursor);
+  vtkSmartPointer<vtkPolyData> shape;
+  bool cut_out = false;
+  Status status = make_shape(picture, whole, shape, cut_out);
+  QApplication::restoreOverrideCursor();
+  if (status.ok())
+  {
+    status = this->document_->set_picture(shape, picture, name, source);
+  }
+  if (status.ok() && cut_out)
+  {
+    const vtkSmartPointer<vtkImageData> kept = picture;
+    this->note_bar_->offer(tr("%1 is cut out along its transparent parts.").arg(name),
+      { { tr("Take the whole picture"),
+        [this, kept, name, source] { this->open_picture(kept, name, source, true); } } },
+      tr("Close"));
+  }
+  return this->say(name, status);
+}
+
+bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name, const Source& source)
+{
+  this->error_bar_->hide();
+  const bool done = this->say(name, this->document_->set_mesh(mesh, name, source));
+  if (done)
+  {
+    this->face_planes();
+  }
+  if (done && this->inspection_->tet_view()->tets() && !this->document_->handle_data())
+  {
+    this->panels_->show_panel(PanelColumn::tets);
+  }
+  return done;
+}
+
+bool MainWindow::set_handles(vtkPolyData* handles, const QString& name, const Source& source)
+{
+  this->error_bar_->hide();
+  this->binding_->cancel();
+  return this->say(name, this->document_->set_handles(handles, name, source));
+}
+
+bool MainWindow::set_volume(vtkImageData* volume, const QString& name, const Source& source)
+{
+  this->error_bar_->hide();
+  const bool done = this->say(name, check_volume(volume, "WindingNumber"));
+  if (done)
+  {
+    this->document_->set_volume(volume, name, source);
+    this->face_planes();
+  }
+  return done;
+}
+
+bool MainWindow::set_curves(vtkPolyData* curves, const Source& source)
+{
+  this->error_bar_->hide();
+  const bool alone = this->is_empty();
+  this->document_->set_curves(curves, tr("curves"), source);
+  if (alone)
+  {
+    this->viewport_->reset_view();
+  }
+  return true;
+}
+
+void MainWindow::close_volume()
+{
+  this->document_->set_volume(nullptr, QString());
+}
+
+void MainWindow::choose_and_open()
+{
+  const QString endings = QString(vtkMeshFileReader::GetFileExtensions()).replace(' ', " *.") +
+    " *.tgf *.glb *.gltf *.dmat *.png *.jpg *.jpeg *." + session_ending;
+  for (const QString& path :
+    QFileDialog::getOpenFileNames(this, tr("Open"), QString(),
+      tr("All supported files (*.%1);;Sessions (*.%2);;All files (*)").arg(endings, session_ending),
+      nullptr, QFileDialog::HideNameFilterDetails))
+  {
+    this->open(path);
+  }
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event)
+{
+  if (event->mimeData()->hasUrls())
+  {
+    event->acceptProposedAction();
+  }
+}
+
+void MainWindow::dropEvent(QDropEvent* event)
+{
+  bool opened = true;
+  for (const QUrl& url : event->mimeData()->urls())
+  {
+    opened = this->open(url.toLocalFile()) && opened;
+  }
+  event->setAccepted(opened);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event)
+{
+  event->setAccepted(this->sessions_->may_go());
+}
+
+// ---- Posing ------------------------------------------------------------------------------------
+
+void MainWindow::set_method(int method)
+{
+  this->document_->set_option("pose.method", method);
+  // also if the method is already selected, because the user expects to see the pose
+  this->update_pose();
+}
+
+void MainWindow::set_mode(int handle, int mode)
+{
+  this->document_->set_mode(handle, mode);
+}
+
+void MainWindow::back_to_rest()
+{
+  this->document_->back_to_rest();
+}
+
+bool MainWindow::is_bound() const
+{
+  return this->posing_->has_weights();
+}
+
+vtkPolyData* MainWindow::shown() const
+{
+  return this->posing_->shape();
+}
+
+void MainWindow::connect_posing()
+{
+  QObject::connect(this->posing_, &Posing::moved, this, &MainWindow::draw_pose);
+  QObject::connect(this->posing_, &Posing::pose_changed, this,
+    [this](const Pose& pose)
+    {
+      set_pose(this->document_->handle_data(), this->document_->handle_cells(), pose);
+      for (std::size_t k = 0; k < pose.size(); ++k)
+      {
+        this->panel_->set_mode(static_cast<int>(k), static_cast<int>(pose[k].mode));
+      }
+      this->update_pose();
+    });
+  QObject::connect(this->posing_, &Posing::pose_done, this->document_,
+    [this](const QString& step, const QString& merge)
+    { this->document_->commit_pose(step, merge); });
+  QObject::connect(
+    this->posing_, &Posing::edit_ended, this->document_, [this] { this->document_->end_merge(); });
+  QObject::connect(this->posing_, &Posing::shelf_changed, this->document_,
+    [this](const QString& step) { this->document_->set_key_poses(this->posing_->shelf(), step); });
+  QObject::connect(this->posing_, &Posing::handles_changed, this->document_,
+    [this](const QString& step) { this->document_->commit_handles(step, step); });
+}
+
+void MainWindow::update_pose()
+{
+  this->posing_->handles_moved();
+  this->draw_pose();
+}
+
+void MainWindow::draw_pose()
+{
+  vtkPolyData* rest = this->document_->surface();
+  const bool handles = this->document_->handle_data();
+  this->show_state();
+  const bool cuts = this->inspection_->tet_view()->is_shown();
+  const bool slices = this->volume_view_->is_slice_shown() || this->weights_->wants_rest();
+  QString reading = cuts ? tr("Drag the cut to move it; drag elsewhere to turn the view.")
+    : slices             ? tr("Drag the slice to move it; drag elsewhere to turn the view.")
+    : !rest              ? tr("Open a mesh (Ctrl+O) or drop one here.")
+    : !handles           ? tr("Add handles (?: all keys), or open a handle file (.tgf or .vtp).")
+    : this->binding_->is_running() ? tr("Binding; the view can be turned meanwhile.")
+                                   : tr("Bind (Ctrl+B), then drag the handles.");
+  if (this->posing_->can_pose() && !cuts && !slices)
+  {
+    reading = this->posing_->reading();
+  }
+  if (rest && this->posing_->surface() == this->drawn_) // otherwise another mesh is being opened
+  {
+    this->posing_->draw();
+    this->weights_->move_surface(this->posing_->seen());
+  }
+  this->distances_->update();
+  this->rotations_->update();
+  this->probe_->clear();
+  this->hint_text_ = reading;
+  this->update_hint();
+  this->viewport_->refresh();
+}
+
+/// Show all data in the 3D view in the same state, posed or at rest. Data that belongs to the shape
+/// at rest (tets, defects, slices, winding numbers) is shown together with surface and handles at
+/// rest. A label then states that the shape is at rest.
+void MainWindow::show_state()
+{
+  const QString inspected = this->inspection_->tet_view()->is_shown() ? tr("tets are shown at rest")
+    : this->inspection_->defect_view().is_shown() ? tr("defects are shown at rest")
+    : this->weights_->wants_rest()                ? tr("the slice of weights is shown at rest")
+    : this->volume_view_->is_shown()              ? tr("winding numbers are shown at rest")
+                                                  : QString();
+  const bool looks = this->posing_->looks_at_rest();
+  this->posing_->inspect_at_rest(!inspected.isEmpty());
+  this->editing_->show_rest(!inspected.isEmpty() || looks);
+  const bool edits = this->posing_->edits_at_rest() && this->posing_->is_posed();
+  const QString why = !inspected.isEmpty() ? inspected
+    : looks                                ? tr("T shows the pose")
+    : edits                                ? tr("handles are edited at rest")
+                                           : QString();
+  this->viewport_->name_state(
+    this->document_->handle_data() && !why.isEmpty() ? tr("Rest shape: %1").arg(why) : QString());
+}
+
+/// Orient the cutting planes perpendicular to the axis that is nearest to the line of sight, so
+/// that a cut shows the inside. An orientation that the user has chosen is kept.
+void MainWindow::face_planes()
+{
+  const Vec3 sight(this->viewport_->renderer()->GetActiveCamera()->GetDirectionOfProjection());
+  int axis = 0;
+  sight.cwiseAbs().maxCoeff(&axis);
+  for (const QString name : { "volume", "tets", "weights" })
+  {
+    const QString key = name + ".orientation";
+    int& faced = this->faced_.try_emplace(name, find_option(key)->initial.toInt()).first->second;
+    if (this->document_->number(key) == faced)
+    {
+      faced = axis;
+      this->links_->note(key, axis);
+      if (name == "tets")
+      {
+        this->links_->note("tets.other_side", sight[axis] > 0.0);
+      }
+    }
+  }
+}
+
+/// A text about the current interaction has priority over the text about the last pose.
+void MainWindow::update_hint()
+{
+  const QString said = this->editing_->sentence();
+  this->hint_->setText(said.isEmpty() ? this->hint_text_ : said);
+  this->hint_->setStyleSheet(
+    this->editing_->is_warning() ? "color: " + shade("error_ink").name() : QString());
+}
+
+void MainWindow::update_panel()
+{
+  const bool surface = this->document_->surface();
+  const bool handles = this->document_->handle_data();
+  const bool ready = surface && handles;
+  const bool binding = this->binding_->is_running();
+  const bool bound = this->is_bound();
+  this->panel_->set_state(ready, binding, bound);
+  const int column = this->panel_->shown_column();
+  const int columns = static_cast<int>(this->document_->handles().size());
+  this->panel_->show_column(bound && column < columns ? column : -1);
+  this->show_column(this->panel_->shown_column());
+  this->panel_->set_note(binding ? tr("Starting …")
+      : bound                    ? this->bound_note()
+      : ready                    ? tr("Not bound yet.")
+      : !surface && !handles     ? tr("Binding requires a mesh and handles.")
+      : surface                  ? tr("Binding requires handles.")
+                                 : tr("Binding requires a mesh."));
+  this->panels_->set_open(this->volume_view_->volume(), surface || handles, surface);
+  this->winding_volume_->update();
+  this->update_surface_look();
+  this->empty_->setVisible(this->is_empty());
+  this->strip_->setVisible(surface && this->timeline_);
+  this->update_menus();
+}
+
+QString MainWindow::bound_note() const
+{
+  return certificate_note(this->document_->surface(), this->panel_->method());
+}
+
+void MainWindow::show_outlines(bool shown)
+{
+  this->viewport_->show_outlines(shown);
+  this->draw_pose(); // draw again, because the right half of a split view shows outlines too
+  this->update_menus();
+  this->links_->chosen("show.outlines");
+}
+
+/// Determine how the surface is drawn. Tets hide the surface, and defects make it see-through. If
+/// neither is shown, a slice of the weights determines the look. If there is no slice either, the
+/// panel of the volume determines it.
+void MainWindow::update_surface_look()
+{
+  int look = this->inspection_->surface_look();
+  look = look == Viewport::solid ? this->weights_->surface_look() : look;
+  this->viewport_->set_surface_look(look == Viewport::solid && this->volume_view_->is_active()
+      ? this->panels_->volume()->surface_look()
+      : look);
+}
+
+void MainWindow::show_column(int column)
+{
+  const Handles& handles = this->document_->handles();
+  const int handle = column < static_cast<int>(handles.size()) ? column : -1;
+  this->viewport_->show_column(handle,
+    handle < 0 ? QString()
+               : tr("Weights of %1").arg(short_name(QString::fromStdString(handles[handle].name))));
+}
+
+// ---- Errors -------------------------------------------------------------------------
+
+void MainWindow::show_error(const QString& sentence, ErrorKind kind)
+{
+  this->error_bar_->show_sentence(sentence, kind);
+}
+
+void MainWindow::show_notice(const QString& sentence)
+{
+  this->note_bar_->offer(sentence, {}, tr("Close"));
+}
+
+QString MainWindow::reading() const
+{
+  return this->probe_->reading();
+}
+
+QString MainWindow::error() const
+{
+  return this->error_bar_->sentence();
+}

@@ -1,0 +1,204 @@
+#ifndef app_window_main_window_h
+#define app_window_main_window_h
+
+#include "app/parts/error_bar.h"
+#include "document/work.h"
+
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <QMainWindow>
+
+#include <map>
+#include <optional>
+
+class QLabel;
+class QUndoStack;
+class BarStack;
+class Binding;
+class DistanceView;
+class Document;
+class ElidedLabel;
+class Exports;
+struct OpenedFile;
+class HandleEditing;
+class EmptyState;
+class ShapeHandles;
+class Inspection;
+class KeyStrip;
+class NoticeBar;
+class OptionLinks;
+class PanelColumn;
+class Posing;
+class Probe;
+class RotationView;
+class SidePanel;
+class Viewport;
+class VolumeView;
+class WeightInspection;
+class WindowMenus;
+class WindowSessions;
+class WindingVolume;
+class vtkDataSet;
+class vtkImageData;
+
+/// The window of `bindpose view`. In it users bind a surface to handles and pose it. They can also
+/// inspect volumes of winding numbers, weights, tets and defects of a surface, and the inside of
+/// tets.
+///
+/// The Document contains the state that is saved. The window arranges views and panels and connects
+/// them to the document.
+class MainWindow : public QMainWindow
+{
+  Q_OBJECT
+
+public:
+  explicit MainWindow(QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  Document* document() const { return this->document_; }
+  QUndoStack* history() const;
+
+  WindowSessions* sessions() const { return this->sessions_; }
+  Exports* exports() const { return this->exports_; }
+
+  /// Open a mesh, handles, weights, an image, a volume, curves or a session. If the file cannot be
+  /// used, show a sentence in the error bar, keep what is open, and return false.
+  /// @param read  the contents of the file, if it was already read
+  bool open(const QString& path, const OpenedFile* read = nullptr);
+  bool set_mesh(vtkDataSet* mesh, const QString& name, const Source& source = {});
+  bool set_handles(vtkPolyData* handles, const QString& name, const Source& source = {});
+  bool set_volume(vtkImageData* volume, const QString& name, const Source& source = {});
+  bool set_curves(vtkPolyData* curves, const Source& source = {});
+  void close_volume();
+  /// Ask for files and open them.
+  void choose_and_open();
+
+  bool is_bound() const;
+  void set_method(int method);
+  void set_mode(int handle, int mode);
+  void back_to_rest();
+  /// Report whether no file is open.
+  bool is_empty() const;
+
+  /// Return the drawn surface: posed, or at rest if there are no weights.
+  vtkPolyData* shown() const;
+  Viewport* viewport() const { return this->viewport_; }
+  SidePanel* panel() const { return this->panel_; }
+  RotationView* rotations() const { return this->rotations_.get(); }
+  PanelColumn* panels() const { return this->panels_; }
+  VolumeView* volume_view() const { return this->volume_view_; }
+  Inspection* inspection() const { return this->inspection_; }
+  Probe* probe() const { return this->probe_; }
+  /// Show or hide outlines, as an undo step.
+  void show_outlines(bool shown);
+  WeightInspection* weights() const { return this->weights_; }
+  Posing* posing() const { return this->posing_; }
+  Binding* binding() const { return this->binding_; }
+  HandleEditing* editing() const { return this->editing_; }
+  ShapeHandles* shape_handles() const { return this->shape_handles_; }
+  KeyStrip* strip() const { return this->strip_; }
+  WindingVolume* winding_volume() const { return this->winding_volume_; }
+  /// Show or hide the key frames below the 3D view.
+  void show_timeline(bool shown);
+  /// Return the status line. It describes the current interaction, or the last pose.
+  const ElidedLabel* hint() const { return this->hint_; }
+  /// Return the text of the label about the point under the mouse, in one line.
+  QString reading() const;
+  /// Return the sentence in the error bar; empty if the bar is hidden.
+  QString error() const;
+  void show_error(const QString& sentence, ErrorKind kind = ErrorKind::other);
+  ErrorBar* error_bar() const { return this->error_bar_; }
+  NoticeBar* rebind_bar() const { return this->rebind_bar_; }
+  NoticeBar* recovery_bar() const { return this->recovery_bar_; }
+  /// Return the bar for notes about missing files of a session, the outline of an image, and
+  /// defects of a surface.
+  NoticeBar* note_bar() const { return this->note_bar_; }
+  /// Return the bar that shows what was exported and to which path.
+  NoticeBar* export_bar() const { return this->export_bar_; }
+
+protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+
+private:
+  void make_layout();
+  void make_inspections();
+  void connect_menus();
+  void update_menus();
+  void connect_panel();
+  void connect_volume();
+  void connect_handles();
+  void document_changed(int parts);
+  void option_changed(const QString& key, const QVariant& value);
+  void show_mesh();
+  void show_handles();
+  void show_volume();
+  void connect_weights();
+  void connect_errors();
+  void keys_changed();
+  /// Switch the 2D mode on or off. Planar shapes are first shown in 2D. With the mode off the view
+  /// can be rotated. The camera is unchanged.
+  void set_flat_view(bool flat);
+  void update_plane();
+  void update_surface_look();
+  void offer_defects(const QString& counts);
+  void connect_posing();
+  void update_pose();
+  void draw_pose();
+  void update_panel();
+  void show_column(int column);
+  void show_selected_column();
+  QString bound_note() const;
+  void show_state();
+  void face_planes();
+  bool open_file(const QString& path, const OpenedFile* read);
+  bool show_file(const OpenedFile& file, const QString& path);
+  bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
+  bool say(const QString& name, const bindpose::Status& status);
+  void update_hint();
+  void show_notice(const QString& sentence);
+  void update_title();
+
+  Document* document_;
+  Viewport* viewport_ = nullptr;
+  VolumeView* volume_view_ = nullptr;
+  Inspection* inspection_ = nullptr;
+  WeightInspection* weights_ = nullptr;
+  Probe* probe_ = nullptr;
+  std::optional<bindpose::Vec3> plane_; // normal of a planar shape at rest; empty: not planar
+  bool flat_wanted_ = true;
+  /// Last orientation that the program has chosen for each cutting plane. The key is the name of
+  /// the plane's options.
+  std::map<QString, int> faced_;
+  Posing* posing_ = nullptr;
+  HandleEditing* editing_ = nullptr;
+  Binding* binding_ = nullptr;
+  ShapeHandles* shape_handles_ = nullptr;
+  KeyStrip* strip_ = nullptr; // below the 3D view
+  PanelColumn* panels_ = nullptr;
+  std::unique_ptr<RotationView> rotations_;
+  std::unique_ptr<DistanceView> distances_;
+  SidePanel* panel_ = nullptr; // part of panels_
+  OptionLinks* links_ = nullptr;
+  WindowMenus* menus_ = nullptr;
+  WindowSessions* sessions_ = nullptr;
+  Exports* exports_ = nullptr;
+  WindingVolume* winding_volume_ = nullptr;
+  BarStack* bars_ = nullptr; // stack of bars over the 3D view; contains the next four bars
+  ErrorBar* error_bar_ = nullptr;
+  NoticeBar* recovery_bar_ = nullptr;
+  NoticeBar* note_bar_ = nullptr;
+  NoticeBar* rebind_bar_ = nullptr;
+  NoticeBar* export_bar_ = nullptr;
+  ElidedLabel* hint_ = nullptr;
+  EmptyState* empty_ = nullptr; // in the middle of the 3D view while no file is open
+  vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport shows
+  bool timeline_ = false; // the timeline is shown after the first key frame was set, or on request
+  bool has_keys_ = false;
+  QString read_notice_; // warnings about data of the opened file that was not read
+  QString hint_text_; // shown in the status line when there is no interaction
+};
+
+#endif

@@ -1,0 +1,127 @@
+// Connects widgets to the options of the document. Only signals that a user causes make undo steps:
+// clicked, activated, value_chosen. Widgets also emit signals when they are set from the document;
+// these are not used.
+#include "app/window/option_links.h"
+
+#include "app/parts/value_row.h"
+#include "document/document.h"
+
+#include <QAbstractButton>
+#include <QButtonGroup>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QSlider>
+#include <QWidget>
+
+OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), document_(document)
+{
+  for (const OptionInfo& option : option_table())
+  {
+    const QString key = option.key;
+    QObject* found = root->findChild<QObject*>(key);
+    const auto tell = [this, key] { this->chosen(key); };
+    if (auto* box = qobject_cast<QCheckBox*>(found))
+    {
+      this->tie(
+        key, [box] { return box->isChecked(); },
+        [box](const QVariant& value) { box->setChecked(value.toBool()); });
+      QObject::connect(box, &QCheckBox::clicked, this, tell);
+    }
+    else if (auto* list = qobject_cast<QComboBox*>(found))
+    {
+      this->tie(
+        key, [list] { return list->currentIndex(); },
+        [list](const QVariant& value)
+        {
+          if (value.toInt() < list->count())
+          {
+            list->setCurrentIndex(value.toInt());
+          }
+        });
+      QObject::connect(list, QOverload<int>::of(&QComboBox::activated), this, tell);
+    }
+    else if (auto* group = qobject_cast<QButtonGroup*>(found))
+    {
+      this->tie(
+        key, [group] { return group->checkedId(); },
+        [group](const QVariant& value)
+        {
+          if (QAbstractButton* button = group->button(value.toInt()))
+          {
+            button->setChecked(true);
+            Q_EMIT group->idClicked(value.toInt());
+          }
+        });
+      QObject::connect(group, &QButtonGroup::idClicked, this, tell);
+    }
+    else if (auto* row = qobject_cast<ValueRow*>(found))
+    {
+      this->tie(
+        key, [row] { return row->value(); },
+        [row](const QVariant& value) { row->choose(value.toDouble()); });
+      QObject::connect(row, &ValueRow::value_chosen, this, tell);
+      QObject::connect(
+        row->slider(), &QSlider::sliderReleased, this, [this] { this->document_->end_merge(); });
+    }
+  }
+  QObject::connect(document, &Document::option_changed, this, &OptionLinks::option_changed);
+}
+
+void OptionLinks::tie(const QString& key, const std::function<QVariant()>& value,
+  const std::function<void(const QVariant&)>& set)
+{
+  this->links_[key] = { value, set, {} };
+}
+
+void OptionLinks::join(const QStringList& keys)
+{
+  for (const QString& key : keys)
+  {
+    this->links_[key].together = keys;
+  }
+}
+
+void OptionLinks::note_all_but(const QStringList& keys)
+{
+  for (const auto& [key, link] : this->links_)
+  {
+    if (!keys.contains(key))
+    {
+      this->document_->note_option(key, link.value());
+    }
+  }
+}
+
+void OptionLinks::chosen(const QString& key)
+{
+  if (this->follows_)
+  {
+    return;
+  }
+  const QStringList& together = this->links_[key].together;
+  const QStringList keys = together.isEmpty() ? QStringList{ key } : together;
+  this->note_all_but(keys);
+  Options values;
+  for (const QString& each : keys)
+  {
+    values[each] = this->links_[each].value();
+  }
+  this->document_->set_options(values, key);
+}
+
+void OptionLinks::note(const QString& key, const QVariant& value)
+{
+  this->document_->note_option(key, value);
+  this->option_changed(key, value);
+}
+
+void OptionLinks::option_changed(const QString& key, const QVariant& value)
+{
+  const auto link = this->links_.find(key);
+  if (link != this->links_.end() && link->second.value() != value)
+  {
+    this->follows_ = true;
+    link->second.set(value);
+    this->follows_ = false;
+  }
+}

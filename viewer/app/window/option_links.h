@@ -1,0 +1,60 @@
+#ifndef app_window_option_links_h
+#define app_window_option_links_h
+
+#include <QObject>
+#include <QStringList>
+#include <QVariant>
+
+#include <functional>
+#include <map>
+
+class Document;
+class QWidget;
+
+/// Connects widgets with the document's options (document/options.h) by their object names. A
+/// choice of the user becomes an undo step. Undo, redo and sessions set the widgets, whose signals
+/// then update the views. Supported widgets are check boxes, combo boxes (by index), button groups
+/// (by id) and value rows. Other options are connected by two functions, see tie().
+class OptionLinks : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// Connect all widgets below `root` whose object name is the key of an option.
+  OptionLinks(Document* document, QWidget* root);
+
+  /// Connect an option by two functions: `value` returns the current value, `set` applies a new
+  /// value.
+  void tie(const QString& key, const std::function<QVariant()>& value,
+    const std::function<void(const QVariant&)>& set);
+  /// Group options: the undo step of one option stores all options of its group.
+  void join(const QStringList& keys);
+  /// Make an undo step, because the user has chosen the option. The step has the name of the
+  /// option.
+  void chosen(const QString& key);
+
+  /// Set an option that the program itself has chosen. The widget shows it and a session stores it,
+  /// but it is not an undo step.
+  void note(const QString& key, const QVariant& value);
+  /// Store the current values of all options in the document without an undo step, so that a
+  /// session contains them.
+  void note_all() { this->note_all_but({}); }
+
+private:
+  struct Link
+  {
+    std::function<QVariant()> value;
+    std::function<void(const QVariant&)> set;
+    QStringList together; ///< the options of a group, including this one; empty: only this one
+  };
+  void note_all_but(const QStringList& keys);
+  void option_changed(const QString& key, const QVariant& value);
+
+  Document* document_;
+  std::map<QString, Link> links_;
+  /// True while widgets are set from the document. Their signals are then caused by the program,
+  /// not by the user.
+  bool follows_ = false;
+};
+
+#endif

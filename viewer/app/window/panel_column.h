@@ -1,0 +1,69 @@
+#ifndef app_window_panel_column_h
+#define app_window_panel_column_h
+
+#include <QList>
+#include <QWidget>
+
+class QButtonGroup;
+class QFrame;
+class QSplitter;
+class HandleTree;
+class SidePanel;
+class TetPanel;
+class VolumePanel;
+class WeightPanel;
+
+/// The column to the right of the 3D view. Its panels are: bind and pose, weights, tets and
+/// defects, and volumes. If several panels apply, buttons at the top select one. The list of
+/// handles is above the panels that are about handles; the mouse can drag the border between list
+/// and panel.
+class PanelColumn : public QWidget
+{
+  Q_OBJECT
+
+public:
+  explicit PanelColumn(QWidget* parent = nullptr);
+
+  enum Panel
+  {
+    bind_and_pose,
+    weights,
+    tets,
+    volume_slice
+  };
+
+  SidePanel* side() const { return this->side_; }
+  WeightPanel* weight() const { return this->weight_; }
+  TetPanel* tet() const { return this->tet_; }
+  VolumePanel* volume() const { return this->volume_; }
+  HandleTree* handles() const { return this->handles_; }
+  /// Set which data is open, which determines the panels that can be selected.
+  void set_open(bool volume, bool shape, bool surface);
+  void show_panel(int panel);
+  int shown_panel() const;
+
+Q_SIGNALS:
+  void panel_shown(int panel);
+
+protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+private:
+  QWidget* scrolled(QFrame* panel, int width);
+  void show_handles();
+  void share_height();
+
+  QFrame* choice_;
+  QSplitter* splitter_;
+  HandleTree* handles_;
+  QButtonGroup* buttons_;
+  QList<QWidget*> panels_; // one widget per Panel: the panel or its scroll area
+  SidePanel* side_;
+  WeightPanel* weight_;
+  TetPanel* tet_;
+  VolumePanel* volume_;
+  bool has_shape_ = false; ///< true: a surface or handles are open
+  bool shared_by_hand_ = false;
+};
+
+#endif

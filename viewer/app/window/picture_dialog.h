@@ -1,0 +1,38 @@
+#ifndef app_window_picture_dialog_h
+#define app_window_picture_dialog_h
+
+#include <QDialog>
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QPushButton;
+class Viewport;
+
+/// A dialog that asks for the size of an image of the 3D view, as a multiple of the size on the
+/// screen, and for a transparent background. It shows the size in pixels. The next dialog begins
+/// with the same choices.
+class PictureDialog : public QDialog
+{
+  Q_OBJECT
+
+public:
+  PictureDialog(Viewport* viewport, QWidget* parent);
+
+  int scale() const;
+  bool is_transparent() const;
+  /// Return the text about the size: pixels, or the reason why an image of this size is impossible.
+  QString size_note() const;
+  void accept() override;
+
+private:
+  void update_size();
+
+  Viewport* viewport_;
+  QComboBox* scale_;
+  QCheckBox* transparent_;
+  QLabel* size_;
+  QPushButton* save_;
+};
+
+#endif

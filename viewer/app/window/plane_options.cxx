@@ -1,0 +1,40 @@
+#include "app/window/plane_options.h"
+
+#include "app/view/plane_handle.h"
+#include "app/window/option_links.h"
+#include "document/document.h"
+
+using bindpose::Vec3;
+
+void tie_plane(OptionLinks* links, Document* document, const QString& name, PlaneHandle* plane)
+{
+  const QString place = name + ".place";
+  const QString normal = name + ".normal";
+  // Store the values before a drag, because a session may be saved during a drag.
+  links->tie(
+    place, [plane] { return plane->kept_place(); },
+    [plane](const QVariant& value) { plane->set_place(value.toDouble()); });
+  links->tie(
+    normal,
+    [plane]
+    {
+      const Vec3 direction = plane->kept_free_normal();
+      return QVariantList{ direction.x(), direction.y(), direction.z() };
+    },
+    [plane](const QVariant& value)
+    {
+      const QVariantList list = value.toList();
+      plane->set_free_normal({ list[0].toDouble(), list[1].toDouble(), list[2].toDouble() });
+    });
+  // Undo these options together: choosing an axis changes the normal of the free plane, and
+  // rotating the plane changes its relative position.
+  links->join({ name + ".orientation", place, normal });
+  QObject::connect(plane, &PlaneHandle::dragged, links,
+    [links, document, place, normal](bool turned)
+    {
+      document->end_merge();
+      links->chosen(turned ? normal : place);
+      document->end_merge();
+    });
+  QObject::connect(document, &Document::about_to_change, plane, &PlaneHandle::cancel);
+}

@@ -1,0 +1,14 @@
+#ifndef app_window_plane_options_h
+#define app_window_plane_options_h
+
+#include <QString>
+
+class Document;
+class OptionLinks;
+class PlaneHandle;
+
+/// Connect a plane with the options NAME.orientation, NAME.place and NAME.normal. A drag is one
+/// undo step; undo during the drag cancels the drag.
+void tie_plane(OptionLinks* links, Document* document, const QString& name, PlaneHandle* plane);
+
+#endif

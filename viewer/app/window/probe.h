@@ -1,0 +1,91 @@
+#ifndef app_window_probe_h
+#define app_window_probe_h
+
+#include "shapes/ray_cast.h"
+
+#include <QObject>
+#include <QStringList>
+
+#include <functional>
+#include <optional>
+
+class DefectView;
+class Posing;
+class RotationView;
+class QLabel;
+class QMouseEvent;
+class TetView;
+class Viewport;
+class VolumeView;
+class WeightView;
+class vtkPolyData;
+
+/// Shows names and values of the object under the mouse, in a small label in a corner of the 3D
+/// view.
+/// - For the surface: its triangle, vertex and coordinates, the displayed weight, the handle with
+///   the largest weight, a defect, and the distance from the shape of another method.
+/// - For tets, slices, isosurfaces and clouds (volume renderings): the displayed values.
+///
+/// The nearest solid object is used. Translucent objects are used only where there is no solid
+/// object. Values are computed only when the mouse moves, and not while a button is pressed.
+class Probe : public QObject
+{
+  Q_OBJECT
+
+public:
+  struct Views
+  {
+    Viewport* viewport;
+    VolumeView* volume;
+    TetView* tets;
+    WeightView* weights;
+    const DefectView* defects;
+    Posing* posing;
+    const RotationView* rotations;
+    /// Returns the surface as drawn, posed or at rest; null if there is no surface.
+    std::function<vtkPolyData*()> surface;
+  };
+  explicit Probe(const Views& views);
+
+  /// Return the lines about a pixel in VTK's coordinates (from the lower left corner); empty if
+  /// there is no object.
+  QStringList read_at(int x, int y);
+  /// Return the text of the label in one line.
+  QString reading() const;
+  QLabel* label() const { return this->label_; }
+  /// Clear the label until the mouse moves, because the view has changed.
+  void clear();
+  /// Return the milliseconds that the last mouse move took.
+  double milliseconds() const { return this->milliseconds_; }
+
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+  /// An object that the ray intersects, and the text about it.
+  struct Found
+  {
+    double distance = 0.0;
+    QStringList lines;
+  };
+  using Maybe = std::optional<Found>;
+  Maybe surface(const bindpose::SightRay& ray, bool other) const;
+  Maybe tets(const bindpose::SightRay& ray) const;
+  Maybe weight_slice(const bindpose::SightRay& ray) const;
+  Maybe winding_slice(const bindpose::SightRay& ray) const;
+  Maybe isosurface(const bindpose::SightRay& ray) const;
+  Maybe cloud(const bindpose::SightRay& ray) const;
+  QString defect(const bindpose::SightRay& ray) const;
+  QStringList weights(vtkPolyData* shape, const bindpose::SightHit& hit) const;
+  QString difference(const bindpose::SightHit& hit) const;
+
+  void mouse_moved(const QMouseEvent& event);
+  void say(const QStringList& lines);
+  void make_way(const QPoint& mouse);
+
+  Views views_;
+  QLabel* label_;
+  QStringList lines_;
+  double milliseconds_ = 0.0;
+};
+
+#endif

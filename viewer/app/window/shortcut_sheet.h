@@ -1,0 +1,27 @@
+#ifndef app_window_shortcut_sheet_h
+#define app_window_shortcut_sheet_h
+
+#include <QDialog>
+
+class QLineEdit;
+class QTableWidget;
+
+/// A dialog with all keys and mouse buttons of the window and a search field. The keys are grouped
+/// by the situations in which they apply (window_keys.h).
+class ShortcutSheet : public QDialog
+{
+  Q_OBJECT
+
+public:
+  explicit ShortcutSheet(QWidget* parent);
+
+  QTableWidget* table() const { return this->table_; }
+  /// Show only the rows that contain all words of the search text, and their headings.
+  void look_for(const QString& words);
+
+private:
+  QLineEdit* words_;
+  QTableWidget* table_;
+};
+
+#endif

@@ -1,0 +1,87 @@
+#ifndef app_window_window_menus_h
+#define app_window_window_menus_h
+
+#include <QObject>
+
+class Binding;
+class Document;
+class Exports;
+class HandleEditing;
+class KeyStrip;
+class PanelColumn;
+class Posing;
+class QAction;
+class QActionGroup;
+class QMainWindow;
+class QMenu;
+class ShapeHandles;
+class Viewport;
+class WindowSessions;
+
+/// The window and those of its parts that have entries in the menus.
+struct MenuParts
+{
+  QMainWindow* window;
+  Document* document;
+  Viewport* viewport;
+  PanelColumn* panels;
+  HandleEditing* editing;
+  ShapeHandles* shape_handles;
+  Binding* binding;
+  Posing* posing;
+  KeyStrip* strip;
+  WindowSessions* sessions;
+  Exports* exports;
+};
+
+/// The menus of the window. Entries that do not apply are disabled. window_keys.h defines the keys.
+class WindowMenus : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit WindowMenus(const MenuParts& parts);
+
+  /// What the menus show of the window.
+  struct State
+  {
+    bool is_empty; ///< no file is open
+    bool is_planar; ///< the shape can be shown in 2D
+    bool shows_timeline;
+  };
+  /// Update which entries are enabled and checked.
+  void update(const State& state);
+  void show_method(int method);
+
+Q_SIGNALS:
+  // What the user has chosen in a menu.
+  void open_wanted();
+  void flat_view_wanted(bool flat);
+  void outlines_wanted(bool shown);
+  void timeline_wanted(bool shown);
+  void method_wanted(int method);
+
+private:
+  template <typename Action>
+  QAction* add(QMenu* menu, const QString& text, const char* name, Action action);
+  void add_file_menu();
+  void add_edit_menu();
+  void add_view_menu();
+
+  MenuParts parts_;
+  QAction* save_ = nullptr;
+  QAction* save_as_ = nullptr;
+  QAction* export_shape_ = nullptr;
+  QAction* export_rig_ = nullptr;
+  QAction* export_pose_ = nullptr;
+  QAction* export_film_ = nullptr;
+  QAction* flat_view_ = nullptr;
+  QAction* outlines_ = nullptr;
+  QAction* timeline_ = nullptr;
+  QAction* find_ = nullptr;
+  QAction* bind_ = nullptr;
+  QAction* rest_pose_ = nullptr;
+  QActionGroup* methods_ = nullptr;
+};
+
+#endif

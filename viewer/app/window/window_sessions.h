@@ -1,0 +1,86 @@
+#ifndef app_window_window_sessions_h
+#define app_window_window_sessions_h
+
+#include "document/autosave.h"
+#include "document/session.h"
+
+#include <QObject>
+
+#include <memory>
+
+class Binding;
+class Document;
+class ErrorBar;
+class NoticeBar;
+class OptionLinks;
+class PanelColumn;
+class QMenu;
+class Viewport;
+
+/// The parts of the window that WindowSessions uses.
+struct SessionParts
+{
+  QWidget* window; ///< parent of the dialogs
+  Document* document;
+  Viewport* viewport;
+  PanelColumn* panels;
+  Binding* binding;
+  OptionLinks* links;
+  ErrorBar* errors;
+  NoticeBar* recovery; ///< offers recovered work
+  NoticeBar* missing; ///< shows missing files
+};
+
+/// Manages the session files of the window. The class opens and saves sessions, and asks before
+/// changes are lost. It also manages the list of recent files, autosave, and recovery after a
+/// crash.
+class WindowSessions : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit WindowSessions(const SessionParts& parts);
+  ~WindowSessions() override;
+
+  /// Open a session in place of the current work. Return false, and show a sentence, if it cannot
+  /// be read. Also return false if the user decides to keep the current work.
+  bool open(const QString& path);
+  /// Save the session; ask for a name if it has none yet. Return false if nothing was written.
+  bool save();
+  bool save_as();
+  bool write(const QString& path);
+  /// Report whether the work can be closed: it has no unsaved changes, or the user agrees to lose
+  /// them.
+  bool may_go();
+  /// Return the path of the session file; empty if there is none.
+  QString path() const { return this->path_; }
+  /// Show the recovery bar if a crashed process has left work.
+  void offer_recovery(const QString& root = QString());
+  Autosave* autosave() { return &this->autosave_; }
+  /// Return the name for the window title: that of the session, or that of the open data if there
+  /// is no session.
+  QString name() const;
+  void fill_recent(QMenu* menu);
+
+Q_SIGNALS:
+  /// Emitted when the user chooses a recent file or locates a missing one.
+  void open_wanted(const QString& path);
+  /// Emitted when name(), path() or the unsaved changes may be different.
+  void changed();
+  /// Emitted if the opened session shows a planar shape with perspective.
+  void perspective_wanted();
+
+private:
+  Session session() const;
+  void show(const Session& session);
+  void recover();
+  void show_notes(const Session& session);
+
+  SessionParts parts_;
+  QString path_;
+  SessionFile file_;
+  Autosave autosave_;
+  std::unique_ptr<RecoveredWork> recovered_;
+};
+
+#endif

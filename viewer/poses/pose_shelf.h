@@ -1,0 +1,26 @@
+#ifndef bindpose_poses_pose_shelf_h
+#define bindpose_poses_pose_shelf_h
+
+#include "poses/key_frames.h"
+#include "poses/pose_library.h"
+
+namespace bindpose
+{
+
+/// All stored poses of a document: the library and the key frames. Copies are stored in sessions
+/// and for undo.
+struct PoseShelf
+{
+  PoseLibrary library;
+  KeyFrames keys;
+};
+
+/// Return {"library": […], "key_frames": {…}}.
+nlohmann::ordered_json to_json(const PoseShelf& shelf);
+/// Read a shelf. A missing member gives an empty library or empty key frames. On invalid_input the
+/// shelf is unchanged.
+Status from_json(const nlohmann::ordered_json& json, PoseShelf& shelf);
+
+} // namespace bindpose
+
+#endif

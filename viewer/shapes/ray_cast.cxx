@@ -1,0 +1,121 @@
+// Finds the first triangle or tet that a ray through a pixel intersects. In the coordinates of the
+// ray, a triangle is hit if it contains the origin. The signs of three areas decide this. Triangles
+// that share an edge compute the area for this edge from the same coordinates with opposite signs,
+// so that at least one of them is hit.
+#include "shapes/ray_cast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bindpose
+{
+namespace
+{
+/// Return twice the signed area of the triangle with corners at the origin, `a` and `b`.
+double area(const double* a, const double* b)
+{
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+/// Report whether the ray hits a triangle of transformed points. If so, set the barycentric
+/// coordinates and the distance of the hit.
+bool meets(const double* a, const double* b, const double* c, Vec3& shares, double& distance)
+{
+  Vec3 areas;
+  const bool inside = surrounds_ray(a, b, c, areas);
+  const double whole = areas[0] + areas[1] + areas[2];
+  if (!inside || whole == 0.0)
+  {
+    return false;
+  }
+  shares = areas / whole;
+  distance = shares[0] * a[2] + shares[1] * b[2] + shares[2] * c[2];
+  return distance >= 0.0;
+}
+} // namespace
+
+bool surrounds_ray(const double* a, const double* b, const double* c, Vec3& areas)
+{
+  areas = Vec3(area(b, c), area(c, a), area(a, b));
+  return (areas.array() >= 0.0).all() || (areas.array() <= 0.0).all();
+}
+
+Points seen_along(const SightRay& ray, PointsView points)
+{
+  const Vec3 across = ray.direction.unitOrthogonal();
+  Eigen::Matrix3d axes;
+  axes << across, ray.direction.cross(across), ray.direction;
+  Points seen(points.rows(), 3);
+  seen.noalias() = (points.rowwise() - ray.origin.transpose()) * axes;
+  return seen;
+}
+
+bool first_triangle(const SightRay& ray, PointsView points, TrianglesView triangles, SightHit& hit)
+{
+  const Points seen = seen_along(ray, points);
+  hit.element = -1;
+  hit.distance = std::numeric_limits<double>::infinity();
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Index* corners = triangles.data() + 3 * t;
+    Vec3 shares;
+    double distance = 0.0;
+    if (meets(seen.data() + 3 * corners[0], seen.data() + 3 * corners[1],
+          seen.data() + 3 * corners[2], shares, distance) &&
+      distance < hit.distance)
+    {
+      hit = { distance, t, shares };
+    }
+  }
+  return hit.element >= 0;
+}
+
+bool first_tet(const SightRay& ray, PointsView points, TetsView tets,
+  const std::vector<char>& wanted, double size, SightHit& hit)
+{
+  const Points seen = seen_along(ray, points);
+  hit.element = -1;
+  hit.distance = std::numeric_limits<double>::infinity();
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    if (!wanted[static_cast<std::size_t>(t)])
+    {
+      continue;
+    }
+    const Index* corners = tets.data() + 4 * t;
+    const double* p[4] = { seen.data() + 3 * corners[0], seen.data() + 3 * corners[1],
+      seen.data() + 3 * corners[2], seen.data() + 3 * corners[3] };
+    const auto beside = [&p](int axis)
+    {
+      const auto [low, high] = std::minmax({ p[0][axis], p[1][axis], p[2][axis], p[3][axis] });
+      return low > 0.0 || high < 0.0;
+    };
+    if (beside(0) || beside(1))
+    {
+      // The ray misses this tet, and therefore also the shrunk tet, which is inside of it.
+      continue;
+    }
+    Eigen::Matrix<double, 3, 4> own;
+    for (int k = 0; k < 4; ++k)
+    {
+      own.col(k) = Eigen::Map<const Vec3>(p[k]);
+    }
+    const Vec3 middle = own.rowwise().mean();
+    own = (size * (own.colwise() - middle)).colwise() + middle;
+    for (int k = 0; k < 4; ++k)
+    {
+      Vec3 shares;
+      double distance = 0.0;
+      if (meets(own.col(k).data(), own.col((k + 1) % 4).data(), own.col((k + 2) % 4).data(), shares,
+            distance) &&
+        distance < hit.distance)
+      {
+        hit = { distance, t, Vec3::Zero() };
+      }
+    }
+  }
+  return hit.element >= 0;
+}
+
+} // namespace bindpose

@@ -61,11 +61,24 @@ inline vtkSmartPointer<vtkPolyData> two_points()
   return to_polydata(handles);
 }
 
+/// Discards what the X server reports of its own pointer: another test's window may appear under it.
+class PointerFilter : public QObject
+{
+public:
+  bool eventFilter(QObject* watched, QEvent* event) override
+  {
+    const QEvent::Type type = event->type();
+    return watched->isWindowType() && event->spontaneous() &&
+      (type == QEvent::Enter || type == QEvent::Leave || type == QEvent::MouseMove);
+  }
+};
+
 class WindowTest : public testing::Test
 {
 protected:
   WindowTest()
   {
+    QApplication::instance()->installEventFilter(&this->pointer);
     this->window.show();
     QApplication::processEvents();
   }
@@ -151,6 +164,7 @@ protected:
     return result;
   }
 
+  PointerFilter pointer;
   MainWindow window;
 };
 

@@ -122,10 +122,10 @@ paraview()
 }
 
 monkey()
-( # ten minutes of random events; BINDPOSE_MONKEY_SEED picks others
+( # five minutes of random events, every night others
   cmake --preset asan -S "$root" && ninja -C "$root/build-asan" bindpose-mesher bindpose_app_tests || return 1
   export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
-  export BINDPOSE_MONKEY_SECONDS=${BINDPOSE_MONKEY_SECONDS:-600}
+  export BINDPOSE_MONKEY_SECONDS=${BINDPOSE_MONKEY_SECONDS:-300} BINDPOSE_MONKEY_SEED=${BINDPOSE_MONKEY_SEED:-$BINDPOSE_FUZZ_NIGHT}
   under_xvfb "$root/build-asan/bin/bindpose_app_tests" --gtest_filter='Monkey.*'
 )
 
